@@ -93,7 +93,7 @@ def take_pictures(address: str) -> None:
         )
         for opened in (page, small_page):
             opened.goto(address)
-            opened.get_by_text("turtle2").first.wait_for()
+            opened.locator("#roster").get_by_text("turtle2").wait_for()
         IMAGES.mkdir(exist_ok=True)
         frames = []
         for frame in drive(small_page):

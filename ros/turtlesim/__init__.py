@@ -3,14 +3,16 @@
 ===================================  =========================================================
 module                               what it holds
 ===================================  =========================================================
-`turtlesim_node`                     the simulator's node
+`turtlesim_node`, `options`          the simulator's node; its command line
+`pace`                               how fast the simulation goes, and what is seen in a pause
 `model`, `physics`                   the turtles and their world; the formulas of one tick
 `crowd`                              many turtles in one tick
 `path`, `path_bulk`, `pen_line`      pixels that pens paint: one line, many lines, their shape
 `turtle_endpoints`, `rotate_action`  topics and services of one turtle; its action
 `missing_turtles`                    turtles that are referenced but were never spawned
 `screen`                             the page in the browser
-`drawing`                            what the pens have drawn, for browsers that connect later
+`drawing`, `looks`                   what the pens have drawn, for browsers that connect later; in
+                                     which colour
 `page_commands`, `page_actions`      what the page asks for: parsed, done
 `page_rotations`                     rotations that a page asks for
 `transform_view`                     frames and transforms on the page

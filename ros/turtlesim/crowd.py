@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from turtlesim.looks import shown_pen
 from turtlesim.physics import FIELD_SIZE, PIXELS_PER_METRE, clamp, move, pixel_of, published, turn
 
 if TYPE_CHECKING:
@@ -33,6 +34,7 @@ class CrowdTick(NamedTuple):
         movers: Indices of the turtles that drew a line, ascending, shape (m,).
         lines: Shape (m, 4): x0, y0, x1, y1 in pixels of the 500 x 500 image.
         pens: Shape (m, 4): red, green, blue and width of each line.
+        shown_pens: The same as the page shows them.
         clamped_from: Where a wall stopped a turtle, as ``(x, y_down)`` [m], in order.
     """
 
@@ -42,6 +44,7 @@ class CrowdTick(NamedTuple):
     movers: NDArray[np.intp]
     lines: NDArray[np.float64]
     pens: NDArray[np.uint8]
+    shown_pens: NDArray[np.uint8]
     clamped_from: list[tuple[float, float]]
 
     def sensor_pixel(self, index: int) -> tuple[int, int]:
@@ -51,7 +54,7 @@ class CrowdTick(NamedTuple):
     def stroke_records(self) -> bytes:
         """The lines as :mod:`turtlesim.drawing` packs them."""
         records = np.empty((len(self.lines), 5), dtype="<u4")
-        records[:, 0] = self.pens.view(">u4")[:, 0]
+        records[:, 0] = self.shown_pens.view(">u4")[:, 0]
         records[:, 1:] = self.lines.astype("<f4").view("<u4")
         return records.tobytes()
 
@@ -60,8 +63,9 @@ class Crowd:
     """Steps turtles together. Their state stays in the turtles themselves."""
 
     def __init__(self) -> None:
+        self._turtles: Sequence[Turtle] = []
         self._pens: list[Pen] = []
-        self._pen_rows = np.empty((0, 4), dtype=np.uint8)
+        self._pen_rows = self._shown_rows = np.empty((0, 4), dtype=np.uint8)
 
     def step(self, turtles: Sequence[Turtle], now_ns: int) -> CrowdTick:
         """Move turtles by one tick.
@@ -89,22 +93,27 @@ class Crowd:
             (turtle.pen_on for turtle in turtles), bool, len(turtles)
         )
         lines = np.stack((old_x, old_y, x, y), axis=1)[drew] * PIXELS_PER_METRE
-        pens = self._rows_of([turtle.pen for turtle in turtles])[drew]
+        self._keep_pens(turtles)
         return CrowdTick(
             turtles,
             poses,
             np.stack((x, y), axis=1),
             np.flatnonzero(drew),
             lines,
-            pens,
+            self._pen_rows[drew],
+            self._shown_rows[drew],
             clamped_from,
         )
 
-    def _rows_of(self, pens: list[Pen]) -> NDArray[np.uint8]:
-        # Pens change rarely: the array of the last tick mostly serves again.
-        if pens != self._pens:
-            self._pens, self._pen_rows = pens, np.array(pens, dtype=np.uint8).reshape(-1, 4)
-        return self._pen_rows
+    def _keep_pens(self, turtles: Sequence[Turtle]) -> None:
+        # Pens change rarely: the arrays of the last tick mostly serve again.
+        pens = [turtle.pen for turtle in turtles]
+        if pens == self._pens and turtles is self._turtles:
+            return
+        self._turtles, self._pens = turtles, pens
+        self._pen_rows = np.array(pens, dtype=np.uint8).reshape(-1, 4)
+        shown = [shown_pen(turtle.name, turtle.pen) for turtle in turtles]
+        self._shown_rows = np.array(shown, dtype=np.uint8).reshape(-1, 4)
 
 
 def _state(turtles: Sequence[Turtle]) -> Sequence[NDArray[np.float64]]:

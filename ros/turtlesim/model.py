@@ -239,12 +239,7 @@ class Turtle:
     def step(self, now_ns: int) -> TurtleTick:
         """Move by one tick; ``now_ns`` is only compared with the time of the last command."""
         self.age_command(now_ns)
-        teleport_strokes = (
-            [stroke for teleport in self._teleports if (stroke := self._teleport(*teleport))]
-            if self._teleports
-            else []
-        )
-        self._teleports.clear()
+        teleport_strokes = self.land() if self._teleports else []
         rotation = self.rotation
         if rotation is not None:
             self._rotate(rotation, now_ns)
@@ -257,6 +252,11 @@ class Turtle:
         return TurtleTick(
             self, self.pose, teleport_strokes, pixel_of(x, y), stroke, clamped_from, rotation
         )
+
+    def land(self) -> list[Stroke]:
+        """Carry out the teleports that came since the last tick; returns their lines."""
+        teleports, self._teleports = self._teleports, []
+        return [stroke for teleport in teleports if (stroke := self._teleport(*teleport))]
 
     def age_command(self, now_ns: int) -> None:
         """Note when a new command came, and stop when the last one is too old.

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from geometry_msgs.msg import Twist
 from turtlesim import page_commands
+from turtlesim.model import Pen
 from turtlesim.page_rotations import PageRotations
 from turtlesim.turtle_endpoints import QUEUE_DEPTH
 
@@ -31,6 +32,18 @@ class Simulator(Protocol):
 
     def kill(self, name: str) -> None:
         """Remove a turtle."""
+        ...
+
+    def set_background(self, r: int, g: int, b: int) -> None:
+        """Change the field's colour."""
+        ...
+
+    def set_pen(self, turtle: str, pen: Pen, *, off: bool) -> None:
+        """Change a turtle's pen, or lift it."""
+        ...
+
+    def set_speed(self, speed: float) -> None:
+        """Go faster, slower or not at all."""
         ...
 
     def clear(self) -> None:
@@ -66,6 +79,9 @@ class PageActions:
             page_commands.Teleport: self._teleport,
             page_commands.Spawn: lambda command: simulator.spawn(*command),
             page_commands.Kill: lambda command: simulator.kill(command.turtle),
+            page_commands.Pen: self._set_pen,
+            page_commands.Background: lambda command: simulator.set_background(*command),
+            page_commands.Speed: lambda command: simulator.set_speed(command.factor),
             page_commands.Clear: lambda _: simulator.clear(),
             page_commands.Reset: lambda _: simulator.reset(),
         }
@@ -107,6 +123,10 @@ class PageActions:
         name, theta = command
         if name in self._simulator.world.turtles and not self._rotations.rotate(name, theta):
             self._commands.append(command)
+
+    def _set_pen(self, command: page_commands.Pen) -> None:
+        turtle, r, g, b, width, off = command
+        self._simulator.set_pen(turtle, Pen(r, g, b, width), off=off)
 
     def _teleport(self, command: page_commands.Teleport) -> None:
         turtle = self._simulator.world.turtles.get(command.turtle)

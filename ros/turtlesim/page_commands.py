@@ -6,15 +6,18 @@ import json
 from typing import Any, NamedTuple
 
 __all__ = [
+    "Background",
     "Cancel",
     "Clear",
     "Command",
     "CommandError",
     "Drive",
     "Kill",
+    "Pen",
     "Reset",
     "Rotate",
     "Spawn",
+    "Speed",
     "Teleport",
     "Unwatch",
     "Watch",
@@ -23,6 +26,11 @@ __all__ = [
 
 #: All other fields are numbers.
 _TEXT_FIELDS = frozenset({"turtle", "name", "target", "source"})
+_FLAG_FIELDS = frozenset({"axes", "off"})
+#: Whole numbers up to 255.
+_BYTE_FIELDS = frozenset({"r", "g", "b", "width"})
+#: Largest speed that a page may ask for.
+_LARGEST_FACTOR = 100.0
 #: Longest name that a page may send.
 _MAX_NAME = 255
 #: Largest number that a page may send, positive or negative.
@@ -78,6 +86,31 @@ class Kill(NamedTuple):
     turtle: str
 
 
+class Pen(NamedTuple):
+    """A turtle's pen: colour (0..255 each), width [pixels], lifted or not."""
+
+    turtle: str
+    r: int
+    g: int
+    b: int
+    width: int
+    off: bool
+
+
+class Background(NamedTuple):
+    """The colour of the field, 0..255 each."""
+
+    r: int
+    g: int
+    b: int
+
+
+class Speed(NamedTuple):
+    """Simulated seconds in a second; 0 pauses."""
+
+    factor: float
+
+
 class Clear(NamedTuple):
     """An empty picture."""
 
@@ -87,18 +120,35 @@ class Reset(NamedTuple):
 
 
 class Watch(NamedTuple):
-    """Have the frames sent, and the transform between two of them; empty names: no transform."""
+    """Have the frames sent, and the transform between two of them; empty names: no transform.
+
+    With ``axes``, the places of the frames in the field come with each tick.
+    """
 
     target: str
     source: str
+    axes: bool
 
 
 class Unwatch(NamedTuple):
     """Have no frames sent."""
 
 
-Command = Drive | Rotate | Cancel | Spawn | Teleport | Kill | Clear | Reset | Watch | Unwatch
-
+Command = (
+    Drive
+    | Rotate
+    | Cancel
+    | Spawn
+    | Teleport
+    | Kill
+    | Pen
+    | Background
+    | Speed
+    | Clear
+    | Reset
+    | Watch
+    | Unwatch
+)
 _KINDS: tuple[type[Any], ...] = (
     Drive,
     Rotate,
@@ -106,6 +156,9 @@ _KINDS: tuple[type[Any], ...] = (
     Spawn,
     Teleport,
     Kill,
+    Pen,
+    Background,
+    Speed,
     Clear,
     Reset,
     Watch,
@@ -143,7 +196,11 @@ def parse_command(text: str | bytes) -> Command:
     return command
 
 
-def _checked(name: str, value: object) -> str | float:
+def _checked(name: str, value: object) -> str | float | bool:
+    if name in _FLAG_FIELDS:
+        if not isinstance(value, bool):
+            raise CommandError(f"{name} is true or false")
+        return value
     if name in _TEXT_FIELDS:
         if not isinstance(value, str) or len(value) > _MAX_NAME:
             raise CommandError(f"{name} is a text of at most {_MAX_NAME} characters")
@@ -154,4 +211,8 @@ def _checked(name: str, value: object) -> str | float:
         or not abs(value) <= _LARGEST_NUMBER  # true for NaN, too
     ):
         raise CommandError(f"{name} is a number between -{_LARGEST_NUMBER} and {_LARGEST_NUMBER}")
-    return float(value)
+    if name in _BYTE_FIELDS and not (value == int(value) and 0 <= value <= 255):
+        raise CommandError(f"{name} is a whole number between 0 and 255")
+    if name == "factor" and not 0.0 <= value <= _LARGEST_FACTOR:
+        raise CommandError(f"factor is a number between 0 and {_LARGEST_FACTOR:.0f}")
+    return int(value) if name in _BYTE_FIELDS else float(value)

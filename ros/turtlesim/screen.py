@@ -1,12 +1,12 @@
 """The simulator's screen: a page in any browser of this machine, fed at the simulation's rate.
 
 A browser receives ``scene`` texts (JSON) when turtles, background or hints change, ``tf`` texts a
-few times a second while it watches the frames, and one binary frame for each tick (of a crowd: each
-second tick) that it keeps up with. A frame is little-endian: five 32-bit unsigned
-integers (tick, version of the scene that it belongs to, number of turtles, number of strokes, 1 if
-the picture starts empty), five 32-bit floats for each turtle in the scene's order (x, y, theta,
-linear and angular velocity), and the strokes as :mod:`turtlesim.drawing` packs them. What comes
-back: :mod:`turtlesim.page_commands`.
+few times a second while it watches the frames, an ``axes`` text at each tick while it draws them,
+and one binary frame for each tick (of a crowd: each second tick) that it keeps up with. A frame is
+little-endian: five 32-bit unsigned integers (tick, version of the scene that it belongs to, number
+of turtles, number of strokes, 1 if the picture starts empty), five 32-bit floats for each turtle in
+the scene's order (x, y, theta, linear and angular velocity), and the strokes as
+:mod:`turtlesim.drawing` packs them. What comes back: :mod:`turtlesim.page_commands`.
 """
 
 from __future__ import annotations
@@ -19,7 +19,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlesim.drawing import RECORD_SIZE, Drawing
+from turtlesim.looks import shown_pen
 from turtlesim.page_commands import CommandError, Unwatch, Watch, parse_command
+from turtlesim.transform_view import field_frames
 from turtlewire.web import Server
 from turtlewire.web.desktop import wanted_port
 
@@ -27,11 +29,11 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from turtlesim.crowd import CrowdTick
-    from turtlesim.model import TurtleTick
+    from turtlesim.model import Stroke, Turtle, TurtleTick
     from turtlesim.page_commands import Command
     from turtlesim.transform_view import TransformView
 
-__all__ = ["Scene", "Screen"]
+__all__ = ["Scene", "Screen", "pen_of"]
 
 _HEADER = struct.Struct("<5I")
 _PAGE = Path(__file__).parent / "page"
@@ -49,12 +51,22 @@ class Scene(NamedTuple):
         turtles: Names in the order in which frames list their poses.
         background: Red, green and blue, 0..255.
         missing: Turtles that are referenced but were never spawned.
+        pens: As :func:`pen_of` gives them, in the order of the turtles.
+        speed: Simulated seconds in a second; 0 in a pause.
     """
 
     node: str
     turtles: tuple[str, ...]
     background: tuple[int, int, int]
     missing: tuple[str, ...]
+    pens: tuple[tuple[str, int, bool], ...] = ()
+    speed: float = 1.0
+
+
+def pen_of(turtle: Turtle) -> tuple[str, int, bool]:
+    """Colour (as in CSS), width [pixels of the 500 x 500 image] and whether the pen draws."""
+    r, g, b, width = shown_pen(turtle.name, turtle.pen)
+    return f"#{r:02x}{g:02x}{b:02x}", width, turtle.pen_on
 
 
 class Screen:
@@ -104,9 +116,9 @@ class Screen:
             )
             for tick in ticks:
                 for stroke in tick.teleport_strokes:
-                    self._drawing.add(tick.turtle.name, stroke)
+                    self._draw(tick.turtle.name, stroke)
                 if tick.move_stroke is not None:
-                    self._drawing.add(tick.turtle.name, tick.move_stroke)
+                    self._draw(tick.turtle.name, tick.move_stroke)
         self._server.notify()
 
     def show_crowd(self, tick: CrowdTick) -> None:
@@ -119,6 +131,9 @@ class Screen:
         if self._tick % _CROWD_TICKS == 0:
             self._server.notify()
 
+    def _draw(self, turtle: str, stroke: Stroke) -> None:
+        self._drawing.add(turtle, stroke._replace(pen=shown_pen(turtle, stroke.pen)))
+
     def set_scene(self, scene: Scene) -> None:
         """Show other turtles, another background or other hints from now on."""
         with self._lock:
@@ -130,6 +145,11 @@ class Screen:
         """Wipe the pen's picture."""
         with self._lock:
             self._drawing.clear()
+
+    @property
+    def turtles(self) -> tuple[str, ...]:
+        """Names of the turtles."""
+        return self._scene.turtles
 
     def close(self) -> None:
         """Stop serving; pages show that the simulator is lost, and reconnect when it returns."""
@@ -173,6 +193,7 @@ class _Session:
         self._errors: list[str] = []
         self._watch: Watch | None = None
         self._next_look = 0.0
+        self._field_frames: tuple[str, list[str]] = ("", [])
 
     def outgoing(self) -> list[str | bytes]:
         messages: list[str | bytes] = [
@@ -185,6 +206,9 @@ class _Session:
         if self._watch is not None and time.monotonic() >= self._next_look:
             self._next_look = time.monotonic() + _FRAMES_PERIOD_S
             messages.append(self._look(self._watch))
+        if self._watch is not None and self._watch.axes:
+            axes = self._screen.transforms.axes(*self._field_frames)
+            messages.append(json.dumps({"type": "axes", "frames": axes}))
         self._position, frame = self._screen.frame_since(self._position)
         return [*messages, frame]
 
@@ -217,6 +241,7 @@ class _Session:
             if watch.target and watch.source
             else None
         )
-        return json.dumps(
-            {"type": "tf", "frames": transforms.frames(), **watch._asdict(), "relation": relation}
-        )
+        frames = transforms.frames()
+        self._field_frames = field_frames(frames, self._screen.turtles)
+        told = {"target": watch.target, "source": watch.source, "relation": relation}
+        return json.dumps({"type": "tf", "frames": frames, **told})

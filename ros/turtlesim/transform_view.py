@@ -12,12 +12,14 @@ from turtlewire.errors import TransformException
 from turtlewire.tf.listener import TransformListener
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from turtlewire.wire import base
 
-__all__ = ["Frame", "TransformView"]
+__all__ = ["MOST_AXES", "Frame", "TransformView", "field_frames"]
 
+#: How many frames are drawn on the field.
+MOST_AXES = 40
 #: Hidden in `ros2 node list`, as names that begin with an underscore are.
 _NODE_NAME = "_turtlesim_page"
 #: tf2 reports this rate for a frame that does not change.
@@ -112,11 +114,67 @@ class TransformView:
             for name, values in parts.items()
         }
 
+    def axes(self, field: str, names: Sequence[str]) -> dict[str, list[float]]:
+        """Where frames are in the field now, seen from above.
+
+        Args:
+            field: The frame of the field.
+            names: The frames; those that have no finite place in ``field`` are left out.
+
+        Returns:
+            Name to x and y [m] and the directions of the x axis and the y axis, two numbers each.
+        """
+        found = {}
+        for name in names:
+            try:
+                field_from_frame = self._buffer.lookup_transform(field, name)
+            except TransformException:  # it belongs to another tree by now
+                continue
+            place = _seen_from_above(*field_from_frame.translation, *field_from_frame.rotation)
+            if all(map(math.isfinite, place)):
+                found[name] = place
+        return found
+
     def _stop(self) -> None:
         if self._listener is not None and self._node is not None:
             self._listener.close()
             self._node.close()
             self._listener = self._node = None
+
+
+def field_frames(frames: Sequence[Frame], turtles: Sequence[str]) -> tuple[str, list[str]]:
+    """The frame in which turtles are where the field shows them, and all frames of its tree.
+
+    That is ``world``, or without it the root of the tree of the first turtle that has a frame; an
+    empty name without either. No more than :data:`MOST_AXES` frames are drawn.
+    """
+    parents = {frame.name: frame.parent for frame in frames}
+    known = {*parents, *parents.values()}
+    field = next((name for name in ("world", *turtles) if name in known), "")
+    root = _root(field, parents)
+    names = sorted(name for name in known if _root(name, parents) == root)
+    return ("world" if field == "world" else root), names[:MOST_AXES]
+
+
+def _root(name: str, parents: dict[str, str]) -> str:
+    for _ in parents:  # no longer, should parents ever form a loop
+        name = parents.get(name, name)
+    return name
+
+
+def _seen_from_above(
+    x: float, y: float, z: float, qx: float, qy: float, qz: float, qw: float
+) -> list[float]:
+    """Place and the first two columns of the rotation's matrix, without what points upwards."""
+    del z
+    return [
+        x,
+        y,
+        1.0 - 2.0 * (qy * qy + qz * qz),
+        2.0 * (qx * qy + qw * qz),
+        2.0 * (qx * qy - qw * qz),
+        1.0 - 2.0 * (qx * qx + qz * qz),
+    ]
 
 
 def _read_frame(match: re.Match[str], now_s: float) -> Frame:

@@ -12,7 +12,7 @@ from turtlesim.rotate_action import RotateAction
 from turtlesim.srv import SetPen, TeleportAbsolute, TeleportRelative
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from rclpy.node import Node
     from turtlesim.model import Turtle, TurtleTick
@@ -38,9 +38,11 @@ class TurtleEndpoints:
         InvalidTopicNameException, ValueError: The turtle's name is no part of a topic's name.
     """
 
-    def __init__(self, node: Node, turtle: Turtle) -> None:
+    def __init__(self, node: Node, turtle: Turtle, on_pen: Callable[[], None]) -> None:
+        """Announce a turtle; ``on_pen`` is called when a service has changed its pen."""
         self._node = node
         self._turtle = turtle
+        self._on_pen = on_pen
         name = turtle.name
         # A wrong name fails here, before any endpoint is made.
         node.resolve_topic_name(f"{name}/cmd_vel")
@@ -132,6 +134,7 @@ class TurtleEndpoints:
         self._turtle.set_pen(
             Pen(request.r, request.g, request.b, request.width), off=bool(request.off)
         )
+        self._on_pen()
         return response
 
     def _on_teleport_relative(self, request: Any, response: Any) -> Any:

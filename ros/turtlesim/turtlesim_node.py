@@ -2,32 +2,33 @@
 
 from __future__ import annotations
 
-import argparse
 import contextlib
 import itertools
-import math
 import sys
 from typing import TYPE_CHECKING, Any
 
 import rclpy
-from rcl_interfaces.msg import IntegerRange, ParameterDescriptor
+from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.clock_type import ClockType
 from rclpy.exceptions import InvalidTopicNameException
 from rclpy.executors import ExternalShutdownException
-from rclpy.utilities import remove_ros_args
+from rclpy.parameter import Parameter
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import Empty
 from turtlesim.cpp_node import CppNode
 from turtlesim.missing_turtles import MissingTurtles
 from turtlesim.model import FIELD_SIZE, TICK_NS, World
+from turtlesim.options import check_port, parse_options
+from turtlesim.pace import FASTEST, Pace, hold
 from turtlesim.page_actions import PageActions
 from turtlesim.path import PathImage
 from turtlesim.srv import Kill, Spawn
 from turtlesim.turtle_endpoints import TurtleEndpoints, are_finite
 
 if TYPE_CHECKING:
+    from rclpy.timer import Timer
     from turtlesim.crowd import Crowd
-    from turtlesim.model import Pose, Turtle
+    from turtlesim.model import Pen, Pose, Turtle
     from turtlesim.screen import Screen
 
 __all__ = ["TurtlesimNode", "main"]
@@ -67,6 +68,7 @@ class TurtlesimNode(CppNode):
         self._endpoints_of: dict[str, TurtleEndpoints] = {}
         self._page = PageActions(self, self)
         self._screen: Screen | None = None
+        self._pace = Pace(1.0 if speed is None else speed)
         self.create_service(Empty, "clear", self._on_clear)
         self.create_service(Empty, "reset", self._on_reset)
         self.create_service(Spawn, "spawn", self._on_spawn)
@@ -76,14 +78,15 @@ class TurtlesimNode(CppNode):
         )
         self._missing = MissingTurtles(self, lambda: self.world.turtles, self._show_scene)
         self._add(self.world.spawn_centred())
-        self.add_post_set_parameters_callback(lambda _: self._show_scene())
+        self.add_post_set_parameters_callback(lambda _: self._on_parameters_set())
         self.context.on_shutdown(self._on_shutdown)
         if not headless:
             self._open_screen(lan)
         if speed is None:
-            self.create_timer(TICK_NS / 1e9, lambda: self._tick(self.get_clock().now().nanoseconds))
+            self._timer = self.create_timer(TICK_NS / 1e9, self._tick_of_clock)
         else:
-            self._make_time(speed)
+            self._timer = self._make_time()
+            self._declare_speed()
 
     def destroy_node(self) -> None:
         """Leave the graph, and stop serving the page."""
@@ -112,23 +115,60 @@ class TurtlesimNode(CppNode):
             ParameterDescriptor(description="If true, then turtles will be holonomic"),
         )
 
+    def _declare_speed(self) -> None:
+        """Have the speed as a parameter; ROS 2's turtlesim has none, so it comes with its use."""
+        if self.has_parameter("speed"):
+            return
+        limits = FloatingPointRange(from_value=0.0, to_value=max(FASTEST, self._pace.speed))
+        descriptor = ParameterDescriptor(
+            description="Simulated seconds in a second; 0 pauses", floating_point_range=[limits]
+        )
+        self.declare_parameter("speed", self._pace.speed, descriptor)
+
+    def _on_parameters_set(self) -> None:
+        speed = self.get_parameter("speed").value if self.has_parameter("speed") else None
+        if speed is not None and speed != self._pace.speed:
+            self._pace.change(speed, self.get_clock().now().nanoseconds)
+            self._timer.timer_period_ns = self._pace.period_ns
+        self._show_scene()
+
     # Time
 
-    def _make_time(self, speed: float) -> None:
-        """Tick ``speed`` times faster than real time, and publish the time."""
+    def _make_time(self) -> Timer:
+        """Tick faster than real time, and publish the time."""
         publisher = self.create_publisher(Clock, "/clock", 1)
         message = Clock()
         ticks = itertools.count(1)
 
         def tick() -> None:
-            now_ns = next(ticks) * TICK_NS
-            message.clock.sec, message.clock.nanosec = divmod(now_ns, 1_000_000_000)
-            publisher.publish(message)
-            self._tick(now_ns)
+            if self._pace.speed:
+                now_ns = next(ticks) * TICK_NS
+                message.clock.sec, message.clock.nanosec = divmod(now_ns, 1_000_000_000)
+                publisher.publish(message)
+                self._tick(now_ns)
+            else:
+                self._hold()
 
-        self.create_timer(
-            TICK_NS / 1e9 / speed, tick, clock=rclpy.clock.Clock(clock_type=ClockType.STEADY_TIME)
-        )
+        clock = rclpy.clock.Clock(clock_type=ClockType.STEADY_TIME)
+        return self.create_timer(self._pace.period_ns / 1e9, tick, clock=clock)
+
+    def _tick_of_clock(self) -> None:
+        """Tick by the node's clock."""
+        if self._pace.speed:
+            self._tick(self._pace.tick(self.get_clock().now().nanoseconds))
+        else:
+            self._hold()
+
+    def _hold(self) -> None:
+        """Obey the pages, and show where turtles stand in a pause."""
+        self._page.carry_out()
+        ticks = hold(self.world.in_order())
+        for tick in ticks:
+            for stroke in tick.teleport_strokes:
+                self._path.draw(stroke)
+        self._path.settle()
+        if self._screen is not None:
+            self._screen.show(ticks)
 
     def _tick(self, now_ns: int) -> None:
         self._page.carry_out()
@@ -193,7 +233,7 @@ class TurtlesimNode(CppNode):
                 world again.
         """
         try:
-            self._endpoints_of[turtle.name] = TurtleEndpoints(self, turtle)
+            self._endpoints_of[turtle.name] = TurtleEndpoints(self, turtle, self._show_scene)
         except (InvalidTopicNameException, ValueError):
             self.world.kill(turtle.name)
             raise
@@ -253,6 +293,24 @@ class TurtlesimNode(CppNode):
         self._add(self.world.spawn_centred())
         self._clear_drawing()
 
+    def set_pen(self, turtle: str, pen: Pen, *, off: bool) -> None:
+        """Change a turtle's pen, or lift it; nothing if there is no such turtle."""
+        if turtle in self.world.turtles:
+            self.world.turtles[turtle].set_pen(pen, off=off)
+            self._show_scene()
+
+    def set_background(self, r: int, g: int, b: int) -> None:
+        """Change the background by its parameters."""
+        values = zip(_BACKGROUND, (r, g, b), strict=True)
+        self.set_parameters(
+            [Parameter(f"background_{channel}", value=value) for channel, value in values]
+        )
+
+    def set_speed(self, speed: float) -> None:
+        """Change how fast the simulation goes, 0 for a pause, by its parameter."""
+        self._declare_speed()
+        self.set_parameters([Parameter("speed", value=speed)])
+
     # Services
 
     def _on_clear(self, _: Any, response: Any) -> Any:
@@ -294,16 +352,19 @@ class TurtlesimNode(CppNode):
         self._show_scene()
 
     def _scene(self) -> Any:
-        from turtlesim.screen import Scene
+        from turtlesim.screen import Scene, pen_of
 
         red, green, blue = (
             self.get_parameter(f"background_{channel}").value for channel in _BACKGROUND
         )
+        turtles = self.world.in_order()
         return Scene(
             self.get_fully_qualified_name(),
-            tuple(sorted(self.world.turtles)),
+            tuple([turtle.name for turtle in turtles]),
             (red, green, blue),
             self._missing.names,
+            tuple([pen_of(turtle) for turtle in turtles]),
+            self._pace.speed,
         )
 
     def _show_scene(self) -> None:
@@ -313,9 +374,9 @@ class TurtlesimNode(CppNode):
 
 def main(args: list[str] | None = None) -> None:
     """Run the simulator until Ctrl-C."""
-    options = _parse_options(sys.argv if args is None else args)
+    options = parse_options(sys.argv if args is None else args)
     if not options.headless:
-        _check_port()
+        check_port()
     rclpy.init(args=args)
     node = None
     # Around the shutdown as well, because Ctrl-C may also come then.
@@ -328,50 +389,6 @@ def main(args: list[str] | None = None) -> None:
             rclpy.try_shutdown()
             if node is not None:
                 node.destroy_node()
-
-
-def _parse_options(args: list[str]) -> argparse.Namespace:
-    """The options outside of ``--ros-args``; unknown arguments are ignored, as in the original."""
-    from turtlewire.web.desktop import wanted_lan
-
-    parser = argparse.ArgumentParser(
-        prog="turtlesim_node", description="Turtles on a field, shown in the browser."
-    )
-    shown = parser.add_mutually_exclusive_group()
-    shown.add_argument("--headless", action="store_true", help="serve no page")
-    shown.add_argument(
-        "--lan",
-        action="store_true",
-        default=wanted_lan(),
-        help="serve the page to other devices of the network, too, for those who have its address",
-    )
-    parser.add_argument(
-        "--speed",
-        type=_factor,
-        metavar="N",
-        help="run N times faster than real time and publish /clock; for nodes with use_sim_time",
-    )
-    return parser.parse_known_args(remove_ros_args(args)[1:])[0]
-
-
-def _check_port() -> None:
-    """End the program if TURTLEWIRE_PORT is wrong, before the node is announced."""
-    from turtlewire.web.desktop import wanted_port
-
-    try:
-        wanted_port()
-    except ValueError as error:
-        sys.exit(f"turtlesim_node: error: {error}")
-
-
-def _factor(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not 0.0 < value < math.inf:
-        raise argparse.ArgumentTypeError(f"expected a number greater than 0, got {text!r}")
-    return value
 
 
 if __name__ == "__main__":

@@ -10,8 +10,8 @@ import pytest
 
 from turtlesim import page_commands
 from turtlesim.crowd import Crowd
-from turtlesim.model import TICK_NS, World
-from turtlesim.screen import Scene, Screen
+from turtlesim.model import TICK_NS, Pen, World
+from turtlesim.screen import Scene, Screen, pen_of
 from turtlesim.transform_view import TransformView
 from turtlewire.wire import open_context
 
@@ -26,6 +26,7 @@ class Simulator:
         self._crowd = Crowd()
         self.turtle1 = self.world.spawn_centred()
         self.background = BLUE
+        self.speed = 1.0
         self.missing: tuple[str, ...] = ()
         self.commands: list[page_commands.Command] = []
         self._queue: queue.SimpleQueue = queue.SimpleQueue()
@@ -44,7 +45,9 @@ class Simulator:
         self.wire.close()
 
     def _scene(self) -> Scene:
-        return Scene("/sim", tuple(sorted(self.world.turtles)), self.background, self.missing)
+        turtles = self.world.in_order()
+        names, pens = (tuple(map(of, turtles)) for of in (lambda turtle: turtle.name, pen_of))
+        return Scene("/sim", names, self.background, self.missing, pens, self.speed)
 
     def _run(self) -> None:
         start = time.monotonic()
@@ -69,6 +72,13 @@ class Simulator:
             self.world.spawn(*command)
         elif isinstance(command, page_commands.Teleport):
             self.world.turtles[command.turtle].teleport_absolute(*command[1:])
+        elif isinstance(command, page_commands.Pen):
+            *pen, off = command[1:]
+            self.world.turtles[command.turtle].set_pen(Pen(*pen), off=off)
+        elif isinstance(command, page_commands.Background):
+            self.background = tuple(command)
+        elif isinstance(command, page_commands.Speed):
+            self.speed = command.factor
         elif isinstance(command, page_commands.Clear):
             self.screen.clear()
         elif isinstance(command, page_commands.Reset):

@@ -9,60 +9,21 @@ import math
 import time
 
 import pytest
+from tests.turtlesim.seen import (
+    is_ground,
+    is_opaque,
+    is_pen,
+    on_screen,
+    pixel,
+    publish_transform,
+    wait_for_pixel,
+    wait_for_text,
+    wait_until,
+)
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 from turtlesim import page_commands
-from turtlewire import msg
-from turtlewire.tf import listener
-from turtlewire.wire.base import TypeId
-
-BLUE = (69, 86, 255)
-
-
-def wait_for_text(page, selector: str, text: str) -> None:
-    page.wait_for_function(
-        "([s, t]) => document.querySelector(s)?.textContent.includes(t)", arg=[selector, text]
-    )
-
-
-def pixel(page, canvas: str, x: float, y: float) -> tuple[int, ...]:
-    """Red, green, blue, alpha of a canvas at a place of the field [m]."""
-    code = """([id, x, y]) => {
-        const canvas = document.getElementById(id);
-        const scale = canvas.width / 500;
-        const pixels = [x * 45 + 0.5, (499 / 45 - y) * 45 + 0.5];
-        const [column, row] = pixels.map((value) => Math.round(value * scale));
-        return [...canvas.getContext('2d').getImageData(column, row, 1, 1).data];
-    }"""
-    return tuple(page.evaluate(code, [canvas, x, y]))
-
-
-def wait_for_pixel(page, canvas: str, x: float, y: float, is_wanted) -> tuple[int, ...]:
-    deadline = time.monotonic() + 60
-    while not is_wanted(found := pixel(page, canvas, x, y)):
-        assert time.monotonic() < deadline, found
-        page.wait_for_timeout(30)
-    return found
-
-
-def wait_until(is_done) -> None:
-    deadline = time.monotonic() + 60
-    while not is_done():
-        assert time.monotonic() < deadline
-        time.sleep(0.02)
-
-
-def is_pen(colour: tuple[int, ...]) -> bool:
-    return math.dist(colour[:3], (179, 184, 255)) < 12
-
-
-def is_opaque(colour: tuple[int, ...]) -> bool:
-    return colour[3] > 200
-
-
-def is_ground(colour: tuple[int, ...]) -> bool:
-    return math.dist(colour[:3], BLUE) < 45
 
 
 def test_the_turtle_is_shown_where_it_is(simulator, open_page):
@@ -165,13 +126,13 @@ def test_a_crowd_moves_and_draws(simulator, open_page):
     for k in range(150):
         place = 2.0 + 0.02 * k
         simulator._queue.put(page_commands.Spawn(place, place, 0.0, f"member{k}"))
-    wait_for_text(page, "#more", "and 139 more")
+    wait_for_text(page, "#more", "and 91 more")
     wait_for_pixel(page, "turtles", 2.0, 2.0, is_opaque)
     assert pixel(page, "turtles", 4.0, 2.0)[3] == 0
     for k in range(150):
         simulator._queue.put(page_commands.Drive(f"member{k}", 2.0, 0.0))
     wait_for_pixel(page, "turtles", 4.0, 2.0, is_opaque)
-    wait_for_pixel(page, "ground", 2.5, 2.0, is_pen)
+    wait_for_pixel(page, "ground", 2.5, 2.0, lambda colour: not is_ground(colour))
     assert pixel(page, "turtles", 2.0, 2.0)[3] == 0
 
 
@@ -209,13 +170,6 @@ def test_a_missing_turtle_is_offered(simulator, open_page):
     assert simulator.commands == [page_commands.Spawn(4.0, 2.0, 0.0, "turtle2")]
     simulator.missing = ()
     page.wait_for_selector("#hint", state="hidden")
-
-
-def on_screen(page, x: float, y: float) -> tuple[float, float]:
-    """Where a place of the field [m] is on the screen."""
-    box = page.locator("#turtles").bounding_box()
-    scale = box["width"] / 500
-    return box["x"] + (x * 45 + 0.5) * scale, box["y"] + ((499 / 45 - y) * 45 + 0.5) * scale
 
 
 def test_a_turtle_is_chosen_and_dragged_on_the_field(simulator, open_page):
@@ -294,21 +248,6 @@ def test_following_keeps_the_driven_turtle_in_the_middle(simulator, open_page):
     assert pixel(page, "turtles", middle, middle)[3] == 0
 
 
-def publish_transform(
-    simulator, parent: str, child: str, stamp_ns: int, x: float, y: float
-) -> None:
-    if not hasattr(simulator, "tf"):
-        type_id = TypeId(listener.TYPE_NAME, msg.type_hash(listener.TYPE_NAME))
-        simulator.tf = simulator.wire.create_node("broadcaster").create_publisher(
-            listener.TOPIC, type_id, listener.QOS
-        )
-    transform = msg.get_message("geometry_msgs/msg/TransformStamped")(child_frame_id=child)
-    transform.header.frame_id = parent
-    transform.header.stamp.sec, transform.header.stamp.nanosec = divmod(stamp_ns, 10**9)
-    transform.transform.translation.x, transform.transform.translation.y = x, y
-    simulator.tf.publish(msg.serialize(msg.get_message(listener.TYPE_NAME)(transforms=[transform])))
-
-
 def test_the_frames_are_shown_live_and_a_transform_in_plain_words(simulator, open_page):
     page = open_page(simulator.screen.url)
     assert page.is_visible("#no-frames")
@@ -340,6 +279,7 @@ def test_the_frames_are_shown_live_and_a_transform_in_plain_words(simulator, ope
     page.select_option("#source", "lost")
     wait_for_text(page, "#relation-words", "Tf has two or more unconnected trees.")
     page.click("#frames summary")
+    page.click("#axes")
     wait_until(
         lambda: not any(node.name == "_turtlesim_page" for node in simulator.wire.graph.nodes())
     )

@@ -7,14 +7,17 @@ import json
 import pytest
 
 from turtlesim.page_commands import (
+    Background,
     Cancel,
     Clear,
     CommandError,
     Drive,
     Kill,
+    Pen,
     Reset,
     Rotate,
     Spawn,
+    Speed,
     Teleport,
     Unwatch,
     Watch,
@@ -39,7 +42,16 @@ from turtlesim.page_commands import (
         ({"type": "kill", "turtle": "t"}, Kill("t")),
         ({"type": "clear"}, Clear()),
         ({"type": "reset"}, Reset()),
-        ({"type": "watch", "target": "turtle2", "source": ""}, Watch("turtle2", "")),
+        (
+            {"type": "watch", "target": "turtle2", "source": "", "axes": True},
+            Watch("turtle2", "", True),
+        ),
+        (
+            {"type": "pen", "turtle": "t", "r": 255, "g": 0, "b": 7, "width": 3, "off": False},
+            Pen("t", 255, 0, 7, 3, False),
+        ),
+        ({"type": "background", "r": 1, "g": 2, "b": 3}, Background(1, 2, 3)),
+        ({"type": "speed", "factor": 0.25}, Speed(0.25)),
         ({"type": "unwatch"}, Unwatch()),
     ],
 )

@@ -74,8 +74,8 @@ PLAYBACK = """
     for (let now = 0; now < 2000; now += given.display) {
         const due = () => 16 * given.ticks * sent + given.late[sent % given.late.length];
         while (due() <= now) playback.push(frame(given.ticks * sent++));
-        const poses = playback.sample(now);
-        if (poses) seen.push(poses[0].x);
+        const sample = playback.sample(now);
+        if (sample) seen.push(sample.poses[0].x);
     }
     return seen;
 """

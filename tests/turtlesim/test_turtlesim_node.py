@@ -22,8 +22,10 @@ from rclpy.action import ActionClient, get_action_server_names_and_types_by_node
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rosgraph_msgs.msg import Clock
 from std_srvs.srv import Empty
 from turtlesim.action import RotateAbsolute
+from turtlesim.model import TICK_NS
 from turtlesim.msg import Color, Pose
 from turtlesim.srv import Kill, SetPen, Spawn, TeleportAbsolute, TeleportRelative
 from turtlesim.turtlesim_node import TurtlesimNode, main
@@ -501,3 +503,75 @@ class TestRotateAbsolute:
 
     def test_a_heading_that_is_not_finite_is_rejected(self, world, client):
         assert not self.send(world, client, math.nan).accepted
+
+
+class TestPace:
+    @pytest.fixture
+    def page(self, make_world, monkeypatch):
+        """A simulator, and a page of it."""
+        monkeypatch.setenv("TURTLEWIRE_PORT", "0")
+        monkeypatch.setenv("TURTLEWIRE_BROWSER", "0")
+        world = make_world(headless=False)
+        url = world.sim._screen.url.replace("http", "ws") + "live"
+        with connect(url, close_timeout=0.2) as page:
+            yield world, page
+
+    def test_the_speed_is_a_parameter_from_its_first_use_on(self, page):
+        world, browser = page
+        assert not world.sim.has_parameter("speed")
+        browser.send('{"type": "speed", "factor": 0}')
+        world.spin_until(lambda: world.sim.has_parameter("speed"))
+        assert world.sim.get_parameter("speed").value == 0.0
+        for wrong in (-1.0, 2000.0):
+            (result,) = world.sim.set_parameters([Parameter("speed", value=wrong)])
+            assert not result.successful
+        world.sim.set_parameters([Parameter("speed", value=2.5)])
+        assert world.sim._scene().speed == 2.5
+
+    def test_in_a_pause_nothing_moves_and_no_pose_comes(self, page):
+        world, browser = page
+        poses = world.listen(Pose, "/turtle1/pose")
+        world.spin_until(lambda: poses)
+        world.talk("/turtle1/cmd_vel").publish(twist(linear=2.0))
+        world.spin_until(lambda: poses[-1].linear_velocity == 2.0)
+        browser.send('{"type": "speed", "factor": 0}')
+        world.spin_until(lambda: world.sim.has_parameter("speed"))
+        turtle = world.sim.world.turtles["turtle1"]
+        place, heard = turtle.x, len(poses)
+        browser.send('{"type": "teleport", "turtle": "turtle1", "x": 3, "y": 4, "theta": 0}')
+        world.spin_until(lambda: turtle.x == 3.0)  # pages are obeyed
+        assert len(poses) <= heard + 1  # one may have been on its way
+        assert place < MIDDLE + 2.0
+        browser.send('{"type": "speed", "factor": 4}')
+        world.spin_until(lambda: poses[-1].linear_velocity == 0.0 and len(poses) > heard + 10)
+        # The command lasts a simulated second, the pause not counted, and ticks are not lost.
+        assert poses[-1].x - 3.0 + place - MIDDLE == pytest.approx(2.0, abs=0.3)
+
+    def test_a_page_sets_pen_and_background_as_a_node_would(self, page):
+        world, browser = page
+        browser.send('{"type": "background", "r": 1, "g": 2, "b": 3}')
+        browser.send(
+            '{"type": "pen", "turtle": "turtle1", "r": 9, "g": 8, "b": 7, "width": 5, "off": false}'
+        )
+        turtle = world.sim.world.turtles["turtle1"]
+        world.spin_until(lambda: turtle.pen == (9, 8, 7, 5))
+        values = [world.sim.get_parameter(f"background_{channel}").value for channel in "rgb"]
+        assert values == [1, 2, 3]
+        assert world.sim._scene().pens == (("#090807", 5, True),)
+        world.call(SetPen, "/turtle1/set_pen", r=1, g=1, b=1, width=2, off=1)
+        assert world.sim._screen._scene.pens == (("#090807", 5, False),)
+
+
+def test_a_faster_simulation_has_its_speed_as_a_parameter(make_world):
+    world = make_world(speed=8.0)
+    assert world.sim.get_parameter("speed").value == 8.0
+    clocks = world.listen(Clock, "/clock")
+    world.spin_until(lambda: len(clocks) > 2)
+    world.sim.set_parameters([Parameter("speed", value=0.0)])
+    world.executor.spin_once(timeout_sec=0.1)
+    heard = clocks[-1]
+    for _ in range(10):
+        world.executor.spin_once(timeout_sec=0.1)
+    assert clocks[-1].clock.nanosec - heard.clock.nanosec <= TICK_NS  # one may be on its way
+    world.sim.set_parameters([Parameter("speed", value=1.0)])
+    world.spin_until(lambda: clocks[-1].clock.nanosec > heard.clock.nanosec + 3 * TICK_NS)

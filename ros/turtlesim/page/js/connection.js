@@ -9,7 +9,7 @@ export class Connection {
   #handlers;
 
   /**
-   * `handlers`: onState("live" or "lost"), onScene(scene), onTransforms(message),
+   * `handlers`: onState("live" or "lost"), onScene(scene), onTransforms(message), onAxes(axes),
    * onFrame(ArrayBuffer), onError(text).
    */
   constructor(handlers) {
@@ -48,6 +48,7 @@ export class Connection {
   #takeText(message) {
     if (message.type === "scene") this.#handlers.onScene(message);
     else if (message.type === "tf") this.#handlers.onTransforms(message);
+    else if (message.type === "axes") this.#handlers.onAxes(message.frames);
     else if (message.type === "error") this.#handlers.onError(message.text);
   }
 }

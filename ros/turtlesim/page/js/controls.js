@@ -14,7 +14,7 @@ const KEYS = { ArrowUp: "up", ArrowDown: "down", ArrowLeft: "left", ArrowRight: 
 /** Whether a key press is for the turtles, not for the browser or for a list. */
 export function isForTurtles(event) {
   const forBrowser = event.ctrlKey || event.altKey || event.metaKey;
-  return !(forBrowser || event.target instanceof HTMLSelectElement);
+  return !(forBrowser || event.target.closest?.("select, input"));
 }
 
 /** Call `drive({linear, angular})` for each press of an arrow key or of the pad. */

@@ -1,6 +1,7 @@
 // The field: two canvases on top of each other. The ground changes when a pen draws, the turtles
 // with every display frame.
 
+import { drawAxes } from "./axes.js";
 import { Camera } from "./camera.js";
 import { FIELD_METRES, IMAGE_PIXELS, PIXELS_PER_METRE } from "./frames.js";
 import { paintGround } from "./ground.js";
@@ -54,9 +55,10 @@ export class Field {
 
   /**
    * Draw a display frame: `names` and `poses` in the same order, `driven` is the name that gets the
-   * ring, and `ghost` a turtle that is being placed, as { name, x, y, theta }, or null.
+   * ring, `ghost` a turtle that is being placed, as { name, x, y, theta }, or null, and `axes` the
+   * frames to draw, as { frames, from, to } for drawAxes, or null.
    */
-  drawTurtles(names, poses, driven, ghost, now) {
+  drawTurtles(names, poses, { driven, ghost, axes, now }) {
     this.#lookAt(poses[names.indexOf(driven)], now);
     const ctx = this.#live;
     ctx.setTransform(1, 0, 0, 1, 0, 0);
@@ -67,6 +69,7 @@ export class Field {
       driven,
       scale: this.#scale,
       now,
+      above: (label) => axes && this.#drawAxes(axes, names, label),
     });
   }
 
@@ -104,6 +107,12 @@ export class Field {
     const half = PIXEL_CENTRE * (this.#scale / PIXELS_PER_METRE);
     const pixels = (metres) => metres * this.#scale + half;
     return [pixels(x) - this.#camera.left, pixels(FIELD_METRES - y) - this.#camera.top];
+  }
+
+  #drawAxes(axes, names, label) {
+    const toCanvas = (place) => this.#toCanvas(place);
+    const named = (name) => names.includes(name);
+    drawAxes(this.#live, { ...axes, named, toCanvas, scale: this.#scale, label });
   }
 
   #lookAt(pose, now) {

@@ -7,6 +7,7 @@ const TICK_MS = 16;
 const POSE_FLOATS = 5;
 const STROKE_WORDS = 5;
 const HEADER_WORDS = 5;
+const JUMP_METRES = 1.5;
 
 /**
  * Take a frame apart. Poses are [x, y, theta, v, w] for each turtle; strokes are [colour and width,
@@ -46,6 +47,8 @@ export class Playback {
   #frames = [];
   #head = 0;
   #lastTime = 0;
+  /** How many times faster than real time the ticks come; 0 in a pause. */
+  speed = 1;
 
   push(frame) {
     const newest = this.#frames.at(-1);
@@ -58,7 +61,10 @@ export class Playback {
     return this.#frames.at(-1) ?? null;
   }
 
-  /** Poses at the display's time `now` [ms], or null while there is no frame. */
+  /**
+   * Poses at the display's time `now` [ms], and the axes of frames if they came with the poses, or
+   * null while there is no frame.
+   */
   sample(now) {
     if (!this.#frames.length) return null;
     this.#advance(now);
@@ -69,22 +75,34 @@ export class Playback {
     const share = (this.#head - a.tick) / (b.tick - a.tick);
     const part = b.tick > a.tick ? Math.min(1, Math.max(0, share)) : 1;
     const pose = (k) => between(poseOf(a, k), poseOf(b, k), part);
-    return Array.from({ length: a.turtleCount }, (_, k) => pose(k));
+    const poses = Array.from({ length: a.turtleCount }, (_, k) => pose(k));
+    return { poses, axes: axesBetween(a.axes, b.axes, part) };
   }
 
   #advance(now) {
     const newest = this.#frames.at(-1).tick;
     const gap = Math.max(1, newest - (this.#frames.at(-2)?.tick ?? newest));
     const target = newest - Playback.#DELAY * Math.min(gap, Playback.#LONGEST_GAP);
-    this.#head += (now - this.#lastTime) / TICK_MS;
+    this.#head += ((now - this.#lastTime) / TICK_MS) * (this.speed || 1);
     this.#lastTime = now;
     const late = target - this.#head;
     this.#head = Math.abs(late) > 8 ? target : this.#head + 0.08 * late;
   }
 }
 
+/** Maps of name to numbers that begin with x and y; null while no axes are sent. */
+function axesBetween(a, b, part) {
+  if (!a || !b) return null;
+  const entry = ([name, end]) => {
+    const start = a[name] ?? end;
+    const jumps = Math.hypot(end[0] - start[0], end[1] - start[1]) > JUMP_METRES;
+    return [name, jumps ? end : end.map((value, k) => start[k] + part * (value - start[k]))];
+  };
+  return new Map(Object.entries(b).map(entry));
+}
+
 function between(a, b, part) {
-  if (Math.hypot(b.x - a.x, b.y - a.y) > 1.5) return b; // a teleport, not a movement
+  if (Math.hypot(b.x - a.x, b.y - a.y) > JUMP_METRES) return b; // a teleport, not a movement
   const turn = Math.atan2(Math.sin(b.theta - a.theta), Math.cos(b.theta - a.theta));
   const [x, y] = [a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)];
   return { ...b, x, y, theta: a.theta + part * turn };

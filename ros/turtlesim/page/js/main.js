@@ -8,6 +8,8 @@ import { FIELD_METRES, Playback, decodeFrame, poseOf } from "./frames.js";
 import { FramesPanel } from "./frames_panel.js";
 import { Panel } from "./panel.js";
 import { Pointer } from "./pointer.js";
+import { paceInWords } from "./words.js";
+import { controlWorld } from "./world_controls.js";
 
 const PANEL_MS = 100;
 const DESCRIPTION_MS = 2000;
@@ -26,20 +28,25 @@ const pointer = new Pointer(field, {
   spawn,
   placingChanged: showPlacing,
 });
-let scene = { version: -1, turtles: [], missing: [] };
+let scene = { version: -1, turtles: [], missing: [], pens: [], speed: 1 };
 let driven = null;
 let chosen = "turtle1";
+let axes = null; // as they came last
 
 const connection = new Connection({
   onState: takeState,
   onScene: takeScene,
   onTransforms: (message) => framesPanel.show(message),
+  onAxes: (frames) => (axes = frames),
   onFrame: takeFrame,
   onError: (text) => console.error(`turtlesim refused a command: ${text}`),
 });
 
+const showSettings = controlWorld((command) => connection.send(command), () => driven);
+
 function takeState(state) {
-  panel.showConnection(state, state === "live" ? "live" : "connection lost, trying again …");
+  const lost = "connection lost, trying again …";
+  panel.showConnection(state, state === "live" ? paceInWords(scene.speed) : lost);
   if (state === "live") framesPanel.watch();
 }
 
@@ -49,6 +56,9 @@ function takeScene(message) {
   field.setBackground(scene.background);
   field.keepOnly(scene.turtles);
   panel.showScene(scene, driven);
+  panel.showConnection("live", paceInWords(scene.speed));
+  playback.speed = scene.speed;
+  showSettings(scene, driven);
   panel.showHint(scene.missing, (name) => spawn({ x: 4, y: 2, theta: 0, name }));
 }
 
@@ -56,12 +66,14 @@ function takeFrame(buffer) {
   const frame = decodeFrame(buffer);
   field.addStrokes(frame.strokes, frame.restart);
   const isCurrent = frame.version === scene.version;
+  frame.axes = framesPanel.drawn ? axes : null;
   if (isCurrent && frame.turtleCount === scene.turtles.length) playback.push(frame);
 }
 
 function choose(name) {
   chosen = driven = name;
   panel.showDriven(driven);
+  showSettings(scene, driven);
 }
 
 function spawn({ x, y, theta, name = "" }) {
@@ -69,8 +81,12 @@ function spawn({ x, y, theta, name = "" }) {
 }
 
 function display(now) {
-  const poses = playback.newest?.version === scene.version ? playback.sample(now) : null;
-  if (poses) field.drawTurtles(scene.turtles, poses, driven, pointer.ghost, now);
+  const seen = playback.newest?.version === scene.version ? playback.sample(now) : null;
+  if (seen) {
+    const drawn = seen.axes && { frames: seen.axes, ...framesPanel.arrow };
+    const { ghost } = pointer;
+    field.drawTurtles(scene.turtles, seen.poses, { driven, ghost, axes: drawn, now });
+  }
   requestAnimationFrame(display);
 }
 
@@ -119,6 +135,11 @@ byId("reset").onclick = () => connection.send({ type: "reset" });
 byId("follow").onclick = ({ currentTarget }) => {
   field.setFollow(!field.follows);
   currentTarget.setAttribute("aria-pressed", String(field.follows));
+};
+
+byId("axes").onclick = ({ currentTarget }) => {
+  framesPanel.draw(!framesPanel.drawn);
+  currentTarget.setAttribute("aria-pressed", String(framesPanel.drawn));
 };
 
 byId("picture").onclick = async () => {

@@ -1,20 +1,19 @@
 // The texts around the field: who is where, who is driven, what is missing.
 
-import { lookOf } from "./looks.js";
+import { byName } from "./names.js";
+import { Roster } from "./roster.js";
 import { fieldInWords, placeInWords, seenFrom } from "./words.js";
 
-const MOST_ROWS = 12;
 const MOST_SENTENCES = 3;
 const byId = (id) => document.getElementById(id);
 
 export class Panel {
-  #rows = new Map();
   #names = [];
-  #onChoose;
+  #roster;
 
   /** `onChoose(name)`: the user wants to drive another turtle. */
   constructor(onChoose) {
-    this.#onChoose = onChoose;
+    this.#roster = new Roster(onChoose);
   }
 
   showScene(scene, driven) {
@@ -22,30 +21,18 @@ export class Panel {
     document.title = `turtlesim ${scene.node}`;
     this.#announceChanges(scene.turtles);
     this.#names = scene.turtles;
-    this.#rows.clear();
-    const rows = scene.turtles.slice(0, MOST_ROWS).map((name) => this.#row(name));
-    byId("roster").replaceChildren(...rows);
-    const hidden = scene.turtles.length - MOST_ROWS;
-    byId("more").hidden = hidden <= 0;
-    byId("more").textContent = `and ${hidden} more`;
+    this.#roster.show(scene.turtles);
     this.showDriven(driven);
   }
 
   showDriven(driven) {
     byId("driven").textContent = driven ?? "(no turtle)";
-    for (const [name, { button }] of this.#rows) {
-      button.setAttribute("aria-pressed", String(name === driven));
-    }
+    this.#roster.showDriven(driven);
   }
 
   /** Numbers and sentences; `poses` in the scene's order. */
   showPoses(poses, driven) {
-    this.#names.slice(0, MOST_ROWS).forEach((name, k) => {
-      const { x, y, theta, v, w } = poses[k];
-      const degrees = `${Math.round((theta * 180) / Math.PI)}°`;
-      const texts = [x.toFixed(2), y.toFixed(2), degrees, v.toFixed(2), w.toFixed(2)];
-      this.#rows.get(name).cells.forEach((cell, column) => setText(cell, texts[column]));
-    });
+    this.#roster.showPoses(poses);
     setText(byId("words"), this.#sentences(poses, driven).join(" · "));
   }
 
@@ -79,30 +66,13 @@ export class Panel {
     byId("announcer").textContent = text;
   }
 
-  #row(name) {
-    const row = document.createElement("tr");
-    const look = lookOf(name);
-    const button = document.createElement("button");
-    button.type = "button";
-    button.title = `Drive ${name}`;
-    button.style.setProperty("--shell", look.shell);
-    button.style.setProperty("--rim", look.rim);
-    const label = document.createElement("span");
-    label.textContent = name;
-    button.append(document.createElement("i"), label);
-    button.onclick = () => this.#onChoose(name);
-    row.insertCell().append(button);
-    const cells = Array.from({ length: 5 }, () => row.insertCell());
-    this.#rows.set(name, { button, cells });
-    return row;
-  }
-
   #sentences(poses, driven) {
     const drivenAt = this.#names.indexOf(driven);
     if (drivenAt < 0) return [];
     return this.#names
       .map((name, k) => ({ name, k }))
       .filter(({ k }) => k !== drivenAt)
+      .sort((a, b) => byName(a.name, b.name))
       .slice(0, MOST_SENTENCES)
       .map(({ name, k }) => placeInWords(driven, name, seenFrom(poses[k], poses[drivenAt])));
   }

@@ -19,25 +19,33 @@ export class TurtlePainter {
   #still = matchMedia("(prefers-reduced-motion: reduce)");
 
   /**
-   * `turtles`: [{ name, pose, at: [x, y] }] in canvas pixels; `scale`: canvas pixels per metre; the
-   * rest as in Field.
+   * `turtles`: [{ name, pose, at: [x, y] }] in canvas pixels; `scale`: canvas pixels per metre;
+   * `above(label)`: draws what lies over the turtles, and below the driven one's name; the rest as in
+   * Field. The driven turtle lies on the others, and nothing on its name.
    */
-  paint(ctx, { turtles, ghost, driven, scale, now }) {
+  paint(ctx, { turtles, ghost, driven, scale, now, above }) {
     if (scale !== this.#spriteScale) this.#sprites.clear();
     this.#spriteScale = scale;
     const crowded = turtles.length > CROWD;
-    for (const { name, pose, at } of turtles) {
-      if (name === driven) ring(ctx, at, scale);
+    const draw = ({ name, pose, at }) => {
       if (crowded) this.#stamp(ctx, name, at, pose.theta);
       else this.#put(ctx, name, at, pose.theta, this.#stride(name, pose, now));
+    };
+    const others = turtles.filter(({ name }) => name !== driven);
+    const top = turtles.find(({ name }) => name === driven);
+    others.forEach(draw);
+    if (turtles.length <= MOST_NAMES) for (const { name, at } of others) label(ctx, name, at, scale);
+    if (top) {
+      ring(ctx, top.at, scale);
+      draw(top);
     }
     if (ghost) {
       ctx.globalAlpha = 0.6;
       this.#put(ctx, ghost.name, ghost.at, ghost.theta, 0);
       ctx.globalAlpha = 1;
     }
-    if (turtles.length > MOST_NAMES) return;
-    for (const { name, at } of turtles) label(ctx, name, at, scale);
+    above((name, at) => label(ctx, name, at, 0.4 * scale));
+    if (top) label(ctx, driven, top.at, scale, "rgb(12 17 60 / 86%)");
   }
 
   keepOnly(names) {
@@ -99,7 +107,7 @@ function ring(ctx, [x, y], scale) {
 }
 
 /** The name below the turtle, above it at the lower edge, and always inside of the canvas. */
-function label(ctx, fullName, [x, y], scale) {
+function label(ctx, fullName, [x, y], scale, fill = "rgb(12 17 60 / 55%)") {
   const half = LONGEST_LABEL / 2;
   const isLong = fullName.length > LONGEST_LABEL;
   const name = isLong ? `${fullName.slice(0, half)}…${fullName.slice(1 - half)}` : fullName;
@@ -109,8 +117,9 @@ function label(ctx, fullName, [x, y], scale) {
   const width = ctx.measureText(name).width + 1.1 * font;
   const left = Math.min(Math.max(x - width / 2, 4), size - width - 4);
   const below = y + 0.72 * scale;
-  const top = below > size - 1.6 * font ? y - 0.72 * scale - 1.5 * font : below;
-  ctx.fillStyle = "rgb(12 17 60 / 55%)";
+  const beside = below > size - 1.6 * font ? y - 0.72 * scale - 1.5 * font : below;
+  const top = Math.min(Math.max(beside, 4), size - 1.5 * font - 4);
+  ctx.fillStyle = fill;
   ctx.beginPath();
   ctx.roundRect(left, top, width, 1.5 * font, 0.75 * font);
   ctx.fill();

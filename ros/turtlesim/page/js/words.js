@@ -50,3 +50,9 @@ export function fieldInWords(names, poses) {
   const rest = names.length > 8 ? ` and ${names.length - 8} more` : "";
   return `The field, 11 by 11 metres, with ${some.join("; ")}${rest}`;
 }
+
+/** How the simulation goes. */
+export function paceInWords(speed) {
+  if (speed === 0) return "paused";
+  return speed === 1 ? "live" : `live, ${speed} ×`;
+}

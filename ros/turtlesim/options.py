@@ -1,0 +1,55 @@
+"""The command line of the simulator, outside of ``--ros-args``."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+
+from rclpy.utilities import remove_ros_args
+
+__all__ = ["check_port", "parse_options"]
+
+
+def parse_options(args: list[str]) -> argparse.Namespace:
+    """The options outside of ``--ros-args``; unknown arguments are ignored, as in the original."""
+    from turtlewire.web.desktop import wanted_lan
+
+    parser = argparse.ArgumentParser(
+        prog="turtlesim_node", description="Turtles on a field, shown in the browser."
+    )
+    shown = parser.add_mutually_exclusive_group()
+    shown.add_argument("--headless", action="store_true", help="serve no page")
+    shown.add_argument(
+        "--lan",
+        action="store_true",
+        default=wanted_lan(),
+        help="serve the page to other devices of the network, too, for those who have its address",
+    )
+    parser.add_argument(
+        "--speed",
+        type=_factor,
+        metavar="N",
+        help="run N times faster than real time and publish /clock; for nodes with use_sim_time",
+    )
+    return parser.parse_known_args(remove_ros_args(args)[1:])[0]
+
+
+def check_port() -> None:
+    """End the program if TURTLEWIRE_PORT is wrong, before the node is announced."""
+    from turtlewire.web.desktop import wanted_port
+
+    try:
+        wanted_port()
+    except ValueError as error:
+        sys.exit(f"turtlesim_node: error: {error}")
+
+
+def _factor(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0.0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f"expected a number greater than 0, got {text!r}")
+    return value
