@@ -241,6 +241,10 @@ a NaN or infinite command loses the turtle
   turtlesim/test_turtlesim_node.py test_what_is_not_finite_is_ignored_with_one_line test_a_heading_that_is_not_finite_is_rejected
 an invalid turtle name ends the process
   turtlesim/test_turtlesim_node.py test_start_spawn_kill_and_reset_with_their_texts
+the simulation goes in real time
+  turtlesim/test_turtlesim_node.py test_the_speed_is_a_parameter_from_its_first_use_on test_in_a_pause_nothing_moves_and_no_pose_comes test_a_faster_simulation_has_its_speed_as_a_parameter
+lines have the pen's colour
+  turtlesim/test_page_settings.py test_lines_have_the_colour_of_their_turtles_shell test_only_the_pen_that_nobody_set_is_tinted
 nothing is said of turtles that others wait for
   turtlesim/test_turtlesim_node.py test_a_wanted_turtle_is_named_with_the_command test_the_command_for_a_wanted_turtle_is_shown_until_it_is_there
   turtlesim/test_page.py test_a_missing_turtle_is_offered

@@ -72,8 +72,8 @@ def test_commands(message, command):
         (
             "[1]",
             (
-                "type is one of drive, rotate, cancel, spawn, teleport, kill, clear, reset, watch, "
-                "unwatch"
+                "type is one of drive, rotate, cancel, spawn, teleport, kill, pen, background, "
+                "speed, clear, reset, watch, unwatch"
             ),
         ),
         ('{"type": "explode"}', "type is one of"),
@@ -90,6 +90,11 @@ def test_commands(message, command):
         ),
         ('{"type": "drive", "turtle": "t", "linear": true, "angular": 0}', "linear is a number"),
         ('{"type": "drive", "turtle": "t", "linear": 0, "angular": "1"}', "angular is a number"),
+        ('{"type": "background", "r": 256, "g": 0, "b": 0}', "r is a whole number between 0 and"),
+        ('{"type": "background", "r": 0.5, "g": 0, "b": 0}', "r is a whole number between 0 and"),
+        ('{"type": "speed", "factor": -1}', "factor is a number between 0 and 100"),
+        ('{"type": "speed", "factor": 101}', "factor is a number between 0 and 100"),
+        ('{"type": "watch", "target": "", "source": "", "axes": 1}', "axes is true or false"),
     ],
 )
 def test_what_is_no_command(text, part):

@@ -9,9 +9,9 @@ const SHORT_METRES = 0.25; // a shorter component gets no number
 
 /**
  * Draw on `ctx`. `frames`: Map of name to [x, y, and the directions of its two axes seen from
- * above]; `from`, `to`: the frames of the arrow, or null; `named(name)`: whether the field names the
- * frame anyway; `toCanvas({ x, y })`: canvas pixels; `scale`: canvas pixels per metre; `label(name,
- * at)` writes a name.
+ * above]; `from`, `to`: the frames of the arrow, or null; `named(name)`: whether the field names
+ * the frame anyway; `toCanvas({ x, y })`: canvas pixels; `scale`: canvas pixels per metre;
+ * `label(name, at)` writes a name.
  */
 export function drawAxes(ctx, { frames, from, to, named, toCanvas, scale, label }) {
   const arrow = from !== to && frames.has(from) && frames.has(to);

@@ -85,7 +85,8 @@ export class FramesPanel {
     label.textContent = name;
     item.append(label, reading);
     this.#readings.set(name, { item, reading });
-    const below = (children.get(name) ?? []).slice(0, Math.max(0, MOST_FRAMES - this.#readings.size));
+    const room = Math.max(0, MOST_FRAMES - this.#readings.size);
+    const below = (children.get(name) ?? []).slice(0, room);
     if (below.length) {
       const list = document.createElement("ul");
       list.append(...below.map((child) => this.#branch(child, children)));
@@ -109,8 +110,11 @@ export class FramesPanel {
   #offer(names, roots) {
     const { source, target } = this.#chosen;
     const pick = (chosen, wishes, other) =>
-      names.includes(chosen) ? chosen : wishes.find((name) => names.includes(name) && name !== other);
-    const seen = pick(source, ["turtle1", ...names.filter((name) => !roots.includes(name))], target);
+      names.includes(chosen)
+        ? chosen
+        : wishes.find((name) => names.includes(name) && name !== other);
+    const children = names.filter((name) => !roots.includes(name));
+    const seen = pick(source, ["turtle1", ...children], target);
     const seeing = pick(target, ["turtle2", ...roots, ...names], seen);
     for (const [id, wanted] of [["source", seen], ["target", seeing]]) {
       byId(id).replaceChildren(

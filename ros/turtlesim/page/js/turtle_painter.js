@@ -20,8 +20,8 @@ export class TurtlePainter {
 
   /**
    * `turtles`: [{ name, pose, at: [x, y] }] in canvas pixels; `scale`: canvas pixels per metre;
-   * `above(label)`: draws what lies over the turtles, and below the driven one's name; the rest as in
-   * Field. The driven turtle lies on the others, and nothing on its name.
+   * `above(label)`: draws what lies over the turtles, and below the driven one's name; the rest as
+   * in Field. The driven turtle lies on the others, and nothing on its name.
    */
   paint(ctx, { turtles, ghost, driven, scale, now, above }) {
     if (scale !== this.#spriteScale) this.#sprites.clear();
@@ -34,7 +34,8 @@ export class TurtlePainter {
     const others = turtles.filter(({ name }) => name !== driven);
     const top = turtles.find(({ name }) => name === driven);
     others.forEach(draw);
-    if (turtles.length <= MOST_NAMES) for (const { name, at } of others) label(ctx, name, at, scale);
+    const named = turtles.length > MOST_NAMES ? [] : others;
+    for (const { name, at } of named) label(ctx, name, at, scale);
     if (top) {
       ring(ctx, top.at, scale);
       draw(top);
