@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["Channel"]
 
 #: How many messages may wait for the wire's reader thread, which only puts them into queues.
-_DEPTH = 1000
+_DEPTH = 100
 
 
 class Channel:
@@ -55,6 +55,7 @@ class Channel:
         self._durable: QoS | None = None  # how to subscribe to publishers that keep messages
         self._volatile: QoS | None = None  # and to the others
         self._keepers: frozenset[bytes] = frozenset()  # gids of the former
+        self._others: frozenset[bytes] = frozenset()  # and of the latter
         # Replaced, never changed: threads of the wire read it.
         self._receivers: tuple[tuple[Outbox, int], ...] = ()
         self._shared: Subscription | None = None
@@ -79,6 +80,7 @@ class Channel:
         durable = _fitting(keepers, Durability.TRANSIENT_LOCAL) or self._durable
         volatile = _fitting(others, Durability.VOLATILE) or self._volatile
         self._keepers = frozenset(end.gid for end in keepers)
+        self._others = frozenset(end.gid for end in others)
         if durable != self._durable:
             self._durable = durable
             for outbox, number in self._receivers:
@@ -125,6 +127,8 @@ class Channel:
             former.close()
 
         def receive(cdr: bytes, info: MessageInfo) -> None:
+            if info.publisher_gid in self._others:  # Zenoh matches all: the shared one has it, too
+                return
             outbox.put(subscription_id, self._now_ns() or info.received_timestamp_ns, cdr)
 
         self._own[outbox] = self._subscribe(self._durable, receive)

@@ -142,10 +142,15 @@ class Offers:
         try:
             definition, known_hash = schema(type_name), type_hash(type_name)
         except InterfaceError as error:
-            self._refuse("topic", (topic, type_name), error)
+            reason = f"its type {type_name} is not installed here ({error})"
+            self._refuse("topic", (topic, type_name), reason)
             return None
         their_hash = next((end.type_hash for end in publishers if end.type_hash), known_hash)
-        type_id = TypeId(type_name, their_hash)
+        if their_hash != known_hash:  # clients would read other values than were sent
+            reason = f"its publisher has another definition of {type_name} than this installation"
+            self._refuse("topic", (topic, type_name), reason)
+            return None
+        type_id = TypeId(type_name, known_hash)
         return Channel(next(self._numbers), topic, type_id, definition, self._node, self._now_ns)
 
     def _add_services(self, wanted: set[tuple[str, str]]) -> list[Any]:
@@ -154,17 +159,16 @@ class Offers:
             try:
                 service = offered_service(next(self._numbers), *key)
             except InterfaceError as error:
-                self._refuse("service", key, error)
+                reason = f"its type {key[1]} is not installed here ({error})"
+                self._refuse("service", key, reason)
                 continue
             self._services[key] = self.services[service.number] = service
             new.append(service.advertisement())
         return new
 
-    def _refuse(self, what: str, key: tuple[str, str], error: InterfaceError) -> None:
+    def _refuse(self, what: str, key: tuple[str, str], reason: str) -> None:
         self._refused.add(key)
-        self._warn(
-            f"{what} {key[0]} is not offered: its type {key[1]} is not installed here ({error})"
-        )
+        self._warn(f"{what} {key[0]} is not offered: {reason}")
 
 
 def _servers(endpoints: list[EndpointInfo]) -> set[tuple[str, str]]:

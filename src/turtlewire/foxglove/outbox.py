@@ -68,6 +68,11 @@ class Outbox:
         """Whether so much waits besides messages that the client should ask for no more."""
         return self._frame_bytes >= _CROWD_BYTES or len(self._frames) >= _CROWD
 
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing waits."""
+        return not (self._frames or self._messages) and self._time is None
+
     def send(self, frame: str | bytes) -> None:
         """Add a frame that is not lost."""
         with self._lock:

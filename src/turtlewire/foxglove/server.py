@@ -42,6 +42,8 @@ _CLOSE_TIMEOUT = 0.5
 _PING_TIMEOUT = 120
 #: So many frames are sent to one client before the others get their turn.
 _TURN = 64
+#: What comes closer together than this is sent together: a wake-up costs more than a frame [s].
+_REST = 0.004
 #: Origins that are warned of; further ones are refused in silence.
 _MOST_WARNINGS = 20
 
@@ -203,15 +205,20 @@ class FoxgloveServer:
 
 
 async def _send(connection: ServerConnection, session: Session, wake: asyncio.Event) -> None:
+    clock = asyncio.get_running_loop().time
+    woken = 0.0
     while True:
         await wake.wait()
         wake.clear()
+        is_dense, woken = clock() - woken < _REST, clock()
         sent = 0
         while (frame := session.outbox.take()) is not None:
             session.frame_taken()
             await connection.send(frame)
             sent += 1
-            if sent % _TURN == 0:
+            if is_dense and session.outbox.is_empty:
+                await asyncio.sleep(_REST)
+            elif sent % _TURN == 0:
                 await asyncio.sleep(0)  # sending does not wait as long as the socket takes it
 
 
