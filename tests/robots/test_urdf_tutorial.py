@@ -53,7 +53,7 @@ def test_every_model_is_displayed(model, sourced, run):
     assert echo.wait() == 0
     robot = ET.fromstring(echo.text.replace("\n---", "").strip())
     assert len(robot.findall("link")) == MODELS[model]
-    launch.wait_for("turtlewire has no 3D view yet")
+    launch.wait_for(r"\[rviz2\]: The view is at http://")
     end(launch)
 
 

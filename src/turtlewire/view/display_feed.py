@@ -31,6 +31,7 @@ __all__ = ["Base", "DisplayFeed"]
 _logger = logging.getLogger(__name__)
 _MOST_MESSAGES = 1000
 _MOST_WAITING = 50
+_MOST_EVENTS = 1000
 
 
 class Base:
@@ -95,6 +96,7 @@ class DisplayFeed:
         self._shown: dict[str, Content] = {}
         self._base: Base | None = None
         self._ready: dict[str, bytes] = {}
+        self._told: set[str] = set()  # parts that the page has
         self._status: Status | None = None
         self._own_status = Status("ok", "")
         self._events = count()
@@ -117,6 +119,7 @@ class DisplayFeed:
         """What the page does not have yet; a newer content of a part replaces an older one."""
         with self._lock:
             ready, self._ready = self._ready, {}
+            self._told |= self._shown.keys() & ready.keys()
             status, self._status = self._status, None
         packets = list(ready.values())
         if status is not None and status != self._said:
@@ -177,8 +180,13 @@ class DisplayFeed:
     def _forget(self, part: str) -> None:
         self._shown.pop(part, None)
         self._waiting = deque(content for content in self._waiting if content.part != part)
-        with self._lock:
-            self._ready[part] = encode_packet({"type": "removed", "id": self.name, "part": part})
+        packet = encode_packet({"type": "removed", "id": self.name, "part": part})
+        with self._lock:  # a page that takes nothing for long is not told of what came and went
+            self._ready.pop(part, None)
+            self._ready.pop(f"pose {part}", None)
+            if part in self._told:
+                self._told.remove(part)
+                self._ready[part] = packet
 
     def _place_waiting(self, base: Base) -> None:
         still: deque[Content] = deque()
@@ -187,7 +195,7 @@ class DisplayFeed:
                 if still:
                     still.append(content)
                 else:
-                    self._send(content, {}, f"event {next(self._events)}")
+                    self._send_event(content)
                 continue
             pose = self._pose(content, base)
             if isinstance(pose, TransformException):
@@ -232,6 +240,12 @@ class DisplayFeed:
         with self._lock:
             self._ready.pop(f"pose {content.part}", None)
             self._ready[content.part if key is None else key] = packet
+
+    def _send_event(self, content: Content) -> None:
+        number = next(self._events)
+        self._send(content, {}, f"event {number}")
+        with self._lock:  # no page that sleeps may fill the memory
+            self._ready.pop(f"event {number - _MOST_EVENTS}", None)
 
     def _say(self, status: Status) -> None:
         with self._lock:

@@ -1,0 +1,108 @@
+"""What a display's page gets, and in which order: events after what they change, no leftovers."""
+
+from __future__ import annotations
+
+import pytest
+from tests.view.packets import decode_packet
+
+from turtlewire import msg
+from turtlewire.tf.buffer import Buffer
+from turtlewire.view.display_feed import Base, DisplayFeed
+from turtlewire.view.displays.marker import MarkerDisplay
+from turtlewire.view.displays.occupancy_grid import OccupancyGridDisplay
+
+Marker = msg.get_message("visualization_msgs/msg/Marker")
+
+
+class Page:
+    """A feed of one topic, and what a page has taken from it."""
+
+    def __init__(self, display, types):
+        self.buffer = Buffer()
+        self.feed = DisplayFeed("d", display, types, lambda _: None, lambda: None)
+
+    def send(self, message, topic="/t"):
+        self.feed.take_message(topic, msg.serialize(message))
+        self.feed.work(Base(self.buffer, "map", (0.0, 0.0, 0.0)))
+
+    def take(self):
+        return [decode_packet(packet) for packet in self.feed.take_packets()]
+
+    def know(self, frame):
+        self.buffer.set_transform("map", frame, 0, (1, 2, 3), (0, 0, 0, 1), static=True)
+
+
+@pytest.fixture
+def page():
+    return Page(MarkerDisplay(), {"/t": "visualization_msgs/msg/Marker"})
+
+
+def marker(key, action=0, frame="base"):
+    message = Marker(ns="n", id=key, type=1, action=action)
+    message.header.frame_id = frame
+    message.color.a = message.scale.x = message.scale.y = message.scale.z = 1.0
+    return message
+
+
+def test_a_deletion_waits_for_the_marker_that_it_deletes(page):
+    page.send(marker(1))
+    page.send(marker(2))
+    page.send(marker(2, action=2))
+    assert [packet["type"] for packet in page.take()] == ["status"]
+    page.know("base")
+    page.send(marker(3))
+    packets = page.take()
+    keys = [p["markers"][0]["key"][1] for p in packets if "markers" in p]
+    assert keys == [1, 3]  # the second one came and went
+    assert packets[0]["pose"][:3] == [1, 2, 3]
+
+
+def test_a_deletion_removes_the_part_that_it_empties(page):
+    page.know("base")
+    page.send(marker(1))
+    page.send(marker(2))
+    page.take()
+    page.send(marker(1, action=2))
+    removed, delete = page.take()
+    assert delete["delete"] == [["n", 1]]
+    assert (removed["type"], removed["part"]) == ("removed", "0")
+
+
+def test_each_update_of_a_map_is_sent():
+    types = {"/t": "nav_msgs/msg/OccupancyGrid", "/u": "map_msgs/msg/OccupancyGridUpdate"}
+    page = Page(OccupancyGridDisplay(), types)
+    page.know("base")
+    grid = msg.get_message(types["/t"])(data=[0, 0, 0, 0])
+    grid.header.frame_id = "base"
+    grid.info.width = grid.info.height = 2
+    grid.info.resolution = 1.0
+    page.send(grid)
+    change = msg.get_message(types["/u"])(width=1, height=1, data=[7])
+    for change.x in (0, 1):
+        page.send(change, "/u")
+    updates = [packet["update"] for packet in page.take() if "update" in packet]
+    assert updates == [[0, 0, 1, 1], [1, 0, 1, 1]]
+
+
+def test_a_page_that_takes_nothing_fills_no_memory(page):
+    page.know("base")
+    page.send(marker(1))
+    page.take()
+    for _ in range(5000):
+        page.send(marker(1))
+    for _ in range(3000):
+        page.send(marker(2))
+        page.send(marker(2, action=2))
+    kept = page.feed.take_packets()
+    assert len(kept) < 1100
+    assert sum(map(len, kept)) < 1_000_000
+
+
+def test_the_status_of_a_wait_ends_with_it(page):
+    page.send(marker(1))
+    assert page.take()[-1]["level"] == "warn"
+    page.know("base")
+    page.feed.work(Base(page.buffer, "map", (0.0, 0.0, 0.0)))
+    assert page.take()[-1] == {
+        "type": "status", "id": "d", "level": "ok", "text": "", "arrays": {},
+    }  # fmt: skip
