@@ -1,5 +1,7 @@
 """The URDF tutorials, as typed: packages of data built by colcon, launched, and moved by hand."""
 
+# ruff: noqa: F811 - a fixture is imported
+
 from __future__ import annotations
 
 import re
@@ -8,6 +10,7 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import pytest
+from tests.view.looking_down import browser_3d  # noqa: F401 - a fixture
 
 pytestmark = pytest.mark.slow
 
@@ -23,6 +26,20 @@ MODELS = {
     "08-macroed.urdf.xacro": 8,
 }
 SOURCES = Path(__file__).parent / "urdf_ws" / "src"
+#: Whether much of the picture is of the tutorial's orange, lit.
+ORANGE_IS_SEEN = """async () => {
+    const { stage } = await import("./js/main.js");
+    const bitmap = await createImageBitmap(await stage.view.picture());
+    const ink = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d");
+    ink.drawImage(bitmap, 0, 0);
+    const { data } = ink.getImageData(0, 0, bitmap.width, bitmap.height);
+    let count = 0;
+    for (let k = 0; k < data.length; k += 4) {
+        const [r, g, b] = data.subarray(k, k + 3);
+        if (r > 90 && g < 0.8 * r && g > 0.4 * r && b < 0.3 * r) count += 1;
+    }
+    return count > 1000;
+}"""
 DISPLAY = "ros2 launch urdf_tutorial display.launch.py"
 
 
@@ -54,6 +71,26 @@ def test_every_model_is_displayed(model, sourced, run):
     robot = ET.fromstring(echo.text.replace("\n---", "").strip())
     assert len(robot.findall("link")) == MODELS[model]
     launch.wait_for(r"\[rviz2\]: The view is at http://")
+    end(launch)
+
+
+def test_the_robot_is_seen(sourced, run, browser_3d):
+    """The page of the launched rviz2 shows what its .rviz file names, with meshes and colours."""
+    words = f"{DISPLAY} gui:=false model:=urdf/05-visual.urdf"
+    launch = run(*sourced(words), environment=HEADLESS)
+    address = launch.wait_for(r"The view is at (http://\S+)")[0][1]
+    page = browser_3d.new_page(color_scheme="light")
+    failures = []
+    page.on("requestfailed", lambda request: failures.append(request.url))
+    page.on(
+        "response", lambda answer: failures.append(answer.url) if answer.status >= 400 else None
+    )
+    page.goto(address)
+    page.wait_for_function(ORANGE_IS_SEEN, timeout=60_000)
+    assert page.input_value("#fixed") == "base_link"
+    assert page.inner_text("#display-list .title b") == "/robot_description"
+    assert failures == []
+    page.close()
     end(launch)
 
 

@@ -88,9 +88,9 @@ def test_a_page_that_takes_nothing_fills_no_memory(page):
     page.know("base")
     page.send(marker(1))
     page.take()
-    for _ in range(5000):
+    for _ in range(2000):
         page.send(marker(1))
-    for _ in range(3000):
+    for _ in range(1500):
         page.send(marker(2))
         page.send(marker(2, action=2))
     kept = page.feed.take_packets()
