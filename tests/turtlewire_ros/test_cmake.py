@@ -62,6 +62,9 @@ def value(evaluate, body: str) -> str:
         ("set(X 1)\nunset(X)", "not set"),
         ('set(X first CACHE STRING "doc")\nset(X second CACHE STRING "doc")', "first"),
         ('option(X "doc" ON)', "ON"),
+        ('set(A 1)\ncmake_dependent_option(X "doc" yes "A;NOT B" no)', "yes"),
+        ('set(B 1)\ncmake_dependent_option(X "doc" yes "A;NOT B" no)', "no"),
+        ("ament_get_python_install_dir(X)", "lib/py"),
         ("SET(X ${PROJECT_NAME}-${PROJECT_VERSION})", "robot-1.2.3"),
         ("list(APPEND X a b)\nlist(APPEND X c)\nlist(REMOVE_ITEM X b)", "a;c"),
         ("set(l a b c)\nlist(LENGTH l X)", "3"),
@@ -294,6 +297,7 @@ def test_the_nearest_package_is_named(tmp_path):
         "pybind11_add_module(walker src/walker.cpp)",
         'rclcpp_components_register_nodes(walker "a::B")',
         "ament_auto_add_library(walker src/walker.cpp)",
+        "externalproject_add(walker URL x)",
     ],
 )  # fmt: skip
 def test_what_compiles_is_refused_with_its_target(evaluate, body):
@@ -327,6 +331,7 @@ def test_the_python_of_a_package_with_cpp_is_installed(evaluate):
         "ament_export_dependencies(std_msgs)\nament_export_targets(x HAS_LIBRARY_TARGET)",
         "set_target_properties(a PROPERTIES B C)\ntarget_compile_features(a PUBLIC cxx_std_17)",
         "include(CTest)\ninclude(GNUInstallDirs)",
+        "include(CheckIncludeFile)\ncheck_include_file(a.h HAVE_A)\nFetchContent_Declare(a URL b)",
     ],
 )  # fmt: skip
 def test_what_compiles_nothing_is_let_pass(evaluate, body):

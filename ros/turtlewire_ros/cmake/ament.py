@@ -127,6 +127,10 @@ def _python_module(run: Interpreter, call: Call) -> None:
     )
 
 
+def _python_install_dir(run: Interpreter, call: Call) -> None:
+    run.variables[call.words[0]] = run.variables["PYTHON_INSTALL_DIR"]
+
+
 def _register_resource(run: Interpreter, call: Call) -> None:
     parsed = parse_keywords(
         call.words,
@@ -271,6 +275,7 @@ AMENT: dict[str, Handler] = {
     "ament_auto_package": _package,
     "ament_python_install_package": _python_package,
     "ament_python_install_module": _python_module,
+    "ament_get_python_install_dir": _python_install_dir,
     "ament_index_register_resource": _register_resource,
     "ament_environment_hooks": _environment_hooks,
     "pluginlib_export_plugin_description_file": _export_plugins,

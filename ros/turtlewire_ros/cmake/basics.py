@@ -9,7 +9,8 @@ import shlex
 from typing import TYPE_CHECKING
 
 from turtlewire_ros.cmake.arguments import parse_keywords
-from turtlewire_ros.cmake.syntax import CMakeError
+from turtlewire_ros.cmake.conditions import Condition
+from turtlewire_ros.cmake.syntax import Argument, CMakeError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -63,6 +64,16 @@ def _option(run: Interpreter, call: Call) -> None:
         raise CMakeError(call.place, "option() needs a variable")
     value = call.words[2] if len(call.words) > 2 else "OFF"
     run.variables.setdefault(call.words[0], value)
+
+
+def _dependent_option(run: Interpreter, call: Call) -> None:
+    """An option that another value replaces unless all conditions hold."""
+    name, _, value, depends, forced = call.words
+    conditions = [[Argument(word) for word in each.split()] for each in depends.split(";")]
+    if all(Condition(words, run, call.place).holds() for words in conditions if words):
+        run.variables.setdefault(name, value)
+    else:
+        run.variables[name] = forced
 
 
 def _message(run: Interpreter, call: Call) -> None:
@@ -258,6 +269,7 @@ BASICS: dict[str, Handler] = {
     "set": _set,
     "unset": _unset,
     "option": _option,
+    "cmake_dependent_option": _dependent_option,
     "message": _message,
     "list": _list,
     "string": _string,

@@ -24,6 +24,9 @@ _COMPILING = (
     "ament_auto_add_executable",
     "ament_auto_add_library",
     "generate_parameter_library",
+    "externalproject_add",
+    "fetchcontent_makeavailable",
+    "ament_vendor",
     "rclcpp_components_register_node",
     "rclcpp_components_register_nodes",
 )
@@ -42,6 +45,12 @@ _WITHOUT_EFFECT = (
     "write_basic_package_version_file", "check_cxx_compiler_flag", "pkg_check_modules",
     "pkg_search_module", "find_library", "find_path", "find_program", "find_file", "source_group",
     "ament_target_dependencies", "pluginlib_enable_plugin_testing", "rosidl_target_interfaces",
+    "check_include_file", "check_include_file_cxx", "check_symbol_exists",
+    "check_cxx_symbol_exists", "check_function_exists", "check_c_compiler_flag",
+    "check_cxx_source_compiles",
+    "find_package_handle_standard_args", "fetchcontent_declare", "define_property",
+    "class_loader_hide_library_symbols", "ament_generate_version_header", "ament_export_build_info",
+    "aux_source_directory", "get_directory_property", "get_cmake_property",
     "rosidl_get_typesupport_target", "qt5_wrap_cpp", "qt5_wrap_ui", "qt5_add_resources",
 )  # fmt: skip
 
