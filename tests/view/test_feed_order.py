@@ -10,6 +10,7 @@ from turtlewire.tf.buffer import Buffer
 from turtlewire.view.display_feed import Base, DisplayFeed
 from turtlewire.view.displays.marker import MarkerDisplay
 from turtlewire.view.displays.occupancy_grid import OccupancyGridDisplay
+from turtlewire.view.displays.point_cloud import PointCloudDisplay
 
 Marker = msg.get_message("visualization_msgs/msg/Marker")
 
@@ -96,6 +97,22 @@ def test_a_page_that_takes_nothing_fills_no_memory(page):
     kept = page.feed.take_packets()
     assert len(kept) < 1100
     assert sum(map(len, kept)) < 1_000_000
+
+
+def test_other_options_show_the_last_message_again():
+    page = Page(PointCloudDisplay(), {"/t": "sensor_msgs/msg/PointCloud2"})
+    page.know("base")
+    field = msg.get_message("sensor_msgs/msg/PointField")
+    fields = [field(name=name, offset=4 * k, datatype=7, count=1) for k, name in enumerate("xyz")]
+    cloud = msg.get_message("sensor_msgs/msg/PointCloud2")(
+        height=1, width=1, fields=fields, point_step=12, row_step=12, data=bytes(12)
+    )
+    cloud.header.frame_id = "base"
+    page.send(cloud)
+    page.take()
+    page.feed.set_options({"color": "flat", "flat_color": [1, 2, 3]})
+    page.feed.work(Base(page.buffer, "map", (0.0, 0.0, 0.0)))
+    assert page.take()[0]["arrays"]["rgba"].tolist() == [[1, 2, 3, 255]]
 
 
 def test_the_status_of_a_wait_ends_with_it(page):

@@ -77,6 +77,34 @@ def test_a_prefix_of_frames():
     assert content.header["links"][0]["frame"] == "left/base"
 
 
+def test_a_robot_of_a_file(prefix):
+    file = prefix / "share/arm/arm.urdf"
+    file.write_text(URDF.format(mesh="package://arm/meshes/none.stl"))
+    for name in (str(file), f"file://{file}", "package://arm/arm.urdf"):
+        display = RobotModelDisplay({"description_file": name})
+        content, status = display.start()
+        assert content.header["robot"] == "arm"
+        assert "has no file 'meshes/none.stl'" in status.text
+        assert display.content(None) == []
+    assert RobotModelDisplay().start() == []
+
+
+@pytest.mark.parametrize(
+    ("file", "why"),
+    [
+        ("/etc/passwd", "'/etc/passwd' is not the path of a .urdf file"),
+        ("package://arm/../../etc/a.urdf", "is not the path of a .urdf file"),
+        ("package://nowhere/a.urdf", "is not the path of a .urdf file"),
+        ("/nowhere/a.urdf", "'/nowhere/a.urdf' cannot be read: No such file or directory"),
+        ("/a\0.urdf", "'/a\\x00.urdf' cannot be read: "),
+    ],
+)
+def test_files_that_are_no_robot(file, why):
+    (status,) = RobotModelDisplay({"description_file": file}).start()
+    assert status.level == "error"
+    assert why in status.text
+
+
 @pytest.mark.parametrize("path", ROBOTS, ids=lambda path: path.stem)
 def test_each_golden_robot_is_drawn(path):
     content, status = described(path.read_text())

@@ -95,6 +95,8 @@ class DisplayFeed:
         self._waiting: deque[Content] = deque()
         self._shown: dict[str, Content] = {}
         self._base: Base | None = None
+        self._starts = True
+        self._last: dict[str, bytes] = {}  # topic to message, for displays that show it again
         self._ready: dict[str, bytes] = {}
         self._told: set[str] = set()  # parts that the page has
         self._status: Status | None = None
@@ -115,6 +117,13 @@ class DisplayFeed:
             self._inbox.append((topic, cdr))
             self._on_work(self)
 
+    def set_options(self, options: Mapping[str, object]) -> None:
+        """Take the user's choices; for the thread of the page's commands."""
+        self.display.set_options(options)
+        self._starts = True
+        self._inbox.extend(list(self._last.items()))
+        self._on_work(self)
+
     def take_packets(self) -> list[bytes]:
         """What the page does not have yet; a newer content of a part replaces an older one."""
         with self._lock:
@@ -133,8 +142,13 @@ class DisplayFeed:
 
     def work(self, base: Base) -> None:
         """Turn messages into packets as far as transforms allow."""
+        if self._starts:
+            self._starts = False
+            self._take(self._guarded(self.display.start))
         while self._inbox:
             topic, cdr = self._inbox.popleft()
+            if self.display.replays:
+                self._last[topic] = cdr
             self._take(self._outputs(topic, cdr))
         self._place_waiting(base)
         if self._base is None or not base.same_place(self._base):
@@ -153,8 +167,11 @@ class DisplayFeed:
             message: Any = msg.deserialize(self._classes[topic], cdr)
         except CdrError as error:
             return [Status.of("error", f"A message on {topic} cannot be read: {error}")]
+        return self._guarded(lambda: self.display.content(message))
+
+    def _guarded(self, make: Callable[[], list[Output]]) -> list[Output]:
         try:
-            return self.display.content(message)
+            return make()
         except Exception:  # a fault of ours must not end the thread of all displays
             _logger.exception("The display %s cannot show a message", self.display.kind)
             return [Status.of("error", "This message cannot be shown; the log says why.")]

@@ -19,7 +19,14 @@ from turtlewire.web import Content
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["MEDIA_TYPES", "MeshAddress", "MeshFile", "MeshLibrary", "mesh_address"]
+__all__ = [
+    "MEDIA_TYPES",
+    "MeshAddress",
+    "MeshFile",
+    "MeshLibrary",
+    "file_of_package",
+    "mesh_address",
+]
 
 #: Kinds of files that are served, and their media types: meshes, and what they refer to.
 MEDIA_TYPES = {
@@ -93,6 +100,13 @@ def mesh_address(uri: str, *, texture: bool = False) -> MeshAddress:
     return MeshAddress(
         None, f"'{uri}' is not loaded: only package:// addresses are, and file:// ones of packages"
     )
+
+
+def file_of_package(uri: str) -> str | None:
+    """The path of a ``package://`` address; None if it is none, or there is no such package."""
+    package, _, path = uri.removeprefix("package://").partition("/")
+    path = unquote(path)
+    return None if _problem(package, path) else _file_of(package, path) or None
 
 
 class MeshLibrary:

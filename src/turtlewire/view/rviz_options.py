@@ -225,6 +225,9 @@ def from_rviz(name: str, properties: dict[str, Any]) -> tuple[str, dict[str, obj
         found["size_metres"] = 0  # this style alone is as wide as its pixels say
     if name in _BY_TYPE.values():
         found["message_type"] = next(each for each, shows in _BY_TYPE.items() if shows == name)
+    if properties.get("Description Source") == "File":
+        file = _read_text(properties.get("Description File"))
+        found |= {"description_file": file} if file else {}
     topic = _topic(properties)
     return topic or ("/robot_description" if kind == "robot_model" else ""), found
 
@@ -242,7 +245,13 @@ def to_rviz(name: str, topic: str, options: dict[str, object]) -> dict[str, Any]
     }
     properties: dict[str, Any] = {}
     if kind == "robot_model":
-        properties = {"Description Source": "Topic", "Description Topic": address}
+        file = _read_text(options.get("description_file")) or ""
+        source = "File" if file else "Topic"
+        properties = {
+            "Description File": file,
+            "Description Source": source,
+            "Description Topic": address,
+        }
     else:
         properties = {"Topic": address}
     for option in known:

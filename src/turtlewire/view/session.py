@@ -238,7 +238,7 @@ class Session:
         name = _text(command, "id")
         if name not in self._feeds:
             raise CommandError(f"There is no display {name!r}.")
-        self._feeds[name].display.set_options(_options(command))
+        self._feeds[name].set_options(_options(command))
 
     def _set_budget(self, command: dict[str, Any]) -> None:
         self._budget = int(_number(command, "points", least=1))

@@ -102,12 +102,14 @@ class Display:
         kind: Name of the module below ``page/js/displays`` that draws it.
         companions: Further topics of the display: what is appended to the topic's name, and the
             message type there. Messages of both go to :meth:`content`.
+        replays: Whether the last message is shown again with other options.
         options: What the user chose.
         budget: How many points may be sent with one message.
     """
 
     kind: ClassVar[str]
     companions: ClassVar[dict[str, str]] = {}
+    replays: ClassVar[bool] = False
 
     def __init__(
         self,
@@ -124,14 +126,22 @@ class Display:
         """Take the user's choices for the messages to come."""
         self.options = Options(options)
 
+    def start(self) -> list[Output]:
+        """What to send before the first message, and again with each choice of options."""
+        return []
+
     def content(self, message: Any) -> list[Output]:
         """What to send for a message, in this order. A status comes last, each time.
 
         Never raises for what a message holds: what cannot be drawn is said in the status.
         """
+        return self._answer(lambda: self._outputs(message))
+
+    def _answer(self, make: Callable[[], list[Output]]) -> list[Output]:
+        """What ``make`` gives, and the status."""
         self._warnings = []
         try:
-            outputs = self._outputs(message)
+            outputs = make()
         except UnusableMessageError as error:
             return [Status.of("error", str(error))]
         if self._warnings:

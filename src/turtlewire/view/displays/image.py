@@ -28,6 +28,7 @@ class ImageDisplay(Display):
     """
 
     kind = "image"
+    replays = True
 
     def _outputs(self, message: Any) -> list[Output]:
         rgba = rgba_of(message, self.options, _LARGEST_SIDE)
@@ -44,6 +45,7 @@ class CompressedImageDisplay(Display):
     """The file in a ``sensor_msgs/msg/CompressedImage``: the browser decodes JPEG and PNG."""
 
     kind = "image"
+    replays = True
 
     def _outputs(self, message: Any) -> list[Output]:
         data = bytes(message.data[: _LARGEST_FILE + 1])

@@ -29,6 +29,7 @@ class LaserScanDisplay(Display):
     """
 
     kind = "laser_scan"
+    replays = True
 
     def _outputs(self, message: Any) -> list[Output]:
         ranges = np.asarray(message.ranges, dtype=np.float64)

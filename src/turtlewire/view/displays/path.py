@@ -33,6 +33,7 @@ class PathDisplay(Display):
     """
 
     kind = "path"
+    replays = True
 
     def __init__(self, options: Mapping[str, object] | None = None, **keywords: Any) -> None:
         super().__init__(options, **keywords)

@@ -34,6 +34,7 @@ class PointCloudDisplay(Display):
     """
 
     kind = "point_cloud"
+    replays = True
 
     def _outputs(self, message: Any) -> list[Output]:
         points = picked_points(message, self.budget, self.warn)

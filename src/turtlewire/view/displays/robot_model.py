@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from turtlewire.urdf import UrdfError, parse_urdf
 from turtlewire.urdf.model import Box, Cylinder, Mesh, Sphere
 from turtlewire.view.displays.content import Content, Display, Output, UnusableMessageError
-from turtlewire.view.meshes import mesh_address
+from turtlewire.view.meshes import file_of_package, mesh_address
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -26,14 +26,41 @@ _LONGEST_DESCRIPTION = 16 * 2**20
 class RobotModelDisplay(Display):
     """The robot that a ``std_msgs/msg/String`` describes.
 
-    Options: ``tf_prefix`` stands before the links' names in frames, with a slash. ``visual`` and
+    Options: ``description_file`` is the path of a ``.urdf`` file that is shown instead of what the
+    topic says. ``tf_prefix`` stands before the links' names in frames, with a slash. ``visual`` and
     ``collision`` say to the page what is drawn.
     """
 
     kind = "robot_model"
+    replays = True
+
+    def start(self) -> list[Output]:
+        """The robot of the file that the options name."""
+        file = self.options.text("description_file")
+        return self._answer(lambda: [self._robot(_text_of(file))]) if file else []
+
+    def content(self, message: Any) -> list[Output]:
+        """The robot of a message, unless the options name a file."""
+        return [] if self.options.text("description_file") else super().content(message)
 
     def _outputs(self, message: Any) -> list[Output]:
-        return [robot_content(message.data, self.options.text("tf_prefix"), self.warn)]
+        return [self._robot(message.data)]
+
+    def _robot(self, text: str) -> Content:
+        return robot_content(text, self.options.text("tf_prefix"), self.warn)
+
+
+def _text_of(file: str) -> str:
+    """The description in a file, a path or ``package://`` address that ends with ``.urdf``."""
+    path = file_of_package(file) if file.startswith("package://") else file.removeprefix("file://")
+    if path is None or not path.endswith(".urdf"):
+        raise UnusableMessageError(f"'{file}' is not the path of a .urdf file")
+    try:
+        with open(path, encoding="utf-8", errors="replace") as opened:
+            return opened.read(_LONGEST_DESCRIPTION + 1)
+    except (OSError, ValueError) as error:  # a path with a NUL is a ValueError
+        reason = getattr(error, "strerror", None) or str(error)
+        raise UnusableMessageError(f"'{file}' cannot be read: {reason}") from error
 
 
 def robot_content(text: str, tf_prefix: str, warn: Callable[[str], None]) -> Content:

@@ -9,6 +9,7 @@ export const OPTIONS = [
   { name: "visual", label: "Visual", type: "bool", value: true },
   { name: "collision", label: "Collision", type: "bool", value: false },
   { name: "alpha", label: "Alpha", type: "number", value: 1, min: 0, max: 1, step: 0.1 },
+  { name: "description_file", label: "URDF file, not the topic", type: "text", value: "" },
   { name: "tf_prefix", label: "TF prefix", type: "text", value: "" },
 ];
 const PLAIN_COLOR = [200, 10, 10, 255]; // RViz's, of what has no material
