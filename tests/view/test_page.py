@@ -137,6 +137,29 @@ def test_shift_and_a_second_frame_asks_for_their_relation(page, fake):
     assert page.input_value("#relation-target") == "beacon"
 
 
+def test_an_arrow_leads_straight_from_the_frame_that_looks(page, fake):
+    press(page, POSES[2][:3])
+    press(page, POSES[3][:3], modifiers=["Shift"])
+    fake.wait_for(lambda c: c.get("target") == "beacon")
+    (red, green, blue), beside = page.evaluate(PIXELS, [[1, 2.5, 0.5], [1, 2.5, 1.5]])
+    assert blue - max(red, green) > 60
+    assert tuple(beside) == GROUND
+
+
+def test_a_tap_selects_and_a_finger_turns(fake, open_view):
+    fake.names(CHAIN)
+    fake.frames(POSES)
+    page = open_view(fake.url, has_touch=True, viewport={"width": 390, "height": 780})
+    page.wait_for_selector("#tree .row:has-text('arm')")
+    x, y = on_screen(page, POSES[3][:3])
+    box = page.locator("#scene").bounding_box()
+    page.touchscreen.tap(box["x"] + x, box["y"] + y)
+    fake.wait_for(lambda c: c["type"] == "relation" and c.get("source") == "beacon")
+    assert page.evaluate(
+        "() => getComputedStyle(document.querySelector('#scene')).touchAction"
+    ) == ("none")
+
+
 def test_dragging_selects_nothing(page, fake):
     before = on_screen(page, POSES[2][:3])
     page.mouse.move(before[0] + 30, before[1] + 120)
@@ -286,6 +309,22 @@ def test_a_trail_stays_where_a_frame_was(page, fake):
     on, beside = page.evaluate(PIXELS, [[-1, 4.25, 0], [-1.5, 4.25, 0]])
     assert max(abs(a - b) for a, b in zip(on, GROUND, strict=True)) > 60
     assert tuple(beside) == GROUND
+
+
+def test_a_trail_outlives_other_names_but_not_another_fixed_frame(page, fake):
+    page.click("#tree .row:has-text('beacon')")
+    page.click("#trail")
+    count = "return stage.trails.lengthOf('beacon')"
+    for step in range(3):
+        fake.frames([*POSES[:3], pose(-1, 3 + step)])
+    in_page(page, "while (frames.poses[22] < 4.5) await new Promise(requestAnimationFrame);")
+    before = in_page(page, count)
+    fake.names({**CHAIN, "late": "world"})
+    page.wait_for_selector("#tree .row:has-text('late')")
+    assert in_page(page, count) == before > 0
+    fake.names({**CHAIN, "late": "world"}, fixed="base")
+    in_page(page, "while (frames.fixed !== 'base') await new Promise(requestAnimationFrame);")
+    assert in_page(page, count) == 0
 
 
 def test_nothing_is_drawn_while_nothing_changes(page):

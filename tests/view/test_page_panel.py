@@ -188,6 +188,14 @@ def test_the_fixed_frame_is_chosen_or_automatic(page, fake):
     fake.wait_for(lambda c: c == {"type": "fixed", "frame": ""})
 
 
+def test_the_fixed_frame_of_the_command_line_is_shown(fake, open_view):
+    fake.names(PARENTS, fixed="turtle1")
+    page = open_view(fake.url)
+    page.wait_for_selector("#tree .row:has-text('turtle2')")
+    assert page.input_value("#fixed") == "turtle1"
+    assert page.inner_text("#relation-target option:checked") == "turtle1"
+
+
 LIVE = {"now": 20.0, "oldest": 10.0, "newest": 20.0, "live": True, "playing": True, "speed": 1.0}
 
 

@@ -18,11 +18,14 @@ export class FrameDrawing {
   #shafts = new ThickLines(1.5);
   #heads = new ArrowHeads();
   #path = new ThickLines(5, { onTop: true });
+  #straight = new ThickLines(1.5, { onTop: true });
+  #straightHead = new ArrowHeads();
   #colors;
 
   constructor(colors) {
     this.setColors(colors);
-    this.object.add(this.#axes.object, this.#shafts.object, this.#heads.object, this.#path.object);
+    const parts = [this.#axes, this.#shafts, this.#heads, this.#path, this.#straight];
+    this.object.add(...parts.map(({ object }) => object), this.#straightHead.object);
   }
 
   setColors(colors) {
@@ -38,6 +41,7 @@ export class FrameDrawing {
     this.#drawAxes(frames, dim);
     this.#drawArrows(frames, dim);
     this.#drawPath(frames, path);
+    this.#drawStraight(frames, path);
   }
 
   #drawAxes(frames, dim) {
@@ -99,6 +103,24 @@ export class FrameDrawing {
       count += 1;
     }
     this.#path.show(count);
+  }
+
+  /** The arrow from the last frame of the path to the first: what the relation's numbers tell. */
+  #drawStraight(frames, path) {
+    const [source, target] = [path[0], path.at(-1)];
+    const isShown = path.length > 2 && frames.isShown(source) && frames.isShown(target);
+    const { ends, colors } = this.#straight.reserve(1);
+    if (isShown) {
+      const [from, to] = [frames.position(target), frames.position(source)];
+      const along = to.map((value, i) => value - from[i]);
+      ends.set([...from, ...to]);
+      this.#write(colors, 0, this.#colors.accent, 0, 255);
+      const head = Math.min(0.55 * this.size, 0.4 * Math.hypot(...along));
+      this.#straightHead.reserve(1);
+      this.#straightHead.set(0, to, head, along, [...this.#colors.accent, 255]);
+    }
+    this.#straight.show(isShown ? 1 : 0);
+    this.#straightHead.show(isShown ? 1 : 0);
   }
 
   /** A colour, on its way to grey, into `ends` vertices from `at` on. */

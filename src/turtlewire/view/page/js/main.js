@@ -100,6 +100,7 @@ function takeHello({ source }) {
 
 function takeNames(packet) {
   frames.takeNames(packet);
+  chosenFixed = packet.chosen ?? chosenFixed;
   hiding.apply(frames);
   const others = [...frames.names].sort(naturalOrder).map((name) => [name, name]);
   const automatic = frames.roots[0] ? `automatic (${frames.roots[0]})` : "automatic";
@@ -186,7 +187,6 @@ function notice(text, level, passes = true) {
 function chooseFixed(name) {
   chosenFixed = name;
   byId("fixed").value = name;
-  stage?.trails.clear();
   send({ type: "fixed", frame: name });
 }
 

@@ -24,6 +24,7 @@ export class Stage {
   #settling = null;
   #fading = null;
   #fitted = -1;
+  #fixed = "";
   #sizeIsChosen = false;
   #onLook;
 
@@ -59,7 +60,8 @@ export class Stage {
 
   /** After a `names` packet. */
   takeNames() {
-    this.trails.clear();
+    if (this.#fixed !== this.#frames.fixed) this.trails.clear();
+    this.#fixed = this.#frames.fixed;
     this.#path = [];
     this.#selection = { source: -1, target: -1 };
     this.change();

@@ -21,6 +21,11 @@ export class Trails {
     return this.#trails.has(name);
   }
 
+  /** How many points the trail of a frame has. */
+  lengthOf(name) {
+    return this.#trails.get(name)?.points.length ?? 0;
+  }
+
   /** Begin or end the trail of a frame. */
   toggle(name) {
     const trail = this.#trails.get(name);
