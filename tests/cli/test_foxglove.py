@@ -30,6 +30,21 @@ def test_it_tells_its_address_serves_and_ends_at_ctrl_c(foxglove):
     assert "Traceback" not in program.text
 
 
+def test_sigterm_ends_it_cleanly_although_a_client_does_not_answer(foxglove):
+    program = foxglove("--port", "0")
+    port = int(program.wait_for(r"ws://127\.0\.0\.1:(\d+) ")[0][1])
+    with socket.create_connection(("127.0.0.1", port)) as silent:
+        silent.sendall(
+            b"GET / HTTP/1.1\r\nHost: x\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+            b"Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Version: 13\r\n"
+            b"Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n\r\n"
+        )
+        program.wait_for("connected")
+        program.signal_group(signal.SIGTERM)
+        assert program.wait() == 0
+    assert "Traceback" not in program.text
+
+
 def test_a_port_in_use_is_named_with_the_way_out(foxglove):
     with socket.create_server(("127.0.0.1", 0)) as other:
         port = other.getsockname()[1]

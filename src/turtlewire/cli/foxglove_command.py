@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import signal
 import sys
 import threading
 from typing import TYPE_CHECKING, Any
@@ -25,6 +27,24 @@ def add_foxglove_command(commands: Any) -> None:
     parser = commands.add_parser(
         "foxglove", help=summary, description=summary, epilog=_EPILOG, allow_abbrev=False
     )
+    _add_place(parser)
+    _add_offers(parser)
+    parser.add_argument(
+        "--send-buffer-limit",
+        type=int,
+        default=10_000_000,
+        metavar="BYTES",
+        help="How much may wait for a slow client before it loses old messages "
+        "(default: %(default)s)",
+    )
+    parser.add_argument(
+        "--use-sim-time", action="store_true", help="Take the time from /clock and send it"
+    )
+    parser.set_defaults(run=_foxglove, parser=parser)
+
+
+def _add_place(parser: argparse.ArgumentParser) -> None:
+    """Options that say where it listens, and to whom."""
     parser.add_argument(
         "--port",
         type=int,
@@ -39,6 +59,18 @@ def add_foxglove_command(commands: Any) -> None:
         help="Where to listen (default: 127.0.0.1, this machine only); 0.0.0.0 lets everybody on "
         "the network read all topics, publish and call services",
     )
+    parser.add_argument(
+        "--origin",
+        action="append",
+        default=[],
+        metavar="PAGE",
+        help="Let pages of this origin connect, too, such as https://example.org; may be given "
+        "several times",
+    )
+
+
+def _add_offers(parser: argparse.ArgumentParser) -> None:
+    """Options that say what clients may see and do."""
     for option, what in (
         ("--topic", "Offer topics"),
         ("--service", "Offer services"),
@@ -57,26 +89,6 @@ def add_foxglove_command(commands: Any) -> None:
         action="store_true",
         help="Offer no publishing, services and parameters: clients only read topics",
     )
-    parser.add_argument(
-        "--origin",
-        action="append",
-        default=[],
-        metavar="PAGE",
-        help="Let pages of this origin connect, too, such as https://example.org; may be given "
-        "several times",
-    )
-    parser.add_argument(
-        "--send-buffer-limit",
-        type=int,
-        default=10_000_000,
-        metavar="BYTES",
-        help="How much may wait for a slow client before it loses old messages "
-        "(default: %(default)s)",
-    )
-    parser.add_argument(
-        "--use-sim-time", action="store_true", help="Take the time from /clock and send it"
-    )
-    parser.set_defaults(run=_foxglove, parser=parser)
 
 
 def _foxglove(args: argparse.Namespace) -> int:
@@ -88,24 +100,27 @@ def _foxglove(args: argparse.Namespace) -> int:
         options = _options(args)
     except ValueError as error:
         args.parser.error(str(error))
+    ended = threading.Event()
+    signal.signal(signal.SIGTERM, lambda *_: ended.set())
     try:
-        context = wire.open_context()
-        try:
+        with contextlib.ExitStack() as stack:
+            context = wire.open_context()
+            stack.callback(context.close)
             node = context.create_node("foxglove_bridge")
             server = FoxgloveServer(context, node, options, _Log())
-            try:
-                _say_where(server.url, options)
-                threading.Event().wait()  # until Ctrl-C
-            finally:
-                server.close()
-        finally:
-            context.close()
+            stack.callback(server.close)
+            _say_where(server.url, options)
+            ended.wait()
     except WireError as error:
         print(f"turtlewire foxglove: {error} {error.hint}".rstrip(), file=sys.stderr)
+        return 2
+    except BrokenPipeError:
+        raise
     except OSError as error:
         print(f"turtlewire foxglove: {error}.", file=sys.stderr)
         print("--port N takes another one, --port 0 a free one.", file=sys.stderr)
-    return 2
+        return 2
+    return 0
 
 
 def _options(args: argparse.Namespace) -> Options:

@@ -31,6 +31,15 @@ def main(argv: list[str] | None = None) -> int:
         transform to print once; 2 if the network cannot be joined, or a file cannot be read; 130
         after Ctrl-C, and 141 if the reader of the output has closed it.
     """
+    try:
+        return _run(argv)
+    except KeyboardInterrupt:
+        return 130
+    except BrokenPipeError:
+        return leave_pipe()
+
+
+def _run(argv: list[str] | None) -> int:
     parser = _parser()
     if "_ARGCOMPLETE" in os.environ:
         _complete(parser)
@@ -38,12 +47,7 @@ def main(argv: list[str] | None = None) -> int:
     if args.run is None:
         parser.print_help()
         return 0
-    try:
-        status: int = args.run(args)
-    except KeyboardInterrupt:
-        return 130
-    except BrokenPipeError:
-        return leave_pipe()
+    status: int = args.run(args)
     return status
 
 

@@ -106,6 +106,8 @@ class FoxgloveServer:
             asyncio.run(self._serve())
         except BaseException as error:  # noqa: BLE001 - the constructor raises it
             self._failure = error
+            if self._started.is_set():  # nobody waits for the constructor any more
+                self._log.warning(f"the server has ended: {error!r}")
         finally:
             self._socket.close()
             self._started.set()

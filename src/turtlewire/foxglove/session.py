@@ -59,30 +59,8 @@ class Session:
         allowed = bridge.options.patterns("client_topic_whitelist")
         self._publishing = Publishing(bridge.node, bridge.graph, allowed)
         self._assets = bridge.options.patterns("asset_uri_allowlist")
-        self._requests: dict[str, tuple[str, Callable[[dict[str, Any]], None]]] = {
-            "subscribe": ("", self._subscribe),
-            "unsubscribe": ("", self._unsubscribe),
-            "advertise": ("clientPublish", self._advertise),
-            "unadvertise": ("clientPublish", self._unadvertise),
-            "getParameters": ("parameters", self._get_parameters),
-            "setParameters": ("parameters", self._set_parameters),
-            "subscribeParameterUpdates": ("parametersSubscribe", self._follow_parameters),
-            "unsubscribeParameterUpdates": ("parametersSubscribe", self._unfollow_parameters),
-            "subscribeConnectionGraph": ("connectionGraph", self._follow_connections),
-            "unsubscribeConnectionGraph": ("connectionGraph", self._unfollow_connections),
-            "fetchAsset": ("assets", self._fetch_asset),
-        }
-        encodings = list(protocol.ENCODINGS) if self._takes_messages() else None
-        outbox.send(
-            protocol.text(
-                "serverInfo",
-                name="turtlewire",
-                capabilities=self._capabilities,
-                supportedEncodings=encodings,
-                metadata={"ROS_DISTRO": "jazzy"},
-                sessionId=session_id,
-            )
-        )
+        self._requests = self._operations()
+        self._greet(session_id)
         bridge.add(self)
 
     def receive(self, frame: str | bytes) -> None:
@@ -155,8 +133,34 @@ class Session:
 
     # -- frames
 
-    def _takes_messages(self) -> bool:
-        return bool({"clientPublish", "services"} & {*self._capabilities})
+    def _operations(self) -> dict[str, tuple[str, Callable[[dict[str, Any]], None]]]:
+        """What clients may ask for in text frames, with the capability that it needs."""
+        return {
+            "subscribe": ("", self._subscribe),
+            "unsubscribe": ("", self._unsubscribe),
+            "advertise": ("clientPublish", self._advertise),
+            "unadvertise": ("clientPublish", self._unadvertise),
+            "getParameters": ("parameters", self._get_parameters),
+            "setParameters": ("parameters", self._set_parameters),
+            "subscribeParameterUpdates": ("parametersSubscribe", self._follow_parameters),
+            "unsubscribeParameterUpdates": ("parametersSubscribe", self._unfollow_parameters),
+            "subscribeConnectionGraph": ("connectionGraph", self._follow_connections),
+            "unsubscribeConnectionGraph": ("connectionGraph", self._unfollow_connections),
+            "fetchAsset": ("assets", self._fetch_asset),
+        }
+
+    def _greet(self, session_id: str) -> None:
+        takes_messages = {"clientPublish", "services"} & {*self._capabilities}
+        self.outbox.send(
+            protocol.text(
+                "serverInfo",
+                name="turtlewire",
+                capabilities=self._capabilities,
+                supportedEncodings=list(protocol.ENCODINGS) if takes_messages else None,
+                metadata={"ROS_DISTRO": "jazzy"},
+                sessionId=session_id,
+            )
+        )
 
     def _receive_text(self, frame: str) -> None:
         request = protocol.parse_text(frame)
