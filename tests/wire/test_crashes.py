@@ -75,3 +75,30 @@ def test_an_abort_for_another_reason_ends_as_before():
     done = run(code)
     assert done.returncode == -signal.SIGABRT
     assert done.stderr.count("Fatal Python error: Aborted") == 1
+
+
+def test_threads_that_still_call_survive_the_end_of_the_last_context():
+    """Cyclone frees its tables with its last domain, whoever looks into them at that moment."""
+    code = (
+        "import sys, threading\n"
+        "from turtlewire.wire import open_context\n"
+        "from turtlewire.wire.cyclone import library as dds\n"
+        "sys.setswitchinterval(1e-5)\n"
+        "def use(wait_sets, begin, ended):\n"
+        "    begin.wait()\n"
+        "    while not ended.is_set():\n"
+        "        for wait_set in wait_sets: wait_set.wake()\n"
+        "        dds.delete(12345)\n"
+        "for _ in range(100):\n"
+        "    context, begin, ended = open_context(5), threading.Barrier(3), threading.Event()\n"
+        "    uses = [context.create_wait_set() for _ in range(3)], begin, ended\n"
+        "    threads = [threading.Thread(target=use, args=uses) for _ in range(2)]\n"
+        "    for thread in threads: thread.start()\n"
+        "    begin.wait()\n"
+        "    context.close()\n"
+        "    ended.set()\n"
+        "    for thread in threads: thread.join()\n"
+        "print('survived')\n"
+    )
+    done = run(code)
+    assert (done.returncode, done.stdout) == (0, "survived\n"), done.stderr

@@ -40,6 +40,7 @@ class _Domains:
         self._handles: dict[int, int] = {}
         self._process = os.getpid()
         self._log: CycloneLog | None = None
+        self._keeps_library = False
 
     def join(self, domain_id: int) -> None:
         """Make the domain, unless it is there."""
@@ -47,6 +48,7 @@ class _Domains:
             self._notice_fork()
             if not self._users.get(domain_id):
                 self._create(domain_id)
+                self._keep_library()
             self._users[domain_id] = self._users.get(domain_id, 0) + 1
 
     def _notice_fork(self) -> None:
@@ -81,6 +83,16 @@ class _Domains:
             raise _failure(handle, domain_id, self._log.unread())
         self._handles[domain_id] = handle
         self._log.start()
+
+    def _keep_library(self) -> None:
+        """Let Cyclone's tables outlive the domains.
+
+        It would free them with the last domain, and crash when another thread, which still spins or
+        closes something, looks a handle up at that moment. This entity is its reason not to.
+        """
+        if not self._keeps_library:
+            dds.check(dds.create_guard_condition(dds.WHOLE_LIBRARY), "keep the library")
+            self._keeps_library = True
 
     def leave(self, domain_id: int) -> None:
         """End the domain if it has no other participant."""
