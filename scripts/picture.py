@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import re
 import shutil
@@ -32,8 +33,10 @@ KEYS = [
     ("ArrowUp", 8),
 ]
 FRAME_MS = 160
-#: The frame at which the still is taken: turtle1 has just gone ahead, turtle2 comes after it.
-STILL = 22
+#: The still is taken when turtle2 sees turtle1 so many metres ahead and to a side, so that the
+#: arrow and both of its components are seen. These keys lead to that, pressed again and again.
+AHEAD, ASIDE = 2.0, 1.3
+STILL_KEYS = ["ArrowLeft", "ArrowUp", "ArrowUp", "ArrowUp", "ArrowUp"]
 CHROMIUM_FLAGS = [
     "--no-sandbox",
     "--disable-gpu",
@@ -95,13 +98,23 @@ def take_pictures(address: str) -> None:
             opened.goto(address)
             opened.locator("#roster").get_by_text("turtle2").wait_for()
         IMAGES.mkdir(exist_ok=True)
-        frames = []
-        for frame in drive(small_page):
-            frames.append(frame)
-            if len(frames) == STILL:
-                (IMAGES / "demo.png").write_bytes(page.screenshot())
+        for key in itertools.islice(itertools.cycle(STILL_KEYS), 100):
+            page.keyboard.press(key)
+            page.wait_for_timeout(FRAME_MS)
+            if is_good_view(page):
+                break
+        (IMAGES / "demo.png").write_bytes(page.screenshot())
+        page.click("#reset")
+        page.click("#hint button")
+        frames = list(drive(small_page))
         (IMAGES / "demo-animated.png").write_bytes(animated_png(frames, FRAME_MS))
         browser.close()
+
+
+def is_good_view(page: Page) -> bool:
+    """Whether turtle2 sees turtle1 ahead and to a side."""
+    numbers = re.match(r"translation ([-\d.]+), ([-\d.]+)", page.inner_text("#relation-detail"))
+    return numbers is not None and float(numbers[1]) > AHEAD and abs(float(numbers[2])) > ASIDE
 
 
 def drive(page: Page) -> Iterator[bytes]:
