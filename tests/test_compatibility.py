@@ -362,6 +362,14 @@ an integer for a floating-point parameter is refused
   foxglove/test_requests.py test_parameters_are_set_and_keep_their_type
 `rviz2` opens a window
   robots/test_urdf_tutorial.py test_every_model_is_displayed
+RViz draws cameras, depth clouds, interactive markers, wrenches and more
+  view/test_rviz_file.py test_a_file_of_rviz_is_read
+RViz projects a scan beam by beam
+  view/test_point_cloud.py test_a_scan_hits_along_its_beams
+RViz keeps clouds and scans for a `Decay Time`
+  view/test_display_pictures.py test_point_cloud
+RViz loads meshes from any file and from `http`
+  view/test_robot_model.py test_addresses_that_are_refused
 `ament_cmake` packages need CMake
   robots/test_urdf_tutorial.py test_the_workspace_is_known
   turtlewire_ros/test_cmake.py test_what_is_installed
