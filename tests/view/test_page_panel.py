@@ -227,6 +227,10 @@ def test_nothing_grows_older_while_the_time_stands_still(page, fake):
         """,
     )
     assert ages[0] == ages[1]
+    fake.tell({"type": "tree", "now": 9.0, "rows": [row("turtle1", "world", age=4.0)]})
+    fake.tell({"type": "status", "id": None, "level": "ok", "text": "after it"})
+    page.wait_for_selector("#notice:text('after it')")
+    assert "12 ms old" in reading(page, "turtle1")
 
 
 def test_a_bag_is_played_at_any_speed(fake, open_view):
@@ -234,6 +238,9 @@ def test_a_bag_is_played_at_any_speed(fake, open_view):
     fake.tell({"type": "time", **LIVE, "live": False, "playing": False, "now": 12.0})
     page = open_view(fake.url)
     page.wait_for_selector("#clock:text('2.00 of 10.00 s')")
+    fake.names(PARENTS)
+    fake.tell({"type": "tree", "now": 5.0, "rows": ROWS})
+    page.wait_for_selector("#tree .row:has-text('turtle2') >> text='62 Hz · /turtle2_broadcaster'")
     assert page.inner_text("#source") == "walk.mcap"
     assert page.get_attribute("#pause", "aria-label") == "Play"
     page.keyboard.press("Space")

@@ -33,13 +33,15 @@ export class ArrowHeads {
   #directions;
   #colors;
 
-  constructor() {
+  /** Heads `onTop` are seen through everything. */
+  constructor({ onTop = false } = {}) {
     const material = new ShaderMaterial({
       vertexShader: VERTEX, fragmentShader: FRAGMENT, transparent: true, side: DoubleSide,
+      depthTest: !onTop,
     });
     this.object = new Mesh(new BufferGeometry(), material);
     this.object.frustumCulled = false;
-    this.object.renderOrder = 1;
+    this.object.renderOrder = onTop ? 5 : 1;
     this.#grow(16);
   }
 

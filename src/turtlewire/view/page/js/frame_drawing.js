@@ -19,7 +19,7 @@ export class FrameDrawing {
   #heads = new ArrowHeads();
   #path = new ThickLines(5, { onTop: true });
   #straight = new ThickLines(1.5, { onTop: true });
-  #straightHead = new ArrowHeads();
+  #straightHead = new ArrowHeads({ onTop: true });
   #colors;
 
   constructor(colors) {

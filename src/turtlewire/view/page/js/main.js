@@ -118,8 +118,10 @@ function takePoses(packet) {
   displays.follow();
 }
 
+/** In a bag nothing is old or late; while live time stands still, ages do, too. */
 function takeTree({ rows }) {
-  tree.showReadings(rows);
+  if (time.isBag) tree.showReadings(rows.map((row) => ({ ...row, age: null, delay: null })));
+  else if (!time.isPaused || !tree.hasReadings) tree.showReadings(rows);
   relation.showFacts(tree.readingOf(relation.source) ?? {});
 }
 

@@ -59,6 +59,10 @@ export class TreeView {
     else this.#draw();
   }
 
+  get hasReadings() {
+    return this.#model.readings.size > 0;
+  }
+
   readingOf(name) {
     return this.#model.readings.get(name);
   }
