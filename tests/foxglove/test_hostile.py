@@ -200,7 +200,7 @@ def test_a_slow_client_loses_old_messages_and_others_lose_none(serve, client, ro
         each.sync()
     robot.wait_until(lambda: publisher.subscription_count() + quiet.subscription_count() == 2)
     robot.say(quiet, "still there")
-    count = 40
+    count = 100
     for number in range(count):
         robot.say(publisher, f"{number} " + 1_000_000 * "x")
         assert fast.text(1).startswith(f"{number} ")
