@@ -1,6 +1,7 @@
 """Clients that are wrong, foreign, slow or gone: a line, and the server goes on."""
 
 import contextlib
+import gc
 import json
 import os
 import socket
@@ -11,9 +12,12 @@ import urllib.request
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.foxglove.conftest import Client
 from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.sync.client import connect
 
 from turtlewire import msg
+from turtlewire.foxglove.channel import Channel
 from turtlewire.foxglove.origins import refusal
 from turtlewire.foxglove.protocol import (
     ClientMessage,
@@ -22,6 +26,7 @@ from turtlewire.foxglove.protocol import (
     parse_binary,
     parse_text,
 )
+from turtlewire.foxglove.session import Session
 
 
 @pytest.mark.parametrize(
@@ -239,6 +244,32 @@ def test_a_client_that_reads_nothing_is_asked_for_no_more(serve, client):
     one.socket.socket.shutdown(socket.SHUT_RDWR)
     thread.join()
     two.sync()
+
+
+def test_nothing_stays_of_clients_and_topics_that_have_gone(serve, client, robot):
+    server = serve()
+    for number in range(30):
+        with connect(server.url, subprotocols=["foxglove.sdk.v1"], compression=None) as socket:
+            publisher = robot.publisher(f"/t{number}")
+            one = Client(socket)
+            one.subscribe(f"/t{number}", 1)
+            channel = {"id": 1, "topic": "/c", "encoding": "json", "schemaName": "std_msgs/String"}
+            one.send("advertise", channels=[channel])
+            one.send("subscribeParameterUpdates", parameterNames=[])
+            one.send("subscribeConnectionGraph")
+            one.sync()
+        publisher.close()
+
+    def is_left(end):
+        mine = end.kind == "subscription" and end.topic == "/parameter_events"
+        return mine or end.topic == "/c" or end.topic.startswith("/t")
+
+    robot.wait_until(lambda: not any(map(is_left, robot.context.graph.endpoints())))
+    robot.publisher("/last")
+    client(server).channel("/last")  # the server has seen all that came before
+    gc.collect()
+    kinds = [type(each) for each in gc.get_objects()]
+    assert kinds.count(Session) == kinds.count(Channel) == 1
 
 
 def test_a_server_is_closed_twice_and_with_clients(serve, client):
