@@ -296,3 +296,26 @@ def test_a_display_that_the_page_cannot_draw_says_so(page, fake):
     page.click("[aria-label='Remove /x']")
     fake.wait_for(lambda c: c["type"] == "remove")
     assert page.locator(".display").count() == 0
+
+
+def test_before_anything_moves_there_is_no_time(page, fake):
+    nothing = {"now": 0.0, "oldest": 0.0, "newest": 0.0}
+    fake.tell({"type": "time", **LIVE, **nothing, "simulated": True})
+    page.wait_for_selector("#clock:text('nothing moves yet')")
+    assert page.is_disabled("#scrub")
+
+
+def test_the_budget_of_points_follows_the_time_of_pictures(page, fake):
+    fake.wait_for(lambda c: c["type"] == "budget")
+    told = in_page(
+        page,
+        """
+        const { Budget } = await import(new URL('js/budget.js', location.href));
+        const told = [];
+        const budget = new Budget(true, ({ points }) => told.push(points));
+        for (const time of [80, 30, 17]) for (let n = 0; n < 20; n += 1) budget.take(time);
+        for (let n = 0; n < 4000; n += 1) budget.take(500);
+        return [told[0], told[1], told.at(-1)];
+        """,
+    )
+    assert told == [28_000, 35_000, 5_000]

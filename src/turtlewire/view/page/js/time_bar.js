@@ -72,6 +72,7 @@ export class TimeBar {
 
   #clockText({ now, oldest, newest, simulated }) {
     if (this.isBag) return `${(now - oldest).toFixed(2)} of ${(newest - oldest).toFixed(2)} s`;
+    if (!(now > 0)) return "nothing moves yet";
     const back = newest - now;
     if (!this.#isLive) return back > NOW_SECONDS ? `${back.toFixed(1)} s ago` : "paused";
     return simulated ? `${timeInWords(now)} simulated` : timeInWords(now);
