@@ -10,7 +10,7 @@ import pytest
 
 from turtle_lesson.lesson import load_lesson
 
-from .conftest import wait_until_loaded
+from .conftest import LONG_MS, wait_until_loaded
 from .wrong_answers import WRONG_ANSWERS
 
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(600)]
@@ -165,6 +165,38 @@ def test_code_that_swallows_the_interrupt_is_stopped_by_another_worker(open_page
     page.wait_for_selector("#mistake:not([hidden])")
     page.click("#reset")
     page.wait_for_function("document.getElementById('status').textContent === 'running'")
+
+
+def test_without_a_service_worker_the_loop_is_stopped_by_another_worker(open_page):
+    page = open_page("listener", service_workers="block")
+    assert not page.evaluate("crossOriginIsolated")
+    hand_in(page, "listener", listener_with("msg = Twist()", "\n        while True: pass"))
+    page.wait_for_selector("#mistake:not([hidden])")
+    assert "did not come to an end" in page.text_content("#mistake")
+    page.click("#reset")
+    wait_for_words(page, r"^turtle1 is 0\.\d+ m ahead")
+
+
+def test_buttons_and_other_lessons_do_no_harm_while_it_loads(browser, host):
+    context = browser.new_context()
+    context.set_default_timeout(LONG_MS)
+    page = context.new_page()
+    errors = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.goto(f"{host.url}#listener")
+    page.wait_for_selector("#editors .cm-content")
+    page.click("#reset")
+    page.evaluate("location.hash = 'static'")
+    page.click("#editors .cm-content")
+    page.keyboard.press("Control+Enter")
+    wait_until_loaded(page)
+    page.wait_for_function("document.getElementById('tree').textContent.includes('my_static_')")
+    page.click("#check")
+    page.evaluate("location.hash = 'faults'")  # the results of the other lesson do not follow
+    page.wait_for_function("document.getElementById('tree').textContent.includes('tower')")
+    assert page.locator("#results li").count() == 0
+    context.close()
+    assert errors == []
 
 
 def test_faults_show_in_the_tree_and_the_doctor_names_them(open_page):

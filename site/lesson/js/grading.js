@@ -48,12 +48,18 @@ export class Grading {
     byId("results").append(item);
   }
 
-  /** All results are there; whether the task is solved. */
-  finish() {
+  /** All results are there; whether the task is solved. `next` is the next lesson, if any. */
+  finish(next) {
     const isSolved = this.#results.length > 0 && this.#results.every(({ passed }) => passed);
     const verdict = byId("verdict");
     verdict.hidden = !isSolved;
-    verdict.textContent = "Solved. The same files run with ros2 launch on a robot.";
+    verdict.textContent = "Solved. The same files run with ros2 launch on a robot. ";
+    if (next) {
+      const link = document.createElement("a");
+      link.href = `#${next.id}`;
+      link.textContent = `Next: ${next.title}`;
+      verdict.append(link);
+    }
     if (!isSolved) this.#failures += 1;
     byId("solution").hidden = isSolved || this.#failures < TRIES_BEFORE_SOLUTION;
     return isSolved;

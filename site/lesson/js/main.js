@@ -22,12 +22,20 @@ const status = (state, text) => {
   byId("status").textContent = text;
 };
 
+/** An error that is not the student's, as a mistake. */
+const faultOfOurs = (error) => ({
+  text: error.message,
+  hint: "This is a fault of the lesson, not of your code. Press Run to start again.",
+});
+
 class Page {
   #lessons;
   #lesson = null;
   #runtime;
+  #ready = false;
   #running = false;
   #run = 0;
+  #checking = 0;
   #commands = [];
   #world = new World();
   #watch = new Watch(() => this.#examine(), () => this.run());
@@ -73,6 +81,7 @@ class Page {
 
   /** Python is loaded: enable the buttons and run. */
   begin() {
+    this.#ready = true;
     for (const id of ["run", "check", "examine"]) byId(id).disabled = false;
     requestAnimationFrame((now) => this.#display(now));
     return this.run();
@@ -80,6 +89,7 @@ class Page {
 
   /** (Re)start the programs of the lesson with the files as they are. */
   async run() {
+    if (!this.#ready) return; // it runs as soon as Python is loaded
     const run = (this.#run += 1);
     this.#running = false;
     this.#editors.unmark();
@@ -95,7 +105,7 @@ class Page {
     if (!this.#failed(answer)) {
       this.#running = true;
       status("live", "running");
-      this.#step(run);
+      this.#step(run).catch((error) => this.#failed({ mistake: faultOfOurs(error) }));
     }
   }
 
@@ -134,7 +144,7 @@ class Page {
   }
 
   async #check() {
-    const run = (this.#run += 1);
+    const run = (this.#checking = this.#run += 1);
     this.#running = false;
     this.#editors.unmark();
     byId("mistake").hidden = true;
@@ -144,12 +154,14 @@ class Page {
     const answer = await this.#runtime.request(request);
     if (run !== this.#run) return;
     if (answer.restarted) this.#grading.add({ check: "Came to an end", passed: false, ...ENDLESS });
-    if (this.#grading.finish()) store.keepSolved(id);
+    const next = this.#lessons[this.#lessons.indexOf(this.#lesson) + 1];
+    if (this.#grading.finish(next)) store.keepSolved(id);
     this.#listLessons();
     await this.run();
   }
 
   #takeResult(result) {
+    if (this.#checking !== this.#run) return; // another lesson was opened meanwhile
     this.#grading.add(result);
     if (!result.passed && result.line) this.#editors.mark(result);
   }

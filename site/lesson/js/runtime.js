@@ -1,6 +1,9 @@
 // The worker that runs Python: one request at a time, and a watch on code that does not end.
 
-const LIMIT_MS = 3000; // without a sign of life
+// How long Python may give no sign of life: as long as its start took, within these limits, so that
+// a slow phone is not taken for an endless loop.
+const SHORTEST_MS = 3000;
+const LONGEST_MS = 15_000;
 const MERCY_MS = 2000; // after it was told to stop
 const LOADING_MS = 120_000;
 const SIGINT = 2;
@@ -12,6 +15,7 @@ export class Runtime {
   #pending = null;
   #watch = null;
   #flag = null;
+  #limit = LONGEST_MS;
   #queue = Promise.resolve();
 
   /**
@@ -30,12 +34,14 @@ export class Runtime {
     this.#worker.onmessage = ({ data }) => this.#take(data);
     this.#worker.onerror = (event) => this.#take({ type: "failed", text: event.message });
     if (crossOriginIsolated) this.#flag = new Uint8Array(new SharedArrayBuffer(1));
-    return this.#ask({ ...this.#load, interruptBuffer: this.#flag }, LOADING_MS);
+    const begin = performance.now();
+    await this.#ask({ ...this.#load, interruptBuffer: this.#flag }, LOADING_MS);
+    this.#limit = Math.min(LONGEST_MS, Math.max(SHORTEST_MS, performance.now() - begin));
   }
 
   /** Ask after all earlier requests are done. The answer has `stopped: true` if it was too slow. */
   request(message) {
-    const answer = this.#queue.then(() => this.#ask(message, LIMIT_MS));
+    const answer = this.#queue.then(() => this.#ask(message, this.#limit));
     this.#queue = answer.catch(() => {});
     return answer;
   }

@@ -16,6 +16,7 @@ export class Watch {
   #offered = [];
   #hidden = null;
   #onFaults;
+  #isLogDue = false;
 
   /** `examine()` asks for the doctor's report; `onFaults()` after a fault was switched. */
   constructor(examine, onFaults) {
@@ -104,10 +105,17 @@ export class Watch {
 
   log({ text }) {
     this.#lines.push(text);
-    if (this.#lines.length > MOST_LINES) this.#lines.splice(0, this.#lines.length - MOST_LINES);
+    if (this.#lines.length > 2 * MOST_LINES) this.#lines.splice(0, MOST_LINES);
+    if (this.#isLogDue) return;
+    this.#isLogDue = true; // once a frame, however many lines a loop prints
+    requestAnimationFrame(() => this.#showLog());
+  }
+
+  #showLog() {
+    this.#isLogDue = false;
     const box = byId("log");
     const isAtEnd = box.scrollHeight - box.scrollTop - box.clientHeight < 30;
-    box.textContent = this.#lines.join("\n");
+    box.textContent = this.#lines.slice(-MOST_LINES).join("\n");
     if (isAtEnd) box.scrollTop = box.scrollHeight;
   }
 
