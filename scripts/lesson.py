@@ -47,23 +47,35 @@ class BuildError(Exception):
 def main() -> int:
     """Build, and serve if asked to; the exit status."""
     parser = argparse.ArgumentParser(prog="scripts/lesson", description=__doc__.splitlines()[0])
-    parser.add_argument("--output", type=Path, default=ROOT / "build" / "lesson", metavar="FOLDER")
+    parser.add_argument(
+        "--output",
+        type=Path,
+        default=ROOT / "build" / "lesson",
+        metavar="FOLDER",
+        help="where to build it; an older one there is replaced (default: build/lesson)",
+    )
     parser.add_argument("--serve", action="store_true", help="show it on this machine")
-    parser.add_argument("--port", type=int, default=8000)
+    parser.add_argument("--port", type=int, default=8000, help="of --serve (default: 8000)")
     options = parser.parse_args()
     try:
         weight = build(options.output)
+        print(f"{options.output}: {weight / 1e6:.1f} MB to load, compressed")
+        if options.serve:
+            serve(options.output, options.port)
     except BuildError as error:
         print(f"scripts/lesson: {error}", file=sys.stderr)
         return 1
-    print(f"{options.output}: {weight / 1e6:.1f} MB to load, compressed")
-    if options.serve:
-        serve(options.output, options.port)
     return 0
 
 
 def build(output: Path) -> int:
-    """Build the page into a folder, which is replaced; its compressed weight in bytes."""
+    """Build the page into a folder, which is replaced; its compressed weight in bytes.
+
+    Raises:
+        BuildError: Something is missing, or the folder holds something else.
+    """
+    if output.exists() and any(output.iterdir()) and not (output / "manifest.json").exists():
+        raise BuildError(f"{output} is no lesson that was built before: it is not replaced")
     with tempfile.TemporaryDirectory(dir=_made(ROOT / "build")) as folder:
         page = Path(folder) / "lesson"
         _copy_page(page)
@@ -237,7 +249,13 @@ def _write_manifest(page: Path) -> int:
 def serve(folder: Path, port: int) -> None:
     """Serve the folder to this machine until Ctrl-C."""
     handler = partial(http.server.SimpleHTTPRequestHandler, directory=folder)
-    with http.server.ThreadingHTTPServer(("127.0.0.1", port), handler) as server:
+    try:
+        listening = http.server.ThreadingHTTPServer(("127.0.0.1", port), handler)
+    except OSError as error:
+        raise BuildError(
+            f"port {port} cannot be used ({error.strerror}); --port names another"
+        ) from None
+    with listening as server:
         print(f"http://localhost:{server.server_address[1]}/ (Ctrl-C ends it)", flush=True)
         try:
             server.serve_forever()

@@ -10,7 +10,7 @@ import pytest
 
 from turtle_lesson.lesson import load_lesson
 
-from .conftest import LONG_MS, wait_until_loaded
+from .conftest import LONG_MS, Host, wait_until_loaded
 from .wrong_answers import WRONG_ANSWERS
 
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(600)]
@@ -63,27 +63,41 @@ def wait_for_words(page, pattern):
     )
 
 
-def test_it_runs_offline_and_grades_all_lessons(open_page, host):
-    page = open_page("listener")
-    assert page.evaluate("crossOriginIsolated")
-    page.context.set_offline(True)
+@pytest.fixture(scope="module")
+def offline_page(browser, built):
+    """The lesson, loaded once and then again without host and network."""
+    errors = []
+    host = Host(built)
+    context = browser.new_context(viewport={"width": 1500, "height": 950})
+    context.set_default_timeout(LONG_MS)
+    page = context.new_page()
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.goto(host.url)
+    wait_until_loaded(page)
+    context.set_offline(True)
     host.close()
     page.reload()
     wait_until_loaded(page)
-    for name in ORDER:
-        lesson = load_lesson(LESSONS / name)
-        hand_in(page, name, lesson.sources("solution"))
-        results = check(page)
-        assert len(results) >= 3
-        assert all(passed == "yes" for passed, _ in results), results
-        assert page.is_visible("#verdict")
-        for wrong in [wrong for wrong in WRONG_ANSWERS if wrong.lesson == name]:
-            hand_in(page, name, wrong.files(lesson))
-            passed, text = check(page)[-1]
-            assert passed == "no", wrong
-            assert re.search(wrong.hint, text), (wrong, text)
-    solved = page.eval_on_selector_all("#lessons a[data-solved]", "(links) => links.length")
-    assert solved == len(ORDER)
+    yield page
+    context.close()
+    assert errors == []
+
+
+@pytest.mark.parametrize("name", ORDER)
+def test_offline_a_lesson_is_solved_and_typical_mistakes_get_their_hint(offline_page, name):
+    page, lesson = offline_page, load_lesson(LESSONS / name)
+    assert page.evaluate("crossOriginIsolated")
+    hand_in(page, name, lesson.sources("solution"))
+    results = check(page)
+    assert len(results) >= 3
+    assert all(passed == "yes" for passed, _ in results), results
+    assert page.is_visible("#verdict")
+    assert page.locator("#lessons a[aria-current]").get_attribute("data-solved") == "yes"
+    for wrong in [wrong for wrong in WRONG_ANSWERS if wrong.lesson == name]:
+        hand_in(page, name, wrong.files(lesson))
+        passed, text = check(page)[-1]
+        assert passed == "no", wrong
+        assert re.search(wrong.hint, text), (wrong, text)
 
 
 def test_turtle2_follows_and_the_arrow_keys_drive(open_page):
