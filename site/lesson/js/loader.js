@@ -1,14 +1,15 @@
 // The first load: the service worker, the weight, and a progress bar while the files come.
 
+// A browser that refuses service workers may do so by never answering.
+const PATIENCE_MS = 5000;
 const ISOLATION_TRIED = "lesson-isolation-tried";
 
 /** Install the service worker; the page is loaded once more if that isolates it. */
 export async function prepareOffline() {
   if (!("serviceWorker" in navigator) || !isSecureContext) return;
   try {
-    await navigator.serviceWorker.register("sw.js");
-    await navigator.serviceWorker.ready;
-    await controlled();
+    const isThere = await Promise.race([registered(), later(PATIENCE_MS)]);
+    if (!isThere) return;
   } catch {
     return; // private windows may refuse it: the lesson works, but only with a network
   }
@@ -19,11 +20,18 @@ export async function prepareOffline() {
   }
 }
 
-function controlled() {
-  if (navigator.serviceWorker.controller) return null;
-  return new Promise((resolve) => {
-    navigator.serviceWorker.addEventListener("controllerchange", resolve, { once: true });
-  });
+const later = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
+
+/** Wait until a service worker answers this page's requests. */
+async function registered() {
+  await navigator.serviceWorker.register("sw.js");
+  await navigator.serviceWorker.ready;
+  if (!navigator.serviceWorker.controller) {
+    await new Promise((resolve) => {
+      navigator.serviceWorker.addEventListener("controllerchange", resolve, { once: true });
+    });
+  }
+  return true;
 }
 
 /** Fetch all files, so that they are there offline; `onProgress(done, total)` in bytes. */
