@@ -74,6 +74,8 @@ def offline_page(browser, built):
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.goto(host.url)
     wait_until_loaded(page)
+    page.reload()  # a busy machine may have started without the service worker
+    wait_until_loaded(page)
     context.set_offline(True)
     host.close()
     page.reload()

@@ -1,7 +1,7 @@
 // The first load: the service worker, the weight, and a progress bar while the files come.
 
 // A browser that refuses service workers may do so by never answering.
-const PATIENCE_MS = 5000;
+const PATIENCE_MS = 20_000;
 const ISOLATION_TRIED = "lesson-isolation-tried";
 
 /** Install the service worker; the page is loaded once more if that isolates it. */
