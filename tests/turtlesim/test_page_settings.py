@@ -35,9 +35,10 @@ def test_the_pen_of_the_driven_turtle(simulator, open_page):
     for _ in range(7):
         page.keyboard.press("ArrowRight")  # moves the slider, and drives nobody
     wait_until(lambda: simulator.turtle1.pen == Pen(255, 136, 0, 10))
-    page.locator("#pen-width").blur()
-    page.keyboard.press("ArrowUp")
     middle = simulator.turtle1.x
+    page.get_by_role("button", name="forward").press("Enter")
+    wait_until(lambda: simulator.turtle1.x > middle + 1.5)
+    assert simulator.turtle1.pen == Pen(255, 136, 0, 10)
     for y in (middle, middle + 0.06):  # ten pixels of the image are 0.22 m wide
         wait_for_pixel(page, "ground", middle + 1.0, y, is_colour(255, 136, 0, within=12))
     page.click("#pen-up")
@@ -79,6 +80,7 @@ def test_pause_and_speed(simulator, open_page):
     wait_for_text(page, "#connection", "live, 2 ")
     page.click("#pause")
     wait_for_text(page, "#connection", "paused")
+    page.wait_for_selector("#connection[data-paused]")
     page.get_by_role("button", name="Go on").click()
     wait_for_text(page, "#connection", "live, 2 ")
     assert [command.factor for command in simulator.commands] == [2.0, 0.0, 2.0]

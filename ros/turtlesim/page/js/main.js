@@ -57,6 +57,7 @@ function takeScene(message) {
   field.keepOnly(scene.turtles);
   panel.showScene(scene, driven);
   panel.showConnection("live", paceInWords(scene.speed));
+  byId("connection").toggleAttribute("data-paused", scene.speed === 0);
   playback.speed = scene.speed;
   showSettings(scene, driven);
   panel.showHint(scene.missing, (name) => spawn({ x: 4, y: 2, theta: 0, name }));
