@@ -88,6 +88,8 @@ def test_the_launch_file(run, client):
     url = program.wait_for(rf"connect to (ws://127\.0\.0\.1:{port})$")[0][1]
     one = client(type("Server", (), {"url": url}))
     assert one.channel("/rosout")["schemaName"] == "rcl_interfaces/msg/Log"
+    one.send("fetchAsset", uri="package://foxglove_bridge/no.stl", requestId=1)
+    assert b"there is no file package://foxglove_bridge/no.stl" in one.next_binary(4)
     second = run(ROS2, *launch, f"port:={port}")
     second.wait_for(rf"foxglove_bridge: port {port} of 127\.0\.0\.1 is in use, perhaps by another")
     second.wait()
