@@ -10,7 +10,7 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import pytest
-from tests.view.looking_down import browser_3d  # noqa: F401 - a fixture
+from tests.view.looking_down import browser_3d, wait_until  # noqa: F401 - a fixture
 
 pytestmark = pytest.mark.slow
 
@@ -86,7 +86,7 @@ def test_the_robot_is_seen(sourced, run, browser_3d):
         "response", lambda answer: failures.append(answer.url) if answer.status >= 400 else None
     )
     page.goto(address)
-    page.wait_for_function(ORANGE_IS_SEEN, timeout=60_000)
+    assert wait_until(page, ORANGE_IS_SEEN)
     assert page.input_value("#fixed") == "base_link"
     assert page.inner_text("#display-list .title b") == "/robot_description"
     assert failures == []

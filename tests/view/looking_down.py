@@ -9,7 +9,7 @@ from tests.view.still_source import StillSource
 from turtlewire import msg
 from turtlewire.view import Viewer
 
-LIMIT_MS = 60_000
+LIMIT_MS = 20_000
 FLAGS = [flag for flag in BROWSER_FLAGS if flag != "--disable-gpu"]
 FLAGS += ["--enable-unsafe-swiftshader", "--use-angle=swiftshader"]
 #: Looks down on the square of 8 m around the origin, without frames, names and grid.
@@ -77,6 +77,25 @@ def browser_3d():
         browser.close()
 
 
+def wait_until(page, check, arg=None):
+    """Whether ``check(arg)``, an async function of the page, becomes true.
+
+    Playwright's ``wait_for_function`` takes the promise itself for true.
+    """
+    return page.evaluate(
+        f"""async (arg) => {{
+            const check = {check};
+            const end = performance.now() + {LIMIT_MS};
+            while (performance.now() < end) {{
+                if (await check(arg)) return true;
+                await new Promise((done) => setTimeout(done, 30));
+            }}
+            return false;
+        }}""",
+        arg,
+    )
+
+
 class Scene:
     """A page that looks down at what the displays of one test draw.
 
@@ -102,22 +121,22 @@ class Scene:
 
     def expect(self, *expected, tolerance=12):
         """Wait until the places have the colours: pairs of (x, y, z) and (r, g, b)."""
-        try:
-            self.page.wait_for_function(ARE, arg=[expected, tolerance], timeout=LIMIT_MS)
-        except Exception as error:
+        if not wait_until(self.page, ARE, [expected, tolerance]):
             seen = self.page.evaluate("window.seen")
-            raise AssertionError(f"expected {expected}, seen {seen}: {self.status()}") from error
+            raise AssertionError(f"expected {expected}, seen {seen}: {self.status()}")
 
     def expect_red(self, *places):
         """Wait until the places are reddish: light makes bodies darker or paler."""
-        try:
-            self.page.wait_for_function(ARE_RED, arg=places, timeout=LIMIT_MS)
-        except Exception as error:
+        if not wait_until(self.page, ARE_RED, places):
             seen = self.page.evaluate("window.seen")
-            raise AssertionError(f"no red at {places}, but {seen}: {self.status()}") from error
+            raise AssertionError(f"no red at {places}, but {seen}: {self.status()}")
 
     def expect_ground(self, *places):
         self.expect(*[(place, GROUND) for place in places])
+
+    def wait_until(self, check):
+        """Wait until an async function of the page is true."""
+        assert wait_until(self.page, check), (check, self.status())
 
     def expect_status(self, text):
         self.page.wait_for_function(

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import base64
+import copy
 import json
 import struct
 
@@ -131,6 +132,50 @@ def test_occupancy_grid(scene):
     scene.expect(((0.5, 0.5, 0), WHITE), ((0.5, -0.5, 0), (0, 0, 0)))
     scene.set_option("color_scheme", "costmap")
     scene.expect(((0.5, -0.5, 0), (255, 0, 255)), ((0.5, 0.5, 0), GROUND))
+
+
+#: Removes all displays; how many geometries, materials and textures were not freed, and were there.
+LEFT_AFTER_REMOVAL = f"""async () => {{
+    const {{ stage }} = await import("./js/main.js");
+    const held = new Set();
+    stage.view.displays.traverse(({{ geometry, material }}) => {{
+        const uniforms = Object.values(material?.uniforms ?? {{}}).map(({{ value }}) => value);
+        for (const each of [geometry, material, material?.map, ...uniforms]) {{
+            if (each?.dispose) held.add(each);
+        }}
+    }});
+    const count = held.size;
+    for (const each of held) each.addEventListener("dispose", () => held.delete(each));
+    await ({REMOVE_ALL})();
+    return [held.size, count];
+}}"""
+
+
+@pytest.mark.parametrize("kind", ["occupancy_grid", "path", "marker"])
+def test_a_removed_display_leaves_nothing_on_the_graphics_card(scene, kind):
+    PoseStamped = get("geometry_msgs/msg/PoseStamped")  # noqa: N806
+    MarkerArray = get("visualization_msgs/msg/MarkerArray")  # noqa: N806
+    shapes = copy.deepcopy([message for message, _, _ in MARKERS.values()])
+    for key, message in enumerate(shapes):
+        message.id = key
+    poses = [PoseStamped(pose=pose(x, 0)) for x in (-1, 1)]
+    message = {
+        "occupancy_grid": grid([0, 0, 0, 0]),
+        "path": stamped("nav_msgs/msg/Path", poses=poses),
+        "marker": MarkerArray(markers=shapes),
+    }[kind]
+    scene.show(kind, message, **({"pose_style": "axes"} if kind == "path" else {}))
+    scene.wait_until(
+        """async () => {
+            const { stage } = await import("./js/main.js");
+            let count = 0;
+            stage.view.displays.traverse(({ geometry }) => { count += geometry ? 1 : 0; });
+            return count > 0;
+        }"""
+    )
+    left, count = scene.page.evaluate(LEFT_AFTER_REMOVAL)
+    assert count >= 3
+    assert left == 0
 
 
 def marker(kind, key=1, at=(0, 0, 0), scale=(1, 1, 1), color=(1, 0, 0), **values):
@@ -308,9 +353,7 @@ def test_robot_model(scene):
     scene.expect_ground((1, -2, 0), (0, 1.4, 0))
     scene.expect_status("has no file 'meshes/none.stl'")
     scene.set_option("collision", True)
-    scene.page.wait_for_function(
-        f"async () => (await ({PIXELS})([[1, -2, 0]]))[0][2] < 200", timeout=LIMIT_MS
-    )
+    scene.wait_until(f"async () => (await ({PIXELS})([[1, -2, 0]]))[0][2] < 200")
     scene.set_option("visual", False)
     scene.expect_ground((0.2, 0.7, 0), (2, 1, 0))
 
@@ -330,7 +373,7 @@ def test_pose_and_covariance(scene):
     scene.show("pose", message)
     scene.expect_red((1.3, 0, 0), (1.9, 0, 0))
     violet = "async () => { const [[r, g, b]] = await (" + PIXELS + ")([[1, -0.8, 0]]); "
-    scene.page.wait_for_function(violet + "return g < r - 20 && g < b - 20; }", timeout=LIMIT_MS)
+    scene.wait_until(violet + "return g < r - 20 && g < b - 20; }")
     scene.set_option("show_covariance", False)
     scene.expect_ground((1, -0.8, 0))
     scene.send(stamped("geometry_msgs/msg/PoseWithCovarianceStamped", "tip"))
@@ -359,12 +402,11 @@ def test_pose_array(scene):
     scene.expect_red((1.5, 0, 0), (1.5, 2, 0))
     scene.expect_ground((1.5, 1, 0))
     scene.set_option("shape", "axes")
-    scene.page.wait_for_function(
+    scene.wait_until(
         f"""async () => {{
             const [[r, g, b]] = await ({PIXELS})([[1, 1, 0]]);
             return g > r && g > b;
-        }}""",
-        timeout=LIMIT_MS,
+        }}"""
     )
 
 

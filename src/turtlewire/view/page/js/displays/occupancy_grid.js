@@ -53,6 +53,7 @@ export default class OccupancyGrid {
 
   dispose() {
     this.#cells?.dispose();
+    this.#mesh?.material.uniforms.palette.value.dispose();
   }
 
   #replace(group, { resolution, origin }, cells, [rows, columns]) {
