@@ -9,7 +9,7 @@ from tests.view.still_source import StillSource
 from turtlewire import msg
 from turtlewire.view import Viewer
 
-LIMIT_MS = 20_000
+LIMIT_MS = 60_000
 FLAGS = [flag for flag in BROWSER_FLAGS if flag != "--disable-gpu"]
 FLAGS += ["--enable-unsafe-swiftshader", "--use-angle=swiftshader"]
 #: Looks down on the square of 8 m around the origin, without frames, names and grid.

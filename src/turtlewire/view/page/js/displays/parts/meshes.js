@@ -25,6 +25,7 @@ const PARSERS = {
     const text = new TextDecoder().decode(bytes);
     const loaded = /<COLLADA[\s>]/.test(text) && new ColladaLoader().parse(text, folder);
     if (!loaded) throw new Error("this is no COLLADA");
+    loaded.scene.rotation.set(0, 0, 0); // RViz takes the numbers as they are, whatever is "up"
     return loaded.scene;
   },
   glb: async (bytes, folder) => {
