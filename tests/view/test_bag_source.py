@@ -83,6 +83,8 @@ def test_it_stops_at_its_end_and_plays_again(source):
 
     source.on_change(look)
     source.set_speed(100)
+    assert source.state().now == source.state().oldest  # nobody looks yet
+    source.new_timeline()
     assert ended.wait(LIMIT_S)
     assert source.state().now == source.state().newest
     source.play()

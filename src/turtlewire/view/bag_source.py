@@ -25,7 +25,7 @@ _SLOWEST, _FASTEST = 0.01, 100.0
 
 
 class BagSource:
-    """The frames and messages of a bag. Plays from its begin, and stops at its end.
+    """The frames and messages of a bag. Plays once a page looks at it, and stops at its end.
 
     All pages share its time. A thread delivers the messages of the topics that are subscribed.
 
@@ -49,8 +49,9 @@ class BagSource:
         self.buffer = self._read_frames()
         self._changed: Callable[[], None] = _nothing
         self._news = threading.Condition()
-        self._clock = PlayClock(self._start_ns)
+        self._clock = PlayClock(self._start_ns, is_paused=True)
         self._sinks: dict[str, list[Callable[[bytes], None]]] = {}
+        self._was_seen = False
         self._wanted = 0  # counts changes of what is to be read, or from when
         self._from_ns = self._start_ns
         self._closed = False
@@ -63,7 +64,11 @@ class BagSource:
             return min(self._clock.now_ns(), self._end_ns)
 
     def new_timeline(self) -> BagSource:
-        """The bag itself: all pages share its time."""
+        """The bag itself: all pages share its time, which begins with the first of them."""
+        with self._news:
+            was_seen, self._was_seen = self._was_seen, True
+        if not was_seen:
+            self.play()
         return self
 
     def topics(self) -> list[Topic]:
