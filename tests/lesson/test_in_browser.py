@@ -108,6 +108,9 @@ def test_turtle2_follows_and_the_arrow_keys_drive(open_page):
     page.locator("#clock").click()
     page.keyboard.press("ArrowUp")
     wait_for_words(page, r"^turtle1 is 1\.\d+ m ahead")
+    page.wait_for_function(  # it is told when the turtles are drawn
+        "document.getElementById('turtles').getAttribute('aria-label').includes('turtle2 at')"
+    )
     tree = page.text_content("#tree")
     assert "turtle1" in tree
     assert "Hz" in tree

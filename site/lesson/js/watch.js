@@ -97,9 +97,9 @@ export class Watch {
     this.#frames.show(message);
     for (const [id, frame] of Object.entries(this.#first)) {
       if (![...byId(id).options].some(({ value }) => value === frame)) continue;
-      byId(id).value = frame;
       delete this.#first[id];
-      this.#frames.watch();
+      byId(id).value = frame;
+      byId(id).dispatchEvent(new Event("change")); // as if it had been chosen
     }
   }
 

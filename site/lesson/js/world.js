@@ -55,9 +55,8 @@ export class World {
   draw(driven, now) {
     const newest = this.#playback.newest;
     if (!newest || newest.turtleCount !== this.#names.length) return;
-    const poses = this.#playback.sample(now);
-    if (poses?.length !== this.#names.length) return;
-    this.#field.drawTurtles(this.#names, poses, driven, null, now);
+    const { poses } = this.#playback.sample(now);
+    this.#field.drawTurtles(this.#names, poses, { driven, ghost: null, axes: null, now });
     if (now - this.#described < DESCRIPTION_MS) return;
     this.#described = now;
     byId("turtles").setAttribute("aria-label", fieldInWords(this.#names, poses));

@@ -7,10 +7,11 @@ import struct
 from typing import TYPE_CHECKING
 
 from turtlesim.drawing import RECORD_SIZE, Drawing
+from turtlesim.looks import shown_pen
 
 if TYPE_CHECKING:
     from turtlesim.crowd import CrowdTick
-    from turtlesim.model import TurtleTick
+    from turtlesim.model import Stroke, TurtleTick
     from turtlesim.screen import Scene
 
 __all__ = ["LessonScreen"]
@@ -43,9 +44,12 @@ class LessonScreen:
         )
         for tick in ticks:
             for stroke in tick.teleport_strokes:
-                self._drawing.add(tick.turtle.name, stroke)
+                self._draw(tick.turtle.name, stroke)
             if tick.move_stroke is not None:
-                self._drawing.add(tick.turtle.name, tick.move_stroke)
+                self._draw(tick.turtle.name, tick.move_stroke)
+
+    def _draw(self, turtle: str, stroke: Stroke) -> None:
+        self._drawing.add(turtle, stroke._replace(pen=shown_pen(turtle, stroke.pen)))
 
     def show_crowd(self, tick: CrowdTick) -> None:
         """Take the results of one tick of many turtles."""
