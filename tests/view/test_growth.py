@@ -16,7 +16,7 @@ PATH = "nav_msgs/msg/Path"
 
 def living(kind):
     gc.collect()
-    return sum(isinstance(each, kind) for each in gc.get_objects())
+    return sum(issubclass(type(each), kind) for each in gc.get_objects())
 
 
 def path_bytes():
