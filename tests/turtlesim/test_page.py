@@ -39,10 +39,11 @@ def test_the_turtle_is_shown_where_it_is(simulator, open_page):
 
 def test_another_device_is_served_below_the_token(make_simulator, open_page):
     simulator = make_simulator(lan=True)
+    middle = simulator.turtle1.x
     page = open_page(simulator.screen.url)
     page.keyboard.press("ArrowUp")
-    wait_until(lambda: simulator.commands)
-    assert wait_for_pixel(page, "turtles", simulator.turtle1.x, simulator.turtle1.x, is_opaque)
+    wait_for_pixel(page, "turtles", middle + 2.0, middle, is_opaque)
+    assert simulator.commands
 
 
 def test_an_arrow_key_is_one_command_and_the_pen_draws(simulator, open_page):
