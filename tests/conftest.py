@@ -222,15 +222,29 @@ def run():
 
 
 @pytest.fixture(scope="module")
-def browser():
+def chromium():
+    """Starts Chromium. One for both kinds of browser: a thread has room for one Playwright."""
     if CHROMIUM is None:
         pytest.skip("no chromium in PATH (Debian: apt install chromium)")
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=BROWSER_FLAGS)
+        yield lambda flags: playwright.chromium.launch(executable_path=CHROMIUM, args=flags)
+
+
+@pytest.fixture(scope="module")
+def browser(chromium):
+    with contextlib.closing(chromium(BROWSER_FLAGS)) as browser:
         yield browser
-        browser.close()
+
+
+@pytest.fixture(scope="module")
+def browser_3d(chromium):
+    """A browser that draws in 3D without a graphics card."""
+    flags = [flag for flag in BROWSER_FLAGS if flag != "--disable-gpu"]
+    flags += ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+    with contextlib.closing(chromium(flags)) as browser:
+        yield browser
 
 
 class Outcome:

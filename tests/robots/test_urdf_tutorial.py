@@ -1,7 +1,5 @@
 """The URDF tutorials, as typed: packages of data built by colcon, launched, and moved by hand."""
 
-# ruff: noqa: F811 - a fixture is imported
-
 from __future__ import annotations
 
 import re
@@ -10,7 +8,7 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import pytest
-from tests.view.looking_down import browser_3d, wait_until  # noqa: F401 - a fixture
+from tests.view.looking_down import wait_until
 
 pytestmark = pytest.mark.slow
 

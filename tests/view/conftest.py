@@ -7,7 +7,6 @@ import json
 import threading
 
 import pytest
-from tests.conftest import BROWSER_FLAGS, CHROMIUM
 from tests.view.fake_view import FakeView
 from tests.view.packets import decode_packet
 from websockets.exceptions import ConnectionClosed
@@ -150,21 +149,6 @@ def open_view_page():
 @pytest.fixture
 def page(viewer, open_view_page):
     return open_view_page(viewer)
-
-
-@pytest.fixture(scope="module")
-def browser_3d():
-    """A browser that draws in 3D without a graphics card."""
-    if CHROMIUM is None:
-        pytest.skip("no chromium in PATH (Debian: apt install chromium)")
-    from playwright.sync_api import sync_playwright
-
-    flags = [flag for flag in BROWSER_FLAGS if flag != "--disable-gpu"]
-    flags += ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=flags)
-        yield browser
-        browser.close()
 
 
 @pytest.fixture

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import pytest
-from tests.conftest import BROWSER_FLAGS, CHROMIUM
 from tests.view.still_source import StillSource
 
 from turtlewire import msg
 from turtlewire.view import Viewer
 
 LIMIT_MS = 60_000
-FLAGS = [flag for flag in BROWSER_FLAGS if flag != "--disable-gpu"]
-FLAGS += ["--enable-unsafe-swiftshader", "--use-angle=swiftshader"]
 #: Looks down on the square of 8 m around the origin, without frames, names and grid.
 LOOK_DOWN = """async () => {
     const { stage } = await import("./js/main.js");
@@ -63,18 +60,6 @@ REMOVE_ALL = """async () => {
 }"""
 GROUND = (247, 249, 253)
 RED, GREEN, BLUE, WHITE = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)
-
-
-@pytest.fixture(scope="module")
-def browser_3d():
-    if CHROMIUM is None:
-        pytest.skip("no chromium in PATH (Debian: apt install chromium)")
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
-        yield browser
-        browser.close()
 
 
 def wait_until(page, check, arg=None):

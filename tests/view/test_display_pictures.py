@@ -19,7 +19,6 @@ from tests.view.looking_down import (  # noqa: F401 - fixtures
     RED,
     REMOVE_ALL,
     WHITE,
-    browser_3d,
     get,
     pose,
     scene,

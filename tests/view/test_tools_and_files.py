@@ -11,7 +11,6 @@ from tests.view.looking_down import (  # noqa: F401 - fixtures
     GROUND,
     LIMIT_MS,
     REMOVE_ALL,
-    browser_3d,
     get,
     pose,
     scene,
