@@ -143,8 +143,8 @@ def test_search(gui, open_page):
     page = open_page(gui.screen.url)
     page.keyboard.press("/")
     page.keyboard.type("W i")
+    page.get_by_text("3 of 5 joints").wait_for()  # the joints may come after the page is live
     assert page.locator(".joint:visible").count() == 3
-    assert page.locator("#count").inner_text() == "3 of 5 joints"
 
 
 def test_a_slash_searches_after_a_slider_was_used(gui, open_page):
