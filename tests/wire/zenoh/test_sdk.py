@@ -94,7 +94,9 @@ def test_their_publisher(context, router: int):
     with sdk("publisher", router) as (peer, key):
         assert key == subscription.token.data_key
         assert context.graph.wait_for(lambda: subscription.publisher_count() == 1, LONG)
-        assert "sdk_publisher" in [node.name for node in context.graph.nodes()]
+        assert context.graph.wait_for(
+            lambda: "sdk_publisher" in [node.name for node in context.graph.nodes()], LONG
+        )
         peer.stdin.write("once\n")
         peer.stdin.flush()
         wait(context, subscription)
