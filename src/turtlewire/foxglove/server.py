@@ -11,7 +11,7 @@ import threading
 import time
 from typing import TYPE_CHECKING, Any, cast
 
-from websockets.asyncio.server import ServerConnection, serve
+from websockets.asyncio.server import serve
 from websockets.exceptions import ConnectionClosed
 
 from turtlewire.foxglove import origins
@@ -22,10 +22,12 @@ from turtlewire.foxglove.outbox import Outbox
 from turtlewire.foxglove.protocol import SUBPROTOCOLS
 from turtlewire.foxglove.session import Session
 from turtlewire.printable import printable
+from turtlewire.web.connections import Connections
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from websockets.asyncio.server import ServerConnection
     from websockets.http11 import Request, Response
 
     from turtlewire.foxglove.bridge import Log
@@ -81,7 +83,7 @@ class FoxgloveServer:
         self._bridged = (context, node, options, log, find_share)
         self._session_id = str(time.time_ns())
         self._warned: set[str] = set()
-        self._transports: set[asyncio.Transport] = set()
+        self._connections = Connections()
         self._socket = _listening(options)
         host, port = self._socket.getsockname()[:2]
         self.url = f"ws://[{host}]:{port}" if ":" in host else f"ws://{host}:{port}"
@@ -123,7 +125,7 @@ class FoxgloveServer:
                 subprotocols=cast("Any", SUBPROTOCOLS),
                 select_subprotocol=cast("Any", _subprotocol),
                 process_request=self._answer,
-                create_connection=_tracking_connections(self._transports),
+                create_connection=self._connections.connection_type(),
                 compression=None,  # costs more than it saves on a machine's own loopback
                 close_timeout=_CLOSE_TIMEOUT,
                 ping_timeout=_PING_TIMEOUT,
@@ -133,13 +135,7 @@ class FoxgloveServer:
             self._calls = calls
             self._started.set()
             await self._stopping.wait()
-            server.close()
-            closed = asyncio.ensure_future(server.wait_closed())
-            await asyncio.wait([closed], timeout=2 * _CLOSE_TIMEOUT)
-            # A client that is suspended or unreachable never answers the closing handshake.
-            for transport in self._transports:
-                transport.abort()
-            await closed
+            await self._connections.close(server, 2 * _CLOSE_TIMEOUT)
         finally:
             calls.close()
             bridge.close()
@@ -233,21 +229,6 @@ async def _receive(connection: ServerConnection, session: Session) -> None:
 def _subprotocol(_connection: ServerConnection, offered: list[str]) -> str | None:
     """The first of the client's protocols that is ours, as browsers demand exactly one."""
     return next((name for name in offered if name in SUBPROTOCOLS), None)
-
-
-def _tracking_connections(transports: set[asyncio.Transport]) -> type[ServerConnection]:
-    """A connection class that lists all sockets: one without a request must not delay the end."""
-
-    class TrackedConnection(ServerConnection):
-        def connection_made(self, transport: asyncio.BaseTransport) -> None:
-            transports.add(cast("asyncio.Transport", transport))
-            super().connection_made(transport)
-
-        def connection_lost(self, exc: Exception | None) -> None:
-            super().connection_lost(exc)
-            transports.discard(self.transport)
-
-    return TrackedConnection
 
 
 def _listening(options: Options) -> socket.socket:

@@ -95,7 +95,8 @@ def mesh_address(uri: str, *, texture: bool = False) -> MeshAddress:
             return _address(uri, package, path, texture)
         return MeshAddress(
             None,
-            f"'{uri}' is not below the share folder of a package; name it package://<package>/<path>",
+            f"'{uri}' is not below the share folder of a package; "
+            "name it package://<package>/<path>",
         )
     return MeshAddress(
         None, f"'{uri}' is not loaded: only package:// addresses are, and file:// ones of packages"

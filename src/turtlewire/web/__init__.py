@@ -1,14 +1,15 @@
 """A small HTTP and WebSocket server for this machine's browsers: files and live values.
 
-=========  =================================================================
-module     what it holds
-=========  =================================================================
-`server`   `Server`: one thread for the pages and WebSockets of all browsers
-`files`    what a page consists of: files, media types, headers
-`desktop`  where a page is shown: browser and port
-`origin`   which requests are answered
-`lan`      a page for other devices: token, addresses, QR code
-=========  =================================================================
+=============  =================================================================
+module         what it holds
+=============  =================================================================
+`server`       `Server`: one thread for the pages and WebSockets of all browsers
+`connections`  the sockets of a server, and its end
+`files`        what a page consists of: files, media types, headers
+`desktop`      where a page is shown: browser and port
+`origin`       which requests are answered
+`lan`          a page for other devices: token, addresses, QR code
+=============  =================================================================
 """
 
 from __future__ import annotations

@@ -6,8 +6,9 @@ import errno
 import os
 import socket
 import threading
-from typing import TYPE_CHECKING, Any, Protocol, cast
+from typing import TYPE_CHECKING, Any, Protocol
 
+from turtlewire.web.connections import Connections
 from turtlewire.web.files import Content, find_files, headers, policy
 from turtlewire.web.lan import new_token, path_below
 from turtlewire.web.origin import refusal
@@ -110,7 +111,7 @@ class Server:
         self._stopping: asyncio.Event | None = None
         self._started = threading.Event()
         self._wake_ups: set[asyncio.Event] = set()
-        self._transports: set[asyncio.Transport] = set()
+        self._connections = Connections()
         self._thread = threading.Thread(target=self._run, name="turtlewire-web", daemon=True)
         self._thread.start()
 
@@ -154,7 +155,7 @@ class Server:
         server = await serve(
             self._handle,
             sock=self._socket,
-            create_connection=_tracking_connections(self._transports),
+            create_connection=self._connections.connection_type(),
             process_request=self._answer,
             compression=None,  # costs more than it saves on this machine's own loopback
             close_timeout=_CLOSE_TIMEOUT,
@@ -168,13 +169,7 @@ class Server:
         # From here on `notify` does nothing: the loop may be closed at any moment.
         with self._lock:
             self._loop = None
-        server.close()
-        closed = asyncio.ensure_future(server.wait_closed())
-        await asyncio.wait([closed], timeout=2 * _CLOSE_TIMEOUT)
-        # A browser that is suspended or unreachable never answers the closing handshake.
-        for transport in self._transports:
-            transport.abort()
-        await closed
+        await self._connections.close(server, 2 * _CLOSE_TIMEOUT)
 
     def _wake_sessions(self) -> None:
         for wake_up in self._wake_ups:
@@ -290,22 +285,6 @@ class _ExceptionHandler:
                 "Close pages or other programs, or raise the limit (ulimit -n).",
                 error.strerror,
             )
-
-
-def _tracking_connections(transports: set[asyncio.Transport]) -> type[ServerConnection]:
-    """A connection class that lists all sockets: one without a request must not delay the end."""
-    from websockets.asyncio.server import ServerConnection
-
-    class TrackedConnection(ServerConnection):
-        def connection_made(self, transport: asyncio.BaseTransport) -> None:
-            transports.add(cast("asyncio.Transport", transport))
-            super().connection_made(transport)
-
-        def connection_lost(self, exc: Exception | None) -> None:
-            super().connection_lost(exc)
-            transports.discard(self.transport)
-
-    return TrackedConnection
 
 
 def _listen(host: str, port: int) -> socket.socket:

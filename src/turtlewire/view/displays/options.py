@@ -58,7 +58,7 @@ class Options(Mapping[str, object]):
         value = self._values.get(name)
         if not isinstance(value, (list, tuple)) or len(value) != len(default):
             return default
-        if not all(isinstance(part, (int, float)) and part == part for part in value):  # noqa: PLR0124
+        if not all(isinstance(part, (int, float)) and not math.isnan(part) for part in value):
             return default
         red, green, blue = (int(max(0, min(255, part))) for part in value)
         return red, green, blue
