@@ -165,7 +165,7 @@ def fingerprint() -> str:
     ]
     files += [*ros.glob("*.*"), *ros.glob("turtlewire_ros/*/*.*"), *ros.glob("*/share/**/*")]
     files += [*(ROOT / "src" / "turtlewire" / "msg" / "interfaces").glob("*/*/*.*")]
-    files += [path for folder in ("core", "bindings") for path in (native / folder).glob("*.?pp")]
+    files += [path for path in native.glob("*/*.?pp") if path.parent.name != "tests"]
     inits = [*ros.glob("*/__init__.py"), *ros.glob("interfaces/*/__init__.py")]
     packages = sorted(path.parent.name for path in inits)
     digest = hashlib.sha256(f"{can_compile()} {packages}".encode())

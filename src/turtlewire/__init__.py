@@ -11,7 +11,7 @@ module               what it holds
 `foxglove`           the server of Foxglove's protocol: topics for Foxglove and Lichtblick
 `keyboard`           keys, as teleop and ``ros2 bag`` read them
 `msg`                interface definitions, message classes, CDR and type hashes
-`platforms`          what this platform can do
+`platforms`          what this platform can do, and which core is asked for
 `printable`          text from other processes, made safe for a terminal
 `suggestion`         the nearest names to one that does not exist
 `terminal_keyboard`  keys of a terminal

@@ -1,10 +1,14 @@
-"""What this platform can do: the one place that asks for it."""
+"""What this platform can do, and which core the environment asks for: the one place that looks."""
 
 from __future__ import annotations
 
+import functools
+import os
 import sys
 
-__all__ = ["in_browser"]
+__all__ = ["asked_core", "in_browser"]
+
+_UNKNOWN = "turtlewire: TURTLEWIRE_CORE is {!r}; it can be 'native' or 'python'. It is ignored."
 
 
 def in_browser() -> bool:
@@ -14,3 +18,16 @@ def in_browser() -> bool:
     """
     platform: str = sys.platform  # as a variable: type checkers take the constant for Linux
     return platform == "emscripten"
+
+
+@functools.cache
+def asked_core() -> str:
+    """The core that ``TURTLEWIRE_CORE`` asks for: ``native``, ``python`` or empty.
+
+    The first call decides; it ignores any other value with one line on stderr.
+    """
+    asked = os.environ.get("TURTLEWIRE_CORE", "")
+    if asked in {"", "native", "python"}:
+        return asked
+    print(_UNKNOWN.format(asked), file=sys.stderr)  # noqa: T201
+    return ""

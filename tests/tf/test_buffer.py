@@ -651,6 +651,17 @@ class TestChoiceOfCore:
         assert run.stderr.count("\n") == 1
         assert "TURTLEWIRE_CORE is 'foo'; it can be 'native' or 'python'" in run.stderr
 
+    def test_wrong_request_is_said_once_by_all_who_have_compiled_parts(self) -> None:
+        """The wire, the writer of joints' frames and the buffer, whichever comes first."""
+        pytest.importorskip("cyclonedds", reason="Cyclone is not installed")
+        modules = ["wire.cyclone.native", "urdf.frames_writer", "tf.buffer"]
+        for first in range(3):
+            names = modules[first:] + modules[:first]
+            code = "".join(f"import turtlewire.{name}\n" for name in names)
+            run = self.run(code + "print('done')", TURTLEWIRE_CORE="foo")
+            assert run.stdout == "done\n", run.stderr
+            assert run.stderr.count("TURTLEWIRE_CORE is 'foo'") == 1, run.stderr
+
     MISSING = "import sys; sys.modules['turtlewire._native'] = None\n"
 
     def test_missing_native_is_said(self) -> None:

@@ -60,6 +60,25 @@ def test_changed_sources_are_installed_with_the_extras_there_are(setup, monkeypa
     assert setup.calls[1].count("-e") == 3
 
 
+def test_each_native_source_counts(setup, monkeypatch, tmp_path):
+    """All that CMake compiles; not the core's own tests, which are built elsewhere."""
+    sources = sorted((setup.ROOT / "native").rglob("*.?pp"))
+    folders = {path.parent.name for path in sources}
+    assert folders >= {"bindings", "core", "cyclone", "tests"}
+    monkeypatch.setattr(setup, "ROOT", tmp_path)
+    monkeypatch.setattr(setup, "LEARNING", tmp_path / "learning")
+    (tmp_path / "learning").mkdir()
+    (tmp_path / "learning" / "package.xml").touch()
+    (tmp_path / "native").mkdir()
+    for name in ("pyproject.toml", "native/CMakeLists.txt"):
+        (tmp_path / name).touch()
+    for folder in folders:
+        (tmp_path / "native" / folder).mkdir()
+        before = setup.fingerprint()
+        (tmp_path / "native" / folder / "new.cpp").write_text("int changed;")
+        assert (setup.fingerprint() == before) == (folder == "tests"), folder
+
+
 def test_what_fails_is_named(setup, capfd):
     with pytest.raises(setup.SetupError, match="this failed, see above"):
         setup.checked([sys.executable, "-c", "import sys; print('why'); sys.exit(3)"])

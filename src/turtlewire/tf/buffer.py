@@ -3,7 +3,7 @@
 The environment decides when this module is first imported:
 
 - ``TURTLEWIRE_CORE=python`` takes the twin, ``TURTLEWIRE_CORE=native`` insists on the compiled
-  core; any other value is ignored with one line on stderr;
+  core; any other value is ignored with one line on stderr (by :mod:`turtlewire.platforms`);
 - without it the compiled core is taken if it is there; if not, one line on stderr says how to
   get it, except in a browser tab, where there is none;
 - ``TURTLEWIRE_REQUIRE_NATIVE=1`` makes a missing compiled core an ImportError.
@@ -15,12 +15,11 @@ import os
 import sys
 from typing import TYPE_CHECKING
 
-from turtlewire.platforms import in_browser
+from turtlewire.platforms import asked_core, in_browser
 from turtlewire.tf.surface import equip
 
 __all__ = ["CORE", "Buffer", "RecordWalk", "Transform"]
 
-_UNKNOWN = "turtlewire: TURTLEWIRE_CORE is {!r}; it can be 'native' or 'python'. It is ignored."
 _ADVICE = (
     "turtlewire: the compiled core is not built, the plain-Python one is used (slower, same "
     "answers). For the fast one install a C++ compiler and Python's headers (Debian: apt install "
@@ -29,9 +28,7 @@ _ADVICE = (
 
 
 def _choose() -> str:
-    wanted = os.environ.get("TURTLEWIRE_CORE", "")
-    if wanted not in {"", "native", "python"}:
-        print(_UNKNOWN.format(wanted), file=sys.stderr)  # noqa: T201
+    wanted = asked_core()
     if wanted == "python" or (wanted != "native" and in_browser()):
         return "python"
     try:

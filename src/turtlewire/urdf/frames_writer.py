@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import os
 import struct
 from typing import TYPE_CHECKING, NamedTuple
 
+from turtlewire.platforms import asked_core
 from turtlewire.urdf.joint_model import joint_constants
 
 if TYPE_CHECKING:
@@ -114,7 +114,7 @@ class PlainFrames:
 
 
 def _native_frames() -> type[PlainFrames | JointFrames] | None:
-    if os.environ.get("TURTLEWIRE_CORE") == "python":
+    if asked_core() == "python":
         return None
     try:
         from turtlewire._native import JointFrames

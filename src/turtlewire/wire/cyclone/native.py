@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import ctypes
-import os
 from typing import TYPE_CHECKING
+
+from turtlewire.platforms import asked_core
 
 from . import library as dds
 
@@ -24,7 +25,7 @@ def _address(function: Callable[..., object]) -> int:
 
 
 def _load() -> Cyclone | None:
-    if os.environ.get("TURTLEWIRE_CORE") == "python":
+    if asked_core() == "python":
         return None
     try:
         from turtlewire._native import Cyclone
