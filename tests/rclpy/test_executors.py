@@ -57,7 +57,7 @@ def spinning(context):
 
     yield start
     for executor, thread in started:
-        assert executor.shutdown(10)
+        assert executor.shutdown(60)
         thread.join(60)
         assert not thread.is_alive()
 

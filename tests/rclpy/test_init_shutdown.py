@@ -326,7 +326,7 @@ def test_a_callback_may_shut_down_while_others_wait_for_it(monkeypatch, middlewa
         )  # finds the message, whose callback has to wait for this one
         context.shutdown()
 
-    assert context.wait_for_graph(lambda: publisher.get_subscription_count() == 1, 20_000_000_000)
+    assert context.wait_for_graph(lambda: publisher.get_subscription_count() == 1, 60_000_000_000)
     node.create_guard_condition(end).trigger()
     executor.spin_once()
     with pytest.raises(ExternalShutdownException):

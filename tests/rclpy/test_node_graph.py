@@ -44,13 +44,13 @@ def other(middleware):
 @pytest.fixture
 def wait_for(context):
     def wait(predicate):
-        assert context.wait_for_graph(predicate, 20_000_000_000)
+        assert context.wait_for_graph(predicate, 60_000_000_000)
 
     return wait
 
 
 def test_nodes(node, other):
-    assert node.wait_for_node("/ns/other", 20)
+    assert node.wait_for_node("/ns/other", 60)
     assert {"tested", "other"} <= set(node.get_node_names())
     assert {"/tested", "/ns/other"} <= set(node.get_fully_qualified_node_names())
     assert {("tested", "/"), ("other", "/ns")} <= set(node.get_node_names_and_namespaces())
@@ -63,7 +63,7 @@ def test_wait_for_node_ends_when_it_comes_goes_or_the_time_is_over(context, node
     made = []
     coming = threading.Timer(0.05, lambda: made.append(Node("late", context=context)))
     coming.start()
-    assert node.wait_for_node("late", 20)
+    assert node.wait_for_node("late", 60)
     coming.join()
     made[0].destroy_node()
     assert not node.wait_for_node("/late", 0)

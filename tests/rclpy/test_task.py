@@ -206,7 +206,7 @@ def test_a_future_can_be_awaited_in_asyncio():
         waiting = asyncio.ensure_future(_await(future))
         await asyncio.sleep(0)
         setter.start()
-        result = await asyncio.wait_for(waiting, 10)
+        result = await asyncio.wait_for(waiting, 60)
         setter.join()
         return result, await future
 

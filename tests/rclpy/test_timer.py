@@ -229,7 +229,7 @@ def test_a_rate_may_sleep_in_a_callback_of_another_thread_of_the_pool(context, n
     spinning = threading.Thread(target=executor.spin)
     spinning.start()
     assert slept.wait(60)
-    assert executor.shutdown(10)
+    assert executor.shutdown(60)
     spinning.join(60)
     assert not spinning.is_alive()
 

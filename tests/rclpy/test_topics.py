@@ -36,7 +36,7 @@ def context(request, monkeypatch):
 
 
 def matched(context, publisher):
-    assert context.wait_for_graph(lambda: publisher.get_subscription_count() > 0, 10_000_000_000)
+    assert context.wait_for_graph(lambda: publisher.get_subscription_count() > 0, 60_000_000_000)
 
 
 def test_messages_arrive(context, node, spin_until):
@@ -348,7 +348,7 @@ def test_wait_for_all_acked(context, node):
     node.create_subscription(Int32, "number", lambda _: None, 10)
     matched(context, publisher)
     publisher.publish(Int32())
-    assert publisher.wait_for_all_acked(Duration(seconds=10))
+    assert publisher.wait_for_all_acked(Duration(seconds=60))
     assert publisher.wait_for_all_acked()
     publisher.assert_liveliness()
 
@@ -359,7 +359,7 @@ def test_wait_for_message(context, node):
     )
     publisher.publish(Int32(data=6))
     latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-    assert wait_for_message(Int32, node, "number", qos_profile=latched, time_to_wait=10) == (
+    assert wait_for_message(Int32, node, "number", qos_profile=latched, time_to_wait=60) == (
         True,
         Int32(data=6),
     )

@@ -85,7 +85,7 @@ def call(manager):
         client = node.create_client(kind, f"/container/_container/{name}")
         assert client.wait_for_service(60)
         future = client.call_async(kind.Request(**fields))
-        executor.spin_until_future_complete(future, 30)
+        executor.spin_until_future_complete(future, 60)
         return future.result()
 
     yield ask

@@ -35,7 +35,7 @@ def test_events_of_a_call(run):
             lambda: service._events.wire.subscription_count() == 1, 30_000_000_000
         )
         rclpy.spin_until_future_complete(
-            node, client.call_async(AddTwoInts.Request(a=5, b=6)), timeout_sec=30
+            node, client.call_async(AddTwoInts.Request(a=5, b=6)), timeout_sec=60
         )
         echo.wait_for("^---$", count=2)
         lines = echo.text.splitlines()

@@ -24,7 +24,7 @@ pytestmark = pytest.mark.skipif(
 
 TYPE = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
 KEEP_ALL = QOS._replace(history=History.KEEP_ALL)
-LONG_NS = 30_000_000_000
+LONG_NS = 60_000_000_000
 
 
 def tf_bytes(stamp_s, child="robot"):

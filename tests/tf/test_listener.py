@@ -19,7 +19,7 @@ from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import QoS
 
 TYPE = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
-LONG_NS = 10_000_000_000
+LONG_NS = 60_000_000_000
 
 
 def tf_bytes(parent, child, x=0.0, stamp_s=1):

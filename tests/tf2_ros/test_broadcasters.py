@@ -15,7 +15,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.time import Time
 from tf2_ros import Buffer, StaticTransformBroadcaster, TransformBroadcaster, TransformListener
 
-LONG = Duration(seconds=10)
+LONG = Duration(seconds=60)
 
 
 @pytest.fixture

@@ -93,7 +93,7 @@ TransformListener(buffer, node)
 filters = [
     MessageFilter(
         Subscriber(node, PointStamped, "point"), buffer, "world", 100, node,
-        timeout=Duration(seconds=20),
+        timeout=Duration(seconds=60),
     )
     for _ in "ab"
 ]

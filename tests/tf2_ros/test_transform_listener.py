@@ -20,7 +20,7 @@ from tf2_ros import (
     TransformListener,
 )
 
-LONG = Duration(seconds=10)
+LONG = Duration(seconds=60)
 
 
 def subscriptions(node, topic):

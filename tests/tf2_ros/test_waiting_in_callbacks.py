@@ -34,7 +34,7 @@ HALF_NS = 500_000_000
 #: stamp give the same answer.
 SPEEDS = {"base": (1.0, 0.0), "robot": (0.0, 10.0)}
 PARENTS = {"base": "world", "robot": "base"}
-LONG, SHORT = Duration(seconds=30), Duration(seconds=0.01)
+LONG, SHORT = Duration(seconds=60), Duration(seconds=0.01)
 
 
 class Sample(NamedTuple):

@@ -62,5 +62,5 @@ def test_it_hears_of_parameter_events(node):
     def hears() -> bool:
         return "/parameter_events" in dict(node.get_subscriber_names_and_types_by_node("sim", "/"))
 
-    assert node.context.wait_for_graph(hears, 20_000_000_000)
+    assert node.context.wait_for_graph(hears, 60_000_000_000)
     assert node.get_parameter(QOS).value == 1000

@@ -48,7 +48,7 @@ class World:
         self.user.destroy_node()
         self.executor.shutdown()
 
-    def spin_until(self, is_done, timeout: float = 20.0) -> None:
+    def spin_until(self, is_done, timeout: float = 60.0) -> None:
         deadline = time.monotonic() + timeout
         while not is_done():
             assert time.monotonic() < deadline, "nothing happened"

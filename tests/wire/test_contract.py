@@ -30,7 +30,7 @@ REQUEST = TypeId("std_srvs/srv/SetBool_Request", "RIHS01_" + "1" * 64)
 RESPONSE = TypeId("std_srvs/srv/SetBool_Response", "RIHS01_" + "2" * 64)
 SWITCH = ServiceTypes("std_srvs/srv/SetBool", REQUEST, RESPONSE, lambda _: "RIHS01_" + "3" * 64)
 SECOND = 1_000_000_000
-LONG = 20 * SECOND
+LONG = 60 * SECOND
 
 
 def cdr(text: str) -> bytes:

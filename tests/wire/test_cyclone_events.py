@@ -10,7 +10,7 @@ from turtlewire.wire.qos import Liveliness, QoS
 
 STRING = TypeId("std_msgs/msg/String", "RIHS01_" + "0" * 64)
 MESSAGE = b"\x00\x01\x00\x00" + bytes(8)
-LONG = 20_000_000_000
+LONG = 60_000_000_000
 MILLISECOND = 1_000_000
 
 

@@ -25,7 +25,7 @@ pytestmark = pytest.mark.slow
 
 PEERS = Path(__file__).parent / "peers"
 ROS2 = Path(sys.executable).parent / "ros2"
-LONG = 10_000_000_000
+LONG = 60_000_000_000
 LATCHED = QoS(depth=100, durability=Durability.TRANSIENT_LOCAL)
 LIVE = QoS(depth=100)
 #: What a real rmw_cyclonedds tells Cyclone in LOCALHOST range.

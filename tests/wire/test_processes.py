@@ -20,7 +20,7 @@ STRING = TypeId("std_msgs/msg/String", "RIHS01_" + "0" * 64)
 REQUEST = TypeId("std_srvs/srv/SetBool_Request", "RIHS01_" + "1" * 64)
 RESPONSE = TypeId("std_srvs/srv/SetBool_Response", "RIHS01_" + "2" * 64)
 SWITCH = ServiceTypes("std_srvs/srv/SetBool", REQUEST, RESPONSE, lambda _: "RIHS01_" + "3" * 64)
-LONG = 20_000_000_000
+LONG = 60_000_000_000
 SOONER_THAN_A_LEASE = 4_500_000_000
 
 

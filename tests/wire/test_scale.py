@@ -21,7 +21,7 @@ from turtlewire.wire.qos import Durability, History, QoS
 PEERS = Path(__file__).parent / "peers"
 STRING = TypeId("std_msgs/msg/String", "RIHS01_" + "0" * 64)
 MESSAGE = b"\x00\x01\x00\x00" + bytes(8)
-LONG = 30_000_000_000
+LONG = 60_000_000_000
 
 
 @pytest.fixture

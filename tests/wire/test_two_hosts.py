@@ -258,7 +258,7 @@ def split_demo(tmp_path) -> Iterator[list[subprocess.Popen[bytes]]]:
         for process in processes:
             process.send_signal(signal.SIGINT)
         for process in processes:
-            process.wait(20)
+            process.wait(60)
 
 
 @pytest.mark.usefixtures("hosts")

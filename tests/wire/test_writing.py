@@ -15,7 +15,7 @@ from turtlewire.wire.qos import History, QoS
 STRING = TypeId(
     "std_msgs/msg/String", "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
 )
-LONG_NS = 30_000_000_000
+LONG_NS = 60_000_000_000
 
 
 def with_ctypes(handle: int) -> writing.CtypesWriter:

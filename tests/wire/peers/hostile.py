@@ -12,7 +12,7 @@ from turtlewire.wire import open_context
 from turtlewire.wire.base import Publisher, TypeId
 from turtlewire.wire.qos import QoS
 
-LONG = 30_000_000_000
+LONG = 60_000_000_000
 
 
 def has_subscription(publisher: Publisher) -> bool:

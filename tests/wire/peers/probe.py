@@ -13,7 +13,7 @@ from turtlewire.wire.qos import QoS
 REQUEST = TypeId("std_srvs/srv/SetBool_Request", "RIHS01_" + "1" * 64)
 RESPONSE = TypeId("std_srvs/srv/SetBool_Response", "RIHS01_" + "2" * 64)
 SWITCH = ServiceTypes("std_srvs/srv/SetBool", REQUEST, RESPONSE, lambda _: "RIHS01_" + "3" * 64)
-LONG = 30_000_000_000
+LONG = 60_000_000_000
 MESSAGE = b"\x00\x01\x00\x00" + bytes(8)
 
 context = open_context()
