@@ -18,11 +18,39 @@ from turtlewire.wire import open_context
 BLUE = (69, 86, 255)
 
 
+class SharedWorld(World):
+    """A world that the test's thread may change while the simulator's thread steps it."""
+
+    def __init__(self) -> None:
+        self._lock = threading.RLock()
+        super().__init__()
+
+    def spawn(self, *arguments, **keywords):
+        with self._lock:
+            return super().spawn(*arguments, **keywords)
+
+    def kill(self, name):
+        with self._lock:
+            return super().kill(name)
+
+    def reset(self):
+        with self._lock:
+            super().reset()
+
+    def in_order(self):
+        with self._lock:
+            return super().in_order()
+
+    def step(self, now_ns):
+        with self._lock:
+            return super().step(now_ns)
+
+
 class Simulator:
     """The model, stepped in real time in a thread of its own, and its screen."""
 
     def __init__(self, *, lan: bool = False) -> None:
-        self.world = World()
+        self.world = SharedWorld()
         self._crowd = Crowd()
         self.turtle1 = self.world.spawn_centred()
         self.background = BLUE

@@ -45,6 +45,11 @@ def wait_until(is_done) -> None:
         time.sleep(0.02)
 
 
+def is_at_rest(turtle) -> bool:
+    """Whether the last command of a turtle is over."""
+    return turtle.forward == turtle.turning == 0.0
+
+
 def is_pen(colour: tuple[int, ...]) -> bool:
     """Whether this is turtle1's line, in the colour of its shell."""
     return math.dist(colour[:3], (0x72, 0xC3, 0xB0)) < 12
@@ -68,11 +73,13 @@ def on_screen(page, x: float, y: float) -> tuple[float, float]:
 def publish_transform(
     simulator, parent: str, child: str, stamp_ns: int, x: float, y: float
 ) -> None:
+    """Publish a transform as soon as the page's listener hears it; its node is there earlier."""
     if not hasattr(simulator, "tf"):
         type_id = TypeId(listener.TYPE_NAME, msg.type_hash(listener.TYPE_NAME))
         simulator.tf = simulator.wire.create_node("broadcaster").create_publisher(
             listener.TOPIC, type_id, listener.QOS
         )
+    wait_until(lambda: simulator.tf.subscription_count() > 0)
     transform = msg.get_message("geometry_msgs/msg/TransformStamped")(child_frame_id=child)
     transform.header.frame_id = parent
     transform.header.stamp.sec, transform.header.stamp.nanosec = divmod(stamp_ns, 10**9)
