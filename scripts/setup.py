@@ -26,6 +26,7 @@ VENV = ROOT / ".venv"
 PYTHON = VENV / "bin" / "python"
 STAMP = VENV / "turtlewire-stamp.json"
 LEARNING = ROOT / "ros2_ws" / "src" / "learning_tf2_py"
+CLASSROOM = ROOT / "classroom"
 
 #: The signals that end the set-up.
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
@@ -162,6 +163,7 @@ def fingerprint() -> str:
         native / "CMakeLists.txt",
         *LEARNING.glob("setup.*"),
         LEARNING / "package.xml",
+        CLASSROOM / "pyproject.toml",
     ]
     files += [*ros.glob("*.*"), *ros.glob("turtlewire_ros/*/*.*"), *ros.glob("*/share/**/*")]
     files += [*(ROOT / "src" / "turtlewire" / "msg" / "interfaces").glob("*/*/*.*")]
@@ -249,7 +251,7 @@ def version_of(text: str) -> tuple[int, ...]:
 
 
 def install(extras: Sequence[str], *, only_extras: bool) -> None:
-    """Install the three packages editable, unless they are there, and the extras."""
+    """Install the four packages editable, unless they are there, and the extras."""
     workspace = "[workspace]" if "workspace" in extras else ""
     groups = [
         argument
@@ -268,6 +270,8 @@ def install(extras: Sequence[str], *, only_extras: bool) -> None:
             f"{ROOT / 'ros'}{workspace}",
             "-e",
             str(LEARNING),
+            "-e",
+            str(CLASSROOM),
             *groups,
         )
         clear_build_files()

@@ -9,6 +9,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.cli.bag_commands import add_bag_commands, complete_bags, reporting_errors
+from turtlewire.cli.class_command import add_class_command
 from turtlewire.cli.foxglove_command import add_foxglove_command
 from turtlewire.cli.parser import Parser, add_tf_topics, seconds, tf_topics
 from turtlewire.cli.pipes import leave_pipe
@@ -67,6 +68,7 @@ def _parser() -> Parser:
     add_view_command(commands)
     add_foxglove_command(commands)
     add_bag_commands(commands)
+    add_class_command(commands)
     return parser
 
 

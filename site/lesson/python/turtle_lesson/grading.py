@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from turtle_lesson.exercise import Exercise
     from turtle_lesson.lesson import Lesson
 
-__all__ = ["Result", "grade", "grade_as_json"]
+__all__ = ["Result", "check_name", "grade", "grade_as_json"]
 
 
 class Result(NamedTuple):
@@ -35,6 +35,11 @@ class Result(NamedTuple):
     hint: str = ""
     file: str = ""
     line: int = 0
+
+
+def check_name(check: Callable[[Exercise], None]) -> str:
+    """What a check is about: the first line of its docstring."""
+    return (check.__doc__ or check.__name__).strip().splitlines()[0].removesuffix(".")
 
 
 def grade(
@@ -73,7 +78,7 @@ def _run(
     files: Mapping[str, str],
     alive: Callable[[], object],
 ) -> Result:
-    name = (check.__doc__ or check.__name__).strip().splitlines()[0].removesuffix(".")
+    name = check_name(check)
     try:
         with exercise_of(lesson, files) as exercise:
             exercise.call_regularly(alive)

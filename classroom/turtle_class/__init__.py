@@ -1,0 +1,16 @@
+"""The classroom: what `turtlewire class` does.
+
+============  ==================================================================
+module        what it holds
+============  ==================================================================
+`errors`      what keeps a command from running
+`catalogue`   the exercises: the lessons of the browser tab, and more
+`child`       one exercise of one student, in a process of its own
+`supervise`   a script that ends a process and all that it started
+`runner`      starts a child with limits and reads its results
+`grading`     all exercises of all students, several at a time
+`junit`       results as JUnit XML
+`pages`       results as pages without JavaScript
+`commands`    the verbs that write reports and hand out files
+============  ==================================================================
+"""

@@ -1,0 +1,96 @@
+"""The exercises: the lessons of the browser tab, and more, in one format."""
+
+from __future__ import annotations
+
+import html
+import json
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from turtle_class.errors import ClassError
+from turtlewire.suggestion import did_you_mean
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = ["Exercise", "chosen", "exercises"]
+
+_HERE = Path(__file__).resolve().parent
+#: Where the exercises are: in an installation, or in the sources.
+_FOLDERS = (
+    (_HERE / "lessons", _HERE.parents[1] / "site" / "lesson" / "lessons"),
+    (_HERE / "exercises", _HERE.parent / "exercises"),
+)
+
+
+class Exercise(NamedTuple):
+    """An exercise.
+
+    Attributes:
+        name: Its folder's name; students hand in a folder of the same name.
+        title: What it is about.
+        files: Names of the files that a student hands in.
+        folder: Where its text, first files, solution and checks are.
+    """
+
+    name: str
+    title: str
+    files: tuple[str, ...]
+    folder: Path
+
+    def text(self) -> str:
+        """The text and the task, as HTML."""
+        return (self.folder / "text.html").read_text(encoding="utf-8")
+
+    def plain_text(self) -> str:
+        """The text and the task, as Markdown without links."""
+        text = re.sub(r"</?(?:code)>", "`", self.text())
+        text = re.sub(r"<h2>(.*?)</h2>", lambda found: f"# {found[1]}\n", text)
+        text = re.sub(r"</?(?:em)>", "*", re.sub(r"</?strong>", "**", text))
+        text = re.sub(r"\s*<li>", "\n- ", text)
+        text = re.sub(r"<pre>(.*?)</pre>", r"\n```\n\1\n```", text, flags=re.DOTALL)
+        text = re.sub(r"</p>|</ul>", "\n", text)
+        return html.unescape(re.sub(r"<[^>]*>", "", text)).strip() + "\n"
+
+    def starter(self) -> dict[str, str]:
+        """The files as students find them, by name."""
+        return {
+            file: (self.folder / "starter" / file).read_text(encoding="utf-8")
+            for file in self.files
+        }
+
+
+def exercises() -> list[Exercise]:
+    """All exercises, in the order of teaching."""
+    return [
+        exercise
+        for installed, source in _FOLDERS
+        for exercise in _of(installed if installed.is_dir() else source)
+    ]
+
+
+def chosen(names: Sequence[str]) -> list[Exercise]:
+    """The exercises of these names, or all if there are none.
+
+    Raises:
+        ClassError: There is no exercise of such a name.
+    """
+    known = {exercise.name: exercise for exercise in exercises()}
+    for name in names:
+        if name not in known:
+            raise ClassError(
+                f"there is no exercise {name!r}; there are {', '.join(known)}. "
+                f"{did_you_mean(name, list(known))}".strip()
+            )
+    return [known[name] for name in names] if names else list(known.values())
+
+
+def _of(folder: Path) -> list[Exercise]:
+    order = json.loads((folder / "order.json").read_text(encoding="utf-8"))
+    return [_read(folder / name) for name in order]
+
+
+def _read(folder: Path) -> Exercise:
+    facts = json.loads((folder / "lesson.json").read_text(encoding="utf-8"))
+    return Exercise(folder.name, facts["title"], tuple(facts["files"]), folder)

@@ -1,0 +1,117 @@
+"""The verbs that grade and hand out files; `turtlewire class` calls them."""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import TYPE_CHECKING
+
+from turtle_class.catalogue import chosen, exercises
+from turtle_class.errors import ClassError
+from turtle_class.grading import grade_all, students_in
+from turtle_class.junit import as_junit
+from turtle_class.pages import overview, student_page
+from turtle_class.runner import Limits
+from turtlewire.printable import printable
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+    from pathlib import Path
+
+    from turtle_class.grading import Report
+
+__all__ = ["check", "grade", "list_exercises", "start"]
+
+
+def list_exercises() -> None:
+    """Print the exercises."""
+    width = max(len(exercise.name) for exercise in exercises())
+    for exercise in exercises():
+        print(f"{exercise.name:{width}}  {exercise.title}")  # noqa: T201
+
+
+def start(folder: Path, names: Sequence[str]) -> None:
+    """Write the first files and the texts of exercises into a folder.
+
+    Raises:
+        ClassError: No such exercise, or a file is there already.
+    """
+    wanted = {
+        folder / exercise.name / name: text
+        for exercise in chosen(names)
+        for name, text in {"README.md": exercise.plain_text(), **exercise.starter()}.items()
+    }
+    there = [path for path in wanted if path.exists()]
+    if there:
+        raise ClassError(f"{printable(str(there[0]))} is there already: nothing was written")
+    for path, text in wanted.items():
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+    count = len({path.parent for path in wanted})
+    print(f"{count} exercises in {printable(str(folder))}")  # noqa: T201
+
+
+def check(folder: Path, names: Sequence[str], limit_s: float, junit: Path | None) -> int:
+    """Grade one student's folder, and print what helps; the exit status."""
+    if not folder.is_dir():
+        raise ClassError(f"there is no folder {printable(str(folder))}")
+    wanted = chosen(names)
+    if not names:  # what the folder holds
+        wanted = [exercise for exercise in wanted if (folder / exercise.name).is_dir()]
+    if not wanted:
+        raise ClassError(
+            f"{printable(str(folder))} holds no exercise: `turtlewire class start "
+            f"{printable(str(folder))}` puts their first files there"
+        )
+    [report] = grade_all([folder.resolve()], wanted, Limits(seconds=limit_s), _progress)
+    _progress("")
+    if junit is not None:
+        junit.parent.mkdir(parents=True, exist_ok=True)
+        junit.write_text(as_junit(report), encoding="utf-8")
+    for line in _lines(report):
+        print(line)  # noqa: T201
+    return 0 if report.passed == len(report.outcomes) else 1
+
+
+def _lines(report: Report) -> Iterator[str]:
+    for outcome in report.outcomes:
+        state = "solved" if outcome.passed else f"{outcome.points} of {len(outcome.results)} checks"
+        yield f"{outcome.exercise.name}: {state}"
+        for result in outcome.results:
+            if result.state == "failed" or not outcome.handed_in:
+                place = f"{result.file}, line {result.line}: " if result.line else ""
+                yield f"    {printable(result.check)}"
+                yield f"    {printable(place + result.text)}"
+                yield f"    {printable(result.hint)}"
+
+
+def grade(folder: Path, names: Sequence[str], limit_s: float, output: Path) -> None:
+    """Grade all students' folders in a folder, and write the reports.
+
+    Raises:
+        ClassError: There are no students, no such exercise, or the reports have no place.
+    """
+    students, wanted = students_in(folder), chosen(names)
+    if output.exists() and not output.is_dir():
+        raise ClassError(f"{printable(str(output))} is no folder for the reports")
+    reports = grade_all(students, wanted, Limits(seconds=limit_s), _progress)
+    _progress("")
+    (output / "junit").mkdir(parents=True, exist_ok=True)
+    when = time.strftime("%Y-%m-%d %H:%M")
+    for report in reports:
+        page = student_page(report, when)
+        (output / f"{report.slug}.html").write_text(page, encoding="utf-8")
+        (output / "junit" / f"{report.slug}.xml").write_text(as_junit(report), encoding="utf-8")
+    title = f"Exercises of {folder.resolve().name}"
+    (output / "index.html").write_text(overview(reports, title, when), encoding="utf-8")
+    width = max(len(report.student) for report in reports)
+    for report in reports:
+        print(f"{report.student:{width}}  {report.passed} of {len(wanted)} solved")  # noqa: T201
+    print(f"The reports are at {printable(str(output / 'index.html'))}")  # noqa: T201
+
+
+def _progress(text: str) -> None:
+    """Replace the line of progress, if a terminal shows it."""
+    if sys.stderr.isatty():
+        sys.stderr.write(f"\r\x1b[K{text}")
+        sys.stderr.flush()

@@ -1,0 +1,132 @@
+"""All exercises of all students, several at a time."""
+
+from __future__ import annotations
+
+import os
+import queue
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from typing import TYPE_CHECKING, NamedTuple
+
+from turtle_class.errors import ClassError
+from turtle_class.runner import Runner
+from turtlewire.printable import printable
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from pathlib import Path
+
+    from turtle_class.catalogue import Exercise
+    from turtle_class.runner import Limits, Outcome
+
+__all__ = ["Report", "grade_all", "students_in"]
+
+#: Domains of the children, from here downwards; the usual ones begin at 0.
+_LAST_DOMAIN = 101
+
+
+class Report(NamedTuple):
+    """What a student has reached.
+
+    Attributes:
+        student: The name of the student's folder, safe to show.
+        slug: A name for files and links: letters, digits, dashes, dots and underscores.
+        outcomes: One for each exercise.
+    """
+
+    student: str
+    slug: str
+    outcomes: tuple[Outcome, ...]
+
+    @property
+    def passed(self) -> int:
+        """How many exercises passed."""
+        return sum(outcome.passed for outcome in self.outcomes)
+
+
+def students_in(folder: Path) -> list[Path]:
+    """The students' folders, by name.
+
+    Raises:
+        ClassError: There is no such folder, or none in it.
+    """
+    if not folder.is_dir():
+        raise ClassError(f"there is no folder {printable(str(folder))}")
+    found = sorted(
+        each for each in folder.iterdir() if each.is_dir() and not each.name.startswith(".")
+    )
+    if not found:
+        raise ClassError(
+            f"{printable(str(folder))} holds no folders: it must have one for each student, with "
+            "a folder for each exercise in it (ana/static/static_frame_broadcaster.py)"
+        )
+    return found
+
+
+def grade_all(
+    students: Sequence[Path],
+    exercises: Sequence[Exercise],
+    limits: Limits | None = None,
+    tell: Callable[[str], object] = lambda _: None,
+    *,
+    jobs: int | None = None,
+) -> list[Report]:
+    """Grade, each exercise of each student in a process of its own.
+
+    Args:
+        students: Their folders.
+        exercises: What is graded.
+        limits: Of each exercise; None takes the usual ones.
+        tell: Called with the progress after each exercise.
+        jobs: How many run at a time; None takes one for each core.
+    """
+    jobs = jobs or os.cpu_count() or 1
+    runner = Runner(limits)
+    domains: queue.SimpleQueue[int] = queue.SimpleQueue()
+    for number in range(jobs):
+        domains.put(_LAST_DOMAIN - number % (_LAST_DOMAIN + 1))
+
+    def run(student: Path, exercise: Exercise) -> Outcome:
+        domain = domains.get()
+        try:
+            return runner.run(exercise, student / exercise.name, domain)
+        finally:
+            domains.put(domain)
+
+    pool = ThreadPoolExecutor(jobs)
+    try:
+        work = {
+            (student, exercise.name): pool.submit(run, student, exercise)
+            for student in students
+            for exercise in exercises
+        }
+        for number, _ in enumerate(as_completed(work.values()), 1):
+            tell(f"{number} of {len(work)} graded")
+    finally:  # after Ctrl-C, what has not begun does not begin
+        pool.shutdown(wait=False, cancel_futures=True)
+        runner.stop()
+    slugs = _slugs(students)
+    return [
+        Report(
+            printable(student.name),
+            slugs[student],
+            tuple(work[student, exercise.name].result() for exercise in exercises),
+        )
+        for student in students
+    ]
+
+
+def _slugs(students: Sequence[Path]) -> dict[Path, str]:
+    slugs: dict[Path, str] = {}
+    taken = {"index"}  # the overview; file systems may ignore case
+    for student in students:
+        plain = "".join(
+            letter if letter.isascii() and (letter.isalnum() or letter in "._-") else "_"
+            for letter in student.name
+        )
+        slug, number = plain, 1
+        while slug.lower() in taken:
+            number += 1
+            slug = f"{plain}-{number}"
+        taken.add(slug.lower())
+        slugs[student] = slug
+    return slugs

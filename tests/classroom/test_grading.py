@@ -1,0 +1,261 @@
+"""Grading: whatever a student hands in, the others get their results, and nothing is left."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import pytest
+
+from turtle_class import supervise
+from turtle_class.catalogue import chosen
+from turtle_class.runner import Limits, Runner
+from turtlewire.cli.main import main
+
+from .conftest import FILE, silly, solution
+
+(CARROT,) = chosen(["fixed_carrot"])
+
+
+def graded(folder, name, limits=None):
+    """Grade what a student with this mistake hands in."""
+    (folder / FILE).write_text(silly(name), encoding="utf-8")
+    return Runner(limits).run(CARROT, folder, 99)
+
+
+def failure(outcome):
+    (found,) = [result for result in outcome.results if result.state == "failed"]
+    return found
+
+
+def test_a_solution_passes(tmp_path):
+    outcome = graded(tmp_path, "solved")
+    assert outcome.passed
+    assert outcome.points == len(outcome.results) >= 3
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "hint"),
+    [
+        ("endless", "did not come to an end", "use a timer instead of a loop"),
+        ("exits", "ended with status 0", "Something ended the whole Python process"),
+        ("forks", "calls os.fork", "neither starts programs nor ends others"),
+        ("crashes", "ended with status", "a library that crashed"),
+        ("misspelt", "TransformStampde' is not defined", "correct its spelling"),
+        ("eats_memory", "MemoryError", ""),
+    ],
+)
+def test_a_stupid_thing_is_a_result_with_a_hint(tmp_path, name, text, hint):
+    outcome = graded(tmp_path, name)
+    found = failure(outcome)
+    assert text in found.text
+    assert hint in found.hint
+    assert {result.state for result in outcome.results[1:]} == {"skipped"}
+    if name not in {"exits", "crashes"}:
+        assert found.file == FILE
+        assert found.line > 1
+
+
+def test_a_program_that_waits_is_ended_after_the_limit(tmp_path):
+    found = failure(graded(tmp_path, "waits", Limits(seconds=20.0)))
+    assert found.text == "It did not end within 20 s."
+    assert "time.sleep()" in found.hint
+
+
+def test_a_flood_of_output_is_cut_and_does_not_fail(tmp_path):
+    outcome = graded(tmp_path, "floods", Limits(log=5000))
+    assert outcome.passed
+    assert len(outcome.log) < 5100
+    assert outcome.log.endswith("bytes more")
+
+
+@pytest.mark.parametrize(
+    ("spoil", "state", "text"),
+    [
+        (lambda path: path.unlink(), "skipped", f"{FILE} is missing."),
+        (lambda path: path.write_bytes(b"# \xff\n"), "failed", f"{FILE} is not UTF-8"),
+        (lambda path: path.write_bytes(b"#" * 2_000_000), "failed", "has 2000000 bytes"),
+        (lambda path: (path.unlink(), path.mkdir()), "failed", "is no plain file"),
+        (lambda path: (path.unlink(), path.symlink_to("/etc/passwd")), "failed", "no plain file"),
+    ],
+    ids=["missing", "latin1", "huge", "folder", "link"],
+)
+def test_what_is_no_file_of_python_is_a_result(tmp_path, spoil, state, text):
+    (tmp_path / FILE).write_text(solution(), encoding="utf-8")
+    spoil(tmp_path / FILE)
+    outcome = Runner().run(CARROT, tmp_path, 99)
+    (result,) = outcome.results
+    assert result.state == state
+    assert text in result.text
+    assert result.hint
+
+
+def test_the_students_code_sees_nothing_of_the_teachers_environment(tmp_path, monkeypatch):
+    monkeypatch.setenv("SECRET_TOKEN", "abc")
+    text = silly("solved").replace(
+        "import rclpy\n", "import rclpy\nimport os\nprint(os.environ)\n", 1
+    )
+    (tmp_path / FILE).write_text(text, encoding="utf-8")
+    outcome = Runner().run(CARROT, tmp_path, 99)
+    assert "ROS_DOMAIN_ID': '99'" in outcome.log
+    assert "SECRET_TOKEN" not in outcome.log
+
+
+BACKGROUND = """
+import os, sys, time
+for _ in range(3):
+    if os.fork() == 0:
+        os.setsid()
+        if os.fork() == 0:
+            os.write(1, b"%d\\n" % os.getpid())
+            time.sleep(1e6)
+        os._exit(0)
+print("begun", flush=True)
+{then}
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux gives orphans to another process")
+@pytest.mark.parametrize(
+    ("then", "seconds", "status"),
+    [("os._exit(3)", 60, 3), ("time.sleep(1e6)", 3, supervise.TIME_IS_OVER)],
+    ids=["ends", "time"],
+)
+def test_processes_in_the_background_are_ended(then, seconds, status):
+    command = [sys.executable, "-c", BACKGROUND.format(then=then)]
+    with subprocess.Popen(
+        [sys.executable, "-I", supervise.__file__, str(seconds), str(2 << 30), *command],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as child:
+        told = child.stdout.read()  # ends when no process holds the pipe any more
+        assert child.wait(60) == status
+    assert "begun" in told
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux gives orphans to another process")
+def test_they_end_with_the_grader(tmp_path):
+    command = [sys.executable, "-c", BACKGROUND.format(then="time.sleep(1e6)")]
+    with subprocess.Popen(
+        [sys.executable, "-I", supervise.__file__, "600", str(2 << 30), *command],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as child:
+        lines = [child.stdout.readline() for _ in range(4)]
+        child.stdin.close()
+        rest = child.stdout.read()  # ends when no process holds the pipe any more
+        assert rest == ""
+    assert sum(line.strip().isdecimal() for line in lines) == 3
+
+
+def test_reports_of_a_class(submissions, tmp_path, capsys):
+    evil = "eve<script>alert(1)<\x1b[2J"
+    names = ["solved", "misspelt", "floods"]
+    folder = submissions({**{name: silly(name) for name in names}, evil: silly("misspelt")})
+    (folder / "absent").mkdir()
+    reports = tmp_path / "reports"
+    assert main(["class", "grade", str(folder), "-o", str(reports), "-e", "fixed_carrot"]) == 0
+    told = capsys.readouterr().out
+    assert "solved    " in told
+    assert "1 of 1 solved" in told
+    assert "\x1b" not in told
+    pages = {path.name: path.read_text(encoding="utf-8") for path in reports.glob("*.html")}
+    assert len(pages) == 6
+    assert not any("<script" in page or "\x1b" in page for page in pages.values())
+    overview = pages["index.html"]
+    assert overview.count("<tr>") == 7
+    assert '<a href="misspelt.html">misspelt</a>' in overview
+    assert "eve&lt;script&gt;alert(1)&lt;\\x1b[2J" in overview
+    assert "<mark>" in pages["misspelt.html"]
+    assert "TransformStampde" in pages["misspelt.html"]
+    assert "correct its spelling" in pages["misspelt.html"]
+    check_junit(reports / "junit")
+
+
+def check_junit(folder):
+    assert len(list(folder.glob("*.xml"))) == 5
+    root = ET.parse(folder / "misspelt.xml").getroot()
+    assert (root.get("tests"), root.get("failures"), root.get("skipped")) == ("4", "1", "3")
+    (failed,) = root.iter("failure")
+    assert "NameError" in failed.get("message")
+    assert f"{FILE}, line 1" in failed.text
+    solved = ET.parse(folder / "solved.xml").getroot()
+    assert (solved.get("failures"), solved.get("skipped")) == ("0", "0")
+    absent = ET.parse(folder / "absent.xml").getroot()
+    assert [case.get("message") for case in absent.iter("skipped")] == [f"{FILE} is missing."]
+
+
+def test_a_student_checks_the_own_folder(submissions, tmp_path, capsys):
+    folder = submissions({"solved": silly("solved"), "misspelt": silly("misspelt")})
+    assert main(["class", "check", str(folder / "solved")]) == 0
+    assert capsys.readouterr().out == "fixed_carrot: solved\n"
+    xml = tmp_path / "new" / "results.xml"
+    assert main(["class", "check", str(folder / "misspelt"), "--junit", str(xml)]) == 1
+    told = capsys.readouterr().out
+    assert "fixed_carrot: 0 of " in told
+    assert "correct its spelling" in told
+    assert ET.parse(xml).getroot().get("failures") == "1"
+
+
+def test_first_files_are_written_once(tmp_path, capsys):
+    folder = tmp_path / "mine"
+    assert main(["class", "start", str(folder), "-e", "camera"]) == 0
+    assert sorted(path.name for path in (folder / "camera").iterdir()) == [
+        "README.md",
+        "camera_tf2_broadcaster.py",
+    ]
+    assert main(["class", "start", str(folder), "-e", "camera"]) == 2
+    assert "README.md is there already: nothing was written" in capsys.readouterr().err
+    assert main(["class", "check", str(folder)]) == 1
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["grade", "nowhere"], "there is no folder nowhere"),
+        (["grade", "."], "holds no folders: it must have one for each student"),
+        (["check", "."], "holds no exercise"),
+        (["check", ".", "-e", "statik"], "there is no exercise 'statik'; there are static"),
+        (["start", ".", "-e", "fixd_carrot"], "Did you mean: fixed_carrot"),
+    ],
+)
+def test_wrong_words_are_answered(tmp_path, monkeypatch, capsys, words, told):
+    monkeypatch.chdir(tmp_path)
+    assert main(["class", *words]) == 2
+    assert told in capsys.readouterr().err
+
+
+def test_ctrl_c_ends_grading_and_all_that_runs(submissions, tmp_path):
+    folder = submissions({"waits": silly("waits")})
+    program = "import sys; from turtlewire.cli.main import main; sys.exit(main())"
+    command = ["class", "grade", str(folder), "-e", "fixed_carrot", "-o", str(tmp_path / "out")]
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    started = [sys.executable, "-c", program, *command]
+    with subprocess.Popen(started, env=environment) as grader:
+        child = wait_for_child(grader.pid)
+        grader.send_signal(signal.SIGINT)
+        assert grader.wait(60) == 130
+    os.close(child)
+    assert not (tmp_path / "out").exists()
+
+
+def wait_for_child(pid):
+    """Wait until a process has a child; a handle of it."""
+    while True:
+        for task in Path(f"/proc/{pid}/task").iterdir():
+            if children := (task / "children").read_text().split():
+                return os.pidfd_open(int(children[0]))
+
+
+def test_the_list(capsys):
+    assert main(["class", "list"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == 11
+    assert json.dumps(lines[0]).startswith('"static ')
