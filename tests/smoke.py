@@ -64,7 +64,7 @@ def check_commands(bin_dir: Path) -> None:
         lines.append(line)
         if "Spawning turtle [turtle2]" in line:
             launch.send_signal(signal.SIGINT)
-    assert launch.wait(timeout=30) == 0, "".join(lines)
+    assert launch.wait(timeout=60) == 0, "".join(lines)
     assert any("Spawning turtle [turtle2]" in line for line in lines), "".join(lines)
     assert not any("Traceback" in line for line in lines), "".join(lines)
 

@@ -65,6 +65,18 @@ def test_topics_services_and_nodes(node, peer):
     from std_srvs.srv import Empty
 
     assert nodes.wait_for_node(node, peer, timeout=60.0)
+    said = nodes.TopicInfo("/said", ["std_msgs/msg/String"])
+    where = {"node": node, "remote_node_name": peer}
+
+    def is_known():
+        """The graph may know a node before its endpoints, and an endpoint before its node."""
+        return (
+            said in nodes.get_publisher_info(**where)
+            and nodes.get_subscriber_info(**where)
+            and "/far/reset" in [each.name for each in nodes.get_service_server_info(**where)]
+        )
+
+    assert direct_node.DirectNode.around(node).wait_for(is_known, timeout=60)
     assert ("/said", ["std_msgs/msg/String"]) in topics.get_topic_names_and_types(node=node)
     assert "/far/words" in topics.get_topic_names(node=node)
     assert topics.get_msg_class(node, "/said", blocking=True) is String
@@ -74,11 +86,6 @@ def test_topics_services_and_nodes(node, peer):
     assert nodes.NodeName("peer", "/far", peer) in nodes.get_node_names(node=node)
     own = {each.name for each in nodes.get_node_names(node=node, include_hidden_nodes=True)}
     assert node.get_name() in own
-    said = nodes.TopicInfo("/said", ["std_msgs/msg/String"])
-    where = {"node": node, "remote_node_name": peer}
-    # The graph may know a publisher before it knows whose it is.
-    graph = direct_node.DirectNode.around(node)
-    assert graph.wait_for(lambda: said in nodes.get_publisher_info(**where), timeout=60)
     heard = [each.name for each in nodes.get_subscriber_info(**where)]
     assert heard == ["/far/words"]
 

@@ -30,7 +30,7 @@ rclpy.spin(node)
 
 
 #: DDS takes ten seconds to see that a process has gone, unless the process says less.
-SHORT_LEASE = {"CYCLONEDDS_URI": "<Discovery><LeaseDuration>1s</LeaseDuration></Discovery>"}
+SHORT_LEASE = {"CYCLONEDDS_URI": "<Discovery><LeaseDuration>3s</LeaseDuration></Discovery>"}
 
 
 def ros2(run, *words):
