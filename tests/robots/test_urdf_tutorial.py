@@ -110,7 +110,7 @@ def test_a_slider_moved_in_the_browser_moves_the_transform(browser, sourced, run
     page = browser.new_page()
     page.goto(found[1])
     slider = page.locator('.joint[data-name="lamp_tilt"] input[type=range]')
-    slider.wait_for(timeout=60_000)
+    slider.wait_for(timeout=120_000)
     slider.fill("7500")  # three quarters of the way from -1 to 1 rad
     echo.wait_for(re.escape("- Rotation: in RPY (degree) [0.000, 28.648, 0.000]"))
     page.get_by_role("button", name="Center").click()

@@ -31,7 +31,7 @@ def pixel(page, canvas: str, x: float, y: float) -> tuple[int, ...]:
 
 
 def wait_for_pixel(page, canvas: str, x: float, y: float, is_wanted) -> tuple[int, ...]:
-    deadline = time.monotonic() + 60
+    deadline = time.monotonic() + 120
     while not is_wanted(found := pixel(page, canvas, x, y)):
         assert time.monotonic() < deadline, found
         page.wait_for_timeout(30)
@@ -39,7 +39,7 @@ def wait_for_pixel(page, canvas: str, x: float, y: float, is_wanted) -> tuple[in
 
 
 def wait_until(is_done) -> None:
-    deadline = time.monotonic() + 60
+    deadline = time.monotonic() + 120
     while not is_done():
         assert time.monotonic() < deadline
         time.sleep(0.02)

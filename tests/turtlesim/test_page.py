@@ -275,7 +275,7 @@ def test_the_frames_are_shown_live_and_a_transform_in_plain_words(simulator, ope
         "turtle1 is 3.00 m behind and 1.00 m to the left of turtle2, and looks the same way",
     )
     assert page.inner_text("#tree > li > span") == "world"
-    page.wait_for_selector("#tree li li[data-kind='stale'] small:has-text('s old')", timeout=60000)
+    page.wait_for_selector("#tree li li[data-kind='stale'] small:has-text('s old')")
     publish_transform(simulator, "turtle1", "carrot", time.time_ns(), 0.0, 2.0)
     wait_for_text(page, "#tree li li li", "carrot")
     page.select_option("#source", "carrot")
@@ -309,9 +309,7 @@ def test_a_screen_reader_finds_its_way(simulator, open_page):
     page = open_page(simulator.screen.url)
     page.get_by_role("status").get_by_text("live").wait_for()
     page.get_by_role("cell", name="5.54").first.wait_for()
-    page.get_by_role("img", name="The field, 11 by 11 metres, with turtle1 at 5.5, 5.5").wait_for(
-        timeout=60000
-    )
+    page.get_by_role("img", name="The field, 11 by 11 metres, with turtle1 at 5.5, 5.5").wait_for()
     for name in (
         "forward",
         "backward",

@@ -18,7 +18,7 @@ from turtlewire.view import LiveSource, Viewer
 from turtlewire.wire.base import TypeId
 
 TF = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
-LIMIT_S = 60
+LIMIT_S = 120
 
 
 class Page:

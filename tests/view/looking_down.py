@@ -8,7 +8,7 @@ from tests.view.still_source import StillSource
 from turtlewire import msg
 from turtlewire.view import Viewer
 
-LIMIT_MS = 60_000
+LIMIT_MS = 120_000
 #: Looks down on the square of 8 m around the origin, without frames, names and grid.
 LOOK_DOWN = """async () => {
     const { stage } = await import("./js/main.js");

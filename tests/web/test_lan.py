@@ -310,6 +310,6 @@ def test_an_import_map_of_the_page_works_in_a_browser_and_other_inline_scripts_d
     try:
         shown = context.new_page()
         shown.goto(page.server.url)
-        shown.wait_for_function("() => document.title === '42 hello good'", timeout=60_000)
+        shown.wait_for_function("() => document.title === '42 hello good'", timeout=120_000)
     finally:
         context.close()
