@@ -85,6 +85,7 @@ def build(output: Path) -> int:
         _pack_pure_python(page / "python" / "others.zip")
         _pack_lessons(page)
         weight = _write_manifest(page)
+        _pack_for_files(page)
         shutil.rmtree(output, ignore_errors=True)
         _made(output.parent)
         page.rename(output)
@@ -244,6 +245,20 @@ def _write_manifest(page: Path) -> int:
     worker = worker.replace("VERSION-OF-THE-BUILD", version.hexdigest()[:16])
     (page / "sw.js").write_text(worker, encoding="utf-8")
     return weight
+
+
+def _pack_for_files(page: Path) -> None:
+    """Write the script that holds all files once more, for a page that is opened as a file."""
+    packed = {
+        path.relative_to(page).as_posix(): base64.b64encode(
+            gzip.compress(path.read_bytes(), mtime=0)
+        ).decode()
+        for path in sorted(page.rglob("*"))
+        if path.is_file() and path.name != "sw.js"
+    }
+    script = (SOURCE / "folder.js").read_text(encoding="utf-8")
+    script += f"openFromFolder({json.dumps(packed, indent=0)});\n"
+    (page / "folder.js").write_text(script, encoding="utf-8")
 
 
 def serve(folder: Path, port: int) -> None:

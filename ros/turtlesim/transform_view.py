@@ -22,8 +22,6 @@ __all__ = ["MOST_AXES", "Frame", "TransformView", "field_frames"]
 MOST_AXES = 40
 #: Hidden in `ros2 node list`, as names that begin with an underscore are.
 _NODE_NAME = "_turtlesim_page"
-#: tf2 reports this rate for a frame that does not change.
-_STATIC_RATE = 10000.0
 _FRAME = re.compile(
     r"^(?P<name>.*): ?\n  parent: '(?P<parent>.*)'\n  broadcaster: '.*'\n  rate: (?P<rate>.*)\n"
     r"  most_recent_transform: (?P<newest>.*)\n  oldest_transform: .*\n"
@@ -38,7 +36,7 @@ class Frame(NamedTuple):
     Attributes:
         name: The frame.
         parent: Its parent.
-        rate: Transforms per second; None for a static link.
+        rate: Transforms per second, 0 while there is only one; None for a static link.
         age: How old the newest transform is [s]; None for a static link.
     """
 
@@ -178,7 +176,8 @@ def _seen_from_above(
 
 
 def _read_frame(match: re.Match[str], now_s: float) -> Frame:
-    rate = float(match["rate"])
-    if rate == _STATIC_RATE and float(match["length"]) == 0.0:
+    newest, has_one = float(match["newest"]), float(match["length"]) == 0.0
+    if has_one and newest == 0.0:  # tf2 gives static links no stamp
         return Frame(match["name"], match["parent"], None, None)
-    return Frame(match["name"], match["parent"], rate, now_s - float(match["newest"]))
+    rate = 0.0 if has_one else float(match["rate"])
+    return Frame(match["name"], match["parent"], rate, now_s - newest)

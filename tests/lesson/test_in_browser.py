@@ -17,24 +17,23 @@ pytestmark = [pytest.mark.slow, pytest.mark.timeout(600)]
 LESSONS = Path(__file__).parents[2] / "site" / "lesson" / "lessons"
 ORDER = json.loads((LESSONS / "order.json").read_text(encoding="utf-8"))
 LISTENER = "turtle_tf2_listener.py"
+#: Opens a lesson with files in the editors, as if they had been typed, and runs it.
+HAND_IN = """async ([lesson, files]) => {
+    const kept = JSON.parse(localStorage.getItem("turtlewire-lesson") ?? "{}");
+    kept.files = { ...kept.files, [lesson]: files };
+    localStorage.setItem("turtlewire-lesson", JSON.stringify(kept));
+    for (const hash of [`elsewhere-${performance.now()}`, lesson]) {
+        await new Promise((resolve) => {  // the page has listened for longer: it is first
+            addEventListener("hashchange", resolve, { once: true });
+            location.hash = hash;
+        });
+    }
+}"""
 
 
 def hand_in(page, lesson, files):
     """Open a lesson with these files in the editors, as if they had been typed, and run it."""
-    page.evaluate(
-        """async ([lesson, files]) => {
-            const kept = JSON.parse(localStorage.getItem("turtlewire-lesson") ?? "{}");
-            kept.files = { ...kept.files, [lesson]: files };
-            localStorage.setItem("turtlewire-lesson", JSON.stringify(kept));
-            for (const hash of [`elsewhere-${performance.now()}`, lesson]) {
-                await new Promise((resolve) => {  // the page has listened for longer: it is first
-                    addEventListener("hashchange", resolve, { once: true });
-                    location.hash = hash;
-                });
-            }
-        }""",
-        [lesson, files],
-    )
+    page.evaluate(HAND_IN, [lesson, files])
 
 
 def check(page):
@@ -249,11 +248,34 @@ def test_the_weight_is_said_and_small_enough(built):
     assert manifest["compressed"] <= 15_000_000
     named = {file["path"] for file in manifest["files"]}
     there = {path.relative_to(built).as_posix() for path in built.rglob("*") if path.is_file()}
-    assert there - named == {"manifest.json", "sw.js"}
+    assert there - named == {"manifest.json", "sw.js", "folder.js"}
 
 
-def test_it_says_what_to_do_when_it_is_opened_as_a_file(browser, built):
-    page = browser.new_page()
-    page.goto((built / "index.html").as_uri())
-    assert "python3 -m http.server" in page.text_content("#loading-text")
-    page.close()
+def test_opened_as_a_file_it_runs_and_stops_endless_loops(browser, built):
+    context = browser.new_context(offline=True)
+    context.set_default_timeout(LONG_MS)
+    page = context.new_page()
+    told = []
+    page.on("pageerror", lambda error: told.append(str(error)))
+    page.on("console", lambda message: told.append(message.text))
+    page.goto(f"{(built / 'index.html').as_uri()}#listener")
+    wait_until_loaded(page)
+    wait_for_words(page, r"^turtle1 is 0\.\d+ m ahead")
+    hand_in(page, "listener", listener_with("msg = Twist()", "\n        while True: pass"))
+    page.wait_for_selector("#mistake:not([hidden])")
+    hand_in(page, "listener", load_lesson(LESSONS / "listener").sources("solution"))
+    assert all(passed == "yes" for passed, _ in check(page))
+    context.close()
+    assert told == []
+
+
+def test_the_frames_are_drawn_on_the_field_until_they_are_hidden(open_page):
+    page = open_page("static")
+    red = (  # of the x axis of world, at the field's lower left corner
+        "document.getElementById('turtles').getContext('2d')"
+        ".getImageData(8, document.getElementById('turtles').height - 2, 1, 1).data[0] > 200"
+    )
+    page.wait_for_function(red)
+    page.click("#axes")
+    assert page.get_attribute("#axes", "aria-pressed") == "false"
+    page.wait_for_function(f"!({red})")

@@ -76,6 +76,17 @@ def test_a_topic_is_echoed_as_soon_as_a_node_publishes_it(open_session):
     assert texts_of(session, 2.0, drive)["echo"]["topic"].startswith("linear:\n  x: 2.0")
 
 
+def test_the_frames_are_told_with_every_step_while_they_are_drawn(open_session):
+    session = open_session("listener")
+    texts_of(session, 1.0)
+    before = texts_of(session, 0.16, json.dumps({"axes": True, "drive": [["turtle1", 2.0, 0.0]]}))
+    (text,) = session.step(1, '{"axes": true}')
+    frames = json.loads(text)["frames"]
+    assert frames.keys() == {"world", "turtle1", "turtle2"}
+    assert frames["turtle1"][0] > before["axes"]["frames"]["turtle1"][0]
+    assert session.step(1, "{}") == []
+
+
 def test_commands_drive_turtle1(open_session):
     session = open_session("listener")
     scene = json.loads(session.step(1, "{}")[0])
@@ -86,12 +97,12 @@ def test_commands_drive_turtle1(open_session):
     assert after - before == pytest.approx(0.32, abs=0.05)
 
 
-def test_the_doctor_reports_after_two_seconds(open_session):
+def test_the_doctor_reports_after_three_seconds(open_session):
     session = open_session("faults", faults=["wrong_frame"])
     session.step(100, "{}")
     session.examine()
-    assert "doctor" not in texts_of(session, 1.0)
-    assert "separate trees" in texts_of(session, 1.2)["doctor"]["text"]
+    assert "doctor" not in texts_of(session, 2.0)
+    assert "separate trees" in texts_of(session, 1.3)["doctor"]["text"]
 
 
 def test_a_mistake_at_the_start_names_its_line(open_session):

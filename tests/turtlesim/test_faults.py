@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 
@@ -127,6 +128,16 @@ def test_loss_loses_its_share_and_the_same_ones_each_time():
             heard.append(xs)
     assert heard[0] == heard[1]
     assert 60 < len(heard[0]) < 140
+
+
+def test_loss_is_found_with_its_share_and_rhythm(scene):
+    scene.start()
+    scene.simulation.inject(Loss(0.8, "robot"))
+    assert re.fullmatch(
+        r"About [78]\d% of the transforms of 'robot' are missing: one is due every 16 ms, and up to "
+        r"0\.\d\d s pass without one\.",
+        scene.doctor(),
+    )
 
 
 def test_loss_refuses_what_is_no_share():

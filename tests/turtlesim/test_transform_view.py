@@ -83,6 +83,13 @@ def test_frames_with_rate_age_and_kind(view, broadcaster):
     }
 
 
+def test_a_frame_that_was_heard_once_is_not_static(view, broadcaster):
+    view.join()
+    broadcaster.send("world", "turtle1", 102)
+    wait_until(view.frames)
+    assert view.frames() == [Frame("turtle1", "world", 0.0, 3.0)]
+
+
 def test_errors_are_those_of_tf2(view, broadcaster):
     view.join()
     broadcaster.send("world", "turtle1", 100)

@@ -1,5 +1,7 @@
 // The first load: the service worker, the weight, and a progress bar while the files come.
 
+import { fetchFile } from "./files.js";
+
 // A browser that refuses service workers may do so by never answering.
 const PATIENCE_MS = 20_000;
 const ISOLATION_TRIED = "lesson-isolation-tried";
@@ -39,9 +41,7 @@ export async function fetchAll(files, onProgress) {
   const total = files.reduce((sum, { bytes }) => sum + bytes, 0);
   let done = 0;
   await Promise.all(files.map(async ({ path }) => {
-    const response = await fetch(path);
-    if (!response.ok) throw new Error(`${path}: ${response.status} ${response.statusText}`);
-    const reader = response.body.getReader();
+    const reader = (await fetchFile(path)).body.getReader();
     for (let part = await reader.read(); !part.done; part = await reader.read()) {
       done += part.value.length;
       onProgress(done, total);

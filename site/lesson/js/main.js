@@ -2,6 +2,7 @@
 
 import { listenForDriving } from "../turtlesim/controls.js";
 import { Editors } from "./editors.js";
+import { fetchFile, filesForWorker } from "./files.js";
 import { Grading } from "./grading.js";
 import { fetchAll, prepareOffline } from "./loader.js";
 import { Runtime } from "./runtime.js";
@@ -116,14 +117,16 @@ class Page {
       const wishes = { drive: this.#commands.splice(0), ...this.#watch.wishes };
       const answer = await this.#runtime.request({ type: "step", ticks, wishes });
       if (run !== this.#run) return;
-      if (answer.frame) this.#world.take(answer.frame);
+      this.#world.axes = null;
       for (const text of answer.texts) this.#show(JSON.parse(text));
+      if (answer.frame) this.#world.take(answer.frame);
       if (this.#failed(answer)) this.#running = false;
     }
   }
 
   #show(message) {
     if (message.type === "scene") this.#world.setScene(message);
+    else if (message.type === "axes") this.#world.axes = message.frames;
     else this.#watch.show(message);
   }
 
@@ -204,7 +207,7 @@ class Page {
   }
 
   #display(now) {
-    this.#world.draw(DRIVEN, now);
+    this.#world.draw(DRIVEN, this.#watch.arrow, now);
     requestAnimationFrame((next) => this.#display(next));
   }
 }
@@ -226,11 +229,10 @@ async function main() {
   const isLoading = performance.now();
   await prepareOffline();
   const [lessons, manifest] = await Promise.all(
-    ["lessons.json", "manifest.json"].map(async (path) => (await fetch(path)).json()),
+    ["lessons.json", "manifest.json"].map(async (path) => (await fetchFile(path)).json()),
   );
-  const archives = manifest.files.map(({ path }) => path).filter((path) => /^python\//.test(path));
   let page = null;
-  const runtime = new Runtime(document.baseURI, archives, {
+  const runtime = new Runtime(filesForWorker(manifest.files), {
     onLog: (line) => page.handlers.onLog(line),
     onResult: (result) => page.handlers.onResult(result),
     onRestart: () => page.handlers.onRestart(),

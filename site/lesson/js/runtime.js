@@ -1,5 +1,7 @@
 // The worker that runs Python: one request at a time, and a watch on code that does not end.
 
+import { addressOf } from "./files.js";
+
 // How long Python may give no sign of life: as long as its start took, within these limits, so that
 // a slow phone is not taken for an endless loop.
 const SHORTEST_MS = 3000;
@@ -19,18 +21,18 @@ export class Runtime {
   #queue = Promise.resolve();
 
   /**
-   * `archives`: wheels and zips of Python code; `handlers`: onLog({stream, text}),
-   * onResult(result), onRestart() before Python is loaded anew.
+   * `files`: the address, or the blob, of each file of the page by its path; `handlers`:
+   * onLog({stream, text}), onResult(result), onRestart() before Python is loaded anew.
    */
-  constructor(base, archives, handlers) {
-    this.#load = { type: "load", base, archives };
+  constructor(files, handlers) {
+    this.#load = { type: "load", files };
     this.#handlers = handlers;
   }
 
   /** Load Python, or load it anew. */
   async load() {
     this.#worker?.terminate();
-    this.#worker = new Worker(new URL("worker.js", import.meta.url), { type: "module" });
+    this.#worker = new Worker(addressOf("js/worker.js"));
     this.#worker.onmessage = ({ data }) => this.#take(data);
     this.#worker.onerror = (event) => this.#take({ type: "failed", text: event.message });
     if (crossOriginIsolated) this.#flag = new Uint8Array(new SharedArrayBuffer(1));

@@ -22,8 +22,12 @@ export class Watch {
   constructor(examine, onFaults) {
     this.#onFaults = onFaults;
     byId("examine").onclick = () => {
-      byId("doctor").textContent = "Listening for two seconds …";
+      byId("doctor").textContent = "Listening for three seconds …";
       examine();
+    };
+    byId("axes").onclick = ({ currentTarget }) => {
+      this.#frames.draw(!this.#frames.drawn);
+      currentTarget.setAttribute("aria-pressed", String(this.#frames.drawn));
     };
     byId("faults").addEventListener("change", ({ target }) => this.#choose(target));
     byId("surprise").onclick = () => this.#surprise();
@@ -73,6 +77,11 @@ export class Watch {
       box.checked = false;
       byId("guess").textContent = "It is not that one. What do tree, doctor and log say?";
     }
+  }
+
+  /** The arrow on the field: from the frame that sees to the frame that is seen. */
+  get arrow() {
+    return this.#frames.arrow;
   }
 
   /** What Python shall look at in the next step. */

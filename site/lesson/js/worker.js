@@ -1,22 +1,36 @@
-// Python, in a thread of its own: an endless loop stops this worker, not the page.
+// Python, in a thread of its own: an endless loop stops this worker, not the page. It is a classic
+// script, because Chromium starts no module as a worker where the page was opened as a file.
 
-import { loadPyodide } from "../vendor/pyodide/pyodide.mjs";
-
-const WHEELS = /\.(whl|zip)$/;
+// Pyodide takes this function for the sign of a worker that cannot import modules; ours can.
+globalThis.importScripts = undefined;
+const ARCHIVES = /^python\/.*\.(whl|zip)$/;
 let python = null;
 let classroom = null;
 let session = null;
 
 const tell = (message, transfer = []) => postMessage(message, transfer);
 
-async function load({ base, archives, interruptBuffer }) {
+/** Load Pyodide and our Python code; `files`: the address, or the blob, of each by its path. */
+async function load({ files, interruptBuffer }) {
+  const addressOf = (path) =>
+    files[path] instanceof Blob ? URL.createObjectURL(files[path]) : files[path];
+  const pyodide = (name) => addressOf(`vendor/pyodide/${name}`);
   const output = (stream) => ({ batched: (text) => tell({ type: "log", stream, text }) });
-  python = await loadPyodide({ indexURL: new URL("vendor/pyodide/", base).href });
+  const { loadPyodide } = await import(pyodide("pyodide.mjs"));
+  python = await loadPyodide({
+    createPyodideModule: (await import(pyodide("pyodide.asm.mjs"))).default,
+    lockFileURL: pyodide("pyodide-lock.json"),
+    stdLibURL: pyodide("python_stdlib.zip"),
+    // To this, Pyodide appends the name of the WebAssembly, which only lengthens the fragment.
+    indexURL: `${pyodide("pyodide.asm.wasm")}#/`,
+  });
   python.setStdout(output("out"));
   python.setStderr(output("error"));
-  for (const path of archives) {
-    const content = await (await fetch(new URL(path, base))).arrayBuffer();
-    python.unpackArchive(content, WHEELS.exec(path)[1], { extractDir: "/lesson" });
+  for (const path of Object.keys(files)) {
+    const format = ARCHIVES.exec(path)?.[1];
+    if (!format) continue;
+    const content = await (await fetch(addressOf(path))).arrayBuffer();
+    python.unpackArchive(content, format, { extractDir: "/lesson" });
   }
   python.runPython("import sys; sys.path.insert(0, '/lesson')");
   classroom = python.pyimport("turtle_lesson.classroom");

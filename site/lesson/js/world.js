@@ -17,12 +17,16 @@ export class World {
   #described = 0;
   #simulated = null;
 
+  /** The frames of TF that the next step is drawn with, by name, or null. */
+  axes = null;
+
   /** Another simulation begins. */
   restart() {
     this.#playback = new Playback();
     this.#names = [];
     this.#version = -1;
     this.#simulated = null;
+    this.axes = null;
   }
 
   /** Wait for the next animation frame; how many ticks have to pass by then. */
@@ -48,15 +52,17 @@ export class World {
   take(bytes) {
     const frame = decodeFrame(bytes);
     this.#field.addStrokes(frame.strokes, frame.restart);
+    frame.axes = this.axes;
     this.#playback.push(frame);
   }
 
-  /** Draw a display frame; `driven` is the turtle with the ring. */
-  draw(driven, now) {
+  /** Draw a display frame; `driven` is the turtle with the ring, `arrow` { from, to }: frames. */
+  draw(driven, arrow, now) {
     const newest = this.#playback.newest;
     if (!newest || newest.turtleCount !== this.#names.length) return;
-    const { poses } = this.#playback.sample(now);
-    this.#field.drawTurtles(this.#names, poses, { driven, ghost: null, axes: null, now });
+    const { poses, axes } = this.#playback.sample(now);
+    const drawn = axes && { frames: axes, ...arrow };
+    this.#field.drawTurtles(this.#names, poses, { driven, ghost: null, axes: drawn, now });
     if (now - this.#described < DESCRIPTION_MS) return;
     this.#described = now;
     byId("turtles").setAttribute("aria-label", fieldInWords(this.#names, poses));

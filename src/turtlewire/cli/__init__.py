@@ -10,6 +10,7 @@ module                what it holds
 `setup_findings`      checks of the installation, the environment and the network
 `graph_findings`      checks of nodes and topics
 `tf_findings`         checks of the published transforms
+`tf_gaps`             transforms that are missing from a rhythm
 `tf_traffic`          who published which transforms during the checks
 `network`             sockets of other domains, and multicast
 `frames`              the verb ``frames``: ages, rates and publishers

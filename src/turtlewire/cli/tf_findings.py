@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from turtlewire.cli.finding import Finding, note, problem
 from turtlewire.cli.graph_findings import owner_of
+from turtlewire.cli.tf_gaps import find_gaps
 from turtlewire.cli.tf_traffic import tf_publishers
 from turtlewire.tf.frame_tree import find_loops
 
@@ -46,6 +47,12 @@ _JUMPS = (
     "Two sources publish it, a bag starts again, or a clock was set: listeners drop such "
     "transforms, or clear their buffers."
 )
+_MISSING = (
+    "They get lost on the way, or the publisher skips turns. Run `ros2 topic hz /tf` here and on "
+    "the publisher's host: if it counts more there, mend the network or the QoS; otherwise the "
+    "publisher is too slow."
+)
+_NAMED = 3
 _LEAPS = "Either it was moved to another place, or two sources disagree about where it is."
 
 
@@ -63,6 +70,7 @@ def tf_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:
         *_tree_findings(traffic),
         *_clock_findings(traffic),
         *_step_findings(traffic),
+        *_gap_findings(traffic),
     ]
 
 
@@ -145,3 +153,24 @@ def _step_findings(traffic: TfTraffic) -> list[Finding]:
         for child, leap_m in sorted(traffic.leaps_m.items())
     ]
     return jumps + leaps
+
+
+def _gap_findings(traffic: TfTraffic) -> list[Finding]:
+    """One note for all frames: what loses some of one loses some of the others."""
+    found = {
+        child: gaps
+        for (child, _), stamps in sorted(traffic.stamps_ns.items())
+        if (gaps := find_gaps(stamps)) is not None
+    }
+    if not found:
+        return []
+    worst = max(found.values())
+    names = [f"'{child}'" for child in found]
+    if len(names) > _NAMED:
+        names[_NAMED:] = [f"{len(names) - _NAMED} others"]
+    text = (
+        f"About {worst.share:.0%} of the transforms of {' and '.join(names)} are missing: one is "
+        f"due every {worst.period_s * 1e3:.0f} ms, and up to {worst.longest_s:.2f} s pass without "
+        "one."
+    )
+    return [note(text, _MISSING)]

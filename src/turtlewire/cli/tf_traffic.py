@@ -35,6 +35,8 @@ _CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
 _COMPLETION_NS = 150_000_000
 #: After so many messages in a row a publisher has shown what it does (0.8 s of the demo's).
 _ENOUGH = 50
+#: So many stamps of a frame are kept, to find gaps in them.
+_STAMPS = 200
 #: Steps back of stamps that are as small as a clock's jitter are no fault.
 JITTER_NS = 1_000_000
 #: A frame leaps if it moves by more than this, and faster than any robot.
@@ -49,6 +51,7 @@ class TfTraffic:
         parents: Frame to its parents.
         publishers: Frame to the gids of its publishers.
         newest_ns: Frame of /tf to its newest stamp.
+        stamps_ns: Frame of /tf and gid of a publisher to their first stamps.
         back_ns: Frame to the largest step back of its stamps; steps of less than a clock's jitter
             do not count.
         leaps_m: Frame to its largest step within its parent that was faster than any robot.
@@ -60,6 +63,7 @@ class TfTraffic:
         self.parents: dict[str, set[str]] = {}
         self.publishers: dict[str, set[bytes]] = {}
         self.newest_ns: dict[str, int] = {}
+        self.stamps_ns: dict[tuple[str, bytes], list[int]] = {}
         self.back_ns: dict[str, int] = {}
         self.leaps_m: dict[str, float] = {}
         self.ended_ns = 0
@@ -75,6 +79,9 @@ class TfTraffic:
             if not static:
                 stamp = transform.header.stamp.sec * 1_000_000_000 + transform.header.stamp.nanosec
                 self.newest_ns[child] = max(stamp, self.newest_ns.get(child, 0))
+                stamps = self.stamps_ns.setdefault((child, publisher), [])
+                if len(stamps) < _STAMPS:
+                    stamps.append(stamp)
                 self._note_step(
                     child, transform.header.frame_id, stamp, transform.transform.translation
                 )

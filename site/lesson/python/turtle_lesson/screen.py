@@ -71,6 +71,11 @@ class LessonScreen:
     def close(self) -> None:
         """Nothing is open."""
 
+    @property
+    def turtles(self) -> tuple[str, ...]:
+        """Names of all turtles."""
+        return self._names
+
     def take_scene(self) -> str | None:
         """The scene as JSON if it has changed since the last call."""
         if self._scene is None or self._scene == self._shown_scene:

@@ -13,7 +13,7 @@ from turtle_lesson.mistakes import mistake_of
 from turtle_lesson.screen import LessonScreen
 from turtle_lesson.watch import Doctor, TopicEcho, TransformEcho, topics_of
 from turtlesim.model import TICK_NS
-from turtlesim.transform_view import TransformView
+from turtlesim.transform_view import TransformView, field_frames
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -26,7 +26,7 @@ __all__ = ["Session"]
 #: Simulated time between two texts for the page [ticks].
 _WATCH_TICKS = 12
 #: As long as the doctor listens to the transforms [ticks].
-_DOCTOR_TICKS = 125
+_DOCTOR_TICKS = 188
 
 
 class Session:
@@ -49,6 +49,7 @@ class Session:
         self._ticks = self._next_watch = 0
         self._doctor: Doctor | None = None
         self._doctor_ends = 0
+        self._field_frames: tuple[str, list[str]] = ("", [])
         try:
             exercise = self._stack.enter_context(exercise_of(lesson, files, self._prepare))
         except BaseException as error:  # noqa: BLE001 - students raise anything
@@ -90,7 +91,8 @@ class Session:
         Args:
             ticks: How many times 16 ms.
             wishes: JSON object of what the page wants: ``drive`` (a list of `[turtle, linear,
-                angular]`), ``target`` and ``source`` (frames), ``topic``.
+                angular]`), ``target`` and ``source`` (frames), ``axes`` (whether the frames are
+                drawn on the field), ``topic``.
 
         Returns:
             Texts for the page, each a JSON object with a ``type``.
@@ -126,12 +128,16 @@ class Session:
         if self._ticks >= self._next_watch:
             self._next_watch = self._ticks + _WATCH_TICKS
             texts += self._watched(wanted)
+        if wanted.get("axes"):
+            axes = self._transforms.axes(*self._field_frames)
+            texts.append(json.dumps({"type": "axes", "frames": axes}))
         return texts
 
     def _watched(self, wanted: dict[str, Any]) -> list[str]:
         target, source = wanted.get("target"), wanted.get("source")
         relation = self._transforms.relation(target, source) if target and source else None
         frames = self._transforms.frames()
+        self._field_frames = field_frames(frames, self._screen.turtles)
         tf = {"type": "tf", "frames": frames, "target": target, "source": source}
         echo = {
             "type": "echo",

@@ -1,0 +1,103 @@
+"""Transforms that are missing from a steady rhythm: lost on the way, or skipped.
+
+A broadcaster with a timer stamps its transforms one period apart. Where some of them get lost, each
+at random, the steps between the rest are multiples of that period, and their lengths follow the
+geometric distribution. Three other rhythms look different, and are no loss: a broadcaster that has
+no period, one that is held up now and then (few gaps, and long ones), and one whose clock ticks
+faster than it publishes (all steps nearly as long).
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from statistics import fmean, pvariance
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = ["Gaps", "find_gaps"]
+
+#: With fewer steps, chance looks like a rhythm.
+_FEWEST_STEPS = 10
+#: Stamps of one moment: what a node publishes in one turn.
+_ONE_MOMENT_NS = 1_000_000
+#: The shortest step that is left may be so many periods long.
+_LONGEST_SHORTEST = 6
+#: A step may differ from a multiple of the period by so much of it; some steps may by more.
+_TOLERANCE = 0.2
+_MISFITS = 0.1
+#: Less than this is a broadcaster that was held up for a moment.
+_LEAST_SHARE = 0.3
+#: At least so much of what loss at random leaves on average: single steps, gaps, and variance.
+_MUCH = 0.4
+
+
+class Gaps(NamedTuple):
+    """What is missing.
+
+    Attributes:
+        share: The part that is missing, 0 to 1.
+        period_s: Time between two transforms, if none were missing [s].
+        longest_s: The longest step between two transforms that came [s].
+    """
+
+    share: float
+    period_s: float
+    longest_s: float
+
+
+def find_gaps(stamps_ns: Sequence[int]) -> Gaps | None:
+    """Look for transforms that are missing.
+
+    Args:
+        stamps_ns: Stamps of a frame's transforms from one publisher [ns], in any order.
+
+    Returns:
+        What is missing; None if nothing is, or if the stamps have no rhythm.
+    """
+    steps = [
+        later - earlier
+        for earlier, later in pairwise(sorted(stamps_ns))
+        if later - earlier > _ONE_MOMENT_NS
+    ]
+    if len(steps) < _FEWEST_STEPS:
+        return None
+    for divisor in range(1, _LONGEST_SHORTEST + 1):
+        turns = _turns(steps, min(steps) / divisor)
+        if turns is not None:
+            break
+    else:
+        return None
+    share = 1.0 - len(turns) / sum(turns)
+    if share < _LEAST_SHARE or not _is_random(turns, share):
+        return None
+    return Gaps(share, sum(steps) / sum(turns) / 1e9, max(steps) / 1e9)
+
+
+def _turns(steps: Sequence[int], period: float) -> list[int] | None:
+    """How many periods each step is long, shortest first; None if they are no multiples.
+
+    The period is corrected with each step, so that it is good enough for the long ones.
+    """
+    turns: list[int] = []
+    total = misfits = 0
+    for step in sorted(steps):
+        turn = max(1, round(step / period))
+        misfits += abs(step / period - turn) > _TOLERANCE
+        turns.append(turn)
+        total += step
+        period = total / sum(turns)
+    return turns if misfits <= _MISFITS * len(steps) else None
+
+
+def _is_random(turns: Sequence[int], share: float) -> bool:
+    """Whether so many gaps, and of such different lengths, come from loss at random."""
+    mean = fmean(turns)
+    singles = sum(turn == 1 for turn in turns)
+    gaps = len(turns) - singles
+    return (
+        singles >= int(_MUCH * (1.0 - share) * len(turns))
+        and gaps >= _MUCH * share * len(turns)
+        and pvariance(turns, mean) >= _MUCH * mean * (mean - 1.0)
+    )

@@ -1,0 +1,72 @@
+"""Gaps in the stamps of transforms: loss is found, and other rhythms are no loss."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from turtlewire.cli.tf_gaps import find_gaps
+
+SEEDS = st.integers(0, 10_000)
+
+
+def nanoseconds(times):
+    return [round(1e9 * seconds) for seconds in times]
+
+
+def rhythm(count, period, *, loss=0.0, jitter=0.0, seed=1):
+    """Stamps of a timer of which some are lost."""
+    chance = random.Random(seed)
+    due = [k * period + chance.uniform(-jitter, jitter) for k in range(count)]
+    return nanoseconds(at for at in due if chance.random() >= loss)
+
+
+@pytest.mark.parametrize("loss", [0.5, 0.6, 0.75])
+@pytest.mark.parametrize("jitter", [0.0, 0.001])
+def test_loss_is_told_with_share_and_period(loss, jitter):
+    gaps = find_gaps(rhythm(400, 0.02, loss=loss, jitter=jitter))
+    assert gaps.share == pytest.approx(loss, abs=0.1)
+    assert gaps.period_s == pytest.approx(0.02, rel=0.05)
+    assert gaps.longest_s > 0.06
+
+
+def test_the_order_of_the_stamps_does_not_matter():
+    stamps = rhythm(200, 0.02, loss=0.6)
+    assert find_gaps(stamps[::-1]) == find_gaps(stamps)
+
+
+@settings(max_examples=200, deadline=None)
+@given(SEEDS, st.sampled_from([0.01, 0.016, 0.1]), st.floats(0.0, 0.1))
+def test_a_jittering_timer_and_a_few_lost_ones_are_no_fault(seed, period, jitter):
+    assert find_gaps(rhythm(100, period, jitter=jitter * period, loss=0.05, seed=seed)) is None
+
+
+@pytest.mark.parametrize("seed", range(50))
+def test_no_rhythm_is_no_loss(seed):
+    chance = random.Random(seed)
+    moments = [0.0]
+    for _ in range(40):
+        moments.append(moments[-1] + 0.002 + chance.expovariate(20.0))
+    assert find_gaps(nanoseconds(moments)) is None
+
+
+@pytest.mark.parametrize("stall", [0.05, 0.3, 1.0])
+def test_a_publisher_that_is_held_up_now_and_then_loses_nothing(stall):
+    moments, now = [], 0.0
+    for k in range(100):
+        now += 0.02 + (stall if k % 20 == 10 else 0.0)
+        moments.append(now)
+    assert find_gaps(nanoseconds(moments)) is None
+
+
+def test_a_clock_that_ticks_faster_than_transforms_come_is_no_loss():
+    moments = [round(k / 30.0, 2) for k in range(100)]  # 30 Hz on a clock of 100 Hz
+    assert find_gaps(nanoseconds(moments)) is None
+
+
+@pytest.mark.parametrize("stamps", [[], [5], [7] * 100, list(range(0, 10**9, 10**8))])
+def test_too_few_moments_say_nothing(stamps):
+    assert find_gaps(stamps) is None

@@ -1,0 +1,92 @@
+"""Firefox, driven through WebDriver BiDi, which it speaks itself: no driver is installed."""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+import json
+import re
+import subprocess
+import threading
+
+from websockets.sync.client import connect
+
+_LISTENING = re.compile(r"WebDriver BiDi listening on (ws://\S+)")
+
+
+class BidiError(Exception):
+    """A command that Firefox refused, with its words."""
+
+
+class Firefox:
+    """A headless Firefox with a fresh profile.
+
+    Args:
+        program: Path of the program.
+        profile: An empty folder.
+
+    Attributes:
+        errors: What pages have thrown and not caught.
+    """
+
+    def __init__(self, program, profile):
+        self._process = subprocess.Popen(
+            [program, "--headless", "--profile", str(profile), "--remote-debugging-port", "0"],
+            stderr=subprocess.PIPE,
+            stdout=subprocess.DEVNULL,
+            text=True,
+        )
+        self._numbers = itertools.count()
+        self.errors = []
+        heard = next(filter(None, map(_LISTENING.search, self._process.stderr)))
+        self._drain = threading.Thread(target=self._process.stderr.read)
+        self._drain.start()
+        self._socket = connect(f"{heard[1]}/session", max_size=None, open_timeout=60)
+        self._ask("session.new", capabilities={})
+        self._ask("session.subscribe", events=["log.entryAdded"])
+        self._context = self._ask("browsingContext.getTree")["contexts"][0]["context"]
+
+    def close(self):
+        """End Firefox."""
+        self._ask("browser.close")
+        self._socket.close()
+        self._drain.join()
+        self._process.wait()
+        self._process.stderr.close()
+
+    def open(self, url):
+        """Open a page and wait until it is loaded."""
+        self._ask("browsingContext.navigate", context=self._context, url=url, wait="complete")
+
+    def evaluate(self, expression):
+        """Value of a JavaScript expression, awaited, as JSON can tell it."""
+        answer = self._ask(
+            "script.evaluate",
+            expression=f"(async () => JSON.stringify(await ({expression})))()",
+            target={"context": self._context},
+            awaitPromise=True,
+        )
+        assert answer["type"] == "success", answer["exceptionDetails"]["text"]
+        return json.loads(answer["result"].get("value", "null"))
+
+    def wait_for(self, condition):
+        """Wait until a JavaScript expression is true; the page looks at each animation frame."""
+        look = (
+            f"const look = () => ({condition}) ? resolve() : requestAnimationFrame(look); look();"
+        )
+        is_true = False
+        while not is_true:  # where the page is loaded anew meanwhile, its promise is gone
+            with contextlib.suppress(BidiError):
+                is_true = self.evaluate(f"new Promise((resolve) => {{ {look} }}).then(() => true)")
+
+    def _ask(self, method, **parameters):
+        number = next(self._numbers)
+        self._socket.send(json.dumps({"id": number, "method": method, "params": parameters}))
+        while True:
+            told = json.loads(self._socket.recv(timeout=110))
+            if told.get("id") == number:
+                if told["type"] != "success":
+                    raise BidiError(told["message"])
+                return told["result"]
+            if told.get("params", {}).get("type") == "javascript":
+                self.errors.append(told["params"]["text"])
