@@ -1,6 +1,6 @@
-// Opens the lesson from a folder, without a web server. Browsers import no modules and fetch nothing
-// from files, but run this script: the build adds all files of the page to its end, packed, and each
-// gets a blob's address here. It is for file: only; a served page never loads it.
+// Opens the lesson from a folder, without a web server. Browsers import no modules and fetch
+// nothing from files, but run this script: the build adds all files of the page to its end, packed,
+// and each gets a blob's address here. It is for file: only; a served page never loads it.
 
 const TYPES = { js: "text/javascript", mjs: "text/javascript", wasm: "application/wasm" };
 // `from "./editors.js"`: what is imported, in quotation marks.

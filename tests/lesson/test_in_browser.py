@@ -271,11 +271,14 @@ def test_opened_as_a_file_it_runs_and_stops_endless_loops(browser, built):
 
 def test_the_frames_are_drawn_on_the_field_until_they_are_hidden(open_page):
     page = open_page("static")
-    red = (  # of the x axis of world, at the field's lower left corner
-        "document.getElementById('turtles').getContext('2d')"
-        ".getImageData(8, document.getElementById('turtles').height - 2, 1, 1).data[0] > 200"
-    )
-    page.wait_for_function(red)
+    red = """(() => {  // how many pixels have the colour of an x axis
+        const { width, height } = document.getElementById("turtles");
+        const context = document.getElementById("turtles").getContext("2d");
+        const { data } = context.getImageData(0, 0, width, height);
+        const isRed = (k) => data[k] > 230 && data[k + 1] < 130 && data[k + 2] < 150;
+        return data.filter((_, k) => k % 4 === 0 && isRed(k)).length;
+    })()"""
+    page.wait_for_function(f"{red} > 20")
     page.click("#axes")
     assert page.get_attribute("#axes", "aria-pressed") == "false"
-    page.wait_for_function(f"!({red})")
+    page.wait_for_function(f"{red} === 0")

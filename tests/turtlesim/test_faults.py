@@ -134,8 +134,8 @@ def test_loss_is_found_with_its_share_and_rhythm(scene):
     scene.start()
     scene.simulation.inject(Loss(0.8, "robot"))
     assert re.fullmatch(
-        r"About [78]\d% of the transforms of 'robot' are missing: one is due every 16 ms, and up to "
-        r"0\.\d\d s pass without one\.",
+        r"About [78]\d% of the transforms of 'robot' are missing: one is due every 16 ms, and up "
+        r"to 0\.\d\d s pass without one\.",
         scene.doctor(),
     )
 
