@@ -364,10 +364,14 @@ an integer for a floating-point parameter is refused
   robots/test_urdf_tutorial.py test_every_model_is_displayed
 RViz draws cameras, depth clouds, interactive markers, wrenches and more
   view/test_rviz_file.py test_a_file_of_rviz_is_read
-RViz projects a scan beam by beam
-  view/test_point_cloud.py test_a_scan_hits_along_its_beams
-RViz keeps clouds and scans for a `Decay Time`
-  view/test_display_pictures.py test_point_cloud
+RViz takes the transforms at both ends of a scan and lays the beams between
+  view/test_points_in_time.py test_each_beam_is_drawn_from_where_the_scanner_was
+RViz draws all points of the `Decay Time`
+  view/test_points_in_time.py test_points_that_stay_share_the_budget
+RViz's RobotModel reads a topic or a file
+  view/test_display_panel.py test_a_robot_of_a_parameter_and_its_links
+RViz takes the default for a wrong value in a `.rviz` file
+  view/test_rviz_file.py test_wrong_values_of_a_file_are_named
 RViz loads meshes from any file and from `http`
   view/test_robot_model.py test_addresses_that_are_refused
 `ament_cmake` packages need CMake

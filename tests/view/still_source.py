@@ -5,7 +5,7 @@ from __future__ import annotations
 from turtlewire import msg
 from turtlewire.tf.buffer import Buffer
 from turtlewire.view.live import LiveTimeline
-from turtlewire.view.source import Topic
+from turtlewire.view.source import ParameterAnswer, Topic
 
 STAMP_NS = 1_700_000_000 * 10**9
 
@@ -20,6 +20,7 @@ class StillSource:
     def __init__(self) -> None:
         self.buffer = Buffer()
         self.published: list[tuple[str, str, bytes]] = []
+        self.parameters: dict[tuple[str, str], str] = {}
         self._topics: dict[str, Topic] = {}
         self._sinks: dict[str, list] = {}
         self._last: dict[str, list[bytes]] = {}
@@ -60,6 +61,12 @@ class StillSource:
         for cdr in self._last.get(topic, []):
             on_message(cdr)
         return lambda: self._sinks[topic].remove(on_message)
+
+    def ask_parameter(self, node, name, on_answer):
+        text = self.parameters.get((node, name))
+        problem = "" if text else f"the node {node} has no parameter '{name}'"
+        on_answer(ParameterAnswer(text or "", problem))
+        return lambda: None
 
     def publish(self, topic, type_name, cdr):
         self.published.append((topic, type_name, cdr))

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from turtlewire import msg
 from turtlewire.view.displays import display_for, display_types
 from turtlewire.view.displays.content import Content, Removal, Status
+from turtlewire.view.displays.options import OptionError, option_table
 
 SEQUENCE = re.compile(r"sequence<([^,>]+)(?:, *\d+)?>|([^\[]+)\[(\d+)\]")
 INTEGERS = re.compile(r"(u?)int(8|16|32|64)")
@@ -68,8 +69,15 @@ SENT = {"f4", "u1", "u2", "u4", "i4", "i1"}
 ANY_OPTION = st.one_of(
     st.none(), st.booleans(), st.floats(), st.integers(), st.text(max_size=3), st.just([1e999, "x"])
 )
-NAMES = ["buffer_length", "pose_style", "keep", "color", "channel", "axis", "min", "max", "rainbow"]
-OPTIONS = st.dictionaries(st.sampled_from(NAMES), ANY_OPTION)
+
+
+def options_of(kind):
+    """A strategy for options: choices of its own, and anything."""
+    table = option_table(kind)
+    own = [st.tuples(st.just(name), st.sampled_from(each.choices or (each.value,)))
+           for name, each in table.items()]  # fmt: skip
+    pairs = st.one_of(*own, st.tuples(st.sampled_from([*table, "none"]), ANY_OPTION))
+    return st.lists(pairs, max_size=4).map(dict)
 
 
 def check(outputs) -> None:
@@ -91,9 +99,12 @@ def test_any_message_gets_an_answer(type_name):
     shown_by = DISPLAYS.get(type_name, DISPLAYS["nav_msgs/msg/OccupancyGrid"])
 
     @settings(deadline=None, max_examples=40)
-    @given(st.lists(messages(type_name), min_size=1, max_size=3), OPTIONS)
+    @given(st.lists(messages(type_name), min_size=1, max_size=3), options_of(shown_by.kind))
     def law(sent, options):
-        display = shown_by(options)
+        try:
+            display = shown_by(options)
+        except OptionError:
+            display = shown_by()
         display.budget = 5
         for message in sent:
             check(display.content(message))

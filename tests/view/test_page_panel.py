@@ -283,7 +283,8 @@ def test_topics_are_offered_and_others_are_named(page, fake):
     fake.tell({"type": "topics", "topics": topics})
     page.wait_for_selector("#add-display:enabled")
     offered = page.locator("#topic option").all_inner_texts()
-    assert offered == ["/scan2 (laser scan)", "/scan10 (laser scan)"]
+    robot = "robot from a parameter or file"
+    assert offered == ["/scan2 (laser scan)", "/scan10 (laser scan)", robot]
     assert page.inner_text("#other-topics") == "Without a picture: /rosout"
 
 

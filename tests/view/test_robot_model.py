@@ -81,7 +81,7 @@ def test_a_robot_of_a_file(prefix):
     file = prefix / "share/arm/arm.urdf"
     file.write_text(URDF.format(mesh="package://arm/meshes/none.stl"))
     for name in (str(file), f"file://{file}", "package://arm/arm.urdf"):
-        display = RobotModelDisplay({"description_file": name})
+        display = RobotModelDisplay({"source": "file", "description_file": name})
         content, status = display.start()
         assert content.header["robot"] == "arm"
         assert "has no file 'meshes/none.stl'" in status.text
@@ -100,7 +100,7 @@ def test_a_robot_of_a_file(prefix):
     ],
 )
 def test_files_that_are_no_robot(file, why):
-    (status,) = RobotModelDisplay({"description_file": file}).start()
+    (status,) = RobotModelDisplay({"source": "file", "description_file": file}).start()
     assert status.level == "error"
     assert why in status.text
 

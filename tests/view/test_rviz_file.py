@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+from dataclasses import replace
 
 import pytest
 import yaml
@@ -17,9 +18,9 @@ from turtlewire.view.rviz_file import (
     SavedDisplay,
     SavedView,
     read_rviz,
-    write_rviz,
 )
 from turtlewire.view.rviz_options import CLASSES, class_for
+from turtlewire.view.rviz_writing import write_rviz
 
 FILE = """
 Panels:
@@ -69,18 +70,29 @@ def test_a_file_of_rviz_is_read():
     view = read_rviz(FILE)
     assert view.fixed == "odom"
     assert view.show == {"grid": False, "names": True, "axes": True, "arrows": False}
-    assert view.unread == "Not shown here, for the page has no such display: Camera"
+    assert view.unread == (
+        "Not shown here, for the page has no such display: Camera. Refused, the default is taken: "
+        "Path: 'Line Width' must be a number from 0 to 1000, got nan"
+    )
     robot, scan, odometry, path, walls = view.displays
     assert robot == SavedDisplay(
         "robot_model",
         "/robot_description",
-        {"visual": True, "collision": True, "alpha": 0.7, "tf_prefix": ""},
+        {"visual": True, "collision": True, "alpha": 0.7, "source": "topic"},
+        place=3,
     )
     assert scan == SavedDisplay(
         "laser_scan",
         "/scan",
-        {"size": 4, "size_metres": 0, "style": "squares", "color": "flat", "flat_color": "#0a14ff"},
+        {
+            "size": 4,
+            "size_metres": 0.05,
+            "style": "points",
+            "color": "flat",
+            "flat_color": "#0a14ff",
+        },
         visible=False,
+        place=5,
     )
     assert odometry.options == {
         "keep": 7, "shape": "axes", "color": "#010203", "show_covariance": False
@@ -127,6 +139,105 @@ NONSENSE = st.recursive(
     ),
     max_leaves=8,
 )
+FULL = """
+Panels:
+  - {Class: rviz_common/Displays, Splitter Ratio: 0.5}
+Visualization Manager:
+  Displays:
+    - {Class: rviz_default_plugins/Camera, Name: eye, Topic: {Value: /eye, Depth: 9}}
+    - Class: rviz_common/Group
+      Displays:
+        - Class: rviz_default_plugins/LaserScan
+          Decay Time: 2
+          Selectable: true
+          Topic:
+            Depth: 7
+            Durability Policy: Transient Local
+            Filter size: 10
+            History Policy: Keep All
+            Reliability Policy: Reliable
+            Value: /scan
+        - {Class: rviz_default_plugins/Path, Topic: {Value: /plan}}
+    - {Class: rviz_default_plugins/TF, Frames: {All Enabled: false, map: {Value: true}}}
+  Global Options: {Background Color: 1; 2; 3, Fixed Frame: odom, Frame Rate: 10}
+  Tools: [{Class: rviz_default_plugins/Select}]
+  Views:
+    Current: {Class: rviz_default_plugins/TopDownOrtho, Scale: 30, X: 1}
+    Saved: ~
+Window Geometry: {Height: 700}
+"""
+
+
+def test_what_the_page_does_not_have_is_written_back():
+    before = yaml.safe_load(FULL)
+    view = read_rviz(FULL)
+    scan, path = view.displays
+    changed = replace(scan, topic="/front", visible=False, options={**scan.options, "alpha": 0.5})
+    new = SavedDisplay("polygon", "/area")
+    after = yaml.safe_load(write_rviz(replace(view, displays=(changed, new)), {}, view))
+    manager, former = after["Visualization Manager"], before["Visualization Manager"]
+    for name in ("Views", "Tools", "Global Options"):
+        assert manager[name] == former[name]
+    assert {name: after[name] for name in ("Panels", "Window Geometry")} == {
+        name: before[name] for name in ("Panels", "Window Geometry")
+    }
+    camera, group, frames, grid, polygon = manager["Displays"]
+    assert camera == former["Displays"][0]
+    (kept,) = group["Displays"]  # the path was removed in the page
+    former_scan = former["Displays"][1]["Displays"][0]
+    assert kept["Topic"] == {**former_scan["Topic"], "Value": "/front"}
+    assert (kept["Selectable"], kept["Decay Time"], kept["Alpha"]) == (True, 2, 0.5)
+    assert kept["Enabled"] is False
+    assert frames["Frames"] == former["Displays"][2]["Frames"]
+    assert grid["Class"].endswith("/Grid")
+    assert polygon["Topic"]["Value"] == "/area"
+    again = yaml.safe_load(write_rviz(replace(view, displays=(scan, path)), {}, view))
+    assert [each.topic for each in read_rviz(yaml.safe_dump(again)).displays] == ["/scan", "/plan"]
+
+
+@pytest.mark.parametrize(
+    ("given", "why"),
+    [
+        ("Alpha: 2", "'Alpha' must be a number from 0 to 1, got 2"),
+        ("Alpha: thick", "'Alpha' must be a number from 0 to 1, got 'thick'"),
+        ("Style: Dots", "'Style' must be one of Points, Squares, Flat Squares, Spheres, Boxes, "),
+        ("Color: red", "'Color' must be a colour as '255; 255; 255', got 'red'"),
+        ("Use rainbow: 1", "'Use rainbow' must be true or false, got 1"),
+        ("Decay Time: -1", "'Decay Time' must be a number from 0 to 3600, got -1"),
+    ],
+)
+def test_wrong_values_of_a_file_are_named(given, why):
+    text = f"Visualization Manager: {{Displays: [{{Class: x/PointCloud2, {given}}}]}}"
+    view = read_rviz(text)
+    assert view.unread.startswith(f"Refused, the default is taken: PointCloud2: {why}")
+    assert view.displays[0].options == {}
+
+
+def test_links_and_namespaces_of_a_file():
+    text = """
+Visualization Manager:
+  Displays:
+    - Class: rviz_default_plugins/RobotModel
+      Description File: /tmp/a.urdf
+      Description Source: File
+      Links: {All Links Enabled: true, base: {Alpha: 0.5, Show Axes: false, Value: true}}
+      Mass Properties: {Inertia: true, Mass: false}
+    - {Class: rviz_default_plugins/MarkerArray, Namespaces: {walls: false, doors: true}}
+"""
+    view = read_rviz(text)
+    robot, markers = view.displays
+    assert robot.options == {
+        "source": "file", "description_file": "/tmp/a.urdf", "mass": False, "inertia": True,
+        "links": {"base": {"shown": True, "alpha": 0.5}},
+    }  # fmt: skip
+    assert markers.options["namespaces"] == {"walls": {"shown": False}, "doors": {"shown": True}}
+    again = read_rviz(write_rviz(view, {}, view))
+    assert [each.options for each in again.displays] == [robot.options, markers.options]
+    links = again.document["Visualization Manager"]["Displays"][0]["Links"]
+    assert links["All Links Enabled"] is True
+    assert links["base"] == {"Alpha": 0.5, "Show Axes": False, "Value": True}
+
+
 NAMES = ["Class", "Topic", "Enabled", "Shape", "Color", "Alpha", "Displays", "Covariance", "Style"]
 
 

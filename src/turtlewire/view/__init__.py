@@ -7,26 +7,28 @@
     viewer = Viewer(LiveSource())
     print(viewer.url)
 
-===============  ===============================================================================
-module           what it holds
-===============  ===============================================================================
-`viewer`         `Viewer`: serves the page, one thread for its pace and one for displays
-`session`        one page: what it asks for, and what it does not have yet
-`source`         `Source`, `Timeline`: what frames and messages come from, and at which time
-`live`           `LiveSource`: the wire
-`bag_source`     `BagSource`: a bag with its own time
-`frames`         `FrameScene`: all poses in one frame, at one time, as one array
-`tree`           the rows of the tree; one frame as another sees it
-`words`          the same in a sentence
-`display_feed`   a display of a page: waits for transforms, makes packets
-`displays`       what to draw for each type of message
-`meshes`         meshes of packages: addresses to URLs, URLs to files
-`page_requests`  publish with a tool, save a view
-`rviz_file`      views as ``.rviz`` files
-`rviz_options`   options of RViz's displays and of the page's
-`tools`          what Publish Point, 2D Pose Estimate and 2D Goal Pose publish
-`packets`        a JSON header and arrays as bytes
-===============  ===============================================================================
+=================  ===============================================================================
+module             what it holds
+=================  ===============================================================================
+`viewer`           `Viewer`: serves the page, one thread for its pace and one for displays
+`session`          one page: what it asks for, and what it does not have yet
+`source`           `Source`, `Timeline`: what frames and messages come from, and at which time
+`live`             `LiveSource`: the wire
+`bag_source`       `BagSource`: a bag with its own time
+`parameter_watch`  asks a node for a parameter
+`frames`           `FrameScene`: all poses in one frame, at one time, as one array
+`tree`             the rows of the tree; one frame as another sees it
+`words`            the same in a sentence
+`display_feed`     a display of a page: waits for transforms, makes packets
+`displays`         what to draw for each type of message
+`meshes`           meshes of packages: addresses to URLs, URLs to files
+`page_requests`    publish with a tool, save a view
+`rviz_file`        views of ``.rviz`` files
+`rviz_writing`     views as ``.rviz`` files
+`rviz_options`     options of RViz's displays and of the page's
+`tools`            what Publish Point, 2D Pose Estimate and 2D Goal Pose publish
+`packets`          a JSON header and arrays as bytes
+=================  ===============================================================================
 """
 
 from __future__ import annotations

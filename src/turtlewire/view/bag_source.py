@@ -10,7 +10,7 @@ from turtlewire.bag import open_bag
 from turtlewire.bag.playback import PlayClock, ReadAhead
 from turtlewire.errors import BagError
 from turtlewire.tf.buffer import Buffer
-from turtlewire.view.source import TimelineState, Topic
+from turtlewire.view.source import ParameterAnswer, TimelineState, Topic
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -92,6 +92,14 @@ class BagSource:
                 self._read_again()
 
         return end
+
+    def ask_parameter(
+        self, node: str, name: str, on_answer: Callable[[ParameterAnswer], None]
+    ) -> Callable[[], None]:
+        """A bag has messages only."""
+        problem = f"a bag has no parameters, so '{name}' of {node} is not known; take the topic"
+        on_answer(ParameterAnswer(problem=problem))
+        return _nothing
 
     def publish(self, topic: str, type_name: str, cdr: bytes) -> None:  # noqa: ARG002 - Source's
         """Refused.

@@ -11,7 +11,7 @@ import logging
 import threading
 from collections import deque
 from itertools import count
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -23,8 +23,13 @@ from turtlewire.view.packets import encode_packet
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
+    from numpy.typing import NDArray
+
     from turtlewire.tf.buffer import Buffer
     from turtlewire.view.displays.content import Display, Output
+    from turtlewire.view.source import ParameterAnswer
+
+    Ask: TypeAlias = Callable[[str, str, Callable[[ParameterAnswer], None]], Callable[[], None]]
 
 __all__ = ["Base", "DisplayFeed"]
 
@@ -48,6 +53,22 @@ class Base:
         """Whether poses in both are equal."""
         return self.fixed == other.fixed and self.origin == other.origin
 
+    def arrays(self, content: Content) -> dict[str, NDArray[Any]]:
+        """The arrays of a content, with those that depend on where it is.
+
+        Raises:
+            TransformException: A transform that they need is not known.
+        """
+        if content.placed is None or content.frame_id is None:
+            return content.arrays
+        stamps = np.array([content.stamp_ns], dtype=np.int64)
+        if content.placed.stamps_ns is not None:
+            stamps = np.concatenate([stamps, content.placed.stamps_ns])
+        matrices = self.buffer.lookup_batch(self.fixed, content.frame_id, stamps, matrices=True)
+        if not np.isfinite(matrices).all():
+            raise TransformException(f"A pose of {content.frame_id!r} is not finite.")
+        return {**content.arrays, **content.placed.arrays(matrices)}
+
     def pose(self, content: Content) -> list[float]:
         """The pose of a content's anchor: x, y, z, and the quaternion xyzw.
 
@@ -68,6 +89,11 @@ class Base:
 
 class DisplayFeed:
     """Messages come in on any thread; one thread calls :meth:`work`, another one takes packets.
+
+    Attributes:
+        ask: Asks for a parameter, as :meth:`turtlewire.view.source.Source.ask_parameter`.
+        ends: What :meth:`close` calls.
+        on_packages: Gets the packages whose files the page will ask for.
 
     Args:
         name: The page's name of the display.
@@ -103,6 +129,10 @@ class DisplayFeed:
         self._own_status = Status("ok", "")
         self._events = count()
         self._said: Status | None = None
+        self._asks: tuple[str, str] | None = None
+        self._end_asking: Callable[[], None] | None = None
+        self._answer: ParameterAnswer | None = None
+        self.ask: Ask | None = None
         self.ends: list[Callable[[], None]] = []
         self.on_packages: Callable[[tuple[str, ...]], None] = _nothing
 
@@ -122,7 +152,19 @@ class DisplayFeed:
         self.display.set_options(options)
         self._starts = True
         self._inbox.extend(list(self._last.items()))
+        self.follow_parameter()
         self._on_work(self)
+
+    def follow_parameter(self) -> None:
+        """Ask for the parameter that the display wants now; for the thread of commands."""
+        wanted = self.display.parameter
+        if self.ask is None or wanted == self._asks:
+            return
+        if self._end_asking is not None:
+            self._end_asking()
+        self._asks, self._answer, self._end_asking = wanted, None, None
+        if wanted is not None:
+            self._end_asking = self.ask(*wanted, self._take_answer)
 
     def take_packets(self) -> list[bytes]:
         """What the page does not have yet; a newer content of a part replaces an older one."""
@@ -145,6 +187,7 @@ class DisplayFeed:
         if self._starts:
             self._starts = False
             self._take(self._guarded(self.display.start))
+            self._show_answer()
         while self._inbox:
             topic, cdr = self._inbox.popleft()
             if self.display.replays:
@@ -161,6 +204,22 @@ class DisplayFeed:
         """End the subscriptions."""
         for end in self.ends:
             end()
+        if self._end_asking is not None:
+            self._end_asking()
+
+    def _take_answer(self, answer: ParameterAnswer) -> None:
+        self._answer = answer
+        self._starts = True
+        self._on_work(self)
+
+    def _show_answer(self) -> None:
+        answer = self._answer
+        if answer is None:
+            return
+        if answer.problem:
+            self._take([Status.of("error", answer.problem)])
+        else:
+            self._take(self._guarded(lambda: self.display.take_parameter(answer.text)))
 
     def _outputs(self, topic: str, cdr: bytes) -> list[Output]:
         try:
@@ -214,36 +273,51 @@ class DisplayFeed:
                 else:
                     self._send_event(content)
                 continue
-            pose = self._pose(content, base)
-            if isinstance(pose, TransformException):
-                if not _is_too_old(pose, content, base):
-                    still.append(content)
-            else:
+            error = self._place(content, base)
+            if error is None:
                 self._shown[content.part] = content
-                self._send(content, {"pose": pose})
                 self._say(self._own_status)
+            elif not _is_too_old(error, content, base):
+                still.append(content)
         self._waiting = still
 
-    def _pose(self, content: Content, base: Base) -> list[float] | TransformException:
-        """The pose, or why it is not known, which the status then says."""
+    def _place(self, content: Content, base: Base) -> TransformException | None:
+        """Send a content where it is, or say in the status why that is not known."""
         try:
-            return base.pose(content)
+            pose, arrays = base.pose(content), base.arrays(content)
         except TransformException as error:
             self._say(Status.of("warn", f"{error} {error.hint}".strip()))
             return error
+        self._send(content, {"pose": pose}, arrays=arrays)
+        return None
 
     def _place_again(self, base: Base) -> None:
         """Tell the poses in another fixed frame."""
         for part, content in list(self._shown.items()):
             if content.frame_id is None or content.locked:
                 continue
+            if content.placed is not None and self._place(content, base) is None:
+                continue
             pose = self._pose(content, base)
-            header = {"type": "pose", "id": self.name, "part": part}
-            known = None if isinstance(pose, TransformException) else pose
+            packet = {"type": "pose", "id": self.name, "part": part, "pose": pose}
             with self._lock:  # beside the content, which may wait to be sent, too
-                self._ready[f"pose {part}"] = encode_packet({**header, "pose": known})
+                self._ready[f"pose {part}"] = encode_packet(packet)
 
-    def _send(self, content: Content, place: dict[str, Any], key: str | None = None) -> None:
+    def _pose(self, content: Content, base: Base) -> list[float] | None:
+        """The pose; None if it is not known, and the status then says why."""
+        try:
+            return base.pose(content)
+        except TransformException as error:
+            self._say(Status.of("warn", f"{error} {error.hint}".strip()))
+            return None
+
+    def _send(
+        self,
+        content: Content,
+        place: dict[str, Any],
+        key: str | None = None,
+        arrays: dict[str, NDArray[Any]] | None = None,
+    ) -> None:
         self.on_packages(content.packages)
         header = {
             **content.header,
@@ -253,7 +327,7 @@ class DisplayFeed:
             "part": content.part,
             **place,
         }
-        packet = encode_packet(header, content.arrays)
+        packet = encode_packet(header, content.arrays if arrays is None else arrays)
         with self._lock:
             self._ready.pop(f"pose {content.part}", None)
             self._ready[content.part if key is None else key] = packet
@@ -282,4 +356,4 @@ def _is_too_old(error: TransformException, content: Content, base: Base) -> bool
         newest = base.buffer.latest_common_time(base.fixed, content.frame_id)
     except TransformException:
         return False
-    return newest > content.stamp_ns
+    return newest > content.last_stamp_ns

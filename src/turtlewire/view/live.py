@@ -7,11 +7,13 @@ import time
 from typing import TYPE_CHECKING, cast
 
 from turtlewire import msg, wire
+from turtlewire.errors import WireError
 from turtlewire.tf import inspection
 from turtlewire.tf.buffer import Buffer
 from turtlewire.tf.listener import TransformListener
 from turtlewire.tf.restarts import RestartWatch
-from turtlewire.view.source import TimelineState, Topic
+from turtlewire.view.parameter_watch import ParameterWatch
+from turtlewire.view.source import ParameterAnswer, TimelineState, Topic
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import Durability, QoS, Reliability, fit_subscription
 
@@ -101,6 +103,16 @@ class LiveSource:
             subscription.close()
 
         return end
+
+    def ask_parameter(
+        self, node: str, name: str, on_answer: Callable[[ParameterAnswer], None]
+    ) -> Callable[[], None]:
+        """Ask the node's parameter service."""
+        try:
+            return ParameterWatch(self._context, self._node, node, name, on_answer).close
+        except WireError as error:
+            on_answer(ParameterAnswer(problem=f"{node!r} is no name of a node: {error}"))
+            return _nothing
 
     def publish(self, topic: str, type_name: str, cdr: bytes) -> None:
         """Send a message; the publisher stays for the next one."""

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.view.rviz_file import SavedDisplay, SavedView, write_rviz
+from turtlewire.view.rviz_file import SavedDisplay, SavedView
+from turtlewire.view.rviz_writing import write_rviz
 from turtlewire.view.tools import tool_message
 
 if TYPE_CHECKING:
@@ -49,12 +51,15 @@ def message_of_tool(
         raise RequestError(str(error)) from error
 
 
-def text_of_view(command: Mapping[str, Any], types: Mapping[str, str]) -> str:
+def text_of_view(
+    command: Mapping[str, Any], types: Mapping[str, str], former: SavedView | None = None
+) -> str:
     """The ``.rviz`` file that a ``save`` command asks for.
 
     Args:
         command: ``fixed``, ``displays`` and ``show`` as in the ``view`` packet.
         types: Message types by topic.
+        former: The view that was loaded before, see :func:`write_rviz`.
 
     Raises:
         RequestError: The command makes no sense.
@@ -63,15 +68,19 @@ def text_of_view(command: Mapping[str, Any], types: Mapping[str, str]) -> str:
     if not isinstance(displays, list) or not isinstance(show, dict) or not isinstance(fixed, str):
         raise RequestError("'fixed' must be a text, 'displays' a list and 'show' an object")
     saved = tuple(_display_of(each) for each in displays[:_MOST_DISPLAYS])
-    return write_rviz(SavedView(fixed, saved, {name: show.get(name) is not False
-                                               for name in _SWITCHES}), types)  # fmt: skip
+    if former is None:
+        saved = tuple(replace(each, place=None) for each in saved)
+    switches = {name: show.get(name) is not False for name in _SWITCHES}
+    return write_rviz(SavedView(fixed, saved, switches), types, former)
 
 
 def _display_of(entry: object) -> SavedDisplay:
     if isinstance(entry, dict):
         kind, topic, options = entry.get("kind"), entry.get("topic"), entry.get("options")
         if isinstance(kind, str) and isinstance(topic, str) and isinstance(options, dict):
-            return SavedDisplay(kind, topic, options, entry.get("visible") is not False)
+            place = entry.get("place")
+            place = place if isinstance(place, int) else None
+            return SavedDisplay(kind, topic, options, entry.get("visible") is not False, place)
     raise RequestError("a display must have the texts 'kind' and 'topic', and an object 'options'")
 
 

@@ -6,8 +6,12 @@ import math
 import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from turtlewire.view.displays.options import option_table
+
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from turtlewire.view.displays.options import Option
 
 __all__ = ["CLASSES", "class_for", "from_rviz", "to_rviz"]
 
@@ -22,6 +26,13 @@ class _Option(NamedTuple):
     theirs: str
     read: Callable[[object], object]
     write: Callable[[object], object]
+    names: tuple[str, ...] = ()
+
+    def wanted(self, entry: Option) -> str:
+        """What RViz's option takes of what the page has, in words."""
+        if entry.type == "color":
+            return "a colour as '255; 255; 255'"
+        return f"one of {', '.join(self.names)}" if self.names else entry.wanted()
 
 
 def _number(ours: str, theirs: str) -> _Option:
@@ -48,7 +59,11 @@ def _choice(ours: str, theirs: str, names: dict[str, str]) -> _Option:
     """``names``: RViz's name to ours; the first of several is written."""
     back = {mine: name for name, mine in reversed(names.items())}
     return _Option(
-        ours, theirs, lambda value: _among(names, value), lambda value: _among(back, value)
+        ours,
+        theirs,
+        lambda value: _among(names, value),
+        lambda value: _among(back, value),
+        tuple(names),
     )
 
 
@@ -88,16 +103,54 @@ def _write_color(value: object) -> str | None:
     return "; ".join(str(int(value[at : at + 2], 16)) for at in (1, 3, 5))
 
 
+def _read_namespaces(value: object) -> object:
+    if not isinstance(value, dict):
+        return None
+    return {str(name): {"shown": on} for name, on in value.items() if isinstance(on, bool)}
+
+
+def _write_namespaces(value: object) -> object:
+    items = _items(value)
+    return {name: item.get("shown", True) for name, item in items.items()} or None
+
+
+def _read_links(value: object) -> object:
+    """Of each link whether it is shown, and its alpha."""
+    if not isinstance(value, dict):
+        return None
+    links = {str(name): each for name, each in value.items() if isinstance(each, dict)}
+    return {
+        name: {"shown": each.get("Value") is not False, "alpha": alpha}
+        for name, each in links.items()
+        if (alpha := _read_number(each.get("Alpha", 1))) is not None
+    }
+
+
+def _write_links(value: object) -> object:
+    items = _items(value)
+    return {
+        name: {"Alpha": item.get("alpha", 1), "Value": item.get("shown", True)}
+        for name, item in items.items()
+    } or None
+
+
+def _items(value: object) -> dict[str, dict[str, Any]]:
+    if not isinstance(value, dict):
+        return {}
+    return {str(name): item for name, item in value.items() if isinstance(item, dict)}
+
+
 _ALPHA = _number("alpha", "Alpha")
 _POINTS = (
     _ALPHA,
     _number("size", "Size (Pixels)"),
     _number("size_metres", "Size (m)"),
-    _choice("style", "Style", {"Flat Squares": "squares", "Points": "squares",
-                               "Squares": "squares", "Boxes": "squares", "Tiles": "squares",
-                               "Spheres": "discs"}),
+    _choice("style", "Style", {"Points": "points", "Squares": "squares",
+                               "Flat Squares": "flat squares", "Spheres": "spheres",
+                               "Boxes": "boxes", "Tiles": "tiles"}),
+    _number("decay_time", "Decay Time"),
     _choice("color", "Color Transformer", {"Intensity": "intensity", "RGB8": "rgb",
-                                           "RGBF32": "rgb", "AxisColor": "axis",
+                                           "RGBF32": "rgbf32", "AxisColor": "axis",
                                            "FlatColor": "flat"}),
     _text("channel", "Channel Name"),
     _choice("axis", "Axis", {"Z": "z", "X": "x", "Y": "y"}),
@@ -107,6 +160,12 @@ _POINTS = (
     _flag("autocompute_bounds", "Autocompute Intensity Bounds"),
     _number("min", "Min Intensity"),
     _number("max", "Max Intensity"),
+    _color("min_color", "Min Color"),
+    _color("max_color", "Max Color"),
+    _flag("autocompute_axis", "Autocompute Value Bounds/Value"),
+    _number("axis_min", "Autocompute Value Bounds/Min Value"),
+    _number("axis_max", "Autocompute Value Bounds/Max Value"),
+    _flag("axis_in_fixed_frame", "Use Fixed Frame"),
 )  # fmt: skip
 _SHAPES = {"Arrow": "arrow", "Axes": "axes"}
 _POSE = (
@@ -117,6 +176,8 @@ _POSE = (
 )
 _COVARIANCE = _flag("show_covariance", "Covariance/Value")
 
+_NAMESPACES = (_Option("namespaces", "Namespaces", _read_namespaces, _write_namespaces),)
+
 #: RViz's display to the page's kind and its options.
 CLASSES: dict[str, tuple[str, tuple[_Option, ...]]] = {
     "RobotModel": (
@@ -126,12 +187,20 @@ CLASSES: dict[str, tuple[str, tuple[_Option, ...]]] = {
             _flag("collision", "Collision Enabled"),
             _ALPHA,
             _text("tf_prefix", "TF Prefix"),
+            _choice("source", "Description Source", {"Topic": "topic", "File": "file",
+                                                     "Parameter": "parameter"}),
+            _text("description_file", "Description File"),
+            _text("node", "Description Parameter/Node"),
+            _text("parameter", "Description Parameter/Name"),
+            _flag("mass", "Mass Properties/Mass"),
+            _flag("inertia", "Mass Properties/Inertia"),
+            _Option("links", "Links", _read_links, _write_links),
         ),
     ),
     "PointCloud2": ("point_cloud", _POINTS),
     "LaserScan": ("laser_scan", _POINTS),
-    "Marker": ("marker", ()),
-    "MarkerArray": ("marker", ()),
+    "Marker": ("marker", _NAMESPACES),
+    "MarkerArray": ("marker", _NAMESPACES),
     "Map": (
         "occupancy_grid",
         (
@@ -213,23 +282,28 @@ def class_for(kind: str, type_name: str) -> str | None:
     return next((name for name, (each, _) in CLASSES.items() if each == kind), None)
 
 
-def from_rviz(name: str, properties: dict[str, Any]) -> tuple[str, dict[str, object]]:
-    """Topic and options of a display of RViz; values that make no sense are left out."""
+def from_rviz(name: str, properties: dict[str, Any]) -> tuple[str, dict[str, object], list[str]]:
+    """Topic and options of a display of RViz, and a line for each value that is refused."""
     kind, options = CLASSES[name]
     found: dict[str, object] = {}
+    problems = []
+    table = option_table(kind)
     for option in options:
-        value = option.read(_at(properties, option.theirs))
-        if value is not None:
+        given = _at(properties, option.theirs)
+        value = option.read(given)
+        entry = table.get(option.ours)  # a scan has no colours of its own, for one
+        if entry is None or given is None or given == "":
+            continue
+        if value is not None and entry.accepts(value):
             found[option.ours] = value
-    if kind in {"point_cloud", "laser_scan"} and properties.get("Style") == "Points":
-        found["size_metres"] = 0  # this style alone is as wide as its pixels say
+        else:
+            problems.append(f"'{option.theirs}' must be {option.wanted(entry)}, got {given!r:.60}")
     if name in _BY_TYPE.values():
         found["message_type"] = next(each for each, shows in _BY_TYPE.items() if shows == name)
-    if properties.get("Description Source") == "File":
-        file = _read_text(properties.get("Description File"))
-        found |= {"description_file": file} if file else {}
     topic = _topic(properties)
-    return topic or ("/robot_description" if kind == "robot_model" else ""), found
+    if kind == "robot_model" and found.get("source", "topic") == "topic":
+        topic = topic or "/robot_description"
+    return topic, found, problems
 
 
 def to_rviz(name: str, topic: str, options: dict[str, object]) -> dict[str, Any]:
@@ -245,22 +319,13 @@ def to_rviz(name: str, topic: str, options: dict[str, object]) -> dict[str, Any]
     }
     properties: dict[str, Any] = {}
     if kind == "robot_model":
-        file = _read_text(options.get("description_file")) or ""
-        source = "File" if file else "Topic"
-        properties = {
-            "Description File": file,
-            "Description Source": source,
-            "Description Topic": address,
-        }
+        properties = {"Description Topic": address, "Description File": ""}
     else:
         properties = {"Topic": address}
     for option in known:
         value = option.write(options.get(option.ours))
         if value is not None:
             _put(properties, option.theirs, value)
-    if kind in {"point_cloud", "laser_scan"} and not options.get("size_metres"):
-        properties["Style"] = "Points"
-        properties.pop("Size (m)", None)
     return properties
 
 

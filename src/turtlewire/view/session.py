@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from turtlewire.errors import TurtlewireError
 from turtlewire.printable import printable
 from turtlewire.view.display_feed import Base, DisplayFeed
+from turtlewire.view.displays.options import OptionError
 from turtlewire.view.frames import FrameScene
 from turtlewire.view.packets import encode_packet
 from turtlewire.view.page_requests import RequestError, message_of_tool, text_of_view
@@ -17,6 +18,7 @@ from turtlewire.view.rviz_file import RvizFileError, read_rviz
 from turtlewire.view.tree import TreeTable, path_between, relation
 
 if TYPE_CHECKING:
+    from turtlewire.view.rviz_file import SavedView
     from turtlewire.view.source import Source
 
 __all__ = ["CommandError", "Host", "Session"]
@@ -35,6 +37,11 @@ class Host(Protocol):
 
     source: Source
     fixed_frame: str
+    documents: dict[str, SavedView]
+
+    def keep_document(self, view: SavedView) -> None:
+        """Remember a file that was loaded: what the page has not is in the saved one again."""
+        ...
 
     def hello(self) -> bytes:
         """The first packet of a page."""
@@ -238,7 +245,10 @@ class Session:
         name = _text(command, "id")
         if name not in self._feeds:
             raise CommandError(f"There is no display {name!r}.")
-        self._feeds[name].set_options(_options(command))
+        try:
+            self._feeds[name].set_options(_options(command))
+        except OptionError as error:
+            raise CommandError(f"This stays as it was: {error}.") from error
 
     def _set_budget(self, command: dict[str, Any]) -> None:
         self._budget = int(_number(command, "points", least=1))
@@ -278,7 +288,8 @@ class Session:
     def _save(self, command: dict[str, Any]) -> None:
         types = {topic.name: topic.type_name for topic in self._source.topics()}
         try:
-            text = text_of_view(command, types)
+            former = self._viewer.documents.get(str(command.get("document")))
+            text = text_of_view(command, types, former)
         except RequestError as error:
             raise CommandError(f"The view was not saved: {error}.") from error
         self._answers.append(encode_packet({"type": "saved", "text": text}))
@@ -289,6 +300,7 @@ class Session:
             view = read_rviz(text if isinstance(text, str) else "")
         except RvizFileError as error:
             raise CommandError(f"This is no view: {error}.") from error
+        self._viewer.keep_document(view)
         self._answers.append(encode_packet(view.header()))
 
     def _hold_displays(self, *, held: bool) -> None:

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
     from turtlewire.tf.buffer import Buffer
 
-__all__ = ["Source", "Timeline", "TimelineState", "Topic"]
+__all__ = ["ParameterAnswer", "Source", "Timeline", "TimelineState", "Topic"]
 
 
 class Topic(NamedTuple):
@@ -18,6 +18,13 @@ class Topic(NamedTuple):
     name: str
     type_name: str
     publishers: int
+
+
+class ParameterAnswer(NamedTuple):
+    """The text of a parameter, or in one line why there is none."""
+
+    text: str = ""
+    problem: str = ""
 
 
 class TimelineState(NamedTuple):
@@ -109,6 +116,16 @@ class Source(Protocol):
         self, topic: str, type_name: str, on_message: Callable[[bytes], None]
     ) -> Callable[[], None]:
         """Call ``on_message(cdr)`` for each message from now on, latched ones at once.
+
+        Returns:
+            A function that ends it.
+        """
+        ...
+
+    def ask_parameter(
+        self, node: str, name: str, on_answer: Callable[[ParameterAnswer], None]
+    ) -> Callable[[], None]:
+        """Call ``on_answer`` with a node's text parameter, now and when the node comes again.
 
         Returns:
             A function that ends it.

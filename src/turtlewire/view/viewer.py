@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from turtlewire.view.display_feed import DisplayFeed
 from turtlewire.view.displays import display_for, display_types
+from turtlewire.view.displays.options import OptionError
 from turtlewire.view.meshes import MeshLibrary
 from turtlewire.view.packets import encode_packet
 from turtlewire.view.session import CommandError, Session
@@ -24,6 +25,7 @@ __all__ = ["Viewer"]
 _PAGE = Path(__file__).parent / "page"
 #: Pictures a second, at most, and one a second when nothing happens: ages go on.
 _FRAME_S, _IDLE_S = 1 / 30, 1.0
+_MOST_DOCUMENTS = 16
 
 
 #: GLTF files may hold their pictures and numbers themselves.
@@ -45,6 +47,7 @@ class Viewer:
 
     Attributes:
         url: The page's address.
+        documents: The files that pages have loaded, by their tokens.
 
     Raises:
         OSError: No port can be had.
@@ -69,6 +72,9 @@ class Viewer:
         if saved is not None and fixed_frame:
             saved = replace(saved, fixed=fixed_frame)
         self._saved = saved
+        self.documents: dict[str, SavedView] = {}
+        if saved is not None:
+            self.keep_document(saved)
         self._server = Server(
             _PAGE,
             self._connect,
@@ -109,6 +115,12 @@ class Viewer:
             return []
         return [encode_packet({**self._saved.header(), "first": True})]
 
+    def keep_document(self, view: SavedView) -> None:
+        """Remember a file that was loaded, and a few before it."""
+        self.documents[view.token] = view
+        while len(self.documents) > _MOST_DOCUMENTS:
+            del self.documents[next(iter(self.documents))]
+
     def topics(self) -> list[dict[str, Any]]:
         """What there is, each with the kind of display that shows it, or None."""
         return [
@@ -120,7 +132,7 @@ class Viewer:
         """Subscribe for a display.
 
         Raises:
-            CommandError: There is no such display, or no such topic.
+            CommandError: There is no such display or topic, or an option is refused.
             WireError: The topic cannot be subscribed.
         """
         types_there = {each.name: each.type_name for each in self.source.topics()}
@@ -129,15 +141,19 @@ class Viewer:
         if not isinstance(asked, str) or asked not in of_kind:
             asked = next(iter(of_kind), "")
         type_name = types_there.get(topic) or asked
-        if type_name not in of_kind:
+        if type_name not in of_kind or not (topic or kind == "robot_model"):
             raise CommandError(f"No display {kind!r} shows {topic} of type {type_name or '?'}.")
         display_type = of_kind[type_name]
-        types = {topic: type_name}
+        types = {topic: type_name} if topic else {}  # a robot may come from a parameter or file
         types |= {topic + suffix: each for suffix, each in display_type.companions.items()}
-        feed = DisplayFeed(
-            name, display_type(options), types, lambda _: self._work.set(), self._changed.set
-        )
+        try:
+            display = display_type(options)
+        except OptionError as error:
+            raise CommandError(f"{topic or kind} is not shown: {error}.") from error
+        feed = DisplayFeed(name, display, types, lambda _: self._work.set(), self._changed.set)
         feed.on_packages = self._meshes.permit
+        feed.ask = self.source.ask_parameter
+        feed.follow_parameter()
         for each, its_type in types.items():
             feed.ends.append(self.source.subscribe(each, its_type, _sink(feed, each)))
         return feed

@@ -4,12 +4,13 @@
 module             what it holds
 =================  =============================================================================
 `content`          `Display` and what it makes of messages
-`options`          what the user chose for a display
+`options`          which options there are, and what the user chose
 `numeric`          poses, points and colours of messages as arrays
 `path`             Path
 `poses`            PoseStamped, PoseWithCovarianceStamped, PoseArray, Odometry
 `covariance`       the ellipsoid of a covariance
 `shapes`           PolygonStamped, PointStamped, Range
+`points`           what point clouds and scans have in common
 `point_cloud`      PointCloud2
 `cloud_layout`     its bytes as records
 `coloring`         colours from values

@@ -11,18 +11,39 @@ if TYPE_CHECKING:
 
     from turtlewire.view.displays.options import Options
 
-__all__ = ["flat", "rainbow", "ramp"]
+__all__ = ["by_axis", "by_value", "flat"]
 
 
-def rainbow(values: NDArray[Any], options: Options) -> NDArray[np.uint8]:
-    """RViz's rainbow, from red at the least value over green and blue to violet, as ``(n, 4)``.
+def by_value(values: NDArray[Any], options: Options) -> NDArray[np.uint8]:
+    """Colours of values, as ``(n, 4)``: RViz's rainbow, or from one colour to another.
 
-    Options: ``min`` and ``max`` bound the values unless ``autocompute_bounds``, which is the
-    default; ``invert_rainbow``.
+    Options: ``min`` and ``max`` bound the values unless ``autocompute_bounds``; ``rainbow``,
+    ``invert_rainbow``; ``min_color`` and ``max_color`` without the rainbow.
     """
-    place = _place(values, options)
-    if not options.flag("invert_rainbow", False):
-        place = 1.0 - place
+    bounds = None if options.flag("autocompute_bounds") else ("min", "max")
+    place = _place(values, options, bounds)
+    if not options.flag("rainbow"):
+        return _ramp(place, options)
+    return _rainbow(place if options.flag("invert_rainbow") else 1.0 - place)
+
+
+def by_axis(places: NDArray[np.float64], options: Options) -> NDArray[np.uint8]:
+    """Colours of places ``(n, 3)`` by one coordinate, as ``(n, 4)``.
+
+    Options: ``axis``; ``axis_min`` and ``axis_max`` bound it unless ``autocompute_axis``.
+    """
+    bounds = None if options.flag("autocompute_axis") else ("axis_min", "axis_max")
+    values = places[:, "xyz".index(options.text("axis"))]
+    return _rainbow(1.0 - _place(values, options, bounds))
+
+
+def flat(count: int, color: tuple[int, int, int]) -> NDArray[np.uint8]:
+    """The same colour ``count`` times, as ``(n, 4)``."""
+    return np.tile(np.array([*color, 255], dtype=np.uint8), (count, 1))
+
+
+def _rainbow(place: NDArray[np.float64]) -> NDArray[np.uint8]:
+    """From violet at 0 over blue and green to red at 1."""
     scaled = place * 5 + 1
     segment = np.floor(scaled).astype(np.int64)
     rest = scaled - segment
@@ -36,27 +57,28 @@ def rainbow(values: NDArray[Any], options: Options) -> NDArray[np.uint8]:
     return _bytes(np.stack([red, green, blue], axis=1))
 
 
-def ramp(values: NDArray[Any], options: Options) -> NDArray[np.uint8]:
-    """From ``min_color`` to ``max_color`` as ``(n, 4)``."""
-    place = _place(values, options)[:, None]
-    low = np.array(options.color("min_color", (0, 0, 0)), dtype=np.float64) / 255
-    high = np.array(options.color("max_color", (255, 255, 255)), dtype=np.float64) / 255
-    return _bytes(low + (high - low) * place)
+def _ramp(place: NDArray[np.float64], options: Options) -> NDArray[np.uint8]:
+    low = np.array(options.color("min_color"), dtype=np.float64) / 255
+    high = np.array(options.color("max_color"), dtype=np.float64) / 255
+    return _bytes(low + (high - low) * place[:, None])
 
 
-def flat(count: int, color: tuple[int, int, int]) -> NDArray[np.uint8]:
-    """The same colour ``count`` times, as ``(n, 4)``."""
-    return np.tile(np.array([*color, 255], dtype=np.uint8), (count, 1))
+def _place(
+    values: NDArray[Any], options: Options, bounds: tuple[str, str] | None
+) -> NDArray[np.float64]:
+    """Where values lie between their bounds, from 0 to 1; what is not finite lies at 0.
 
-
-def _place(values: NDArray[Any], options: Options) -> NDArray[np.float64]:
-    """Where values lie between their bounds, from 0 to 1; what is not finite lies at 0."""
+    Args:
+        values: Any numbers.
+        options: The user's choices.
+        bounds: The options with the bounds; None takes those of the values.
+    """
     numbers = values.astype(np.float64)
     finite = numbers[np.isfinite(numbers)]
-    if options.flag("autocompute_bounds", True):
+    if bounds is None:
         low, high = (finite.min(), finite.max()) if len(finite) else (0.0, 0.0)
     else:
-        low, high = options.number("min", 0.0, -1e30, 1e30), options.number("max", 1.0, -1e30, 1e30)
+        low, high = (options.number(name) for name in bounds)
     if not high > low:
         high = low + 1.0
     with np.errstate(over="ignore", invalid="ignore"):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeAlias
 
 from turtlewire.printable import printable
 from turtlewire.view.displays.options import Options
@@ -12,6 +12,7 @@ from turtlewire.view.displays.options import Options
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
+    import numpy as np
     from numpy.typing import NDArray
 
 __all__ = [
@@ -20,6 +21,7 @@ __all__ = [
     "Display",
     "Level",
     "Output",
+    "Placed",
     "Removal",
     "Status",
     "UnusableMessageError",
@@ -34,6 +36,19 @@ Vector: TypeAlias = tuple[float, float, float]
 #: How many points a display may send with one message until the page names its own budget.
 DEFAULT_BUDGET = 50_000
 _LONGEST_STATUS = 300
+
+
+class Placed(NamedTuple):
+    """Arrays of a content that depend on where its frame is in the fixed frame.
+
+    Attributes:
+        arrays: Makes them of the transforms ``fixed_from_frame``, ``(1 + n, 4, 4)``: at the
+            content's stamp, and at ``stamps_ns``.
+        stamps_ns: Further times that it needs, or None.
+    """
+
+    arrays: Callable[[NDArray[np.float64]], dict[str, NDArray[Any]]]
+    stamps_ns: NDArray[np.int64] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +69,7 @@ class Content:
         event: The content changes what came before it and replaces nothing: it is sent once, after
             all that came before it and is not gone, and not kept.
         packages: Packages whose meshes and textures the page will ask for.
+        placed: Makes those of the arrays that depend on the fixed frame.
     """
 
     header: dict[str, Any]
@@ -65,6 +81,13 @@ class Content:
     locked: bool = False
     event: bool = False
     packages: tuple[str, ...] = ()
+    placed: Placed | None = None
+
+    @property
+    def last_stamp_ns(self) -> int:
+        """The last time that it needs transforms at."""
+        stamps = None if self.placed is None else self.placed.stamps_ns
+        return self.stamp_ns if stamps is None else max(self.stamp_ns, int(stamps.max(initial=0)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,14 +140,27 @@ class Display:
         *,
         clock: Callable[[], int] = time.monotonic_ns,
     ) -> None:
-        self.options = Options(options or {})
+        self.options = Options(options or {}, self.kind)
         self.budget = DEFAULT_BUDGET
         self._clock = clock
         self._warnings: list[str] = []
 
     def set_options(self, options: Mapping[str, object]) -> None:
-        """Take the user's choices for the messages to come."""
-        self.options = Options(options)
+        """Take the user's choices for the messages to come.
+
+        Raises:
+            OptionError: One is refused; all stay as they were.
+        """
+        self.options = Options(options, self.kind)
+
+    @property
+    def parameter(self) -> tuple[str, str] | None:
+        """Node and name of a text parameter that the display wants to know, or None."""
+        return None
+
+    def take_parameter(self, text: str) -> list[Output]:
+        """What to send for the value of :attr:`parameter`; a status comes last."""
+        raise NotImplementedError
 
     def start(self) -> list[Output]:
         """What to send before the first message, and again with each choice of options."""

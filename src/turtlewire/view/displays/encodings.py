@@ -120,8 +120,8 @@ def _grey(pixels: NDArray[Any], encoding: str, options: Options) -> NDArray[np.u
 
 def _normalized(values: NDArray[np.float64], options: Options) -> NDArray[np.uint8]:
     finite = np.isfinite(values)
-    low, high = options.number("min", 0.0, -1e12, 1e12), options.number("max", 1.0, -1e12, 1e12)
-    if options.flag("normalize_range", True) and finite.any():
+    low, high = options.number("min"), options.number("max")
+    if options.flag("normalize_range") and finite.any():
         low, high = float(values[finite].min()), float(values[finite].max())
     span = high - low if high > low else 1.0
     with np.errstate(over="ignore", invalid="ignore"):

@@ -1,55 +1,97 @@
-"""LaserScan: the points that the beams hit."""
+"""LaserScan: the points that the beams hit, each from where the scanner was then."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from turtlewire.view.displays.coloring import flat, rainbow
+from turtlewire.view.displays.coloring import by_axis, by_value, flat
 from turtlewire.view.displays.content import (
     Content,
-    Display,
-    Output,
+    Placed,
     UnusableMessageError,
     frame_of,
     stamp_ns_of,
 )
-from turtlewire.view.displays.numeric import anchored, spread
+from turtlewire.view.displays.numeric import LARGEST, spread
+from turtlewire.view.displays.points import PointsDisplay, moved
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 __all__ = ["LaserScanDisplay"]
 
+#: A scan that takes longer is a wrong message [s].
+_LONGEST_SCAN = 60.0
 
-class LaserScanDisplay(Display):
+
+class LaserScanDisplay(PointsDisplay):
     """The hits of a ``sensor_msgs/msg/LaserScan``, with intensities as colours.
 
-    All beams are drawn from where the scanner was at the stamp, the time of the first one.
+    Beam *i* is transformed at its own time, ``stamp + i * time_increment``, as laser_geometry does
+    in a moving fixed frame; it takes the transforms at both ends of the scan and what lies between
+    on a line, this one takes those of each beam.
 
-    Options: ``color`` (``auto``, ``intensity``, ``flat``), ``flat_color``, the rainbow's.
+    Options: ``color`` (``auto``, ``intensity``, ``axis``, ``flat``), and those of
+    :class:`turtlewire.view.displays.point_cloud.PointCloudDisplay`.
     """
 
     kind = "laser_scan"
-    replays = True
 
-    def _outputs(self, message: Any) -> list[Output]:
+    def points(self, message: Any, budget: int, part: str, header: dict[str, Any]) -> Content:
+        """The hits, in the scanner's frame at the stamp."""
         ranges = np.asarray(message.ranges, dtype=np.float64)
         angles = self._angles(message, len(ranges))
-        with np.errstate(invalid="ignore"):
-            hits = (
-                np.isfinite(ranges) & (ranges >= message.range_min) & (ranges <= message.range_max)
+        index = self._hits(message, ranges)[0]
+        index = index[spread(len(index), budget)]
+        directions = np.stack(
+            [np.cos(angles[index]), np.sin(angles[index]), np.zeros(len(index))], axis=1
+        )
+        hits = directions * ranges[index, None]
+        colors = self._colors(message, index)
+        offsets = self._offsets_ns(message, index)
+        arrays: dict[str, NDArray[Any]] = {"points": hits.astype(np.float32)}
+        arrays["rgba"] = by_axis(hits, self.options) if colors is None else colors
+        header = {**header, "count": len(ranges), "shown": len(index)}
+        placed = None
+        in_fixed = colors is None and self.options.flag("axis_in_fixed_frame")
+        if offsets.any() or in_fixed:
+            placed = Placed(
+                lambda matrices: self._placed(matrices, hits, by_axis=in_fixed),
+                stamp_ns_of(message) + offsets if offsets.any() else None,
             )
-        index = np.flatnonzero(hits)
-        if len(ranges) and not len(index):
+        frame_id, stamp_ns = frame_of(message), stamp_ns_of(message)
+        return Content(header, arrays, frame_id, stamp_ns, part, placed=placed)
+
+    def _placed(
+        self, matrices: NDArray[np.float64], hits: NDArray[np.float64], *, by_axis: bool
+    ) -> dict[str, NDArray[Any]]:
+        """What depends on where the scanner was at the stamp and at each beam."""
+        first, each = matrices[:1], matrices[1:] if len(matrices) > 1 else matrices
+        in_fixed = moved(each, hits)
+        arrays: dict[str, NDArray[Any]] = {}
+        if len(matrices) > 1:
+            stamp_from_fixed = np.linalg.inv(first).astype(np.float64)
+            at_stamp = moved(stamp_from_fixed, in_fixed)
+            arrays["points"] = at_stamp.astype(np.float32)
+        if by_axis:
+            arrays["rgba"] = self._by_axis(in_fixed)
+        return arrays
+
+    def _by_axis(self, places: NDArray[np.float64]) -> NDArray[np.uint8]:
+        return by_axis(places, self.options)
+
+    def _hits(self, message: Any, ranges: NDArray[np.float64]) -> tuple[NDArray[np.intp], ...]:
+        with np.errstate(invalid="ignore"):
+            inside = (ranges >= message.range_min) & (ranges <= message.range_max)
+            hits = inside & (ranges < LARGEST)
+        if len(ranges) and not hits.any():
             self.warn(
                 f"none of the {len(ranges)} ranges lies between range_min {message.range_min:g} "
                 f"and range_max {message.range_max:g}"
             )
-        index = index[spread(len(index), self.budget)]
-        flat_points = [np.cos(angles[index]), np.sin(angles[index]), np.zeros(len(index))]
-        points, anchor = anchored(np.stack(flat_points, axis=1) * ranges[index, None])
-        arrays = {"points": points, "rgba": self._colors(message, index)}
-        header = {"count": len(ranges), "shown": len(index)}
-        return [Content(header, arrays, frame_of(message), stamp_ns_of(message), anchor=anchor)]
+        return np.nonzero(hits)
 
     def _angles(self, message: Any, count: int) -> Any:
         start, step = message.angle_min, message.angle_increment
@@ -65,11 +107,29 @@ class LaserScanDisplay(Display):
             )
         return start + step * np.arange(count)
 
-    def _colors(self, message: Any, index: Any) -> Any:
-        way = self.options.choice("color", ("auto", "intensity", "flat"))
+    def _offsets_ns(self, message: Any, index: NDArray[np.intp]) -> NDArray[np.int64]:
+        """How long after the stamp each beam was measured; all 0 for a scan without a stamp."""
+        step = float(message.time_increment)
+        longest = step * max(1, len(message.ranges))
+        if not 0 <= longest <= _LONGEST_SCAN:
+            self.warn(
+                f"time_increment {step:g} s is not used: {len(message.ranges)} beams would take "
+                f"{longest:g} s"
+            )
+            step = 0.0
+        if not stamp_ns_of(message):
+            step = 0.0
+        offsets: NDArray[np.int64] = np.rint(index * (step * 1e9)).astype(np.int64)
+        return offsets
+
+    def _colors(self, message: Any, index: NDArray[np.intp]) -> NDArray[np.uint8] | None:
+        """The colours, or None for those of the axis."""
+        way = self.options.text("color")
         given = len(message.intensities) == len(message.ranges)
+        if way == "axis":
+            return None
         if way != "flat" and given and len(index):
-            return rainbow(np.asarray(message.intensities)[index], self.options)
+            return by_value(np.asarray(message.intensities)[index], self.options)
         if way == "intensity" and not given:
             self.warn(f"{len(message.intensities)} intensities for {len(message.ranges)} ranges")
-        return flat(len(index), self.options.color("flat_color", (255, 60, 40)))
+        return flat(len(index), self.options.color("flat_color"))

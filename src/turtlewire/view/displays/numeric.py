@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from turtlewire.view.displays.content import Vector
 
 __all__ = [
+    "LARGEST",
     "anchored",
     "colors_of",
     "finite_pose",
@@ -30,7 +31,7 @@ __all__ = [
 #: 32-bit coordinates are exact to a millimetre up to here [m].
 _EXACT_BELOW = 8192.0
 #: Beyond this a length is nonsense, and 32-bit numbers overflow in the page's products.
-_LARGEST = 1e9
+LARGEST = 1e9
 _SHORTEST_QUATERNION = 1e-9
 
 
@@ -70,7 +71,7 @@ def pose_rows(
     return poses, kept
 
 
-def rows_within(rows: NDArray[np.float64], bound: float = _LARGEST) -> NDArray[np.bool_]:
+def rows_within(rows: NDArray[np.float64], bound: float = LARGEST) -> NDArray[np.bool_]:
     """For each row whether all its numbers are finite and smaller than ``bound``."""
     with np.errstate(invalid="ignore"):
         within: NDArray[np.bool_] = np.all(np.abs(rows) < bound, axis=1)  # false for NaN, too
@@ -82,7 +83,7 @@ def points_of(points: Sequence[Any]) -> NDArray[np.float64]:
     array = np.array([(point.x, point.y, point.z) for point in points], dtype=np.float64)
     array = array.reshape(-1, 3)
     with np.errstate(invalid="ignore"):
-        array[~(np.abs(array) < _LARGEST)] = math.nan
+        array[~(np.abs(array) < LARGEST)] = math.nan
     return array
 
 

@@ -1,64 +1,200 @@
-"""Options of displays, which come from the page or a file: wrong ones count as not given."""
+"""Options of displays: which there are, and the user's choices, of which wrong ones are refused.
+
+The table is the page's ``js/displays/options.json``, which makes the controls of it: for each kind
+of display a list of options, or of names of lists that it has, too.
+"""
 
 from __future__ import annotations
 
+import json
 import math
+import re
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, TypeVar
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeGuard
+
+from turtlewire.suggestion import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["Options"]
+__all__ = ["Option", "OptionError", "Options", "check_option", "option_table"]
 
-_Choice = TypeVar("_Choice", bound=str)
+_TABLE = Path(__file__).parent.parent / "page" / "js" / "displays" / "options.json"
+_COLOR = re.compile("#[0-9a-fA-F]{6}")
+_LONGEST_TEXT = 4096
+_LARGEST = 1e30
+_Color: TypeAlias = tuple[int, int, int]
+
+
+class OptionError(ValueError):
+    """A value that an option does not take, or no option; the text says what is accepted."""
+
+
+@dataclass(frozen=True, slots=True)
+class Option:
+    """One option.
+
+    Attributes:
+        name: Its name.
+        type: ``number``, ``bool``, ``choice``, ``color``, ``text`` or ``items``: an object with
+            ``shown`` and perhaps ``alpha`` for each of a display's named things.
+        value: The default.
+        low: Least number.
+        high: Greatest number.
+        choices: What ``choice`` takes.
+    """
+
+    name: str
+    type: str
+    value: object
+    low: float = -_LARGEST
+    high: float = _LARGEST
+    choices: tuple[str, ...] = ()
+
+    def accepts(self, value: object) -> bool:
+        """Whether this is a value of the option."""
+        if self.type == "number":
+            return _is_number(value) and self.low <= value <= self.high
+        if self.type == "bool":
+            return isinstance(value, bool)
+        if self.type == "choice":
+            return isinstance(value, str) and value in self.choices
+        if self.type == "color":
+            return _color_of(value) is not None
+        if self.type == "items":
+            return isinstance(value, dict) and all(map(_is_item, value.values()))
+        return isinstance(value, str) and len(value) <= _LONGEST_TEXT
+
+    def wanted(self) -> str:
+        """What it accepts, in words."""
+        if self.type == "number":
+            least = "" if self.low == -_LARGEST else f" from {self.low:g}"
+            most = "" if self.high == _LARGEST else f" to {self.high:g}"
+            return "a number" + (least + most if least else most and f" up{most}")
+        return {
+            "bool": "true or false",
+            "choice": f"one of {', '.join(self.choices)}",
+            "color": "a colour as #rrggbb or three numbers from 0 to 255",
+            "items": "an object of {'shown': true or false, 'alpha': number from 0 to 1} by name",
+        }.get(self.type, f"a text of at most {_LONGEST_TEXT} characters")
+
+
+@cache
+def option_table(kind: str) -> Mapping[str, Option]:
+    """The options of a kind of display, by name."""
+    return {option.name: option for option in map(_option, _listed(kind))}
 
 
 class Options(Mapping[str, object]):
-    """The options by name, and readers that fall back to a default."""
+    """The user's choices, and readers that fall back to the default.
 
-    def __init__(self, values: Mapping[str, object]) -> None:
+    Args:
+        values: The choices by name.
+        kind: The kind of display.
+
+    Raises:
+        OptionError: There is no such option, or a value is none that it accepts.
+    """
+
+    def __init__(self, values: Mapping[str, object], kind: str) -> None:
+        self._table = option_table(kind)
+        for name, value in values.items():
+            check_option(kind, name, value)
         self._values = dict(values)
 
     def __getitem__(self, name: str) -> object:
-        return self._values[name]
+        return self._values[name] if name in self._values else self._table[name].value
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._values)
+        return iter(self._table)
 
     def __len__(self) -> int:
-        return len(self._values)
+        return len(self._table)
 
-    def number(self, name: str, default: float, low: float, high: float) -> float:
-        """A finite number, moved into the range from ``low`` to ``high``."""
-        value = self._values.get(name)
-        if isinstance(value, bool) or not isinstance(value, (int, float)):
-            return default
-        if isinstance(value, float) and math.isnan(value):
-            return default
-        return float(max(low, min(high, value)))
+    def number(self, name: str) -> float:
+        """A finite number."""
+        value = self[name]
+        assert _is_number(value)
+        return value
 
-    def flag(self, name: str, default: bool) -> bool:
+    def flag(self, name: str) -> bool:
         """True or false."""
-        value = self._values.get(name)
-        return value if isinstance(value, bool) else default
+        return self[name] is True
 
-    def choice(self, name: str, choices: tuple[_Choice, ...]) -> _Choice:
-        """One of ``choices``; the first is the default."""
-        value = self._values.get(name)
-        return next((choice for choice in choices if choice == value), choices[0])
+    def text(self, name: str) -> str:
+        """A text, or the name of a choice."""
+        return str(self[name])
 
-    def text(self, name: str, default: str = "") -> str:
-        """A text."""
-        value = self._values.get(name)
-        return value if isinstance(value, str) else default
+    def color(self, name: str) -> _Color:
+        """Red, green and blue from 0 to 255."""
+        found = _color_of(self[name])
+        assert found is not None
+        return found
 
-    def color(self, name: str, default: tuple[int, int, int]) -> tuple[int, int, int]:
-        """Red, green and blue from 0 to 255: a list of three numbers."""
-        value = self._values.get(name)
-        if not isinstance(value, (list, tuple)) or len(value) != len(default):
-            return default
-        if not all(isinstance(part, (int, float)) and not math.isnan(part) for part in value):
-            return default
-        red, green, blue = (int(max(0, min(255, part))) for part in value)
-        return red, green, blue
+
+def check_option(kind: str, name: str, value: object) -> None:
+    """See whether an option of a display takes a value.
+
+    Raises:
+        OptionError: It does not, or there is no such option.
+    """
+    table = option_table(kind)
+    display = kind.replace("_", " ")
+    if name not in table:
+        hint = did_you_mean(name, table) or f"There are {', '.join(table)}"
+        raise OptionError(f"there is no option {name!r:.100} of a {display}. {hint}")
+    if not table[name].accepts(value):
+        raise OptionError(
+            f"option '{name}' of a {display} must be {table[name].wanted()}, got {value!r:.100}"
+        )
+
+
+def _listed(kind: str) -> list[dict[str, Any]]:
+    found: list[dict[str, Any]] = []
+    for each in _lists()[kind]:
+        found += _listed(each) if isinstance(each, str) else [each]
+    return found
+
+
+@cache
+def _lists() -> dict[str, list[Any]]:
+    content: dict[str, list[Any]] = json.loads(_TABLE.read_text(encoding="utf-8"))
+    return content
+
+
+def _option(entry: Mapping[str, Any]) -> Option:
+    return Option(
+        entry["name"],
+        entry["type"],
+        entry["value"],
+        entry.get("min", -_LARGEST),
+        entry.get("max", _LARGEST),
+        tuple(entry.get("choices", ())),
+    )
+
+
+def _is_number(value: object) -> TypeGuard[float]:
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return False
+    return isinstance(value, int) or math.isfinite(value)
+
+
+def _is_item(value: object) -> bool:
+    if not isinstance(value, dict) or not value.keys() <= {"shown", "alpha"}:
+        return False
+    alpha = value.get("alpha", 1)
+    return isinstance(value.get("shown", True), bool) and _is_number(alpha) and 0 <= alpha <= 1
+
+
+def _color_of(value: object) -> _Color | None:
+    if isinstance(value, str) and _COLOR.fullmatch(value):
+        return int(value[1:3], 16), int(value[3:5], 16), int(value[5:7], 16)
+    if not isinstance(value, (list, tuple)) or len(value) != 3:
+        return None
+    if not all(_is_number(part) and 0 <= part <= 255 for part in value):
+        return None
+    red, green, blue = (int(part) for part in value)
+    return red, green, blue

@@ -54,7 +54,7 @@ class PathDisplay(Display):
             self.warn(f"{len(kept)} of {len(message.poses)} poses are drawn")
         points, anchor = anchored(poses[:, :3])
         arrays = {"points": points}
-        if self.options.choice("pose_style", ("none", "axes", "arrows")) != "none":
+        if self.options.text("pose_style") != "none":
             arrays["rotations"] = poses[:, 3:].astype(np.float32)
         part = str(next(self._numbers))
         header = {"count": len(points)}
@@ -62,6 +62,6 @@ class PathDisplay(Display):
         outputs: list[Output] = [
             Content(header, arrays, frame_id, stamp_ns_of(message), part, anchor)
         ]
-        while len(self._parts) > self.options.number("buffer_length", 1, 1, 1000):
+        while len(self._parts) > self.options.number("buffer_length"):
             outputs.append(Removal(self._parts.pop(0)))
         return outputs

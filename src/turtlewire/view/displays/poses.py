@@ -66,7 +66,7 @@ class OdometryDisplay(PoseDisplay):
         part = str(next(self._numbers))
         self._parts.append(part)
         outputs: list[Output] = [Content(header, {}, frame_id, stamp_ns_of(message), part)]
-        while len(self._parts) > self.options.number("keep", 100, 1, 10_000):
+        while len(self._parts) > self.options.number("keep"):
             outputs.append(Removal(self._parts.pop(0)))
         return outputs
 
@@ -76,9 +76,8 @@ class OdometryDisplay(PoseDisplay):
         cosine = min(1.0, abs(math.fsum(a * b for a, b in zip(pose[3:], last[3:], strict=True))))
         return (
             frame_id != last_frame
-            or math.dist(pose[:3], last[:3])
-            >= self.options.number("position_tolerance", 0.1, 0.0, 1e6)
-            or 2 * math.acos(cosine) >= self.options.number("angle_tolerance", 0.1, 0.0, math.pi)
+            or math.dist(pose[:3], last[:3]) >= self.options.number("position_tolerance")
+            or 2 * math.acos(cosine) >= self.options.number("angle_tolerance")
         )
 
 

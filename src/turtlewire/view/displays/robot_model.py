@@ -7,13 +7,20 @@ from typing import TYPE_CHECKING, Any
 
 from turtlewire.urdf import UrdfError, parse_urdf
 from turtlewire.urdf.model import Box, Cylinder, Mesh, Sphere
-from turtlewire.view.displays.content import Content, Display, Output, UnusableMessageError
+from turtlewire.view.displays.content import (
+    Content,
+    Display,
+    Output,
+    Removal,
+    UnusableMessageError,
+)
+from turtlewire.view.displays.inertia import inertia_shapes, pose_of_origin
 from turtlewire.view.meshes import file_of_package, mesh_address
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from turtlewire.urdf.model import Collision, Geometry, Link, Material, Pose, Robot, Visual
+    from turtlewire.urdf.model import Collision, Geometry, Link, Material, Robot, Visual
 
 __all__ = ["RobotModelDisplay", "robot_content"]
 
@@ -24,24 +31,41 @@ _LONGEST_DESCRIPTION = 16 * 2**20
 
 
 class RobotModelDisplay(Display):
-    """The robot that a ``std_msgs/msg/String`` describes.
+    """The robot that a ``std_msgs/msg/String``, a node's parameter or a file describes.
 
-    Options: ``description_file`` is the path of a ``.urdf`` file that is shown instead of what the
-    topic says. ``tf_prefix`` stands before the links' names in frames, with a slash. ``visual`` and
-    ``collision`` say to the page what is drawn.
+    Options: ``source`` (``topic``, ``parameter``, ``file``) says which; ``node`` and ``parameter``
+    name the parameter, ``description_file`` is the path of a ``.urdf`` file. ``tf_prefix`` stands
+    before the links' names in frames, with a slash. The others say to the page what is drawn.
     """
 
     kind = "robot_model"
     replays = True
+    _origin: tuple[str, ...] | None = None
+
+    @property
+    def parameter(self) -> tuple[str, str] | None:
+        """Node and parameter that describe the robot, if it is to come from there."""
+        if self.options.text("source") != "parameter":
+            return None
+        return "/" + self.options.text("node").strip("/"), self.options.text("parameter")
 
     def start(self) -> list[Output]:
-        """The robot of the file that the options name."""
+        """The robot of the file, if it is to come from there; one from elsewhere goes."""
         file = self.options.text("description_file")
-        return self._answer(lambda: [self._robot(_text_of(file))]) if file else []
+        origin = (self.options.text("source"), *(self.parameter or ()), file)
+        gone: list[Output] = [] if self._origin in {None, origin} else [Removal("")]
+        self._origin = origin
+        if origin[0] == "file":
+            return [*gone, *self._answer(lambda: [self._robot(_text_of(file))])]
+        return gone
 
     def content(self, message: Any) -> list[Output]:
-        """The robot of a message, unless the options name a file."""
-        return [] if self.options.text("description_file") else super().content(message)
+        """The robot of a message, if it is to come from there."""
+        return super().content(message) if self.options.text("source") == "topic" else []
+
+    def take_parameter(self, text: str) -> list[Output]:
+        """The robot that a parameter describes."""
+        return self._answer(lambda: [self._robot(text)])
 
     def _outputs(self, message: Any) -> list[Output]:
         return [self._robot(message.data)]
@@ -51,7 +75,9 @@ class RobotModelDisplay(Display):
 
 
 def _text_of(file: str) -> str:
-    """The description in a file, a path or ``package://`` address that ends with ``.urdf``."""
+    """The description in a file: a path or ``package://`` address that ends with ``.urdf``."""
+    if not file:
+        raise UnusableMessageError("no file is chosen: give the path of a .urdf file")
     path = file_of_package(file) if file.startswith("package://") else file.removeprefix("file://")
     if path is None or not path.endswith(".urdf"):
         raise UnusableMessageError(f"'{file}' is not the path of a .urdf file")
@@ -66,8 +92,9 @@ def _text_of(file: str) -> str:
 def robot_content(text: str, tf_prefix: str, warn: Callable[[str], None]) -> Content:
     """What to draw of a URDF.
 
-    The header's ``links`` have the ``frame`` that each hangs on, and ``visuals`` and
-    ``collisions`` with shape, origin (x, y, z, qx, qy, qz, qw), colour, texture and mesh.
+    The header's ``links`` have ``name``, the ``frame`` that each hangs on, and ``visuals`` and
+    ``collisions`` with shape, origin (x, y, z, qx, qy, qz, qw), colour, texture and mesh; ``mass``
+    and ``inertia`` are lists of such shapes, too, see :mod:`turtlewire.view.displays.inertia`.
 
     Args:
         text: The XML.
@@ -87,9 +114,11 @@ def robot_content(text: str, tf_prefix: str, warn: Callable[[str], None]) -> Con
     prefix = tf_prefix.rstrip("/") + "/" if tf_prefix else ""
     links = [
         {
+            "name": link.name,
             "frame": prefix + link.name,
             "visuals": reader.shapes(link, link.visuals),
             "collisions": reader.shapes(link, link.collisions),
+            **inertia_shapes(link),
         }
         for link in robot.links.values()
     ]
@@ -109,7 +138,7 @@ class _Reader:
         shapes = []
         for body in bodies:
             shape = self._shape(body.geometry)
-            origin = _pose(body.origin)
+            origin = pose_of_origin(body.origin)
             if shape is None or origin is None:
                 if body.geometry is not None:
                     self._warn(f"link '{link.name}': a size or origin is not finite")
@@ -162,17 +191,3 @@ class _Reader:
 def _sized(shape: str, size: list[float], **more: Any) -> dict[str, Any] | None:
     usable = all(abs(value) < _LARGEST for value in size)
     return {"shape": shape, "size": size, **more} if usable else None
-
-
-def _pose(pose: Pose) -> list[float] | None:
-    """x, y, z, qx, qy, qz, qw of an origin; None if it is not finite."""
-    if not all(abs(value) < _LARGEST for value in (*pose.xyz, *pose.rpy)):
-        return None
-    (sr, cr), (sp, cp), (sy, cy) = ((math.sin(a / 2), math.cos(a / 2)) for a in pose.rpy)
-    return [
-        *pose.xyz,
-        sr * cp * cy - cr * sp * sy,
-        cr * sp * cy + sr * cp * sy,
-        cr * cp * sy - sr * sp * cy,
-        cr * cp * cy + sr * sp * sy,
-    ]

@@ -64,7 +64,7 @@ class PointDisplay(Display):
         frame_id, part = frame_of(message), str(next(self._numbers))
         self._parts.append(part)
         outputs: list[Output] = [Content({"at": at}, {}, frame_id, stamp_ns_of(message), part)]
-        while len(self._parts) > self.options.number("history_length", 1, 1, 10_000):
+        while len(self._parts) > self.options.number("history_length"):
             outputs.append(Removal(self._parts.pop(0)))
         return outputs
 

@@ -2,6 +2,7 @@
 
 import * as three from "three";
 import { bytesOf } from "./colors.js";
+import { optionsOf } from "./display_options.js";
 import { DisplayParts } from "./display_parts.js";
 
 export class Displays {
@@ -22,7 +23,7 @@ export class Displays {
     });
   }
 
-  /** What is there: { id, kind, topic, options, schema, visible, level, text }. */
+  /** What is there: { id, kind, topic, options, schema, items, visible, level, text }. */
   get list() {
     return [...this.#entries.values()];
   }
@@ -31,13 +32,16 @@ export class Displays {
   async add(wanted) {
     const { kind, topic, options = {}, visible = true } = wanted;
     const id = wanted.id ?? crypto.randomUUID?.() ?? `${kind}-${Date.now()}`;
-    const entry = { id, kind, topic, options, schema: [], visible, level: "ok", text: "" };
+    const { place } = wanted; // in the loaded file
+    const entry = { id, kind, topic, place, options, visible, schema: [], level: "ok", text: "" };
     this.#entries.set(id, entry);
     this.#onChange();
     try {
-      const module = await import(`./displays/${kind}.js`);
+      const [module, schema] = await Promise.all([
+        import(`./displays/${kind}.js`), optionsOf(kind),
+      ]);
       if (!this.#entries.has(id)) return;
-      entry.schema = module.OPTIONS ?? [];
+      entry.schema = schema;
       entry.options = { ...defaults(entry.schema), ...options };
       if (this.#view) this.#draw(entry, module.default);
     } catch (error) {
@@ -79,13 +83,19 @@ export class Displays {
     this.#view?.requestDraw();
   }
 
+  /** Show another topic with the same options. */
+  setTopic(id, topic) {
+    const entry = this.#entries.get(id);
+    this.#send({ type: "remove", id });
+    Object.assign(entry, { topic, level: "ok", text: "", problem: "" });
+    this.#begin(entry);
+    this.#view?.requestDraw();
+    this.#onChange();
+  }
+
   /** A new connection knows no display. */
   announceAll() {
-    for (const entry of this.#entries.values()) {
-      for (const part of entry.partNames ?? []) entry.parts.remove(part);
-      entry.partNames?.clear();
-      this.#announce(entry);
-    }
+    for (const entry of this.#entries.values()) this.#begin(entry);
   }
 
   /** A packet `display`, `pose`, `removed` or `status` with an id. */
@@ -123,6 +133,15 @@ export class Displays {
     }
   }
 
+  #begin(entry) {
+    for (const part of entry.partNames ?? []) {
+      entry.display.removed?.(part);
+      entry.parts.remove(part);
+    }
+    entry.partNames?.clear();
+    this.#announce(entry);
+  }
+
   #draw(entry, Kind) {
     entry.parts = new DisplayParts();
     entry.partNames = new Set();
@@ -150,6 +169,11 @@ export class Displays {
       send: (command) => this.#send(command),
       /** Say what the page itself cannot draw; "" when it can again. */
       report: (text) => this.#report(entry, text),
+      /** Name what an option of type "items" lets the user choose from. */
+      offerItems: (option, names) => {
+        entry.items = { ...entry.items, [option]: names };
+        this.#onChange();
+      },
     };
   }
 

@@ -1,9 +1,13 @@
 // The list of displays with their options, and the topics that can be added.
 
 import { byId, make, naturalOrder, offer, setText } from "./dom.js";
+import { ItemList } from "./item_list.js";
 import { optionControl } from "./option_controls.js";
 
 const MOST_OTHERS = 6;
+/** A robot needs no topic: its description may be a parameter, or a file. */
+const ROBOT = { kind: "robot_model", topic: "", options: { source: "parameter" } };
+const ROBOT_OPTION = ["robot_model", "robot from a parameter or file"];
 const EYE = '<svg viewBox="0 0 24 24" aria-hidden="true"><path class="lid" '
   + 'd="M2 12s4-6 10-6 10 6 10 6-4 6-10 6S2 12 2 12zM12 9a3 3 0 1 0 .01 0"/>'
   + '<path class="slash" d="M3 12c4 5 14 5 18 0M6 16l-2 3M12 17v3M18 16l2 3"/></svg>';
@@ -16,6 +20,7 @@ export class DisplaysPanel {
   constructor(displays) {
     this.#displays = displays;
     byId("add-display").onclick = () => this.#add();
+    byId("topic").addEventListener("change", allowAdding);
   }
 
   /** The server's topics, each with the kind of display that shows it, or null. */
@@ -23,9 +28,11 @@ export class DisplaysPanel {
     this.#topics = [...topics].sort((a, b) => naturalOrder(a.name, b.name));
     const shown = this.#topics.filter(({ kind }) => kind);
     const options = shown.map(({ name, kind }) => [name, `${name} (${kindInWords(kind)})`]);
-    const isEmpty = options.length === 0;
-    offer(byId("topic"), isEmpty ? [["", "No topic that can be drawn"]] : options);
-    byId("topic").disabled = byId("add-display").disabled = isEmpty;
+    const first = options.length ? options : [["", "No topic that can be drawn"]];
+    offer(byId("topic"), [...first, ROBOT_OPTION]);
+    byId("topic").disabled = false;
+    allowAdding();
+    for (const { topics } of this.#items.values()) this.#offerTopics(topics);
     const others = this.#topics.filter(({ kind }) => !kind).map(({ name }) => name);
     const rest = others.length > MOST_OTHERS ? ` and ${others.length - MOST_OTHERS} more` : "";
     const list = others.slice(0, MOST_OTHERS).join(", ");
@@ -47,19 +54,22 @@ export class DisplaysPanel {
   #add() {
     const topic = this.#topics.find(({ name }) => name === byId("topic").value);
     if (topic?.kind) this.#displays.add({ kind: topic.kind, topic: topic.name });
+    else if (byId("topic").value === ROBOT_OPTION[0]) this.#displays.add(ROBOT);
   }
 
   #showEntry(entry) {
     const shape = entry.schema.map(({ name }) => name).join();
     let known = this.#items.get(entry.id);
     if (!known || known.shape !== shape) {
-      const item = this.#makeItem(entry);
-      if (known) known.item.replaceWith(item);
-      else byId("display-list").append(item);
-      known = { item, shape };
+      const made = { ...this.#makeItem(entry), shape };
+      if (known) known.item.replaceWith(made.item);
+      else byId("display-list").append(made.item);
+      known = made;
       this.#items.set(entry.id, known);
     }
-    const { item } = known;
+    const { item, lists } = known;
+    for (const [name, list] of lists) list.show(entry.items?.[name] ?? []);
+    setText(item.querySelector(".title b"), entry.topic || kindInWords(entry.kind));
     const text = entry.text || entry.problem || "";
     item.dataset.level = entry.text ? entry.level : entry.problem ? "warn" : "ok";
     item.querySelector(".eye").setAttribute("aria-pressed", String(!entry.visible));
@@ -83,19 +93,49 @@ export class DisplaysPanel {
       make("b", { textContent: name }), make("small", { textContent: kindInWords(kind) }));
     const item = make("li", { className: "display" },
       make("div", {}, eye, title, remove), make("p", { className: "status" }));
-    if (schema.length) item.append(this.#options(entry));
-    return item;
+    if (!schema.length) return { item, lists: [], topics: null };
+    const topics = make("datalist", { id: `${id}-topics` });
+    topics.dataset.kind = kind;
+    const lists = [];
+    const set = make("fieldset", {}, ...this.#topicControl(entry, topics));
+    for (const option of schema) set.append(...this.#control(entry, option, lists));
+    item.append(make("details", {}, make("summary", { textContent: "Options" }), set));
+    return { item, lists, topics };
   }
 
-  #options({ id, schema, options }) {
-    const set = make("fieldset");
-    for (const option of schema) {
-      const value = options[option.name] ?? option.value;
-      const change = (chosen) => this.#displays.setOption(id, option.name, chosen);
-      set.append(...optionControl(`${id}-${option.name}`, option, value, change));
+  /** A label and a control; lists of items are kept, for their items come later. */
+  #control({ id, options }, option, lists) {
+    if (option.hidden) return [];
+    const value = options[option.name] ?? option.value;
+    const change = (chosen) => this.#displays.setOption(id, option.name, chosen);
+    if (option.type !== "items") {
+      return optionControl(`${id}-${option.name}`, option, value, change);
     }
-    return make("details", {}, make("summary", { textContent: "Options" }), set);
+    const list = new ItemList(option, value, change);
+    lists.push([option.name, list]);
+    return [make("span", { textContent: option.label }), list.element];
   }
+
+  #topicControl({ id, topic }, topics) {
+    const input = make("input", { type: "text", id: `${id}-topic`, value: topic });
+    input.setAttribute("list", topics.id);
+    input.spellcheck = false;
+    input.onchange = () => this.#displays.setTopic(id, input.value.trim());
+    const label = make("label", { textContent: "Topic" });
+    label.htmlFor = input.id;
+    this.#offerTopics(topics);
+    return [label, input, topics];
+  }
+
+  #offerTopics(list) {
+    if (!list) return;
+    const names = this.#topics.filter(({ kind }) => kind === list.dataset.kind);
+    list.replaceChildren(...names.map(({ name }) => new Option(name)));
+  }
+}
+
+function allowAdding() {
+  byId("add-display").disabled = byId("topic").value === "";
 }
 
 /** "point_cloud" as "point cloud". */

@@ -24,6 +24,7 @@ const PRESSED = "button, summary, input";
 let looks = null;
 let chosenFixed = "";
 let hasView = false;
+let loadedDocument = null; // names the loaded file to the server
 let noticeTimer = null;
 const frames = new Frames();
 const send = (command) => connection.send(command);
@@ -138,6 +139,7 @@ function takeStatus(packet) {
 async function takeView(packet) {
   if (packet.first && hasView) return; // a new connection; the user may have changed much
   hasView = true;
+  loadedDocument = packet.document ?? null;
   if (packet.text) notice(packet.text, "warn");
   applySwitches(packet.show);
   if (packet.fixed) chooseFixed(packet.fixed);
@@ -217,8 +219,10 @@ addEventListener("keydown", (event) => {
   event.preventDefault();
   act();
 });
-listenForFiles(() => ({ fixed: chosenFixed || frames.fixed, displays: displays.list }), send,
-  (text) => notice(text, "error"));
+listenForFiles(() => {
+  const fixed = chosenFixed || frames.fixed;
+  return { fixed, displays: displays.list, document: loadedDocument };
+}, send, (text) => notice(text, "error"));
 if (stage) {
   stage.view.afterDraw((now) => {
     if (!displays.list.some(({ visible }) => visible)) return;

@@ -6,14 +6,15 @@ import { save } from "./looks.js";
 const SWITCHES = ["names", "axes", "arrows", "grid"];
 const LARGEST_FILE = 60_000; // bytes of a command that the server takes
 
-/** Wire the buttons. `view()` is what there is: { fixed, displays }. `say(text)` tells the user. */
+/** Wire the buttons. `view()` is { fixed, displays, document }; `say(text)` tells the user. */
 export function listenForFiles(view, send, say) {
   byId("save-view").onclick = () => {
-    const displays = view().displays.map(({ kind, topic, options, visible }) => {
-      return { kind, topic, options, visible };
+    const { displays: list, document } = view();
+    const displays = list.map(({ kind, topic, options, visible, place }) => {
+      return { kind, topic, options, visible, place };
     });
     const show = Object.fromEntries(SWITCHES.map((name) => [name, byId(`show-${name}`).checked]));
-    send({ type: "save", fixed: view().fixed, displays, show });
+    send({ type: "save", fixed: view().fixed, document, displays, show });
   };
   byId("load-view").onclick = () => byId("view-file").click();
   byId("view-file").onchange = async ({ target }) => {

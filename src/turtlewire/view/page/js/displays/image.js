@@ -1,10 +1,5 @@
 // Image and CompressedImage: a window over the scene with the picture.
 
-export const OPTIONS = [
-  { name: "normalize_range", label: "Depths over their range", type: "bool", value: true },
-  { name: "min", label: "Least value", type: "number", value: 0 },
-  { name: "max", label: "Greatest value", type: "number", value: 1 },
-];
 const STYLE = new URL("../../image_window.css", import.meta.url).href;
 const OFFSET_PX = 26;
 

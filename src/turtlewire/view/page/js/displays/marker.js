@@ -5,15 +5,16 @@ import { clear, free, setPose } from "./parts/common.js";
 import { makeMarker } from "./parts/marker_shapes.js";
 import { loadMesh, makePlaceholder, paint } from "./parts/meshes.js";
 
-export const OPTIONS = [
-  { name: "hidden", label: "Hide namespaces (regex)", type: "text", value: "" },
-];
 /** Longest time that a browser's timer can wait [s]. */
 const LONGEST_TIMER_S = 2e6;
+/** Namespaces that the panel lists. */
+const MOST_NAMES = 1000;
 
 export default class Marker {
   #view;
   #hidden;
+  #chosen = {};
+  #named = new Set(); // namespaces that there were
   #held = new Map(); // namespace and id to { holder, namespace, timer }
 
   constructor(view, options) {
@@ -29,10 +30,11 @@ export default class Marker {
     for (const marker of header.markers) this.#add(group, marker, arrays);
   }
 
-  setOptions({ hidden }) {
+  setOptions({ hidden, namespaces }) {
     this.#hidden = regexOf(hidden);
+    this.#chosen = namespaces ?? {};
     for (const { holder, namespace } of this.#held.values()) {
-      holder.visible = !this.#hidden?.test(namespace);
+      holder.visible = this.#isShown(namespace);
     }
   }
 
@@ -45,7 +47,8 @@ export default class Marker {
     this.#drop(key);
     const holder = setPose(new Group(), marker.pose);
     const [namespace] = marker.key;
-    holder.visible = !this.#hidden?.test(namespace);
+    holder.visible = this.#isShown(namespace);
+    this.#name(namespace);
     const entry = { holder, namespace, timer: null };
     this.#held.set(key, entry);
     group.add(holder);
@@ -81,6 +84,16 @@ export default class Marker {
     if (holder.parent) holder.add(object);
     else free(object);
     this.#view.requestDraw();
+  }
+
+  #isShown(namespace) {
+    return this.#chosen[namespace]?.shown !== false && !this.#hidden?.test(namespace);
+  }
+
+  #name(namespace) {
+    if (this.#named.has(namespace) || this.#named.size >= MOST_NAMES) return;
+    this.#named.add(namespace);
+    this.#view.offerItems?.("namespaces", [...this.#named]);
   }
 
   #drop(key) {

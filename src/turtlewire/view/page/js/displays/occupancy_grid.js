@@ -5,14 +5,6 @@ import {
 } from "three";
 import { clear, setPose } from "./parts/common.js";
 
-export const OPTIONS = [
-  {
-    name: "color_scheme", label: "Colours", type: "choice", value: "map",
-    choices: ["map", "costmap", "raw"],
-  },
-  { name: "alpha", label: "Alpha", type: "number", value: 0.7, min: 0, max: 1, step: 0.1 },
-  { name: "draw_behind", label: "Draw behind all else", type: "bool", value: false },
-];
 const UNKNOWN = [0x70, 0x89, 0x86, 255];
 const VERTEX = `
 varying vec2 vAt;

@@ -5,16 +5,6 @@ import { Display } from "./parts/display.js";
 import { makeRibbons } from "./parts/ribbons.js";
 import { makeArrows, makeAxes, placesOf } from "./parts/solids.js";
 
-export const OPTIONS = [
-  { name: "color", label: "Colour", type: "color", value: "#19ff00" },
-  { name: "width", label: "Line width (m)", type: "number", value: 0.03, min: 0, step: 0.01 },
-  { name: "alpha", label: "Alpha", type: "number", value: 1, min: 0, max: 1, step: 0.1 },
-  {
-    name: "pose_style", label: "Poses", type: "choice", value: "none",
-    choices: ["none", "axes", "arrows"],
-  },
-  { name: "buffer_length", label: "Paths kept", type: "number", value: 1, min: 1, step: 1 },
-];
 const ARROW = { shaft: [0.1, 0.1], head: [0.2, 0.3] };
 const ARROW_COLOR = bytesOf("#ff55ff");
 

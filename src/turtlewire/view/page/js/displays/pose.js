@@ -1,9 +1,7 @@
 // PoseStamped and PoseWithCovarianceStamped.
 
 import { Display } from "./parts/display.js";
-import { makePose, POSE_OPTIONS } from "./parts/pose_shape.js";
-
-export const OPTIONS = POSE_OPTIONS;
+import { makePose } from "./parts/pose_shape.js";
 
 export default class Pose extends Display {
   draw(group, header) {

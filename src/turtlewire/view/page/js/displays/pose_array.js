@@ -4,13 +4,6 @@ import { bytesOf } from "./parts/common.js";
 import { Display } from "./parts/display.js";
 import { makeArrows, makeAxes, placesOf } from "./parts/solids.js";
 
-export const OPTIONS = [
-  { name: "shape", label: "Shape", type: "choice", value: "arrow", choices: ["arrow", "axes"] },
-  { name: "color", label: "Colour", type: "color", value: "#ff1900" },
-  { name: "alpha", label: "Alpha", type: "number", value: 1, min: 0, max: 1, step: 0.1 },
-  { name: "length", label: "Length (m)", type: "number", value: 0.3, min: 0.01, step: 0.1 },
-];
-
 export default class PoseArray extends Display {
   draw(group, _header, { points, rotations }) {
     const { shape, color, alpha, length } = this.options;

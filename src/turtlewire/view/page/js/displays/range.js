@@ -4,10 +4,6 @@ import { ConeGeometry, DoubleSide, Mesh, MeshLambertMaterial } from "three";
 import { bytesOf, litColor, opacity } from "./parts/common.js";
 import { Display } from "./parts/display.js";
 
-export const OPTIONS = [
-  { name: "color", label: "Colour", type: "color", value: "#ffffff" },
-  { name: "alpha", label: "Alpha", type: "number", value: 0.5, min: 0, max: 1, step: 0.1 },
-];
 const LEAST_RADIUS = 0.005;
 
 export default class Range extends Display {

@@ -5,20 +5,15 @@ import { clear, free, setPose } from "./parts/common.js";
 import { loadMesh, makePlaceholder, paint } from "./parts/meshes.js";
 import { makeBody } from "./parts/solids.js";
 
-export const OPTIONS = [
-  { name: "visual", label: "Visual", type: "bool", value: true },
-  { name: "collision", label: "Collision", type: "bool", value: false },
-  { name: "alpha", label: "Alpha", type: "number", value: 1, min: 0, max: 1, step: 0.1 },
-  { name: "description_file", label: "URDF file, not the topic", type: "text", value: "" },
-  { name: "tf_prefix", label: "TF prefix", type: "text", value: "" },
-];
 const PLAIN_COLOR = [200, 10, 10, 255]; // RViz's, of what has no material
 const COLLISION_COLOR = [240, 190, 60, 140];
+/** Options and the parts of a link that they show. */
+const PARTS = { visual: "visuals", collision: "collisions", mass: "mass", inertia: "inertia" };
 
 export default class RobotModel {
   #view;
   #options;
-  #links = []; // { frame, group, visuals, collisions }
+  #links = []; // { name, frame, group, visuals, collisions, mass, inertia }
   #generation = 0;
   #missing = "";
   #problem = "";
@@ -28,6 +23,13 @@ export default class RobotModel {
     this.#options = options;
   }
 
+  removed() {
+    this.#generation += 1;
+    this.#links = [];
+    this.#problem = "";
+    this.update();
+  }
+
   show(group, { links }) {
     clear(group);
     this.#generation += 1;
@@ -35,21 +37,27 @@ export default class RobotModel {
     this.#links = links.map((link) => {
       const visuals = this.#shapes(link.visuals, null);
       const collisions = this.#shapes(link.collisions, COLLISION_COLOR);
+      const mass = this.#shapes(link.mass, null);
+      const inertia = this.#shapes(link.inertia, null);
       const holder = new Group();
-      holder.add(visuals, collisions);
+      holder.add(visuals, collisions, mass, inertia);
       group.add(holder);
-      return { frame: link.frame, group: holder, visuals, collisions };
+      const { name, frame } = link;
+      return { name, frame, group: holder, visuals, collisions, mass, inertia };
     });
+    this.#view.offerItems?.("links", links.map(({ name }) => name));
     this.setOptions(this.#options);
     this.update();
   }
 
   setOptions(options) {
     this.#options = options;
-    for (const { visuals, collisions } of this.#links) {
-      visuals.visible = options.visual;
-      collisions.visible = options.collision;
-      for (const each of [visuals, collisions]) fade(each, options.alpha);
+    for (const link of this.#links) {
+      const { shown = true, alpha = 1 } = options.links?.[link.name] ?? {};
+      for (const [option, part] of Object.entries(PARTS)) {
+        link[part].visible = shown && options[option];
+        fade(link[part], alpha * options.alpha);
+      }
     }
   }
 
@@ -110,7 +118,7 @@ export default class RobotModel {
       object.scale.multiply({ x: size[0], y: size[1], z: size[2] });
       object.userData.alpha = (wanted?.[3] ?? 255) / 255;
       holder.add(object);
-      fade(object, this.#options.alpha);
+      this.setOptions(this.#options);
     } catch (error) {
       if (generation !== this.#generation) return;
       holder.add(makePlaceholder());

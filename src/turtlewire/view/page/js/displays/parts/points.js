@@ -20,13 +20,18 @@ uniform bool round;
 varying vec4 vColor;
 void main() {
   vec2 from = gl_PointCoord - vec2(0.5);
-  if (round && dot(from, from) > 0.25) discard;
-  gl_FragColor = vec4(vColor.rgb, vColor.a * alpha);
+  float light = 1.0;
+  if (round) {
+    float height = 1.0 - 4.0 * dot(from, from);
+    if (height < 0.0) discard;
+    light = 0.45 + 0.55 * sqrt(height);
+  }
+  gl_FragColor = vec4(vColor.rgb * light, vColor.a * alpha);
 }`;
 
 /**
  * Points at `positions` (x, y, z) with `colors` (RGBA bytes).
- * `size` is in metres or in pixels of the screen.
+ * `size` is in metres or in pixels of the screen; `round` ones look like balls.
  */
 export function makePoints(positions, colors, { size, metres = false, alpha = 1, round = false }) {
   const geometry = new BufferGeometry();

@@ -10,15 +10,6 @@ import { makeArrows, makeAxes } from "./solids.js";
 const POSITION_COLOR = [204, 51, 204];
 const YAW_COLOR = [255, 255, 127];
 
-/** Options that all poses have, with RViz's defaults. */
-export const POSE_OPTIONS = [
-  { name: "shape", label: "Shape", type: "choice", value: "arrow", choices: ["arrow", "axes"] },
-  { name: "color", label: "Colour", type: "color", value: "#ff1900" },
-  { name: "alpha", label: "Alpha", type: "number", value: 1, min: 0, max: 1, step: 0.1 },
-  { name: "length", label: "Length (m)", type: "number", value: 1, min: 0.01, step: 0.1 },
-  { name: "show_covariance", label: "Covariance", type: "bool", value: true },
-];
-
 /** The pose of a header's `at` and `covariance`. */
 export function makePose({ at, covariance }, options) {
   const { shape, color, alpha, length, show_covariance: showsCovariance } = options;

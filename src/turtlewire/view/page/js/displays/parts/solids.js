@@ -107,10 +107,10 @@ export function makeBody(shape, size, color) {
 }
 
 /** Many bodies of one size at `points`; `colors` are RGBA bytes, one for all or one for each. */
-export function makeBodies(shape, size, points, colors) {
+export function makeBodies(shape, size, points, colors, alpha = 1) {
   const count = points.length / 3;
   const isPerPoint = colors.length > 4;
-  const look = material(isPerPoint ? [255, 255, 255] : colors, (colors[3] ?? 255) / 255);
+  const look = material(isPerPoint ? [255, 255, 255] : colors, alpha * (colors[3] ?? 255) / 255);
   const bodies = new InstancedMesh(bodyGeometry(shape, count > FEW), look, count);
   const matrix = new Matrix4().makeScale(...size.map((value) => value || 1e-6));
   for (let k = 0; k < count; k += 1) {

@@ -1,0 +1,77 @@
+// Check boxes for the named things of a display: namespaces of markers, links of a robot.
+
+import { make, naturalOrder } from "./dom.js";
+
+export class ItemList {
+  element = make("div", { className: "items" });
+  #value;
+  #hasAlpha;
+  #changed;
+  #names = "";
+  #allBox = null;
+
+  /** `value`: name to { shown, alpha }; `changed(value)` when the user has chosen. */
+  constructor({ alpha, label }, value, changed) {
+    this.#value = value;
+    this.#hasAlpha = alpha;
+    this.#changed = changed;
+    this.element.setAttribute("role", "group");
+    this.element.setAttribute("aria-label", label);
+    this.show([]);
+  }
+
+  /** One line for each name, and one for all. */
+  show(names) {
+    const sorted = [...names].sort(naturalOrder);
+    const key = JSON.stringify(sorted);
+    if (key === this.#names) return;
+    this.#names = key;
+    const rows = sorted.map((name) => this.#row(name));
+    if (sorted.length > 1) rows.unshift(this.#all(sorted));
+    this.element.replaceChildren(...rows);
+    if (!sorted.length) this.element.textContent = "none yet";
+  }
+
+  #row(name) {
+    const { shown = true, alpha = 1 } = this.#value[name] ?? {};
+    const box = make("input", { type: "checkbox", checked: shown });
+    box.onchange = () => this.#set({ [name]: { ...this.#value[name], shown: box.checked } });
+    const row = make("div", {}, make("label", {}, box, name || "(no name)"));
+    if (this.#hasAlpha) {
+      const look = { type: "range", min: "0", max: "1", step: "0.05", value: String(alpha) };
+      const slider = make("input", look);
+      slider.setAttribute("aria-label", `Alpha of ${name}`);
+      slider.oninput = () => {
+        this.#set({ [name]: { ...this.#value[name], alpha: slider.valueAsNumber } });
+      };
+      row.append(slider);
+    }
+    return row;
+  }
+
+  #all(names) {
+    const box = this.#allBox = make("input", { type: "checkbox" });
+    this.#showAll(names);
+    box.onchange = () => {
+      this.#set(Object.fromEntries(names.map((name) => {
+        return [name, { ...this.#value[name], shown: box.checked }];
+      })));
+      for (const each of this.element.querySelectorAll("label > input")) {
+        each.checked = box.checked;
+      }
+    };
+    return make("div", {}, make("label", {}, box, "All"));
+  }
+
+  #showAll(names) {
+    const shown = names.filter((name) => this.#value[name]?.shown !== false).length;
+    this.#allBox.checked = shown === names.length;
+    this.#allBox.indeterminate = shown > 0 && shown < names.length;
+  }
+
+  #set(changes) {
+    this.#value = { ...this.#value, ...changes };
+    if (this.#allBox) this.#showAll(JSON.parse(this.#names));
+    this.#changed(this.#value);
+  }
+}

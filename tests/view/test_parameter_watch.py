@@ -1,0 +1,93 @@
+"""A parameter of a node: its text, or why there is none."""
+
+from __future__ import annotations
+
+import contextlib
+import queue
+import threading
+
+import pytest
+
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.parameter import Parameter
+from turtlewire.view import LiveSource
+from turtlewire.view.source import ParameterAnswer
+
+LIMIT_S = 60
+
+
+@pytest.fixture
+def source():
+    with contextlib.closing(LiveSource()) as source:
+        yield source
+
+
+@pytest.fixture
+def describer():
+    """Starts nodes that have the given parameters."""
+    stack = contextlib.ExitStack()
+
+    def describer(name="describer", **parameters):
+        context = rclpy.Context()
+        context.init()
+        stack.callback(context.try_shutdown)
+        given = [Parameter(key, value=value) for key, value in parameters.items()]
+        node = rclpy.create_node(
+            name, context=context, parameter_overrides=given,
+            automatically_declare_parameters_from_overrides=True,
+        )  # fmt: skip
+        executor = SingleThreadedExecutor(context=context)
+        executor.add_node(node)
+        thread = threading.Thread(target=executor.spin)
+        thread.start()
+        stack.callback(thread.join)
+        stack.callback(executor.shutdown)
+        return node
+
+    with stack:
+        yield describer
+
+
+def ask(source, node, name):
+    answers = queue.SimpleQueue()
+    end = source.ask_parameter(node, name, answers.put)
+    return answers, end
+
+
+def wait_for(answers, accept):
+    while True:
+        answer = answers.get(timeout=LIMIT_S)
+        if accept(answer):
+            return answer
+
+
+def test_the_text_of_a_node_that_comes_later(source, describer):
+    answers, end = ask(source, "/describer", "robot")
+    with contextlib.closing(contextlib.ExitStack()) as stack:
+        stack.callback(end)
+        absent = answers.get(timeout=LIMIT_S)
+        assert absent.problem.startswith("there is no node /describer with parameters; nodes with ")
+        describer(robot="<robot/>")
+        assert wait_for(answers, lambda answer: answer.text) == ParameterAnswer("<robot/>")
+
+
+@pytest.mark.parametrize(
+    ("name", "why"),
+    [
+        ("none", "the node /describer has no parameter 'none'"),
+        ("count", "the parameter 'count' of /describer is an integer, no string"),
+    ],
+)
+def test_why_there_is_no_text(source, describer, name, why):
+    describer(count=3)
+    answers, end = ask(source, "/describer", name)
+    with contextlib.closing(contextlib.ExitStack()) as stack:
+        stack.callback(end)
+        assert wait_for(answers, lambda answer: answer.problem == why)
+
+
+def test_a_name_that_no_node_has(source):
+    answers, end = ask(source, "/not a node", "robot")
+    end()
+    assert answers.get(timeout=LIMIT_S).problem.startswith("'/not a node' is no name of a node: ")
