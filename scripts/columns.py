@@ -1,7 +1,8 @@
 """Fails when a line of a tracked text file is longer than 100 characters.
 
 ruff checks Python only. What may be longer: tables and links in Markdown, outputs of programs
-there, a line that is one word, and a linter's directive at the end of a line.
+there, headings that are such outputs, a line that is one word, and a linter's directive at the end
+of a line.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ def too_long(path: str, line: str) -> bool:
     line = DIRECTIVE.sub("", line)
     if len(line) <= LIMIT or " " not in line.strip().removeprefix("# "):
         return False
-    is_table = path.endswith(".md") and line.startswith("|")
+    is_table = path.endswith(".md") and line.startswith(("|", "### `", "> Hint: "))
     is_output = path.endswith(".md") and OUTPUT.match(line)
     is_requirement = path.endswith(".toml") and re.search(r"; (python|impl)\w+ ", line)
     return not (is_table or is_output or is_requirement or "://" in line)

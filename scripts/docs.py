@@ -1,0 +1,161 @@
+"""Builds the site: the pages of ``docs/``, the API reference, and the lesson below ``lesson/``.
+
+Sphinx and what it needs are pinned in ``site/docs/requirements.txt`` and live in
+``build/docs-tools``, apart from ``.venv``. Warnings are errors, links and anchors are checked, and
+a page that would load anything from elsewhere is refused: the site works without a network.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from docs_links import faults_of
+from lesson import BuildError, serve
+
+ROOT = Path(__file__).resolve().parent.parent
+BUILD = ROOT / "build"
+DOCS = ROOT / "docs"
+SOURCE = ROOT / "site" / "docs"
+REQUIREMENTS = SOURCE / "requirements.txt"
+TOOLS = BUILD / "docs-tools"
+LESSON = BUILD / "lesson"
+#: The lowest Python on which the pinned Sphinx runs.
+OLDEST_PYTHON = (3, 11)
+
+
+def main() -> int:
+    """Build, and serve if asked to; the exit status."""
+    options = _options()
+    started = time.monotonic()
+    try:
+        install_tools()
+        if options.gettext:
+            gather_texts(BUILD / "gettext")
+            return 0
+        build(options.output, options.language, options.base)
+        print(f"{options.output}: built in {time.monotonic() - started:.0f} s", flush=True)
+        if options.serve:
+            serve(options.output, options.port)
+    except BuildError as error:
+        print(f"scripts/docs: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+def _options() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="scripts/docs", description=__doc__.splitlines()[0])
+    parser.add_argument(
+        "--output",
+        type=Path,
+        default=BUILD / "site",
+        metavar="FOLDER",
+        help="where to build it; an older one there is replaced (default: build/site)",
+    )
+    parser.add_argument("--serve", action="store_true", help="show it on this machine")
+    parser.add_argument("--port", type=int, default=8000, help="of --serve (default: 8000)")
+    parser.add_argument(
+        "--base",
+        default="/",
+        metavar="PATH",
+        help="where the host will have it, for the page of wrong addresses (default: /)",
+    )
+    parser.add_argument(
+        "--language", default="en", help="a language of site/docs/locale (default: en)"
+    )
+    parser.add_argument(
+        "--gettext",
+        action="store_true",
+        help="write the texts for translators into build/gettext instead",
+    )
+    return parser.parse_args()
+
+
+def install_tools() -> None:
+    """Put Sphinx into ``build/docs-tools``, unless it is there as pinned.
+
+    Raises:
+        BuildError: This Python is too old, or pip failed.
+    """
+    if sys.version_info < OLDEST_PYTHON:
+        raise BuildError(
+            f"Sphinx needs Python {'.'.join(map(str, OLDEST_PYTHON))}; .venv has "
+            f"{sys.version.split()[0]} (remove .venv, and PYTHON=python3.12 names another)"
+        )
+    wanted = hashlib.sha256(REQUIREMENTS.read_bytes() + sys.version.encode()).hexdigest()
+    stamp = TOOLS / "stamp"
+    if stamp.exists() and stamp.read_text(encoding="ascii") == wanted:
+        return
+    print("[docs] installing Sphinx into build/docs-tools", file=sys.stderr, flush=True)
+    shutil.rmtree(TOOLS, ignore_errors=True)
+    pip = [sys.executable, "-m", "pip", "install", "-q", "--disable-pip-version-check"]
+    _checked([*pip, "--target", str(TOOLS), "-r", str(REQUIREMENTS)], dict(os.environ))
+    stamp.write_text(wanted, encoding="ascii")
+
+
+def build(output: Path, language: str = "en", base: str = "/") -> None:
+    """Build the site into a folder, which is replaced, and check it.
+
+    Raises:
+        BuildError: Sphinx warns, a link leads nowhere, a page loads something from elsewhere, or
+            the folder holds something else.
+    """
+    if output.exists() and any(output.iterdir()) and not (output / "objects.inv").exists():
+        raise BuildError(f"{output} is no site that was built before: it is not replaced")
+    if language != "en" and not (SOURCE / "locale" / language).is_dir():
+        raise BuildError(f"there is no translation in site/docs/locale/{language}")
+    settings = [f"-Dlanguage={language}", f"-Abase={base.rstrip('/')}/"]
+    with tempfile.TemporaryDirectory(dir=BUILD) as folder:
+        fresh = Path(folder) / "site"
+        sphinx("html", fresh, *settings, caches=BUILD / f"docs-cache-{language}")
+        if (LESSON / "manifest.json").exists():
+            shutil.copytree(LESSON, fresh / "lesson")
+        else:
+            _without_lesson(fresh)
+        if faults := list(faults_of(fresh, apart={"lesson"})):
+            raise BuildError("\n".join(["the built pages have faults:", *faults]))
+        shutil.rmtree(output, ignore_errors=True)
+        output.parent.mkdir(parents=True, exist_ok=True)
+        fresh.rename(output)
+
+
+def _without_lesson(output: Path) -> None:
+    print("[docs] without the lesson: scripts/lesson builds it; then run this again", flush=True)
+    (output / "lesson").mkdir()
+    shutil.copy(SOURCE / "no_lesson.html", output / "lesson" / "index.html")
+
+
+def gather_texts(output: Path) -> None:
+    """Write all texts as ``.pot`` files, which gettext's tools and translators' sites read."""
+    sphinx("gettext", output, caches=BUILD / "docs-cache-gettext")
+    print(f"{output}: {len(list(output.rglob('*.pot')))} files of texts")
+
+
+def sphinx(builder: str, output: Path, *settings: str, caches: Path) -> None:
+    """Run Sphinx; its warnings are errors.
+
+    Raises:
+        BuildError: It failed; its text says why.
+    """
+    environment = {**os.environ, "PYTHONPATH": str(TOOLS), "PYTHONHASHSEED": "0"}
+    command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-j", "auto"]
+    folders = ["-c", str(SOURCE), "-d", str(caches), str(DOCS), str(output)]
+    _checked([*command, "-b", builder, *settings, *folders], environment)
+
+
+def _checked(command: list[str], environment: dict[str, str]) -> None:
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    if done.returncode:
+        said = "\n".join(line for line in (done.stdout + done.stderr).splitlines() if line)
+        raise BuildError(f"this failed: {' '.join(command[1:4])}\n{said}")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

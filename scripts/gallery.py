@@ -1,0 +1,169 @@
+"""Makes the pictures of the site's gallery, in ``docs/images/gallery``.
+
+The drawings (SVG) come from fixed data and are the same each time; the screenshots need Debian's
+chromium, and that of the lesson what ``scripts/lesson`` builds.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from picture import CHROMIUM_FLAGS
+from playwright.sync_api import sync_playwright
+
+from turtlewire import Buffer
+from turtlewire.trajectory import Trajectory, compare, plot_path
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from playwright.sync_api import Browser
+
+ROOT = Path(__file__).resolve().parent.parent
+GALLERY = ROOT / "docs" / "images" / "gallery"
+LESSON = ROOT / "build" / "lesson"
+LESSONS = ROOT / "site" / "lesson" / "lessons"
+SECOND = 1_000_000_000
+#: A browser that starts Python, or a robot's page, on a busy machine.
+PATIENCE_MS = 180_000
+
+
+def main() -> None:
+    """Make all pictures."""
+    GALLERY.mkdir(parents=True, exist_ok=True)
+    for name, svg in drawings():
+        (GALLERY / name).write_text(svg, encoding="utf-8")
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(
+            executable_path=shutil.which("chromium"), args=CHROMIUM_FLAGS
+        )
+        picture_lesson(browser)
+        picture_sliders(browser)
+        browser.close()
+
+
+def drawings() -> Iterator[tuple[str, str]]:
+    """The drawings as file name and SVG."""
+    yield "frames.svg", _on_white(_robot()._repr_svg_())
+    shown = _robot().lookup_transform("map", "laser")._repr_html_()
+    yield "transform.svg", _on_white(shown[shown.index("<svg") : shown.index("</svg>")] + "</svg>")
+    yield "trajectory.svg", _on_white(_compared_runs())
+
+
+def _robot() -> Buffer:
+    """Some transforms of a robot that drives in a room."""
+    buffer = Buffer()
+    for tick in range(101):
+        stamp, turned = SECOND + tick * SECOND // 20, tick / 200
+        pose = (0.02 * tick, 0.01 * tick, 0.0), (0.0, 0.0, math.sin(turned), math.cos(turned))
+        buffer.set_transform("odom", "base_link", stamp, *pose, authority="odometry")
+        if tick % 10 == 0:
+            upright = (0.0, 0.0, 0.0, 1.0)
+            buffer.set_transform("map", "odom", stamp, (1.0, 2.0, 0.0), upright, authority="slam")
+    for child, place in (("camera", (0.3, 0.0, 0.4)), ("laser", (0.2, 0.0, 0.2))):
+        turn = (-0.5, 0.5, -0.5, 0.5) if child == "camera" else (0.0, 0.0, 0.0, 1.0)
+        buffer.set_transform(
+            "base_link", child, 0, place, turn, static=True, authority="robot_state_publisher"
+        )
+    return buffer
+
+
+def _compared_runs() -> str:
+    """The paths of two estimates beside the true one."""
+    angle = np.linspace(0.0, 2 * np.pi, 400)
+    poses = np.zeros((400, 7))
+    poses[:, 0], poses[:, 1] = 5 * np.cos(angle), 3 * np.sin(2 * angle)
+    poses[:, 6] = 1.0
+    stamps = SECOND + np.arange(400) * SECOND // 10
+    truth = Trajectory(stamps, poses)
+    dice = np.random.default_rng(1)
+    runs = {}
+    for name, size in (("run A", 0.04), ("run B", 0.12)):
+        noisy = poses.copy()
+        noisy[:, :3] += dice.normal(size=(400, 3)).cumsum(axis=0) * size / 4
+        runs[name] = compare(truth, Trajectory(stamps, noisy), "se3")
+    return plot_path({name: run.estimate for name, run in runs.items()}, truth).svg
+
+
+def _on_white(svg: str) -> str:
+    """A drawing with a white ground, to be seen on dark pages, too."""
+    ground = '<rect width="100%" height="100%" fill="#ffffff"/>'
+    return re.sub(r"(<svg[^>]*>)", rf"\1\n{ground}", svg, count=1).rstrip() + "\n"
+
+
+def picture_lesson(browser: Browser) -> None:
+    """The listener's lesson, some seconds after its start."""
+    if not (LESSON / "manifest.json").exists():
+        sys.exit("scripts/lesson builds the lesson, whose picture is wanted")
+    handler = partial(_Quiet, directory=LESSON)
+    solution = LESSONS / "listener" / "solution"
+    files = {path.name: path.read_text(encoding="utf-8") for path in solution.glob("*.py")}
+    with ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        page = browser.new_page(viewport={"width": 1280, "height": 860})
+        kept = json.dumps(json.dumps({"files": {"listener": files}}))
+        page.add_init_script(f"localStorage.setItem('turtlewire-lesson', {kept})")
+        page.goto(f"http://localhost:{server.server_address[1]}/#listener")
+        page.locator("#relation-words", has_text="ahead").wait_for(timeout=PATIENCE_MS)
+        page.wait_for_timeout(2000)
+        page.screenshot(path=GALLERY / "lesson.png")
+        page.close()
+        server.shutdown()
+
+
+class _Quiet(SimpleHTTPRequestHandler):
+    def log_message(self, *_words: object) -> None:
+        """Print nothing."""
+
+
+def picture_sliders(browser: Browser) -> None:
+    """The sliders of a robot's joints."""
+    bin_dir = Path(sys.executable).parent
+    environment = dict(
+        os.environ,
+        ROS_DOMAIN_ID=str(1 + os.getpid() % 101),
+        TURTLEWIRE_BROWSER="0",
+        PATH=f"{bin_dir}{os.pathsep}{os.environ['PATH']}",
+    )
+    with tempfile.NamedTemporaryFile("w", suffix=".urdf") as robot:
+        xacro = [str(bin_dir / "xacro"), str(ROOT / "examples" / "robots" / "walker.urdf.xacro")]
+        subprocess.run(xacro, stdout=robot, check=True)
+        gui = "joint_state_publisher_gui"
+        command = ["ros2", "run", gui, gui, robot.name]
+        with subprocess.Popen(
+            command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        ) as sliders:
+            try:
+                _take_sliders(browser, sliders)
+            finally:
+                sliders.send_signal(signal.SIGINT)
+
+
+def _take_sliders(browser: Browser, sliders: subprocess.Popen[str]) -> None:
+    for line in sliders.stdout or ():
+        if found := re.search(r"sliders are at (http://\S+)", line):
+            page = browser.new_page(viewport={"width": 720, "height": 520})
+            page.goto(found[1])
+            page.locator("input[type=range]").first.wait_for(timeout=PATIENCE_MS)
+            page.screenshot(path=GALLERY / "sliders.png")
+            page.close()
+            return
+    raise RuntimeError("the sliders ended before their page was there")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,178 @@
+"""The pages that only the site has: their commands run, their texts are those of the sources."""
+
+from __future__ import annotations
+
+import doctest
+import os
+import re
+import sys
+from pathlib import Path
+
+import pytest
+
+import turtlewire
+from turtlewire.cli.main import main
+from turtlewire_ros.executables import executable_paths
+from turtlewire_ros.prefix import share_directory
+
+from .texts import is_printed
+
+ROOT = Path(__file__).parents[2]
+DOCS = ROOT / "docs"
+PAGES = sorted(DOCS.rglob("*.md"))
+TROUBLE = (DOCS / "troubleshooting.md").read_text(encoding="utf-8")
+HEADINGS = re.findall(r"^### `(.+)`$", TROUBLE, re.MULTILINE)
+HINTS = re.findall(r"^> Hint: (.+)$", TROUBLE, re.MULTILINE)
+#: Packages of a real ROS 2 that pages name.
+THEIRS = {"urdf_tutorial"}
+#: A block, or code within a line.
+CODE = re.compile(r"^```\w+\n(.*?)^```$|(`[^`\n]+`)", re.MULTILINE | re.DOTALL)
+SECOND = 1_000_000_000
+
+
+@pytest.mark.parametrize(("page", "examples"), [("index.md", 5), ("differences.md", 2)])
+def test_the_examples(page, examples):
+    failed, tried = doctest.testfile(str(DOCS / page), module_relative=False)
+    assert (failed, tried) == (0, examples)
+
+
+@pytest.mark.parametrize("page", ["install.md", "differences.md"])
+def test_the_commands(page, run, monkeypatch):
+    monkeypatch.setenv("PATH", f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")
+    text = (DOCS / page).read_text(encoding="utf-8")
+    commands = [
+        line
+        for block in re.findall(r"^```sh\n(.*?)```$", text, re.MULTILINE | re.DOTALL)
+        for line in block.splitlines()
+    ]
+    assert len(commands) == 1
+    for command in commands:
+        program = run("bash", "-c", f"exec {command}")
+        assert program.wait() in {0, 1}, program.text  # 1: the doctor found something
+        assert "Traceback" not in program.text
+        assert "domain" in program.text.lower() or "problem" in program.text.lower(), program.text
+
+
+def buffer():
+    """Two trees, a link with data from 1 s to 2 s, one with one sample."""
+    made = turtlewire.Buffer()
+    upright = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)
+    for stamp in (SECOND, 2 * SECOND):
+        made.set_transform("world", "turtle1", stamp, *upright)
+    made.set_transform("world", "once", SECOND, *upright)
+    made.set_transform("elsewhere", "island", SECOND, *upright)
+    return made
+
+
+def failures():
+    """What lookups raise, and what is said of transforms that are refused."""
+    full, loop = buffer(), turtlewire.Buffer()
+    upright = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)
+    loop.set_transform("a", "b", SECOND, *upright)
+    loop.set_transform("b", "a", SECOND, *upright)
+    for asked, target, source, stamp in [
+        (turtlewire.Buffer(), "world", "turtle1", 0),
+        (full, "world", "turtle", 0),
+        (full, "world", "island", 0),
+        (full, "world", "turtle1", 3 * SECOND),
+        (full, "world", "turtle1", SECOND // 2),
+        (full, "world", "once", 2 * SECOND),
+        (full, "/world", "turtle1", 0),
+        (full, "", "turtle1", 0),
+        (loop, "a", "other", 0),
+        (loop, "a", "b", 0),
+    ]:
+        try:
+            asked.lookup_transform(target, source, stamp)
+        except turtlewire.errors.TransformException as error:
+            yield str(error)
+            yield error.hint
+    nan = (float("nan"), 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)
+    yield full.set_transform("world", "world", SECOND, *upright)
+    yield full.set_transform("world", "bad", SECOND, *nan)
+    yield full.set_transform("world", "", SECOND, *upright)
+    full.set_transform("world", "turtle1", 100 * SECOND, *upright)
+    yield full.set_transform("world", "turtle1", SECOND, *upright)
+
+
+def is_raised(text):
+    """Whether one of the failures says it; `…` stands for anything."""
+    pattern = ".+?".join(re.escape(part) for part in text.split("…"))
+    return any(re.search(pattern, said, re.DOTALL) for said in failures())
+
+
+@pytest.mark.parametrize("text", [*HEADINGS, *HINTS])
+def test_each_error_of_the_page_exists(text):
+    assert is_raised(text) or is_printed(text)
+
+
+def test_the_page_has_the_errors_of_lookups():
+    shown = [text for text in HEADINGS if is_raised(text)]
+    assert len(shown) >= 10
+    assert len(HEADINGS) >= 40
+    assert len(HINTS) >= 8
+
+
+#: Pages whose commands are run by tests that do not read the page, and which tests.
+RUN_ELSEWHERE = {
+    "lesson.md": "tests/lesson/test_in_browser.py",
+    "learning_tf2_py.md": "tests/tutorial/test_lessons.py",
+    "packages.md": "tests/turtlewire_ros/test_colcon_ament.py",
+    "performance.md": "tests/test_bench.py",
+}
+
+
+def test_each_page_with_commands_or_programs_is_tested():
+    tests = "\n".join(path.read_text(encoding="utf-8") for path in ROOT.glob("tests/**/test_*.py"))
+    without = {
+        page.name
+        for page in DOCS.rglob("*.md")
+        if re.search(r"^```(sh|bash|console|python|pycon)$", page.read_text("utf-8"), re.MULTILINE)
+        and not re.search(rf"\b{re.escape(page.name)}\b", tests)
+    }
+    assert without == set()
+    assert all((ROOT / test).exists() for test in RUN_ELSEWHERE.values())
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(DOCS).as_posix())
+def test_what_a_page_starts_exists(page):
+    text = page.read_text(encoding="utf-8")
+    for package, executable in re.findall(r"ros2 run (\w+) (\w+)", text):
+        if package not in THEIRS:
+            assert executable in {Path(path).name for path in executable_paths(package)}
+    for package, file in re.findall(r"ros2 launch (\w+) ([\w.]+)", text):
+        if package not in THEIRS:
+            assert list(Path(share_directory(package)).rglob(file)), file
+    for script in re.findall(r"\bscripts/(\w[\w-]*(?:\.py)?)", text):
+        assert (ROOT / "scripts" / script).exists()
+    code = "\n".join("".join(found) for found in CODE.findall(text))
+    for verb in re.findall(r"(?:^|`)turtlewire ([a-z]+)\b", code, re.MULTILINE):
+        with pytest.raises(SystemExit) as end:
+            main([verb, "--help"])
+        assert end.value.code == 0, verb
+
+
+def test_the_commands_of_turtlesims_page(run, monkeypatch):
+    """turtlesim.md, but for the ssh into a robot that is not there."""
+    monkeypatch.setenv("PATH", f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")
+    monkeypatch.setenv("TURTLEWIRE_BROWSER", "0")
+    monkeypatch.setenv("TURTLEWIRE_PORT", "0")
+    text = (DOCS / "how-to" / "turtlesim.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"^```sh\n(.*?)```$", text, re.MULTILINE | re.DOTALL)
+    simulator, parameter, mimic, lan, ssh = (block.replace("\\\n", "") for block in blocks)
+    started = run("bash", "-c", f"exec {simulator}")
+    started.wait_for(r"Spawning turtle \[turtle1\]")
+    assert run("bash", "-c", f"exec {parameter}").wait() == 0
+    run("bash", "-c", f"exec {mimic}")
+    run("bash", "-c", f"exec {lan}").wait_for(r"http://\S+")
+    assert ssh.startswith("ssh -L")
+
+
+def test_each_reference_page_names_a_package_that_is_there():
+    import importlib
+
+    pages = list((DOCS / "reference").glob("*.rst"))
+    modules = [m for page in pages for m in re.findall(r"automodule:: (\S+)", page.read_text())]
+    assert len(modules) >= 30
+    for module in modules:
+        assert importlib.import_module(module).__doc__
