@@ -64,7 +64,7 @@ def test_the_front_page_leads_to_the_lesson(open_page):
     page.click(".hero-buttons a >> nth=0")
     page.wait_for_url("**/lesson/index.html")
     if (ROOT / "build" / "lesson" / "manifest.json").exists():
-        page.wait_for_function("document.body.dataset.loadedMs !== undefined")
+        page.wait_for_function("document.body?.dataset.loadedMs !== undefined")
     else:
         assert "not in this build" in page.inner_text("h1")
 
