@@ -176,3 +176,16 @@ def test_each_reference_page_names_a_package_that_is_there():
     assert len(modules) >= 30
     for module in modules:
         assert importlib.import_module(module).__doc__
+
+
+def test_the_translation_is_of_the_page():
+    """What is translated of the front page is still there, word for word."""
+    page = " ".join((DOCS / "index.md").read_text(encoding="utf-8").split())
+    text = (ROOT / "site/docs/locale/de/LC_MESSAGES/index.po").read_text(encoding="utf-8")
+    quoted = r'((?:"(?:[^"\\]|\\.)*"\s*)+)'
+    originals = [
+        "".join(re.findall(r'"((?:[^"\\]|\\.)*)"', original))
+        for original, _ in re.findall(rf"msgid {quoted}msgstr {quoted}", text)
+    ]
+    assert len(originals) >= 9
+    assert all(original in page for original in originals), originals
