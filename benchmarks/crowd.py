@@ -57,11 +57,11 @@ def figure(values: list[float], unit: str = "ns") -> Figure:
 class Member:
     """A process of the crowd, which says when it sees the given numbers of nodes."""
 
-    def __init__(self, *counts: int) -> None:
+    def __init__(self, *counts: int, environment: dict[str, str] = ENVIRONMENT) -> None:
         command = [sys.executable, MEMBER, *map(str, counts)]
         self.started = time.time()
         self.process = subprocess.Popen(
-            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=ENVIRONMENT
+            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=environment
         )
 
     def next_time(self) -> float:
@@ -91,13 +91,15 @@ def crowd() -> Iterator[list[Member]]:
             member.process.kill()
 
 
-def start(count: int, each_second: float) -> tuple[float, float]:
+def start(
+    count: int, each_second: float, environment: dict[str, str] = ENVIRONMENT
+) -> tuple[float, float]:
     """Seconds from the last start until all see all; and MB of each."""
     with crowd() as members:
         begin = time.monotonic()
         for number in range(count):
             time.sleep(max(0.0, begin + number / each_second - time.monotonic()))
-            members.append(Member(count))
+            members.append(Member(count, environment=environment))
         seen = max(member.next_time() for member in members)
         return seen - members[-1].started, statistics.mean(member.megabytes() for member in members)
 

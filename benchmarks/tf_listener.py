@@ -44,7 +44,8 @@ def rows() -> Iterator[Row]:
         (20, "<= 53 us (1/12 of rclpy's 645 us)"),
     ):
         with subprocess.Popen(
-            [sys.executable, "-m", __name__, "publish", str(count)], env=environment
+            [sys.executable, "-m", __name__, "publish", str(count), str(RATE_HZ)],
+            env=environment,
         ) as publisher:
             try:
                 figures = {way: measure(way, environment) for way in WAYS}
@@ -67,14 +68,17 @@ def measure(way: str, environment: dict[str, str]) -> Figure:
     return Figure(min(runs), statistics.median(runs))
 
 
-def run(way: str, environment: dict[str, str]) -> list[float]:
+def run(way: str, environment: dict[str, str], rate_hz: int = RATE_HZ) -> list[float]:
     done = subprocess.run(
-        [sys.executable, "-m", __name__, way], env=environment, stdout=subprocess.PIPE, check=True
+        [sys.executable, "-m", __name__, way, str(rate_hz)],
+        env=environment,
+        stdout=subprocess.PIPE,
+        check=True,
     )
     return json.loads(done.stdout)
 
 
-def publish(count: int) -> None:
+def publish(count: int, rate_hz: int) -> None:
     from turtlewire import msg, wire
     from turtlewire.tf.listener import QOS, TOPIC, TYPE_NAME
     from turtlewire.wire.base import TypeId
@@ -96,11 +100,11 @@ def publish(count: int) -> None:
                 time.time_ns(), 1_000_000_000
             )
         publisher.publish(msg.serialize(message))
-        due += 1.0 / RATE_HZ
+        due += 1.0 / rate_hz
         time.sleep(max(0.0, due - time.monotonic()))
 
 
-def receive(way: str) -> None:
+def receive(way: str, rate_hz: int) -> None:
     import rclpy
     from rclpy.executors import SingleThreadedExecutor
     from rclpy.node import Node
@@ -132,7 +136,7 @@ def receive(way: str) -> None:
         cpu = time.process_time()
         wait(SECONDS)
         cpu = time.process_time() - cpu
-        runs.append(cpu * 1e9 / max(1.0, (newest_ns(buffer) - first) * 1e-9 * RATE_HZ))
+        runs.append(cpu * 1e9 / max(1.0, (newest_ns(buffer) - first) * 1e-9 * rate_hz))
     print(json.dumps(runs))
     rclpy.shutdown()
 
@@ -159,8 +163,8 @@ def newest_ns(buffer: Any) -> int:
 
 if __name__ == "__main__":
     if sys.argv[1] == "publish":
-        publish(int(sys.argv[2]))
+        publish(int(sys.argv[2]), int(sys.argv[3]))
     elif sys.argv[1] == "wait":
         wait()
     else:
-        receive(sys.argv[1])
+        receive(sys.argv[1], int(sys.argv[2]))

@@ -23,6 +23,18 @@ def test_a_pickled_error_keeps_the_hint_that_it_was_given(error):
     assert copy.hint == "Start a broadcaster."
 
 
+@pytest.mark.parametrize(
+    ("text", "hint", "line"),
+    [
+        ("no network", "", "no network"),
+        ("no network", "Plug it in.", "no network. Plug it in."),
+        ("no network?", "Plug\nit in.", "no network? Plug it in."),
+    ],
+)
+def test_text_and_hint_in_one_line(text, hint, line):
+    assert WireError(text).with_hint(hint).in_one_line() == line
+
+
 @pytest.mark.skipif(sys.version_info < (3, 11), reason="exceptions have no notes")
 def test_a_traceback_shows_the_hint():
     path = Path(__file__).parent / "golden" / "bag" / "d_mcap"

@@ -7,6 +7,7 @@
 #include "message.hpp"
 #include "record_walk.hpp"
 #include "transform.hpp"
+#include "zenoh.hpp"
 
 NB_MODULE(_native, module) {
   using namespace turtlewire::python;
@@ -23,4 +24,5 @@ NB_MODULE(_native, module) {
   add_joint_relay_type(module);
   add_record_walk_type(module);
   add_cyclone_types(module);
+  add_zenoh_types(module);
 }

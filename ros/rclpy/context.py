@@ -76,7 +76,9 @@ class Context:
             RuntimeError: It was initialized before, or the domain id is negative.
             UnknownROSArgsError, RCLInvalidROSArgsError: The command line is wrong.
             UnicodeEncodeError: It is not UTF-8.
+            WireError: The middleware is missing, or its settings are wrong.
         """
+        from turtlewire.errors import WireError
         from turtlewire.wire import open_context
 
         from .arguments import Arguments
@@ -87,7 +89,11 @@ class Context:
             if self._wire is not None:
                 raise RuntimeError("Context.init() must only be called once")
             self._arguments = Arguments.parse_global(sys.argv if args is None else args)
-            self._wire = open_context(domain_id)
+            try:
+                self._wire = open_context(domain_id)
+            except WireError as error:
+                error.is_of_environment = True
+                raise
             _ = (
                 self._wire.graph
             )  # discovery begins here, so that the first question about the graph finds it known

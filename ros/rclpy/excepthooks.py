@@ -3,8 +3,9 @@
 Nobody asked where the program was when it was told to end, also when that was while it still
 imported. The exit status stays that of an interrupted program. The same goes for threads that spin:
 ``ExternalShutdownException`` is how they learn of the signal, not a fault. A command line that
-cannot be read is told in one line. Where Python drops exceptions, within a destructor or a callback
-of a weak reference (at the end of each import there is one), Ctrl-C is raised again right behind.
+cannot be read is told in one line, and so are settings with which no context can be opened. Where
+Python drops exceptions, within a destructor or a callback of a weak reference (at the end of each
+import there is one), Ctrl-C is raised again right behind.
 """
 
 from __future__ import annotations
@@ -60,6 +61,8 @@ def _hook(kind: type[BaseException], value: BaseException, traceback: TracebackT
         _previous_hook(kind, value, traceback)
     elif getattr(value, "is_of_command_line", False) or _is_of_the_command_line(traceback):
         _previous_hook(kind, value.with_traceback(None), None)
+    elif getattr(value, "is_of_environment", False):
+        sys.stderr.write(f"{value.in_one_line()}\n")  # type: ignore[attr-defined]
     elif not issubclass(kind, KeyboardInterrupt):
         _previous_hook(kind, value, traceback)
 

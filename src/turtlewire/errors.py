@@ -44,9 +44,12 @@ class TurtlewireError(Exception):
     Attributes:
         hint: One or two plain sentences that say what exists and what to do; empty when there is
             nothing to add.
+        is_of_environment: Whether variables, files or the machine are at fault, and no program: one
+            that does not catch the error ends with one line instead of a traceback.
     """
 
     hint: str = ""
+    is_of_environment: bool = False
 
     def with_hint(self, hint: str) -> TurtlewireError:
         """Attach ``hint`` and return the same error, for ``raise error.with_hint(...)``."""
@@ -54,6 +57,13 @@ class TurtlewireError(Exception):
         if hint and hasattr(self, "add_note"):
             self.add_note(hint)
         return self
+
+    def in_one_line(self) -> str:
+        """The text and the hint, as sentences."""
+        text, hint = (" ".join(part.split()) for part in (str(self), self.hint))
+        if not hint:
+            return text
+        return f"{text}{'' if text.endswith(('.', '!', '?')) else '.'} {hint}"
 
 
 class BagError(TurtlewireError, ValueError):

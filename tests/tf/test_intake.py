@@ -1,6 +1,7 @@
 """The short way of transforms.
 
-From the wire's receiving thread into the compiled core, without Python.
+From the wire into the compiled core: on Cyclone's receiving thread without Python, from Zenoh's
+channel in batches.
 """
 
 from __future__ import annotations
@@ -37,11 +38,10 @@ def tf_bytes(stamp_s, child="robot"):
 class Flow:
     """One publisher and one listener; counts the messages that go through Python."""
 
-    def __init__(self, monkeypatch):
+    def __init__(self, monkeypatch, middleware):
         self.by_python = 0
-        self.sender, self.receiver = (
-            wire.open_context(middleware="rmw_cyclonedds_cpp") for _ in range(2)
-        )
+        self.middleware = middleware
+        self.sender, self.receiver = (wire.open_context(middleware=middleware) for _ in range(2))
         self.publisher = self.sender.create_node("talker").create_publisher("/tf", TYPE, KEEP_ALL)
         self.node = self.receiver.create_node("listener")
         self._stamps = itertools.count(1)
@@ -87,9 +87,9 @@ class Flow:
         self.receiver.close()
 
 
-@pytest.fixture
-def flow(monkeypatch):
-    flow = Flow(monkeypatch)
+@pytest.fixture(params=["rmw_cyclonedds_cpp", "rmw_zenoh_cpp"])
+def flow(monkeypatch, request):
+    flow = Flow(monkeypatch, request.param)
     yield flow
     flow.close()
 
@@ -273,7 +273,7 @@ def test_listeners_and_contexts_close_in_the_middle_of_the_stream(flow):
     thread.start()
     try:
         for number in range(20):
-            context = wire.open_context(middleware="rmw_cyclonedds_cpp")
+            context = wire.open_context(middleware=flow.middleware)
             buffers = [Buffer() for _ in range(3)]
             node = context.create_node("listener")
             listeners = [TransformListener(buffer, node, context=context) for buffer in buffers]
@@ -290,6 +290,7 @@ def test_listeners_and_contexts_close_in_the_middle_of_the_stream(flow):
         thread.join()
 
 
+@pytest.mark.parametrize("flow", ["rmw_cyclonedds_cpp"], indirect=True)
 def test_the_gids_of_publishers_that_left_are_forgotten(flow):
     buffer = Buffer()
     with flow.listen(buffer, static_topic=None) as listening:

@@ -163,6 +163,29 @@ def test_keep_last_keeps_the_newest(node: Node, other: Node, middleware: str):
         assert received == sent[-3:]
 
 
+def test_publishers_of_several_threads_lose_nothing(node: Node, other: Node):
+    keep_all = QoS(history=History.KEEP_ALL)
+    subscription = node.create_subscription("/crossroads", STRING, keep_all)
+    publishers = [other.create_publisher("/crossroads", STRING, keep_all) for _ in range(3)]
+    for publisher in publishers:
+        connect(other, publisher, node, subscription)
+    wait_until(node.context, lambda: subscription.publisher_count() == len(publishers))
+
+    def publish(number: int) -> None:
+        for count in range(300):
+            publishers[number].publish(cdr(f"{number} {count}"))
+
+    threads = [threading.Thread(target=publish, args=(number,)) for number in range(3)]
+    for thread in threads:
+        thread.start()
+    taken = take_all(node, subscription, 900)
+    for thread in threads:
+        thread.join()
+    for number in range(3):
+        expected = [cdr(f"{number} {count}") for count in range(300)]
+        assert [message for message in taken if message in set(expected)] == expected
+
+
 def test_a_late_joiner_receives_what_is_transient_local(node: Node, other: Node):
     latched = QoS(depth=2, durability=Durability.TRANSIENT_LOCAL)
     publisher = other.create_publisher("/latched", STRING, latched)

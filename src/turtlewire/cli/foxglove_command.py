@@ -112,7 +112,7 @@ def _foxglove(args: argparse.Namespace) -> int:
             _say_where(server.url, options)
             ended.wait()
     except WireError as error:
-        print(f"turtlewire foxglove: {error} {error.hint}".rstrip(), file=sys.stderr)
+        print(f"turtlewire foxglove: {error.in_one_line()}", file=sys.stderr)
         return 2
     except BrokenPipeError:
         raise

@@ -161,5 +161,5 @@ def _frames(args: argparse.Namespace) -> int:
     try:
         return show_frames(args.frame, once=args.once, as_json=args.json, period_s=args.period)
     except WireError as error:
-        print(f"turtlewire frames: {error} {error.hint}".rstrip(), file=sys.stderr)
+        print(f"turtlewire frames: {error.in_one_line()}", file=sys.stderr)
         return 2

@@ -67,7 +67,7 @@ def _view(args: argparse.Namespace) -> int:
         print(f"turtlewire view: {error}", file=sys.stderr)
         return 2
     except WireError as error:
-        print(f"turtlewire view: {error} {error.hint}".rstrip(), file=sys.stderr)
+        print(f"turtlewire view: {error.in_one_line()}", file=sys.stderr)
         return 2
     with contextlib.ExitStack() as stack:
         stack.callback(source.close)

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import json
+import re
+import subprocess
+import sys
 
 import pytest
 
 from turtlewire.errors import WireError
+from turtlewire.wire import open_context
 from turtlewire.wire.zenoh.configuration import router_configuration, session_configuration
 
 
@@ -64,3 +68,46 @@ def test_a_file_replaces_all(monkeypatch: pytest.MonkeyPatch, tmp_path):
         session_configuration()
     assert "ZENOH_SESSION_CONFIG_URI" in caught.value.hint
     assert ".rs:" not in caught.value.hint  # places in Zenoh's sources help nobody
+    assert re.search(r"Zenoh says: line \d+: expected .+", caught.value.hint)
+    assert "\n" not in caught.value.hint
+
+
+@pytest.mark.parametrize(
+    ("override", "said"),
+    [
+        ('listen/endpoints=["tcp/192.0.2.1:7000"]', "TCP listener bound to tcp/192.0.2.1:7000"),
+        ('connect/endpoints=["udpp/127.0.0.1:3"]', "not supported for udpp protocol"),
+        ('mode="client";connect/endpoints=["tcp/127.0.0.1"]', "tcp/127.0.0.1 is no address"),
+        ('mode="client";connect/endpoints=[]', "connect/endpoints names no router"),
+    ],
+)
+def test_settings_that_open_no_session_are_named(monkeypatch: pytest.MonkeyPatch, override, said):
+    monkeypatch.setenv("ZENOH_CONFIG_OVERRIDE", override)
+    with pytest.raises(WireError, match=re.escape(said)) as caught:
+        open_context(middleware="rmw_zenoh_cpp")
+    assert "7447" not in str(caught.value)  # a router that may be missing is not at fault
+    assert caught.value.hint
+
+
+@pytest.mark.parametrize(
+    ("variable", "value", "said"),
+    [
+        ("ZENOH_SESSION_CONFIG_URI", "/no/file", "Invalid configuration file /no/file. ZENOH_"),
+        ("ZENOH_CONFIG_OVERRIDE", 'listen/endpoints=["tcp/192.0.2.1:7"]', "cannot open a Zenoh"),
+        ("ROS_DOMAIN_ID", "kitchen", "'kitchen'. Set it to a number"),
+    ],
+)
+def test_a_program_that_cannot_join_ends_with_one_line(
+    monkeypatch: pytest.MonkeyPatch, variable, value, said
+):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "rmw_zenoh_cpp")
+    monkeypatch.setenv(variable, value)
+    done = subprocess.run(
+        [sys.executable, "-c", "import rclpy; rclpy.init(); print('joined')"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stdout) == (1, "")
+    [line] = done.stderr.splitlines()
+    assert said in line

@@ -228,6 +228,17 @@ def test_each_fault_is_one_line_with_a_remedy(
         refusing.wait_for(re.escape(router_said), timeout=LIMIT_S)
 
 
+@pytest.mark.parametrize(
+    "program", ["ros2 run demo_nodes_py talker", "python -c 'import rclpy; rclpy.init()'"]
+)
+def test_a_node_with_a_wrong_file_ends_with_one_line(program, client, ended):
+    failed = ended(client(MUTUAL, program, with_certificate("nobody")))
+    assert failed.returncode == 1
+    [line] = failed.stderr.splitlines()
+    assert "nobody.pem cannot be read: No such file or directory. " in line
+    assert line.endswith("connect_certificate names it.")
+
+
 def test_no_user_and_password(router, client, ended):
     refusing = router(USER)
     failed = ended(client(MUTUAL))

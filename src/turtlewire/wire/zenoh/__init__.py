@@ -5,8 +5,9 @@ says everything about a node or an endpoint. Nothing here is asked for by an end
 so all endpoints of one topic and type match, whatever their QoS.
 
 Zenoh calls Python on threads of its own. Each subscription has one, made by the library, which
-waits without the GIL and only queues; tokens, requests and responses are rare and are queued on
-Zenoh's receiving threads. The context's reader thread calls the callbacks.
+waits without the GIL and only queues; one with a native sink (TF) has a channel and a thread of
+ours, which empties the channel into the sink in batches. Tokens, requests and responses are rare
+and are queued on Zenoh's receiving threads. The context's reader thread calls the callbacks.
 
 ===========================  ==================================================================
 module                       what it holds
@@ -23,6 +24,7 @@ module                       what it holds
 `node`                       nodes
 `endpoint`                   what all endpoints have in common
 `publisher`, `subscription`  the ends of a topic
+`inlet`                      subscriptions whose messages go to a native sink
 `services`                   clients and servers
 `router`, `router_log`       ``rmw_zenohd``, and what it says of peers that it refuses
 `diagnosis`                  why a session cannot be opened

@@ -17,7 +17,6 @@ from turtlewire.wire.reader_thread import ReaderThread
 
 from .configuration import session_configuration
 from .core import ContextCore
-from .diagnosis import fault_of, warn_of_faults
 from .graph import ZenohGraph
 from .library import reason_of
 from .node import ZenohNode
@@ -127,10 +126,13 @@ def _open() -> zenoh.Session:
     try:
         session = zenoh.open(configuration)
     except zenoh.ZError as error:
-        fault = fault_of(configuration)
-        if fault is None:
-            raise WireError(f"cannot open a Zenoh session: {reason_of(error)}") from error
+        from .diagnosis import fault_of
+
+        fault = fault_of(configuration, reason_of(error))
         failed = WireError(f"cannot open a Zenoh session: {fault.text}")
         raise failed.with_hint(fault.remedy) from None
-    warn_of_faults(configuration)
+    if "tls/" in configuration.get_json("connect/endpoints"):
+        from .diagnosis import warn_of_faults
+
+        warn_of_faults(configuration)
     return session

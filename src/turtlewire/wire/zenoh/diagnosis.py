@@ -25,6 +25,10 @@ _LIMIT_S = 10.0
 _TLS = "transport/link/tls"
 _FILES = ("root_ca_certificate", "connect_certificate", "connect_private_key")
 _ADDRESS = r"(?P<protocol>\w+)/\[?(?P<host>[^\]#?]+?)\]?:(?P<port>\d+)([#?].*)?"
+_FORM = 'An address is PROTOCOL/HOST:PORT: connect/endpoints=["tcp/robot.example:7447"].'
+_ORIGIN = (
+    "It is a setting in the file that ZENOH_SESSION_CONFIG_URI names, or in ZENOH_CONFIG_OVERRIDE."
+)
 #: A message of one byte that is none of Zenoh's: who has accepted the certificate hangs up on it.
 _NO_MESSAGE = b"\x01\x00\x00"
 
@@ -83,12 +87,19 @@ class _Address(NamedTuple):
     port: int
 
 
-def fault_of(configuration: zenoh.Config) -> Fault | None:
-    """Why none of the addresses of a configuration can be connected to; None if it has none."""
-    for address in _addresses(configuration):
-        fault = _link_fault(address, configuration) or _session_fault(address, configuration)
-        return fault._replace(text=f"{address.text}: {fault.text}")
-    return None
+def fault_of(configuration: zenoh.Config, reason: str) -> Fault:
+    """Why a session cannot be opened, for which Zenoh gives a ``reason``."""
+    if not re.match("Unable to connect|Timeout", reason, re.IGNORECASE):
+        return Fault(reason, _ORIGIN)
+    addresses = list(_flat(_value(configuration, "connect/endpoints")))
+    if not addresses:
+        return Fault("connect/endpoints names no router, and none was found", _FORM)
+    for text in addresses:
+        address = _parsed(text)
+        if address is not None:
+            fault = _link_fault(address, configuration) or _session_fault(address, configuration)
+            return fault._replace(text=f"{text}: {fault.text}")
+    return Fault(f"connect/endpoints: {addresses[0]} is no address, or nobody is there", _FORM)
 
 
 def warn_of_faults(configuration: zenoh.Config) -> None:
@@ -103,16 +114,18 @@ def warn_of_faults(configuration: zenoh.Config) -> None:
             if fault is not None:
                 warn_once(address.text, f"{address.text}: {fault.text}. {fault.remedy}")
 
-    encrypted = [one for one in _addresses(configuration) if one.protocol == "tls"]
+    addresses = map(_parsed, _flat(_value(configuration, "connect/endpoints")))
+    encrypted = [one for one in addresses if one is not None and one.protocol == "tls"]
     if encrypted:
         threading.Thread(target=check, name="turtlewire-tls", daemon=True).start()
 
 
-def _addresses(configuration: zenoh.Config) -> Iterator[_Address]:
-    for text in _flat(_value(configuration, "connect/endpoints")):
-        parts = re.fullmatch(_ADDRESS, text)
-        if parts:
-            yield _Address(text, parts["protocol"], parts["host"], int(parts["port"]))
+def _parsed(text: str) -> _Address | None:
+    """An address with a port."""
+    parts = re.fullmatch(_ADDRESS, text)
+    if parts is None:
+        return None
+    return _Address(text, parts["protocol"], parts["host"], int(parts["port"]))
 
 
 def _flat(endpoints: Any) -> Iterator[str]:

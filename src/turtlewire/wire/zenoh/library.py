@@ -26,5 +26,8 @@ def require_zenoh() -> None:
 
 
 def reason_of(error: Exception) -> str:
-    """What a ``ZError`` says, without the places in Zenoh's sources."""
-    return re.sub(r"\s+at \S+\.rs:\d+\.?", "", str(error))
+    """What a ``ZError`` says, in one line and without the places in Zenoh's sources."""
+    said = re.sub(r"\s+at \S+\.rs:\d+\.?", "", str(error))
+    # A picture of the place where JSON5 cannot be read.
+    place = re.match(r"\s*--> (\d+):(\d+)\s.*= ([^\n]*)", said, re.DOTALL)
+    return f"line {place[1]}: {place[3]}" if place else " ".join(said.split())

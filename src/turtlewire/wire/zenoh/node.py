@@ -9,6 +9,7 @@ from turtlewire.errors import WireError
 from turtlewire.wire.base import Node, NodeInfo
 from turtlewire.wire.graph import with_best_available
 
+from .inlet import ZenohSinkSubscription
 from .publisher import ZenohPublisher
 from .services import ZenohClient, ZenohService
 from .subscription import ZenohSubscription
@@ -95,12 +96,14 @@ class ZenohNode(Node):
         type_id: TypeId,
         qos: QoS,
         on_message: Callable[[bytes, MessageInfo], None] | None = None,
-        sink: Sink | None = None,  # noqa: ARG002 - Zenoh's library calls no native code
+        sink: Sink | None = None,
     ) -> Subscription:
         """See :meth:`Node.create_subscription`."""
         self._core.require_open(f"create subscription {topic}")
         qos = with_best_available(qos, topic, "subscription", self.context)
-        return ZenohSubscription(self._core, self, topic, type_id, qos, on_message)
+        if sink is None:
+            return ZenohSubscription(self._core, self, topic, type_id, qos, on_message)
+        return ZenohSinkSubscription(self._core, self, topic, type_id, qos, on_message, sink)
 
     def create_client(self, service: str, types: ServiceTypes, qos: QoS) -> Client:
         """See :meth:`Node.create_client`."""

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from turtlewire.wire.qos import QoS
 
     from .core import ContextCore, Owner
+    from .endpoint import Declared
     from .token import Token
 
     OnMessage = Callable[[bytes, MessageInfo], None]
@@ -38,7 +39,7 @@ __all__ = ["ZenohSubscription"]
 
 
 class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
-    """An advanced subscriber that queues on a thread of its own, which the library makes.
+    """A subscriber that queues on a thread of its own, which the library makes.
 
     Queuing on Zenoh's receiving thread would stop the whole link while another thread computes.
     """
@@ -67,42 +68,40 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
         self._lost_count = 0
         with core.calls:
             core.thread_starts()
-            subscriber = _on_a_daemon_thread(self._declare)
+            subscriber = self._subscribe()
         self.announce(subscriber)
 
-    def _declare(self) -> ext.AdvancedSubscriber[None]:
+    def _subscribe(self) -> Declared:
+        """Begin to receive, on a new thread."""
         handler = Handler(self._on_sample, self._core.thread_ends, indirect=True)
+        return _on_a_daemon_thread(lambda: self._declare(handler))
+
+    def _declare(self, handler: Any) -> Declared:
+        if self.qos.durability != Durability.TRANSIENT_LOCAL:
+            # Not an advanced one, as rmw_zenoh has it: without sequence numbers of its own, it
+            # drops what is older than the last message of the same session, so publishers of two
+            # threads lose messages. On the wire both are the same.
+            return self._core.session.declare_subscriber(self.token.data_key, handler)
         options: dict[str, Any] = {}
-        if self.qos.durability == Durability.TRANSIENT_LOCAL:
-            options["subscriber_detection"] = True
-            options["history"] = ext.HistoryConfig(
-                detect_late_publishers=True, max_samples=max(self.qos.depth, 1)
-            )
-            if self.qos.reliability != Reliability.BEST_EFFORT:
-                options["recovery"] = ext.RecoveryConfig(heartbeat=True, periodic_queries=None)
+        if self.qos.reliability != Reliability.BEST_EFFORT:
+            options["recovery"] = ext.RecoveryConfig(heartbeat=True, periodic_queries=None)
         return ext.declare_advanced_subscriber(
-            self._core.session, self.token.data_key, handler, **options
+            self._core.session,
+            self.token.data_key,
+            handler,
+            subscriber_detection=True,
+            history=ext.HistoryConfig(
+                detect_late_publishers=True, max_samples=max(self.qos.depth, 1)
+            ),
+            **options,
         )
 
     def _on_sample(self, sample: zenoh.Sample) -> None:
         """On the subscription's own thread."""
-        if sample.attachment is None:
-            warn_once(
-                f"attachment {self.topic}",
-                f"messages on {self.topic} without an attachment are dropped: "
-                "their publisher does not speak rmw_zenoh_cpp's protocol",
-            )
-            return
-        cdr = bytes(sample.payload)
         try:
-            attachment = Attachment.unpack(bytes(sample.attachment))
-        except ValueError as error:
-            warn_once(f"attachment {self.topic}", f"a message on {self.topic} was lost: {error}")
-            return
-        if len(cdr) <= HEADER_SIZE:
-            warn_once(
-                f"short {self.topic}", f"a message on {self.topic} was lost: {len(cdr)} bytes"
-            )
+            attachment, cdr = _read(sample)
+        except ValueError:
+            self._warn_of_loss(sample)
             return
         info = MessageInfo(attachment.source_timestamp_ns, time.time_ns(), attachment.gid)
         with self._lock:
@@ -111,13 +110,24 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
                 self._queue.append((cdr, info))
                 self._tell()
 
+    def _warn_of_loss(self, sample: zenoh.Sample) -> None:
+        """Say why a sample is no message."""
+        try:
+            _read(sample)
+        except ValueError as error:
+            warn_once(f"lost {self.topic}", f"a message on {self.topic} was lost: {error}")
+
     def _count_lost(self, attachment: Attachment) -> None:
         number, gid = attachment.sequence_number, attachment.gid
         missing = number - self._last_numbers.get(gid, number - 1) - 1
         self._last_numbers[gid] = number
         if missing > 0:
-            self._lost_count += missing
-            self._event(EventKind.MESSAGE_LOST).add(EventStatus(self._lost_count, missing))
+            self._report_lost(missing)
+
+    def _report_lost(self, missing: int) -> None:
+        """With the lock held."""
+        self._lost_count += missing
+        self._event(EventKind.MESSAGE_LOST).add(EventStatus(self._lost_count, missing))
 
     def _tell(self) -> None:
         """Wake who waits for the message; called with the lock held."""
@@ -165,14 +175,31 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
             self._queue.clear()
 
 
-def _on_a_daemon_thread(call: Callable[[], ext.AdvancedSubscriber[None]]) -> Any:
+def _read(sample: zenoh.Sample) -> tuple[Attachment, bytes]:
+    """What stands beside a message, and its bytes.
+
+    Raises:
+        ValueError: It is no message of rmw_zenoh_cpp's protocol.
+    """
+    if sample.attachment is None:
+        raise ValueError(
+            "it has no attachment, so its publisher does not speak rmw_zenoh_cpp's protocol"
+        )
+    attachment = Attachment.unpack(bytes(sample.attachment))
+    cdr = bytes(sample.payload)
+    if len(cdr) <= HEADER_SIZE:
+        raise ValueError(f"{len(cdr)} bytes are no message")
+    return attachment, cdr
+
+
+def _on_a_daemon_thread(call: Callable[[], Declared]) -> Declared:
     """Run ``call`` on a daemon thread.
 
     The library's thread for a subscriber becomes a daemon if the thread that declares it is one. A
     program that forgets to close would never end otherwise: Python waits for all other threads
     before it runs what was registered for the exit.
     """
-    results: list[Any] = []
+    results: list[Declared] = []
     errors: list[BaseException] = []
 
     def run() -> None:

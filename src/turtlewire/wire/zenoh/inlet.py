@@ -1,0 +1,140 @@
+"""Subscriptions whose messages go to a native sink, in batches."""
+
+from __future__ import annotations
+
+import threading
+import time
+from typing import TYPE_CHECKING
+
+import zenoh
+from zenoh.handlers import FifoChannel
+
+from turtlewire.wire.base import MessageInfo
+from turtlewire.wire.report import call_guarded
+
+from .subscription import ZenohSubscription
+
+if TYPE_CHECKING:
+    from typing import Any
+
+    from turtlewire.wire.base import Sink, TypeId
+    from turtlewire.wire.qos import QoS
+
+    from .core import ContextCore, Owner
+    from .endpoint import Declared
+    from .subscription import OnMessage
+    from .token import Token
+
+__all__ = ["ZenohSinkSubscription"]
+
+#: So many messages wait in the channel at most; then Zenoh receives no more from their sender.
+_CAPACITY = 1000
+
+
+class ZenohSinkSubscription(ZenohSubscription):
+    """A subscriber with a channel, which a thread empties into a sink.
+
+    Whatever waits in the channel goes over in one native call, so a busy main thread, which lets
+    this thread run every 5 ms, holds up a batch and not each message.
+    """
+
+    def __init__(
+        self,
+        core: ContextCore,
+        node: Owner,
+        topic: str,
+        type_id: TypeId,
+        qos: QoS,
+        on_message: OnMessage | None,
+        sink: Sink,
+    ) -> None:
+        from turtlewire._native import ZenohInlet
+
+        self._sink = sink  # for which native code has no reference
+        self._native = ZenohInlet(sink)
+        self._receiving = threading.Lock()
+        self._is_left = False
+        super().__init__(core, node, topic, type_id, qos, on_message)
+
+    def _subscribe(self) -> Declared:
+        """See :meth:`ZenohSubscription._subscribe`."""
+        subscriber = self._declare(FifoChannel(_CAPACITY))
+        channel: Any = subscriber.handler  # type: ignore[attr-defined]
+        threading.Thread(
+            target=self._receive, args=(channel,), name="turtlewire-intake", daemon=True
+        ).start()
+        return subscriber
+
+    def _receive(self, channel: Any) -> None:
+        """Empty the channel until the subscriber is taken back; on a thread of its own."""
+        try:
+            while True:
+                batch = [channel.recv()]
+                while len(batch) < _CAPACITY and (sample := channel.try_recv()) is not None:
+                    batch.append(sample)
+                self._hand_over(batch)
+        except zenoh.ZError:  # the channel is closed
+            return
+        finally:
+            self._core.thread_ends()
+
+    def _hand_over(self, batch: list[zenoh.Sample]) -> None:
+        with self._receiving:  # so that nothing comes after close()
+            if self._closed:
+                return
+            is_left, lost, refused = self._native.receive(batch)
+        if lost or is_left:
+            with self._lock:
+                if lost:
+                    self._report_lost(lost)
+                if is_left and not self._closed:
+                    self._is_left = True
+                    self._tell()
+        for sample in refused:
+            self._warn_of_loss(sample)
+
+    def _deliver(self) -> None:
+        """Serve the sink, and hand over what it leaves; on the reader thread."""
+        assert self._on_message is not None
+        with self._lock:
+            self._is_delivering = False
+        while not self._closed and (messages := self._serve()):
+            for message in messages:
+                if self._closed:
+                    return
+                call_guarded(self._on_message, message, self.topic)
+
+    def _serve(self) -> list[tuple[bytes, MessageInfo]]:
+        gid_of = self._native.gid_of
+        left = self._sink.serve(gid_of)
+        now = time.time_ns()
+        return [
+            (data, MessageInfo(sent, now, gid_of(publisher) or publisher.to_bytes(16, "little")))
+            for data, publisher, sent in left
+        ]
+
+    def part(self, partner: Token) -> None:
+        """See :meth:`Matching.part`."""
+        super().part(partner)
+        self._native.forget(partner.gid)
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether the sink is to be served."""
+        return self._is_left
+
+    def take(self, limit: int = 32) -> list[tuple[bytes, MessageInfo]]:  # noqa: ARG002 - all
+        """See :meth:`Subscription.take`: all that the sink leaves."""
+        with self._lock:
+            self._is_left = False  # what comes from now on sets it again
+        messages = self._serve()
+        if messages:  # there may be more: the sink is served until it leaves nothing
+            with self._lock:
+                self._is_left = True
+        return messages
+
+    def close(self) -> None:
+        """See :meth:`Entity.close`."""
+        super().close()
+        with self._receiving:  # the sink gets nothing more when this returns
+            return
