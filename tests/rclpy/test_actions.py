@@ -302,8 +302,7 @@ def test_results_are_forgotten_after_their_time(serve, client, finish, executor)
     server = serve(count, result_timeout=0.05)
     handle = send(client, finish)
     finish(handle.get_result_async())
-    assert len(server._goals) == 1
-    while server._goals:
+    while server._goals:  # on a busy machine the time may be over by now
         executor.spin_once(timeout_sec=60)
     assert finish(handle.get_result_async()).status == GoalStatus.STATUS_UNKNOWN
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 
 import pytest
 import yaml
@@ -69,6 +70,16 @@ def test_aliases_of_ordinary_size_are_taken(monkeypatch):
     assert len(read_values(f"{{data: [{'1, ' * 1_000}]}}")["data"]) == 1_000
 
 
+@pytest.fixture
+def _usual_depth():
+    """What another test of this process raised may have stayed so."""
+    limit = sys.getrecursionlimit()
+    sys.setrecursionlimit(1000)
+    yield
+    sys.setrecursionlimit(limit)
+
+
+@pytest.mark.usefixtures("_usual_depth")
 def test_deep_nesting_is_refused_in_one_line():
     with pytest.raises(RuntimeError, match=r"^The passed value is nested too deeply$"):
         read_values(f"{{data: {'[' * 1500}{']' * 1500}}}")
