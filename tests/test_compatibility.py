@@ -467,7 +467,7 @@ def test_the_tests_are_there(file, name):
 
 def run(*command):
     return subprocess.run(
-        [sys.executable, *command], capture_output=True, text=True, timeout=60, check=False
+        [sys.executable, *command], capture_output=True, text=True, timeout=300, check=False
     )
 
 

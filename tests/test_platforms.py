@@ -108,7 +108,7 @@ def test_the_demo_runs_without_bash(tmp_path):
         cwd=tmp_path,
         capture_output=True,
         text=True,
-        timeout=100,
+        timeout=300,
         check=False,
     )
     said = done.stdout + done.stderr

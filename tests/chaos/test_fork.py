@@ -63,7 +63,7 @@ def failures(core: str, count: int) -> str:
         capture_output=True,
         text=True,
         check=True,
-        timeout=280,
+        timeout=840,
     ).stdout
 
 

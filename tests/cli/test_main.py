@@ -55,7 +55,7 @@ def offered(line, answers):
         "COMP_POINT": str(len(line)),
         "COMP_TYPE": "9",
     }
-    subprocess.run([COMMAND], env={**os.environ, **environment}, check=True, timeout=60)
+    subprocess.run([COMMAND], env={**os.environ, **environment}, check=True, timeout=300)
     return [word.strip() for word in answers.read_text().split("\n") if word.strip()]
 
 

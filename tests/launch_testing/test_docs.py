@@ -30,7 +30,7 @@ def test_the_page_does_what_it_says(tmp_path):
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            timeout=280,
+            timeout=840,
             check=False,
         )
         assert done.returncode == 0, (line, done.stdout)

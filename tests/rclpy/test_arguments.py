@@ -78,7 +78,7 @@ def test_golden_exit_codes(name):
         capture_output=True,
         text=True,
         cwd=GOLDEN / "inputs",
-        timeout=60,
+        timeout=300,
         check=False,
     )
     expected = int(re.search(r"^# exit code: (\d+)$", (GOLDEN / name).read_text(), re.MULTILINE)[1])

@@ -116,6 +116,6 @@ print(type(goal.result().goal_id.uuid).__name__)
 rclpy.shutdown()
 """
     done = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=True, timeout=120
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True, timeout=300
     )
     assert done.stdout == "[0, 1, 1] False\nndarray\n"

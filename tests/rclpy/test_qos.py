@@ -257,7 +257,7 @@ def test_mistyped_arguments_raise_under_python_o_too():
         capture_output=True,
         text=True,
         check=True,
-        timeout=60,
+        timeout=300,
     )
     assert done.stdout.splitlines() == [
         "Invalid arguments passed to constructor: dict_keys(['depth', 'reliabilty'])",

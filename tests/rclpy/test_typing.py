@@ -136,7 +136,7 @@ def test_a_strict_type_checker_accepts_programs_and_finds_mistakes(tmp_path):
         text=True,
         check=False,
         cwd=tmp_path,
-        timeout=280,
+        timeout=840,
     )
     errors = [line.partition(" ")[0] for line in done.stdout.splitlines() if ": error: " in line]
     assert errors == [f"wrong.py:{line}:" for line in MISTAKEN_LINES], done.stdout

@@ -32,7 +32,7 @@ def offered(line):
         pass_fds=[writing],
         check=False,
         capture_output=True,
-        timeout=60,
+        timeout=300,
     )
     os.close(writing)
     with os.fdopen(reading) as answers:

@@ -121,6 +121,6 @@ def test_parts():
 def test_the_report_of_the_command_is_the_same():
     program = "from ros2cli.main import main; main(['doctor', '--report'])"
     run = [sys.executable, "-c", program]
-    shown = subprocess.run(run, capture_output=True, text=True, check=True, timeout=280).stdout
+    shown = subprocess.run(run, capture_output=True, text=True, check=True, timeout=840).stdout
     assert "\n   PLATFORM INFORMATION\nsystem " in shown
     assert "\n   TOPIC LIST\n" in shown

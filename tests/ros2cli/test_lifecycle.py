@@ -45,7 +45,7 @@ def ros2(*words):
         capture_output=True,
         text=True,
         check=False,
-        timeout=280,
+        timeout=840,
     )
     return result.returncode, result.stdout, result.stderr
 

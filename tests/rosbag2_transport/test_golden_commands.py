@@ -82,7 +82,7 @@ def test_a_command(case, tmp_path):
                 break
         os.killpg(process.pid, signal.SIGINT)
         err += process.stderr.read()  # communicate() would lose what has been read ahead
-    out, rest = process.communicate(timeout=120)
+    out, rest = process.communicate(timeout=300)
     made = "convert" in command or "reindex" in command
     assert process.returncode == expected["exit"], err + rest
     assert lines_of(out, tmp_path, made) == lines_of(expected["stdout"], tmp_path, made)

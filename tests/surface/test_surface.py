@@ -59,7 +59,7 @@ def test_share(golden):
         [sys.executable, str(HERE / "compare.py"), "--json", golden],
         stdout=subprocess.PIPE,
         check=True,
-        timeout=280,
+        timeout=840,
     )
     found = json.loads(run.stdout)
     listed = Differences((HERE / "differences" / f"{golden}.txt").read_text())
@@ -102,4 +102,4 @@ assert not fits("async (a)", "(a)")
 assert same_member("property", "property set")
 assert not same_member("value 1", "value 2")
 """
-    subprocess.run([sys.executable, "-c", calls], cwd=HERE, check=True, timeout=280)
+    subprocess.run([sys.executable, "-c", calls], cwd=HERE, check=True, timeout=840)

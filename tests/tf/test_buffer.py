@@ -633,7 +633,7 @@ class TestChoiceOfCore:
             env=clean | environment,
             capture_output=True,
             text=True,
-            timeout=60,
+            timeout=300,
             check=False,
         )
 

@@ -99,7 +99,7 @@ def test_everything_may_end_while_messages_arrive():
         env=variables,
         capture_output=True,
         text=True,
-        timeout=280,
+        timeout=840,
         check=False,
     )
     assert (done.returncode, done.stdout) == (0, "alive\n"), done.stderr[-2000:]

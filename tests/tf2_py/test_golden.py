@@ -29,7 +29,7 @@ def test_all_answers_equal(core: str) -> None:
         env={**os.environ, "TURTLEWIRE_CORE": core},
         capture_output=True,
         text=True,
-        timeout=280,
+        timeout=840,
         check=False,
     )
     assert run.returncode == 0, run.stdout + run.stderr

@@ -24,7 +24,7 @@ COMMAND = [sys.executable, "-m", "tf2_tools.view_frames"]
 
 def view_frames(*args, cwd):
     return subprocess.run(
-        [*COMMAND, *args], cwd=cwd, capture_output=True, text=True, check=False, timeout=280
+        [*COMMAND, *args], cwd=cwd, capture_output=True, text=True, check=False, timeout=840
     )
 
 

@@ -25,7 +25,7 @@ def test_evo_samples_our_buffer(tmp_path):
         env={**os.environ, "HOME": str(tmp_path), "MPLBACKEND": "Agg"},
         capture_output=True,
         text=True,
-        timeout=280,
+        timeout=840,
         check=False,
     )
     assert done.returncode == 0, done.stdout + done.stderr

@@ -50,7 +50,7 @@ def chase():
     for process in processes:
         process.send_signal(signal.SIGINT)
     for process in processes:
-        process.communicate(timeout=60)
+        process.communicate(timeout=300)
 
 
 def test_the_chase_ends_where_it_does_in_lock_step(chase):

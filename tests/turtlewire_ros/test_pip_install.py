@@ -45,7 +45,7 @@ def pip_install(*words):
         capture_output=True,
         text=True,
         check=False,
-        timeout=100,
+        timeout=300,
     )
 
 

@@ -28,7 +28,7 @@ def pytest_in(folder, *words):
         capture_output=True,
         text=True,
         check=False,
-        timeout=100,
+        timeout=300,
     )
 
 

@@ -39,7 +39,7 @@ def fish(home, script, *options, **variables):
         capture_output=True,
         text=True,
         check=True,
-        timeout=60,
+        timeout=300,
     )
     assert done.stderr == ""
     return done.stdout.splitlines()

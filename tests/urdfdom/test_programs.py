@@ -99,7 +99,7 @@ def test_a_closed_pipe_is_quiet():
         f"{sys.executable} -m urdfdom.check_urdf {RAFT} | true",
         shell=True,
         capture_output=True,
-        timeout=60,
+        timeout=300,
         check=True,
     )
     assert chain.stderr == b""
@@ -110,6 +110,6 @@ def test_as_a_command_and_with_ros2_run(name):
     folder = Path(sys.executable).parent
     for command in ([folder / name], [folder / "ros2", "run", "urdfdom", name]):
         done = subprocess.run(
-            [*command, "--help"], capture_output=True, text=True, timeout=60, check=True
+            [*command, "--help"], capture_output=True, text=True, timeout=300, check=True
         )
         assert name in done.stdout

@@ -38,7 +38,7 @@ def test_what_cyclone_says_of_a_domain_goes_into_the_pipe():
         "print(log.unread(), log.unread())\n"
     )
     done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=True
     )
     assert "Nonsense: unknown element" in done.stdout
     assert done.stdout.endswith("] []\n")

@@ -92,7 +92,7 @@ def test_a_middleware_that_is_not_here_is_one_line_and_cyclone_is_taken(theirs: 
         [sys.executable, "-c", code],
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=300,
         check=True,
         env=os.environ | {"RMW_IMPLEMENTATION": theirs},
     )
@@ -125,7 +125,7 @@ def test_what_is_not_installed_is_told_and_another_one_taken(asked, missing, tak
         [sys.executable, "-c", code],
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=300,
         check=True,
         env=os.environ | {"RMW_IMPLEMENTATION": asked},
     )
@@ -255,7 +255,7 @@ def test_a_static_peer_that_cyclone_would_abort_for_is_left_out_with_one_warning
         env=variables,
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=300,
         check=False,
     )
     assert (done.returncode, done.stdout) == (0, "alive\n")
@@ -275,7 +275,7 @@ def test_cyclone_accepts_the_configuration_of_each_range(chosen: str):
         env=variables,
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=300,
         check=True,
     )
     assert (done.stdout, done.stderr) == ("1\n", "")
@@ -289,7 +289,7 @@ def test_a_broken_configuration_of_the_user_is_one_clear_error():
         env=variables,
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=300,
         check=False,
     )
     assert done.returncode == 1
@@ -317,7 +317,7 @@ def test_a_domain_that_is_full_says_so():
         assert neighbour.stdout is not None
         neighbour.stdout.readline()  # nothing, if the one place is taken already
         done = subprocess.run(
-            command, env=variables, capture_output=True, text=True, timeout=60, check=False
+            command, env=variables, capture_output=True, text=True, timeout=300, check=False
         )
         neighbour.communicate(b"\n")
     assert done.returncode == 1
@@ -331,7 +331,7 @@ def test_the_last_domain_works():
         "print(len(c.graph.nodes())); c.close()"
     )
     done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=False
     )
     assert (done.stdout, done.stderr) == ("1\n", "")
 
@@ -342,7 +342,7 @@ def test_a_platform_without_cyclone_gets_one_clear_line():
         "turtlewire.wire import libddsc, open_context\nlibddsc._SYSTEM = ()\nopen_context()\n"
     )
     done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=False
     )
     assert "WireError: Cyclone DDS is not available for Python" in done.stderr
     assert "take Zenoh: pip install 'turtlewire[zenoh]'" in done.stderr or sys.version_info < (

@@ -117,7 +117,7 @@ def probe_here(**environment: str) -> int:
         env=os.environ | environment,
         capture_output=True,
         text=True,
-        timeout=280,
+        timeout=840,
         check=False,
     )
     assert done.returncode == 0, done.stderr
@@ -266,7 +266,7 @@ def test_the_follow_demo_runs_split_over_both_hosts(split_demo, tmp_path):
     run = command("here", "follow.py")
     environment = os.environ | {"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"}
     done = subprocess.run(
-        run, env=environment, capture_output=True, text=True, timeout=280, check=False
+        run, env=environment, capture_output=True, text=True, timeout=840, check=False
     )
     said = "".join(path.read_text() for path in sorted(tmp_path.glob("*.txt")))
     assert done.returncode == 0, done.stderr + said
