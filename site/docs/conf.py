@@ -54,6 +54,7 @@ toc_object_entries_show_parents = "hide"
 templates_path = ["_templates"]
 html_theme = "furo"
 html_title = "turtlewire"
+html_favicon = "../lesson/icon.svg"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_copy_source = False

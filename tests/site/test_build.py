@@ -1,0 +1,99 @@
+"""`scripts/docs`: what its check of the built pages finds, and what it refuses to replace."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+GOOD = '<h1 id="top">A</h1><a href="sub/b.html#there">b</a><a href="https://example.org">out</a>'
+
+
+@pytest.fixture(scope="module")
+def faults_of():
+    spec = importlib.util.spec_from_file_location("docs_links", ROOT / "scripts" / "docs_links.py")
+    module = sys.modules[spec.name] = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    yield lambda folder: list(module.faults_of(folder, apart={"lesson"}))
+    del sys.modules[spec.name]
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """Two pages that know each other, and one that is not checked."""
+    for name in ("sub", "lesson"):
+        (tmp_path / name).mkdir()
+    (tmp_path / "a.html").write_text(GOOD)
+    (tmp_path / "sub" / "b.html").write_text('<p id="there"></p><a href="../a.html#top">a</a>')
+    (tmp_path / "lesson" / "index.html").write_text('<a href="nowhere.html">x</a>')
+    return tmp_path
+
+
+def test_good_pages_have_no_faults(faults_of, folder):
+    assert faults_of(folder) == []
+
+
+@pytest.mark.parametrize(
+    ("added", "fault"),
+    [
+        ('<a href="c.html">c</a>', "a.html: c.html leads nowhere"),
+        ('<a href="sub/b.html#here">b</a>', "a.html: sub/b.html#here names no place of that page"),
+        ('<a href="#nothing">b</a>', "a.html: #nothing names no place of that page"),
+        ('<img src="c.png">', "a.html: c.png leads nowhere"),
+        (
+            '<script src="https://cdn.example/x.js"></script>',
+            "a.html: loads https://cdn.example/x.js from elsewhere",
+        ),
+        (
+            '<link rel="stylesheet" href="//fonts.example/f.css">',
+            "a.html: loads //fonts.example/f.css from elsewhere",
+        ),
+        (
+            '<p style="background: url(https://x.example/p.png)">',
+            "a.html: loads https://x.example/p.png from elsewhere",
+        ),
+    ],
+)
+def test_faults_are_found(faults_of, folder, added, fault):
+    (folder / "a.html").write_text(GOOD + added)
+    assert faults_of(folder) == [fault]
+
+
+def test_style_sheets_load_nothing_from_elsewhere(faults_of, folder):
+    (folder / "s.css").write_text("@import 'https://fonts.example/f.css';")
+    assert faults_of(folder) == ["s.css: loads https://fonts.example/f.css from elsewhere"]
+
+
+def test_the_base_is_where_links_start(faults_of, folder):
+    text = '<base href="/some/where/"><a href="sub/b.html">b</a><a href="b.html">b</a>'
+    (folder / "sub" / "c.html").write_text(text)
+    assert faults_of(folder) == ["sub/c.html: b.html leads nowhere"]
+
+
+def test_versions_are_pinned():
+    lines = (ROOT / "site/docs/requirements.txt").read_text(encoding="utf-8").splitlines()
+    wanted = (ROOT / "site/docs/requirements.in").read_text(encoding="utf-8").splitlines()
+    assert all(re.fullmatch(r"[\w.-]+==[\w.]+", line) for line in lines)
+    pinned = {line.partition("==")[0].lower() for line in lines}
+    assert {name for name in wanted if not name.startswith("#")} <= pinned
+
+
+def test_the_parts_of_the_readme_are_there():
+    page = (ROOT / "docs" / "install.md").read_text(encoding="utf-8")
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    marks = re.findall(r'(?:start-after|end-before): "(.+)"', page)
+    assert len(marks) == 4
+    assert all(readme.count(mark) == 1 for mark in marks)
+
+
+def test_help_names_the_options():
+    script = ROOT / "scripts" / "docs.py"
+    done = subprocess.run(
+        [sys.executable, str(script), "--help"], capture_output=True, text=True, check=True
+    )
+    assert all(option in done.stdout for option in ("--serve", "--gettext", "--base", "--language"))
