@@ -46,7 +46,7 @@ napoleon_use_ivar = True
 autodoc_typehints = "signature"
 autodoc_typehints_format = "short"
 autodoc_member_order = "groupwise"
-autodoc_default_options = {"members": True, "show-inheritance": True}
+autodoc_default_options = {"members": True}
 python_maximum_signature_line_length = 88
 python_use_unqualified_type_names = True
 toc_object_entries_show_parents = "hide"
@@ -86,7 +86,6 @@ def setup(app: Sphinx) -> None:
     app.connect("source-read", name_files_outside)
     app.connect("source-read", add_unsorted_pages)
     app.connect("autodoc-process-docstring", leave_out_module_tables)
-    app.connect("autodoc-process-bases", leave_out_private_bases)
 
 
 def name_files_outside(_app: Sphinx, docname: str, source: list[str]) -> None:
@@ -122,13 +121,6 @@ def leave_out_module_tables(
     borders = [index for index, line in enumerate(lines) if re.fullmatch(r"=+( +=+)+", line)]
     if len(borders) >= 3 and lines[borders[0] + 1].startswith("module"):
         del lines[borders[0] : borders[2] + 1]
-
-
-def leave_out_private_bases(
-    _app: Sphinx, _name: str, _obj: object, _options: object, bases: list[type]
-) -> None:
-    """Show only bases that a program can name."""
-    bases[:] = [base for base in bases if "plain" not in base.__module__] or [object]
 
 
 class LeaveBuiltinsAlone(SphinxTransform):
