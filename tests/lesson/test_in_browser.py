@@ -172,6 +172,28 @@ def test_an_endless_loop_is_stopped_and_the_tab_lives_on(open_page, where):
     wait_for_words(page, r"^turtle1 is 0\.\d+ m ahead")
 
 
+@pytest.mark.parametrize(
+    ("code", "sentence"),
+    [
+        ("import threading; threading.Thread(target=print).start()", "A tab has one thread"),
+        ("[0] * 10**10", "more than the memory of a tab"),
+        ("input('who? ')", "Nobody can type here"),
+        ("f = lambda: f(); f()", "calls itself again and again"),
+        ("import time; time.sleep(1e9)", "did not come to an end"),
+        ("while True: print('a line')", "did not come to an end"),
+        ("import os; os._exit(1)", "ended Python itself"),
+    ],
+)
+def test_code_that_does_harm_ends_in_a_sentence(offline_page, code, sentence):
+    page = offline_page
+    hand_in(page, "listener", listener_with("msg = Twist()", f"\n        {code}"))
+    page.wait_for_selector("#mistake:not([hidden])")
+    assert sentence in page.text_content("#mistake")
+    page.click("#reset")
+    page.wait_for_function("document.getElementById('status').textContent === 'running'")
+    wait_for_words(page, "^turtle1 is ")
+
+
 def test_code_that_swallows_the_interrupt_is_stopped_by_another_worker(open_page):
     page = open_page("listener")
     loop = (

@@ -15,6 +15,15 @@ const ENDLESS = {
   text: "The code was stopped: it did not come to an end.",
   hint: "A callback must return, and main() must reach rclpy.spin: use a timer instead of a loop.",
 };
+const BROKEN = [
+  [/call stack|recursion|stack overflow/i, "A function calls itself without an end.",
+    "Let it return before it calls itself again, or use a loop that ends."],
+  [/memory|allocat/i, "Python had no memory left.",
+    "Keep fewer or smaller objects: a tab has at most 2 to 4 GB."],
+  [/exit/i, "The code ended Python itself, and with it turtlesim and all nodes.",
+    "Let main() return instead: rclpy.shutdown ends the spinning."],
+  [/(?:)/, "The code brought Python down.", "It was started anew: press Run."],
+];
 const NARROW = matchMedia("(max-width: 760px)"); // as in style.css
 const byId = (id) => document.getElementById(id);
 
@@ -28,6 +37,14 @@ const faultOfOurs = (error) => ({
   text: error.message,
   hint: "This is a fault of the lesson, not of your code. Press Run to start again.",
 });
+
+/** Why Python was interrupted or started anew, as a mistake; nothing where it was not. */
+function reasonOf({ stopped, broken }) {
+  if (stopped) return ENDLESS;
+  if (!broken) return {};
+  const [, text, hint] = BROKEN.find(([pattern]) => pattern.test(broken));
+  return { text, hint };
+}
 
 class Page {
   #lessons;
@@ -64,7 +81,8 @@ class Page {
     return {
       onLog: (line) => this.#watch.log(line),
       onResult: (result) => this.#takeResult(result),
-      onRestart: () => status("loading", "starting Python anew …"),
+      onRestarted: () => this.#running || status("stopped", "stopped"),
+      onLost: showLost,
     };
   }
 
@@ -131,10 +149,10 @@ class Page {
   }
 
   /** Show the mistake of an answer; whether there is one. */
-  #failed({ mistake, stopped }) {
-    if (!mistake && !stopped) return false;
-    const shown = { file: "", line: 0, hint: "", ...mistake, ...(stopped ? ENDLESS : {}) };
-    status("stopped", "stopped");
+  #failed({ mistake, stopped, broken, restarted }) {
+    if (!mistake && !stopped && !broken) return false;
+    const shown = { file: "", line: 0, hint: "", ...mistake, ...reasonOf({ stopped, broken }) };
+    status("stopped", restarted ? "starting Python anew …" : "stopped");
     this.#editors.mark(shown);
     const where = shown.line ? `${shown.file}, line ${shown.line}: ` : "";
     const box = byId("mistake");
@@ -156,7 +174,9 @@ class Page {
     const request = { type: "grade", lesson: id, files: this.#editors.files };
     const answer = await this.#runtime.request(request);
     if (run !== this.#run) return;
-    if (answer.restarted) this.#grading.add({ check: "Came to an end", passed: false, ...ENDLESS });
+    if (answer.restarted) {
+      this.#grading.add({ check: "Came to an end", passed: false, ...reasonOf(answer) });
+    }
     const next = this.#lessons[this.#lessons.indexOf(this.#lesson) + 1];
     if (this.#grading.finish(next)) store.keepSolved(id);
     this.#listLessons();
@@ -235,7 +255,8 @@ async function main() {
   const runtime = new Runtime(filesForWorker(manifest.files), {
     onLog: (line) => page.handlers.onLog(line),
     onResult: (result) => page.handlers.onResult(result),
-    onRestart: () => page.handlers.onRestart(),
+    onRestarted: () => page.handlers.onRestarted(),
+    onLost: (error) => page.handlers.onLost(error),
   });
   page = new Page(lessons, runtime);
   page.show();
@@ -246,10 +267,14 @@ async function main() {
   document.body.dataset.loadedMs = Math.round(performance.now() - isLoading);
 }
 
-main().catch((error) => {
+function showLost(error) {
   byId("loading").hidden = false;
   byId("loading-text").textContent =
     `The lesson could not be loaded: ${error.message}. Check the network and load the page again.`;
   status("stopped", "not loaded");
+}
+
+main().catch((error) => {
+  showLost(error);
   throw error;
 });

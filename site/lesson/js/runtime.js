@@ -19,18 +19,25 @@ export class Runtime {
   #flag = null;
   #limit = LONGEST_MS;
   #queue = Promise.resolve();
+  #loaded = null;
 
   /**
    * `files`: the address, or the blob, of each file of the page by its path; `handlers`:
-   * onLog({stream, text}), onResult(result), onRestart() before Python is loaded anew.
+   * onLog({ lines }), onResult(result), onRestarted() after Python was loaded anew, onLost(error)
+   * if that failed.
    */
   constructor(files, handlers) {
     this.#load = { type: "load", files };
     this.#handlers = handlers;
   }
 
-  /** Load Python, or load it anew. */
-  async load() {
+  /** Load Python, or load it anew; requests wait until it is there. */
+  load() {
+    this.#loaded = this.#start();
+    return this.#loaded;
+  }
+
+  async #start() {
     this.#worker?.terminate();
     this.#worker = new Worker(addressOf("js/worker.js"));
     this.#worker.onmessage = ({ data }) => this.#take(data);
@@ -41,16 +48,21 @@ export class Runtime {
     this.#limit = Math.min(LONGEST_MS, Math.max(SHORTEST_MS, performance.now() - begin));
   }
 
-  /** Ask after all earlier requests are done. The answer has `stopped: true` if it was too slow. */
+  /**
+   * Ask after all earlier requests are done. The answer has `stopped: true` if it was too slow,
+   * `broken` with a text if the code brought Python down, and `restarted: true` if Python had to be
+   * started anew for one of them.
+   */
   request(message) {
-    const answer = this.#queue.then(() => this.#ask(message, this.#limit));
+    const answer = this.#queue.then(() => this.#loaded).then(() => this.#ask(message, this.#limit));
     this.#queue = answer.catch(() => {});
     return answer;
   }
 
   #ask(message, limit) {
     return new Promise((resolve, reject) => {
-      this.#pending = { resolve, reject, limit, interrupted: false };
+      const isLoad = message.type === "load";
+      this.#pending = { resolve, reject, limit, isLoad, interrupted: false };
       this.#expectLife();
       this.#worker.postMessage(message);
     });
@@ -68,7 +80,11 @@ export class Runtime {
 
   #finish(type, rest) {
     clearTimeout(this.#watch);
-    const { resolve, reject, interrupted } = this.#pending;
+    const { resolve, reject, isLoad, interrupted } = this.#pending;
+    if (type === "failed" && !isLoad) {
+      this.#restart({ broken: rest.text });
+      return;
+    }
     this.#pending = null;
     if (this.#flag) this.#flag[0] = 0;
     if (type === "failed") reject(new Error(rest.text));
@@ -86,14 +102,15 @@ export class Runtime {
       this.#pending.interrupted = true;
       this.#flag[0] = SIGINT;
       this.#watch = setTimeout(() => this.#stop(), MERCY_MS);
-    } else this.#restart();
+    } else if (this.#pending.isLoad) this.#take({ type: "failed", text: "Python did not start" });
+    else this.#restart({ stopped: true });
   }
 
-  async #restart() {
+  /** Start Python anew, and answer what was asked at once. */
+  #restart(answer) {
     const { resolve } = this.#pending;
     this.#pending = null;
-    this.#handlers.onRestart();
-    await this.load();
-    resolve({ stopped: true, restarted: true, texts: [], frame: null, mistake: null });
+    this.load().then(this.#handlers.onRestarted, this.#handlers.onLost);
+    resolve({ ...answer, restarted: true, texts: [], frame: null, mistake: null });
   }
 }

@@ -112,8 +112,8 @@ export class Watch {
     }
   }
 
-  log({ text }) {
-    this.#lines.push(text);
+  log({ lines }) {
+    this.#lines.push(...lines);
     if (this.#lines.length > 2 * MOST_LINES) this.#lines.splice(0, MOST_LINES);
     if (this.#isLogDue) return;
     this.#isLogDue = true; // once a frame, however many lines a loop prints

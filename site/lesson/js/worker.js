@@ -3,19 +3,36 @@
 
 // Pyodide takes this function for the sign of a worker that cannot import modules; ours can.
 globalThis.importScripts = undefined;
+
 const ARCHIVES = /^python\/.*\.(whl|zip)$/;
+const MOST_LINES = 300; // as many as the page shows
+const LOG_MS = 50;
 let python = null;
 let classroom = null;
 let session = null;
+let lines = []; // printed, and not told to the page yet
+let told = 0; // when the last lines were told
 
 const tell = (message, transfer = []) => postMessage(message, transfer);
+
+/** Tell the page what was printed, not too often: a loop prints faster than a page can listen. */
+function log(line) {
+  lines.push(line);
+  if (lines.length >= 2 * MOST_LINES) lines = lines.slice(-MOST_LINES);
+  if (performance.now() - told > LOG_MS) tellLines();
+}
+
+function tellLines() {
+  if (lines.length) tell({ type: "log", lines });
+  lines = [];
+  told = performance.now();
+}
 
 /** Load Pyodide and our Python code; `files`: the address, or the blob, of each by its path. */
 async function load({ files, interruptBuffer }) {
   const addressOf = (path) =>
     files[path] instanceof Blob ? URL.createObjectURL(files[path]) : files[path];
   const pyodide = (name) => addressOf(`vendor/pyodide/${name}`);
-  const output = (stream) => ({ batched: (text) => tell({ type: "log", stream, text }) });
   const { loadPyodide } = await import(pyodide("pyodide.mjs"));
   python = await loadPyodide({
     createPyodideModule: (await import(pyodide("pyodide.asm.mjs"))).default,
@@ -24,8 +41,9 @@ async function load({ files, interruptBuffer }) {
     // To this, Pyodide appends the name of the WebAssembly, which only lengthens the fragment.
     indexURL: `${pyodide("pyodide.asm.wasm")}#/`,
   });
-  python.setStdout(output("out"));
-  python.setStderr(output("error"));
+  python.setStdout({ batched: log });
+  python.setStderr({ batched: log });
+  python.setStdin({ stdin: () => null }); // nobody can type: the end of the input
   for (const path of Object.keys(files)) {
     const format = ARCHIVES.exec(path)?.[1];
     if (!format) continue;
@@ -78,8 +96,10 @@ const requests = {
 onmessage = async ({ data }) => {
   try {
     const answer = await requests[data.type](data);
+    tellLines();
     tell({ type: "answer", ...answer }, answer.frame ? [answer.frame] : []);
   } catch (error) {
+    tellLines();
     tell({ type: "failed", text: String(error.message ?? error) });
   }
 };

@@ -37,6 +37,17 @@ _HINTS = (
         "The lesson has rclpy, tf2_ros, turtlesim and the messages. NumPy is not loaded here.",
     ),
     (
+        r"recursion depth",
+        "The function calls itself again and again: let it return before, or use a loop that ends.",
+    ),
+    (
+        r"MemoryError|index-sized integer",
+        "That is more than the memory of a tab: keep fewer or smaller objects.",
+    ),
+    (r"EOFError", "Nobody can type here: a node gets values by parameters and topics."),
+    (r"start new thread", "A tab has one thread: use a timer instead, or a callback."),
+    (r"does not support processes", "A tab runs no other programs."),
+    (
         r"name '(\w+)' is not defined",
         "Import the name at the top of the file, or correct its spelling.",
     ),
