@@ -31,7 +31,7 @@ def setup(monkeypatch, tmp_path):
 def test_nothing_is_done_twice(setup):
     setup.main(["workspace"])
     ((_install, *words),) = setup.calls
-    assert words.count("-e") == 3
+    assert words.count("-e") == 4
     assert str(setup.ROOT) in words
     setup.main(["workspace"])
     setup.main([])
@@ -57,7 +57,7 @@ def test_changed_sources_are_installed_with_the_extras_there_are(setup, monkeypa
     monkeypatch.setattr(setup, "fingerprint", lambda: "other")
     setup.main([])
     assert f"{setup.ROOT / 'ros'}[workspace]" in setup.calls[1]
-    assert setup.calls[1].count("-e") == 3
+    assert setup.calls[1].count("-e") == 4
 
 
 def test_each_native_source_counts(setup, monkeypatch, tmp_path):
@@ -65,10 +65,10 @@ def test_each_native_source_counts(setup, monkeypatch, tmp_path):
     sources = sorted((setup.ROOT / "native").rglob("*.?pp"))
     folders = {path.parent.name for path in sources}
     assert folders >= {"bindings", "core", "cyclone", "tests"}
-    monkeypatch.setattr(setup, "ROOT", tmp_path)
-    monkeypatch.setattr(setup, "LEARNING", tmp_path / "learning")
-    (tmp_path / "learning").mkdir()
-    (tmp_path / "learning" / "package.xml").touch()
+    root = setup.ROOT
+    for name, path in vars(setup).copy().items():
+        if isinstance(path, Path) and path.is_relative_to(root):
+            monkeypatch.setattr(setup, name, tmp_path / path.relative_to(root))
     (tmp_path / "native").mkdir()
     for name in ("pyproject.toml", "native/CMakeLists.txt"):
         (tmp_path / name).touch()
