@@ -1,7 +1,8 @@
 // The heads of many arrows in one draw call: flat triangles that face the camera.
 
 import {
-  BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Mesh, ShaderMaterial,
+  BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Mesh, NoBlending, NormalBlending,
+  ShaderMaterial,
 } from "three";
 
 const CORNERS = [0, 0, 0, -1, -1, 0, -1, 1, 0];
@@ -9,7 +10,7 @@ const VERTEX = `
 attribute vec4 tip;
 attribute vec3 along;
 attribute vec4 color;
-varying vec4 vColor;
+flat varying vec4 vColor;
 void main() {
   vec3 end = (modelViewMatrix * vec4(tip.xyz, 1.0)).xyz;
   vec3 direction = normalize((modelViewMatrix * vec4(along, 0.0)).xyz);
@@ -18,12 +19,12 @@ void main() {
   side = dot(side, side) > 1e-12 ? normalize(side) : vec3(1.0, 0.0, 0.0);
   vec3 at = end + tip.w * (position.x * direction + 0.32 * position.y * side);
   gl_Position = projectionMatrix * vec4(at, 1.0);
+  if (color.a < 0.02) gl_Position = vec4(0.0);
   vColor = color;
 }`;
 const FRAGMENT = `
-varying vec4 vColor;
+flat varying vec4 vColor;
 void main() {
-  if (vColor.a < 0.02) discard;
   gl_FragColor = vColor;
 }`;
 
@@ -59,8 +60,9 @@ export class ArrowHeads {
     }
   }
 
-  /** Show the first `count` heads. */
-  show(count) {
+  /** Show the first `count` heads; `opaque` ones cover what is behind. */
+  show(count, { opaque = false } = {}) {
+    this.object.material.blending = opaque ? NoBlending : NormalBlending;
     this.object.geometry.setDrawRange(0, 3 * count);
     this.object.visible = count > 0;
     for (const attribute of [this.#tips, this.#directions, this.#colors]) {

@@ -14,8 +14,8 @@ export class FrameDrawing {
   /** Length of the axes [m]. */
   size = 0.2;
   show = { axes: true, arrows: true };
-  #axes = new ThickLines(2.5);
-  #shafts = new ThickLines(1.5);
+  #axes = new ThickLines(2.5, { plain: true });
+  #shafts = new ThickLines(1.5, { plain: true });
   #heads = new ArrowHeads();
   #path = new ThickLines(5, { onTop: true });
   #straight = new ThickLines(1.5, { onTop: true });
@@ -38,13 +38,14 @@ export class FrameDrawing {
     frames.ages.tick();
     const onPath = new Set(path);
     const dim = (k) => (path.length > 0 && !onPath.has(k) ? DIM : 1);
-    this.#drawAxes(frames, dim);
-    this.#drawArrows(frames, dim);
+    const opaque = path.length === 0 && !frames.ages.isFading;
+    this.#drawAxes(frames, dim, opaque);
+    this.#drawArrows(frames, dim, opaque);
     this.#drawPath(frames, path);
     this.#drawStraight(frames, path);
   }
 
-  #drawAxes(frames, dim) {
+  #drawAxes(frames, dim, opaque) {
     const { ends, colors } = this.#axes.reserve(3 * frames.count);
     const kinds = [this.#colors.x, this.#colors.y, this.#colors.z];
     const at = [0, 0, 0];
@@ -60,10 +61,10 @@ export class FrameDrawing {
       }
       count += 3;
     }
-    this.#axes.show(count);
+    this.#axes.show(count, { opaque });
   }
 
-  #drawArrows(frames, dim) {
+  #drawArrows(frames, dim, opaque) {
     const shafts = this.#shafts.reserve(frames.count);
     this.#heads.reserve(frames.count);
     const color = [0, 0, 0, 0];
@@ -88,8 +89,8 @@ export class FrameDrawing {
       this.#heads.set(count, to, head, [x, y, z], color);
       count += 1;
     }
-    this.#shafts.show(count);
-    this.#heads.show(count);
+    this.#shafts.show(count, { opaque });
+    this.#heads.show(count, { opaque });
   }
 
   #drawPath(frames, path) {

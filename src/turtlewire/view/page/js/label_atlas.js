@@ -1,6 +1,6 @@
 // Texts drawn once into one texture, each in a slot of its own.
 
-import { CanvasTexture, LinearFilter } from "three";
+import { CanvasTexture, LinearFilter, NearestFilter } from "three";
 
 export const SLOT_WIDTH = 240; // [CSS pixels]
 export const SLOT_HEIGHT = 24;
@@ -24,7 +24,9 @@ export class LabelAtlas {
     this.#ctx = canvas.getContext("2d");
     this.texture = new CanvasTexture(canvas);
     this.texture.generateMipmaps = false;
-    this.texture.minFilter = this.texture.magFilter = LinearFilter;
+    // Names stand on whole pixels, so at one to one the nearest texel is exact, and much cheaper.
+    const filter = ratio === 1 ? NearestFilter : LinearFilter;
+    this.texture.minFilter = this.texture.magFilter = filter;
     this.texture.premultiplyAlpha = true;
   }
 

@@ -37,9 +37,7 @@ uniform sampler2D atlas;
 varying vec2 vAt;
 varying float vAlpha;
 void main() {
-  vec4 color = texture2D(atlas, vAt);
-  if (color.a < 0.01) discard;
-  gl_FragColor = vec4(color.rgb, color.a) * vAlpha;
+  gl_FragColor = texture2D(atlas, vAt) * vAlpha;
 }`;
 
 export class Labels {

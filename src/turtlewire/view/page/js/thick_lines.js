@@ -4,7 +4,8 @@
 
 import {
   BufferAttribute, BufferGeometry, DynamicDrawUsage, Group, InterleavedBuffer,
-  InterleavedBufferAttribute, LineSegments, Mesh, ShaderMaterial, Vector2,
+  InterleavedBufferAttribute, LineSegments, Mesh, NoBlending, NormalBlending, ShaderMaterial,
+  Vector2,
 } from "three";
 
 const MOST_WIDE = 400; // segments, where a processor draws
@@ -46,13 +47,13 @@ void main() {
 }`;
 const THIN_VERTEX = `
 attribute vec4 color;
-varying vec4 vColor;
+INTERPOLATION varying vec4 vColor;
 void main() {
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
   vColor = color;
 }`;
 const THIN_FRAGMENT = `
-varying vec4 vColor;
+INTERPOLATION varying vec4 vColor;
 void main() {
   gl_FragColor = vColor;
 }`;
@@ -66,10 +67,13 @@ export class ThickLines {
   #ends = new Float32Array(0);
   #colors = new Uint8Array(0);
 
-  /** `width` [CSS pixels]; lines with `onTop` are seen through everything. */
-  constructor(width, { onTop = false } = {}) {
+  /**
+   * `width` [CSS pixels]; lines with `onTop` are seen through everything; those that are `plain`
+   * have the same colour at both ends, which a processor draws faster.
+   */
+  constructor(width, { onTop = false, plain = false } = {}) {
     this.#wide = wideMesh(width, !onTop);
-    this.#thin = thinLines(!onTop);
+    this.#thin = thinLines(!onTop, plain);
     for (const each of [this.#wide, this.#thin]) {
       each.frustumCulled = false;
       each.renderOrder = onTop ? 5 : 1;
@@ -92,9 +96,10 @@ export class ThickLines {
     return { ends: this.#ends, colors: this.#colors };
   }
 
-  /** Show the first `count` segments of what was reserved. */
-  show(count) {
+  /** Show the first `count` segments of what was reserved; `opaque` ones cover what is behind. */
+  show(count, { opaque = false } = {}) {
     const isThin = ThickLines.isSoftware && count > MOST_WIDE;
+    this.#thin.material.blending = opaque ? NoBlending : NormalBlending;
     this.#wide.visible = count > 0 && !isThin;
     this.#thin.visible = count > 0 && isThin;
     if (isThin) this.#showThin(count);
@@ -162,9 +167,10 @@ function wideMesh(width, depthTest) {
   return mesh;
 }
 
-function thinLines(depthTest) {
+function thinLines(depthTest, plain) {
   return new LineSegments(new BufferGeometry(), new ShaderMaterial({
     vertexShader: THIN_VERTEX, fragmentShader: THIN_FRAGMENT, transparent: true, depthTest,
+    defines: { INTERPOLATION: plain ? "flat" : "smooth" },
   }));
 }
 
