@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import gc
+import json
 import threading
+
+from tests.view.packets import decode_packet
+from websockets.sync.client import connect
 
 from turtlewire import msg
 from turtlewire.view import session
@@ -12,6 +16,7 @@ from turtlewire.wire.qos import QoS
 
 ROUNDS = 20
 PATH = "nav_msgs/msg/Path"
+IMAGE, OFFERED = "sensor_msgs/msg/Image", 60
 
 
 def living(kind):
@@ -57,3 +62,29 @@ def test_pages_displays_and_topics_that_come_and_go(robot, viewer, open_view_pag
     assert living(session.Session) == sessions
     assert threading.active_count() <= threads
     watcher.wait_for("topics", lambda p: not any("path_" in t["name"] for t in p["topics"]))
+
+
+def test_a_page_that_stops_reading_holds_up_nobody(robot, viewer, open_view_page):
+    """It is offered far more than any buffer holds, and sees the newest when it reads again."""
+    image = msg.get_message(IMAGE)(width=800, height=600, encoding="rgb8", step=2400)
+    image.header.frame_id, image.data = "map", bytes(800 * 600 * 3)
+    cdr = msg.serialize(image)
+    publisher = robot.publisher("/image", IMAGE, QoS())
+    watcher = open_view_page(viewer)
+    watcher.wait_for("topics", lambda p: "/image" in (t["name"] for t in p["topics"]))
+    add = {"type": "add", "id": "a", "kind": "image", "topic": "/image", "options": {}}
+    address = f"{viewer.url.replace('http', 'ws', 1)}live"
+    with connect(address, max_size=None, max_queue=1) as slow:
+        slow.send(json.dumps(add))
+        assert robot.wait_for(publisher.is_heard)
+        for number in range(OFFERED):
+            robot.send("map", "base", (number, 0, 0), 1_800_000_000 + number)
+            publisher.publish(cdr)
+            watcher.wait_for_places({"map": (0, 0, 0), "base": (number, 0, 0)})
+        pictures, place = 0, None
+        while place != OFFERED - 1:
+            packet = decode_packet(slow.recv(timeout=60))
+            pictures += packet["type"] == "display"
+            if packet["type"] == "frames" and len(packet["arrays"]["poses"]) == 2:
+                place = packet["arrays"]["poses"][1][0]
+    assert 0 < pictures < OFFERED / 2

@@ -25,16 +25,29 @@ module             what it holds
 `page_requests`    publish with a tool, save a view
 `rviz_file`        views of ``.rviz`` files
 `rviz_writing`     views as ``.rviz`` files
+`rviz_camera`      the camera of such files
 `rviz_options`     options of RViz's displays and of the page's
 `tools`            what Publish Point, 2D Pose Estimate and 2D Goal Pose publish
 `packets`          a JSON header and arrays as bytes
-=================  ===============================================================================
-"""
+=================  ========================================================================"""
 
 from __future__ import annotations
 
-from turtlewire.view.bag_source import BagSource
+from importlib import import_module
+from typing import TYPE_CHECKING
+
 from turtlewire.view.live import LiveSource
 from turtlewire.view.viewer import Viewer
 
+if TYPE_CHECKING:
+    from turtlewire.view.bag_source import BagSource
+
 __all__ = ["BagSource", "LiveSource", "Viewer"]
+
+
+def __getattr__(name: str) -> object:
+    """Load `BagSource` when it is used: readers of bags double the time until the first picture."""
+    if name != "BagSource":
+        raise AttributeError(f"module 'turtlewire.view' has no attribute {name!r}")
+    value = globals()[name] = import_module("turtlewire.view.bag_source").BagSource
+    return value

@@ -11,6 +11,7 @@ import { ThickLines } from "./thick_lines.js";
 /** A renderer without a graphics card: smoothed edges and fine pixels cost too much there. */
 const SOFTWARE = /SwiftShader|llvmpipe|softpipe|Basic Render/i;
 const MOST_PIXELS_PER_CSS = 2;
+const POWER = { powerPreference: "high-performance" };
 
 export class View {
   scene = new Scene();
@@ -31,17 +32,19 @@ export class View {
 
   /** Raises an Error when the browser cannot draw in 3D. */
   constructor(canvas) {
-    this.canvas = canvas;
     Object3D.DEFAULT_UP.set(0, 0, 1);
     this.camera.up.set(0, 0, 1);
-    this.isSoftware = SOFTWARE.test(rendererName());
+    const context = plainContext(canvas);
+    this.isSoftware = SOFTWARE.test(rendererName(context));
     ThickLines.isSoftware = this.isSoftware;
     document.documentElement.toggleAttribute("data-software", this.isSoftware);
-    const options = { canvas, antialias: !this.isSoftware, powerPreference: "high-performance" };
-    this.#renderer = new WebGLRenderer(options);
+    this.canvas = this.isSoftware ? canvas : withoutContext(canvas, context);
+    const options = this.isSoftware ? { context } : { antialias: true };
+    this.#renderer = new WebGLRenderer({ canvas: this.canvas, ...POWER, ...options });
     this.scene.add(new HemisphereLight(0xffffff, 0x8088a0, 1.6), this.#light, this.#light.target);
     this.scene.add(this.grid.object, this.displays);
-    new ResizeObserver(() => this.#resize()).observe(canvas.parentElement);
+    this.#listenForLoss();
+    new ResizeObserver(() => this.#resize()).observe(this.canvas.parentElement);
     this.#resize();
     this.#takeColors(this.colors);
     onSchemeChange((colors) => this.#takeColors(colors));
@@ -72,6 +75,12 @@ export class View {
     return { x: (at.x + 1) * width / 2, y: (1 - at.y) * height / 2, depth: at.z };
   }
 
+  /** How many geometries, textures and programs the graphics card holds. */
+  get held() {
+    const { memory, programs } = this.#renderer.info;
+    return { ...memory, programs: programs?.length ?? 0 };
+  }
+
   /** The picture as a PNG blob. */
   async picture() {
     this.draw(performance.now());
@@ -87,6 +96,19 @@ export class View {
     for (const act of this.#after) act(now);
   }
 
+  /** The browser may take the context, as when a graphics driver starts anew, and give it back. */
+  #listenForLoss() {
+    this.canvas.addEventListener("webglcontextlost", () => this.#tellLoss(true));
+    this.canvas.addEventListener("webglcontextrestored", () => {
+      this.#tellLoss(false);
+      this.requestDraw();
+    });
+  }
+
+  #tellLoss(isLost) {
+    for (const act of this.lost) act(isLost);
+  }
+
   #resize() {
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
     if (!width || !height) return;
@@ -100,6 +122,8 @@ export class View {
 
   /** Called with width and height [CSS pixels] when the canvas has another size. */
   resized = [];
+  /** Called with true when the browser has taken the picture, with false when it is back. */
+  lost = [];
   /** Called with the colours when the scheme changes. */
   recolored = [];
 
@@ -112,12 +136,24 @@ export class View {
   }
 }
 
-/** What draws, as the browser names it. */
-function rendererName() {
-  const context = document.createElement("canvas").getContext("webgl2");
+/** A context without smoothed edges; to make a second one takes a processor a tenth of a second. */
+function plainContext(canvas) {
+  const options = { ...POWER, alpha: false, antialias: false, stencil: false };
+  const context = canvas.getContext("webgl2", options);
   if (!context) throw new Error("This browser cannot draw in 3D: WebGL 2 is off or missing.");
+  return context;
+}
+
+/** What draws, as the browser names it. */
+function rendererName(context) {
   const info = context.getExtension("WEBGL_debug_renderer_info");
-  const name = context.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : context.RENDERER);
+  return String(context.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : context.RENDERER));
+}
+
+/** The same canvas, ready for another context. */
+function withoutContext(canvas, context) {
+  const fresh = canvas.cloneNode();
+  canvas.replaceWith(fresh);
   context.getExtension("WEBGL_lose_context")?.loseContext();
-  return String(name);
+  return fresh;
 }

@@ -1,0 +1,85 @@
+"""`turtlewire view` beside a robot that runs: from the command to the first picture with frames.
+
+The browser is open already (headless Chromium without a graphics card) and is told the address as
+soon as the command prints it. The first row is until the address is printed; the second until the
+page has drawn frames. The rival is a Python that imports numpy and ends.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import shutil
+import statistics
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from benchmarks.figures import Figure, Row
+from benchmarks.view_growth import robot
+from benchmarks.view_page import FLAGS
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+TITLE = "3D view: from the command to the first picture"
+ROUNDS = 5
+#: When the first picture with frames was drawn [ms since the epoch].
+DRAWN = """async () => {
+    const { frames, stage } = await import("./js/main.js");
+    return new Promise((done) => stage.view.afterDraw(() => {
+        if (frames.known.some((known) => known)) done(performance.timeOrigin + performance.now());
+    }));
+}"""
+
+
+def rows() -> Iterator[Row]:
+    from playwright.sync_api import sync_playwright
+
+    chromium = shutil.which("chromium")
+    if chromium is None:
+        return
+    told: list[float] = []
+    drawn: list[float] = []
+    python: list[float] = []
+    with robot(), sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=chromium, args=FLAGS)
+        for _ in range(ROUNDS):
+            python.append(time_of_python())
+            page = browser.new_page(viewport={"width": 1280, "height": 720})
+            for times, value in zip((told, drawn), time_of_view(page), strict=True):
+                times.append(value)
+            page.close()
+        browser.close()
+    rival = {"python, numpy": figure(python)}
+    yield Row("until the address is told", figure(told), rival)
+    yield Row("until frames are drawn", figure(drawn), rival, "<= 1 s")
+
+
+def figure(seconds: list[float]) -> Figure:
+    return Figure(1e9 * min(seconds), 1e9 * statistics.median(seconds))
+
+
+def time_of_python() -> float:
+    begin = time.monotonic()
+    subprocess.run([sys.executable, "-c", "import numpy"], check=True)
+    return time.monotonic() - begin
+
+
+def time_of_view(page: Any) -> tuple[float, float]:
+    """Seconds until the address is told, and until frames are drawn."""
+    command = [str(Path(sys.executable).with_name("turtlewire")), "view", "--port", "0"]
+    environment = {**os.environ, "TURTLEWIRE_BROWSER": "0"}
+    begin = time.time()
+    with contextlib.ExitStack() as stack:
+        view = stack.enter_context(
+            subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment)
+        )
+        stack.callback(view.terminate)
+        assert view.stdout is not None
+        url = next(word for word in view.stdout.readline().split() if word.startswith("http"))
+        told = time.time() - begin
+        page.goto(url, wait_until="commit")
+        return told, page.evaluate(DRAWN) / 1000 - begin

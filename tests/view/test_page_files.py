@@ -1,0 +1,43 @@
+"""What the page loads at its start."""
+
+from __future__ import annotations
+
+import re
+from importlib.resources import files
+from pathlib import Path
+
+PAGE = Path(str(files("turtlewire") / "view" / "page"))
+IMPORT = re.compile(r"^import\b[^;]*?from\s*\"([^\"]+)\"|\bfrom\"(\./[^\"]+)\"", re.MULTILINE)
+THREE = "vendor/three-0.185.1/"
+
+
+def imported(name: str) -> set[str]:
+    """What a module imports, as paths from the page."""
+    names = [a or b for a, b in IMPORT.findall((PAGE / name).read_text("utf-8"))]
+    known = {"three": THREE + "three.module.min.js"}
+    return {
+        known.get(each)
+        or (
+            each.replace("three/", THREE, 1)
+            if each.startswith("three/addons/")
+            else (PAGE / name)
+            .parent.joinpath(each)
+            .resolve()
+            .relative_to(PAGE.resolve())
+            .as_posix()
+        )
+        for each in names
+    }
+
+
+def test_the_page_names_all_its_modules_beforehand():
+    found, waiting = set(), ["js/main.js"]
+    while waiting:
+        name = waiting.pop()
+        new = imported(name) - found
+        found |= new
+        waiting += new
+    links = re.findall(
+        r'rel="modulepreload" href="([^"]+)"', (PAGE / "index.html").read_text("utf-8")
+    )
+    assert sorted(links) == sorted(found), "change the links in page/index.html"
