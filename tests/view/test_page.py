@@ -160,6 +160,167 @@ def test_a_tap_selects_and_a_finger_turns(fake, open_view):
     ) == ("none")
 
 
+def touch(session, kind, *points):
+    """A touch event with some fingers on the page."""
+    fingers = [{"x": x, "y": y, "id": number} for number, (x, y) in enumerate(points)]
+    session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": fingers})
+
+
+def two_fingers(page, before, after, steps=6):
+    """Two fingers from two places to two others, from the middle of the canvas [CSS pixels]."""
+    session = page.context.new_cdp_session(page)
+    box = page.locator("#scene").bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    for step in range(steps + 1):
+        share = step / steps
+        points = [
+            (x + a[0] + share * (b[0] - a[0]), y + a[1] + share * (b[1] - a[1]))
+            for a, b in zip(before, after, strict=True)
+        ]
+        touch(session, "touchMove" if step else "touchStart", *points)
+    touch(session, "touchEnd")
+    session.detach()
+
+
+def camera_of(page):
+    return in_page(page, "return stage.cameras.saved([0, 0, 0]);")
+
+
+@pytest.fixture
+def fresh(fake, open_view):
+    """The same frames, seen as the page itself chose."""
+    fake.names(CHAIN)
+    fake.frames(POSES)
+    page = open_view(fake.url)
+    page.wait_for_selector("#tree .row:has-text('beacon')")
+    return page
+
+
+@pytest.fixture
+def phone(fake, open_view):
+    fake.names(CHAIN)
+    fake.frames(POSES)
+    page = open_view(fake.url, has_touch=True, viewport={"width": 390, "height": 780})
+    page.wait_for_selector("#tree .row:has-text('arm')")
+    return page
+
+
+def test_two_fingers_come_nearer_and_move_the_picture(phone):
+    before = camera_of(phone)
+    two_fingers(phone, [(-40, 0), (40, 0)], [(-100, 0), (100, 0)])
+    nearer = camera_of(phone)
+    assert nearer["distance"] < 0.7 * before["distance"]
+    two_fingers(phone, [(-60, 0), (60, 0)], [(-60, 80), (60, 80)])
+    moved = camera_of(phone)
+    assert math.dist(moved["focus"], nearer["focus"]) > 0.1 * nearer["distance"]
+    assert moved["distance"] == pytest.approx(nearer["distance"], rel=0.1)
+
+
+def test_a_finger_turns_the_picture(phone):
+    before = camera_of(phone)
+    session = phone.context.new_cdp_session(phone)
+    box = phone.locator("#scene").bounding_box()
+    x, y = box["x"] + 40, box["y"] + box["height"] / 2
+    touch(session, "touchStart", (x, y))
+    for step in range(1, 6):
+        touch(session, "touchMove", (x + 20 * step, y))
+    touch(session, "touchEnd")
+    assert abs(camera_of(phone)["yaw"] - before["yaw"]) > 0.2
+
+
+def test_a_robot_that_drives_away_stays_in_the_picture(fresh, fake):
+    far = [IDENTITY, *(pose(x + 4000, y, z) for x, y, z, *_ in POSES[1:])]
+    inside = """async (place) => {
+        const { stage } = await import("./js/main.js");
+        const { Vector3 } = await import("three");
+        const at = stage.view.project(new Vector3(...place));
+        const { width, height } = stage.view.viewport;
+        return at && at.x > 0 && at.x < width && at.y > 0 && at.y < height;
+    }"""
+    for _ in range(3000):  # the page looks ten times a second where the frames are
+        if fresh.evaluate(inside, list(far[1][:3])):
+            break
+        fake.frames(far)
+    assert fresh.evaluate(inside, list(far[1][:3]))
+
+
+def test_fit_shows_displays_too(page, fake):
+    body = """
+        const three = await import("three");
+        const box = new three.Mesh(new three.BoxGeometry(2, 2, 2));
+        box.position.set(200, 0, 0);
+        stage.view.displays.add(box);
+        document.getElementById("fit").click();
+        const at = stage.view.project(new three.Vector3(200, 0, 0));
+        return at && at.x > 0 && at.x < stage.view.viewport.width;
+    """
+    assert in_page(page, body)
+
+
+def test_the_picture_comes_back_after_the_browser_took_it(page):
+    assert tuple(page.evaluate(PIXELS, [[0, 0, 0]])[0]) != GROUND
+    in_page(page, "globalThis.gl = stage.view.canvas.getContext('webgl2')"
+                  ".getExtension('WEBGL_lose_context'); gl.loseContext();")  # fmt: skip
+    page.wait_for_selector("#notice:text('taken the picture away')")
+    page.evaluate("gl.restoreContext()")
+    page.wait_for_selector("#notice", state="hidden")
+    (red, green, blue), ground = page.evaluate(PIXELS, [[1.5, 0, 0], [1, 2.5, 2.5]])
+    assert min(red, green) - blue > 60  # the shaft of an arrow
+    assert tuple(ground) == GROUND
+
+
+NAMED_AS_A_CARD = """
+const ask = WebGL2RenderingContext.prototype.getParameter;
+WebGL2RenderingContext.prototype.getParameter = function (what) {
+    return what === 0x9246 || what === this.RENDERER ? "A fine card" : ask.call(this, what);
+};
+"""
+
+
+@pytest.mark.parametrize(("script", "smooth"), [("", False), (NAMED_AS_A_CARD, True)])
+def test_edges_are_smoothed_where_a_card_draws(fake, open_view, script, smooth):
+    fake.names(CHAIN)
+    fake.frames(POSES)
+    page = open_view(fake.url, script)
+    page.wait_for_selector("#tree .row:has-text('beacon')")
+    attributes = "stage.view.canvas.getContext('webgl2').getContextAttributes().antialias"
+    assert in_page(page, f"return {attributes};") is smooth
+    assert in_page(page, "return stage.view.canvas === document.querySelector('#scene');")
+    assert tuple(page.evaluate(PIXELS, [[1.5, 0, 0]])[0]) != GROUND
+
+
+def test_without_webgl_the_tree_works(fake, open_view):
+    fake.names(CHAIN)
+    fake.frames(POSES)
+    blind = "HTMLCanvasElement.prototype.getContext = () => null;"
+    page = open_view(fake.url, blind)
+    page.wait_for_selector("#notice:text('cannot draw in 3D')")
+    page.click("#tree .row:has-text('arm')")
+    fake.wait_for(lambda c: c["type"] == "relation" and c.get("source") == "arm")
+
+
+def test_a_saved_camera_is_looked_through_again(fresh, fake):
+    camera = {"kind": "orbit", "frame": "", "focus": [1.0, 2.0, 0.5]}
+    angles = {"distance": 7.0, "yaw": 0.4, "pitch": 0.6, "scale": None}
+    view = {"type": "view", "fixed": "", "displays": [], "show": {}, "text": ""}
+    fake.tell({**view, "camera": camera | angles})
+    fresh.wait_for_function(
+        "async () => (await import('./js/main.js')).stage.cameras.isTouched", polling=50
+    )
+    saved = camera_of(fresh)
+    assert saved["focus"] == pytest.approx(camera["focus"])
+    assert [saved[word] for word in angles] == [*map(pytest.approx, [7.0, 0.4, 0.6]), None]
+    fake.tell({**view, "camera": camera | angles | {"kind": "top", "scale": 40.0}})
+    fresh.wait_for_selector("#top[aria-pressed=true]")
+    assert camera_of(fresh)["scale"] == pytest.approx(40.0)
+    with fresh.expect_download():
+        fresh.click("#looks summary")
+        fresh.click("#save-view")
+        sent = fake.wait_for(lambda c: c["type"] == "save")
+        fake.tell({"type": "saved", "text": "a: 1"})
+    assert sent["camera"]["kind"] == "top"
+
+
 def test_dragging_selects_nothing(page, fake):
     before = on_screen(page, POSES[2][:3])
     page.mouse.move(before[0] + 30, before[1] + 120)

@@ -312,3 +312,53 @@ def test_any_options_are_saved(options):
     assert read_rviz(text).displays[0].kind == "odometry"
     with pytest.raises(RequestError, match="must have the texts"):
         text_of_view({"displays": [{"kind": 1}], "show": {}, "fixed": ""}, {})
+
+
+def file_with(current):
+    manager = {"Displays": [], "Views": {"Current": current}}
+    return yaml.safe_dump({"Visualization Manager": manager})
+
+
+def test_the_camera_of_a_file():
+    orbit = {"Class": "rviz_default_plugins/Orbit", "Distance": 4.5, "Yaw": 1.5, "Pitch": 0.3,
+             "Focal Point": {"X": 1, "Y": 2, "Z": 3}, "Target Frame": "base_link"}  # fmt: skip
+    camera = read_rviz(file_with(orbit)).camera
+    assert camera == {"kind": "orbit", "frame": "base_link", "focus": [1.0, 2.0, 3.0],
+                      "distance": 4.5, "yaw": 1.5, "pitch": 0.3, "scale": None}  # fmt: skip
+    top = {"Class": "rviz_default_plugins/TopDownOrtho", "Scale": 50, "X": 3, "Y": -1,
+           "Target Frame": "<Fixed Frame>"}  # fmt: skip
+    camera = read_rviz(file_with(top)).camera
+    assert (camera["kind"], camera["frame"], camera["focus"]) == ("top", "", [3.0, -1.0, 0.0])
+    assert camera["scale"] == 50
+
+
+@pytest.mark.parametrize(
+    "current",
+    [None, [], "Orbit", {"Class": "rviz_default_plugins/FPS", "Yaw": 1},
+     {"Class": "rviz_default_plugins/Orbit", "Name": "Current View"}],
+)  # fmt: skip
+def test_a_file_without_a_camera_of_ours(current):
+    assert read_rviz(file_with(current)).camera is None
+
+
+@given(
+    kind=st.sampled_from(["orbit", "top"]),
+    frame=st.sampled_from(["", "base_link"]),
+    numbers=st.lists(st.floats(-100, 100), min_size=4, max_size=4),
+    distance=st.floats(0.01, 1000),
+)
+def test_cameras_that_are_written_are_read_again(kind, frame, numbers, distance):
+    x, y, yaw, pitch = numbers
+    top = kind == "top"
+    camera = {"kind": kind, "frame": frame, "focus": [x, y, 0.0 if top else 1.0]}
+    camera |= {"distance": distance, "yaw": yaw, "pitch": pitch, "scale": 20.0 if top else None}
+    command = {"fixed": "map", "displays": [], "show": {}, "camera": camera}
+    again = read_rviz(text_of_view(command, {})).camera
+    words = ["kind", "frame", "focus", "scale"] if top else list(camera)
+    assert {word: again[word] for word in words} == {word: camera[word] for word in words}
+
+
+@pytest.mark.parametrize("camera", [None, 5, {}, {"kind": "orbit", "frame": 3}, {"kind": "x"}])
+def test_a_camera_that_makes_no_sense_is_not_saved(camera):
+    command = {"fixed": "map", "displays": [], "show": {}, "camera": camera}
+    assert read_rviz(text_of_view(command, {})).camera is None

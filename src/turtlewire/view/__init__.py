@@ -29,7 +29,8 @@ module             what it holds
 `rviz_options`     options of RViz's displays and of the page's
 `tools`            what Publish Point, 2D Pose Estimate and 2D Goal Pose publish
 `packets`          a JSON header and arrays as bytes
-=================  ========================================================================"""
+=================  ========================================================================
+"""
 
 from __future__ import annotations
 

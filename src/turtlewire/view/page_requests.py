@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from turtlewire.view.rviz_camera import is_camera
 from turtlewire.view.rviz_file import SavedDisplay, SavedView
 from turtlewire.view.rviz_writing import write_rviz
 from turtlewire.view.tools import tool_message
@@ -57,7 +58,8 @@ def text_of_view(
     """The ``.rviz`` file that a ``save`` command asks for.
 
     Args:
-        command: ``fixed``, ``displays`` and ``show`` as in the ``view`` packet.
+        command: ``fixed``, ``displays``, ``show`` and ``camera`` as in the ``view`` packet; a
+            camera that is none is left out.
         types: Message types by topic.
         former: The view that was loaded before, see :func:`write_rviz`.
 
@@ -71,7 +73,9 @@ def text_of_view(
     if former is None:
         saved = tuple(replace(each, place=None) for each in saved)
     switches = {name: show.get(name) is not False for name in _SWITCHES}
-    return write_rviz(SavedView(fixed, saved, switches), types, former)
+    camera = command.get("camera")
+    view = SavedView(fixed, saved, switches, camera=camera if is_camera(camera) else None)
+    return write_rviz(view, types, former)
 
 
 def _display_of(entry: object) -> SavedDisplay:

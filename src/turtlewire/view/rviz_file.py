@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.printable import printable
+from turtlewire.view.rviz_camera import Camera, camera_from
 from turtlewire.view.rviz_options import CLASSES, from_rviz
 
 if TYPE_CHECKING:
@@ -70,6 +71,7 @@ class SavedView:
         unread: One line of what the page has not and what it refused, or the empty text.
         document: The whole content of the file.
         token: Names the file when it is written again.
+        camera: How it is looked at; None for the page's own choice.
     """
 
     fixed: str
@@ -78,6 +80,7 @@ class SavedView:
     unread: str = ""
     document: dict[str, Any] = field(default_factory=dict, compare=False)
     token: str = ""
+    camera: Camera | None = None
 
     def header(self) -> dict[str, Any]:
         """The packet that tells the page."""
@@ -98,6 +101,7 @@ class SavedView:
             "show": self.show,
             "text": self.unread,
             "document": self.token,
+            "camera": self.camera,
         }
 
 
@@ -151,7 +155,8 @@ def read_rviz(text: str) -> SavedView:
     token = hashlib.sha256(text.encode(errors="replace")).hexdigest()[:16]
     unread = _unread(others, refused)
     fixed_frame = str(fixed) if own else ""
-    return SavedView(fixed_frame, tuple(displays), show, unread, content, token)
+    camera = camera_from(manager.get("Views"))
+    return SavedView(fixed_frame, tuple(displays), show, unread, content, token, camera)
 
 
 def _parsed(text: str) -> dict[str, Any]:

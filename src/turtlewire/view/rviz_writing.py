@@ -5,6 +5,7 @@ from __future__ import annotations
 from copy import deepcopy
 from typing import TYPE_CHECKING, Any
 
+from turtlewire.view.rviz_camera import camera_properties
 from turtlewire.view.rviz_file import (
     SWITCHES,
     SavedDisplay,
@@ -16,6 +17,8 @@ from turtlewire.view.rviz_options import CLASSES, class_for, to_rviz
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+    from turtlewire.view.rviz_camera import Camera
 
 __all__ = ["write_rviz"]
 
@@ -29,8 +32,8 @@ def write_rviz(view: SavedView, types: Mapping[str, str], former: SavedView | No
     Args:
         view: What to save.
         types: Message types by topic: they decide which of RViz's displays shows the topic.
-        former: The view that was read before. Its displays that the page does not have, its camera,
-            its panels, the QoS of its topics and further properties stay.
+        former: The view that was read before. Its displays that the page does not have, its panels,
+            its camera if the view says none, the QoS of its topics and further properties stay.
     """
     import yaml
 
@@ -39,6 +42,8 @@ def write_rviz(view: SavedView, types: Mapping[str, str], former: SavedView | No
     options = manager.get("Global Options")
     manager["Global Options"] = options = options if isinstance(options, dict) else {}
     options["Fixed Frame"] = view.fixed or options.get("Fixed Frame") or "map"
+    if view.camera is not None and (former is None or view.camera != former.camera):
+        manager["Views"] = _looked_at(manager.get("Views"), view.camera)
     at_place = {each.place: each for each in view.displays if each.place is not None}
     seen, gone = set(), list[int]()
     for place, properties in numbered_displays(manager):
@@ -72,6 +77,15 @@ def _new_file() -> dict[str, Any]:
     }
     panels = [{"Class": "rviz_common/Displays", "Name": "Displays"}]
     return {"Panels": panels, "Visualization Manager": manager}
+
+
+def _looked_at(views: object, camera: Camera) -> dict[str, Any]:
+    """The value of ``Views`` with this camera; a former one of its kind keeps other properties."""
+    kept = views if isinstance(views, dict) else {"Saved": None}
+    former, ours = kept.get("Current"), camera_properties(camera)
+    if isinstance(former, dict) and former.get("Class") == ours["Class"]:
+        ours = former | ours
+    return kept | {"Current": ours}
 
 
 def _entry(display: SavedDisplay, types: Mapping[str, str]) -> dict[str, Any] | None:

@@ -21,6 +21,7 @@ export class Cameras {
   #controls = {};
   #height = 10; // of what the camera from above sees [m]
   #former = null;
+  #focus = new Vector3(); // what is looked at, from the followed frame
 
   /** `onChange()`: the user chose another frame or kind. */
   constructor(view, onChange = () => {}) {
@@ -65,10 +66,11 @@ export class Cameras {
     for (const controls of Object.values(this.#controls)) controls.update();
   }
 
-  /** Keep a frame where it is on the screen; "" ends it. */
-  follow(name) {
+  /** Keep a frame where it is on the screen, `focus` from the middle; "" ends it. */
+  follow(name, focus = new Vector3()) {
     this.followed = name;
     this.#former = null;
+    this.#focus = focus;
     this.#onChange();
   }
 
@@ -78,8 +80,52 @@ export class Cameras {
     if (!pose || !pose.slice(0, 3).every(Number.isFinite)) return;
     const at = new Vector3(...pose);
     const target = this.#controls[this.kind].target;
-    this.#shift(this.#former ? at.clone().sub(this.#former) : at.clone().sub(target));
+    const first = at.clone().add(this.#focus).sub(target);
+    this.#shift(this.#former ? at.clone().sub(this.#former) : first);
     this.#former = at;
+  }
+
+  /** Look at another place from the same side. */
+  move(by) {
+    this.#shift(by);
+  }
+
+  /**
+   * How it is looked now, as a view is saved: `kind`, `frame` that is followed or "", `focus` in
+   * it or in the fixed frame [m], `distance` [m], `yaw` and `pitch` [rad], `scale` [pixels/m].
+   */
+  saved(origin) {
+    const { target } = this.#controls[this.kind];
+    const eye = this.#cameras.orbit.position.clone().sub(this.#controls.orbit.target);
+    const distance = eye.length();
+    const start = this.followed ? this.#former ?? target : new Vector3(...origin).negate();
+    return {
+      kind: this.kind, frame: this.followed, focus: target.clone().sub(start).toArray(), distance,
+      yaw: Math.atan2(eye.y, eye.x), pitch: Math.asin(eye.z / distance),
+      scale: this.kind === "top" ? this.pixelsPerMetre : null,
+    };
+  }
+
+  /** Look as a saved view says. */
+  restore({ kind, frame, focus, distance, yaw, pitch, scale }, origin) {
+    this.isTouched = true;
+    const middle = new Vector3(...focus);
+    if (!frame) middle.sub(new Vector3(...origin));
+    const { orbit, top } = this.#controls;
+    for (const { target } of [orbit, top]) target.copy(middle);
+    const flat = Math.cos(pitch) * distance;
+    const eye = new Vector3(Math.cos(yaw) * flat, Math.sin(yaw) * flat, Math.sin(pitch) * distance);
+    this.#cameras.orbit.position.copy(middle).add(eye);
+    this.#cameras.orbit.near = Math.max(0.001, distance / 500);
+    this.#cameras.orbit.far = 200 * distance;
+    this.#cameras.top.position.set(middle.x, middle.y, middle.z + 5000);
+    this.#cameras.top.zoom = 1;
+    if (scale) this.#height = this.#view.viewport.height / scale;
+    this.choose(kind);
+    orbit.update();
+    top.update();
+    this.follow(frame, frame ? new Vector3(...focus) : new Vector3());
+    this.#view.requestDraw();
   }
 
   /** Pixels that a metre at the middle has on the screen. */

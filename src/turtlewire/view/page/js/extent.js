@@ -1,23 +1,69 @@
 // How large the scene is, and which sizes fit it.
 
-import { Vector3 } from "three";
+import { Box3, Vector3 } from "three";
 
-/** Middle and radius [m] of all shown frames; null when there is none. */
-export function extentOf(frames) {
-  const low = [Infinity, Infinity, Infinity];
-  const high = [-Infinity, -Infinity, -Infinity];
-  const at = [0, 0, 0];
+const APART = 30; // times as far from the middle as most frames are: not looked at first
+const FARTHEST = 1e7; // [m]
+
+/** Middle and radius [m] of all shown frames, and of what is visible below `displays`; or null. */
+export function extentOf(frames, displays = null) {
+  const box = new Box3().setFromPoints(placesOf(frames));
+  if (displays) addObjects(displays, box);
+  return box.isEmpty() ? null : { ...roundOf(box), isApart: false };
+}
+
+/**
+ * As `extentOf`, without the few frames that are very far from all others, as a map's origin may
+ * be from its robot; `isApart` says whether there are such frames.
+ */
+export function crowdOf(frames) {
+  const places = placesOf(frames);
+  if (!places.length) return null;
+  const middle = new Vector3(...["x", "y", "z"].map((axis) => median(places.map((at) => at[axis]))));
+  const away = places.map((place) => place.distanceTo(middle));
+  const limit = Math.max(0.1, APART * [...away].sort((a, b) => a - b)[Math.floor(0.7 * away.length)]);
+  const near = places.filter((_, k) => away[k] <= limit);
+  return { ...roundOf(new Box3().setFromPoints(near)), isApart: near.length < places.length };
+}
+
+function placesOf(frames) {
+  const found = [];
   for (let k = 0; k < frames.count; k += 1) {
-    if (!frames.isShown(k)) continue;
-    frames.position(k, at);
-    for (let i = 0; i < 3; i += 1) {
-      low[i] = Math.min(low[i], at[i]);
-      high[i] = Math.max(high[i], at[i]);
-    }
+    if (frames.isShown(k)) found.push(new Vector3(...frames.position(k)));
   }
-  if (!Number.isFinite(low[0])) return null;
-  const middle = new Vector3(...low.map((value, i) => (value + high[i]) / 2));
-  return { middle, radius: Math.max(0.1, new Vector3(...high).sub(middle).length()) };
+  return found;
+}
+
+function roundOf(box) {
+  const middle = box.getCenter(new Vector3());
+  return { middle, radius: Math.max(0.1, middle.distanceTo(box.max)) };
+}
+
+function median(values) {
+  return values.sort((a, b) => a - b)[values.length >> 1];
+}
+
+/** Let a box hold all that is visible below an object. */
+function addObjects(object, box) {
+  if (!object.visible) return;
+  if (object.geometry) {
+    object.updateWorldMatrix(true, false);
+    const own = boxOf(object).clone().applyMatrix4(object.matrixWorld);
+    const ends = [...own.min, ...own.max];
+    if (ends.every((value) => Math.abs(value) < FARTHEST)) box.union(own);
+  }
+  for (const child of object.children) addObjects(child, box);
+}
+
+function boxOf(object) {
+  const { start, end } = object.geometry.attributes;
+  if (start && end) { // ribbons: their positions are corners of each segment
+    const ends = [start, end].map((places) => new Box3().setFromBufferAttribute(places));
+    return ends[0].union(ends[1]);
+  }
+  const holder = object.isInstancedMesh ? object : object.geometry;
+  holder.computeBoundingBox();
+  return holder.boundingBox;
 }
 
 /** Length of the axes [m] for a scene of that radius: a part of a usual link, but never tiny. */

@@ -143,6 +143,7 @@ async function takeView(packet) {
   if (packet.text) notice(packet.text, "warn");
   applySwitches(packet.show);
   if (packet.fixed) chooseFixed(packet.fixed);
+  if (packet.camera) stage?.cameras.restore(packet.camera, frames.origin);
   for (const { id } of displays.list) displays.remove(id);
   for (const display of packet.displays ?? []) await displays.add(display);
 }
@@ -219,11 +220,15 @@ addEventListener("keydown", (event) => {
   event.preventDefault();
   act();
 });
-listenForFiles(() => {
-  const fixed = chosenFixed || frames.fixed;
-  return { fixed, displays: displays.list, document: loadedDocument };
-}, send, (text) => notice(text, "error"));
+listenForFiles(() => ({
+  fixed: chosenFixed || frames.fixed,
+  displays: displays.list,
+  document: loadedDocument,
+  camera: stage?.cameras.isTouched ? stage.cameras.saved(frames.origin) : null,
+}), send, (text) => notice(text, "error"));
 if (stage) {
+  const loss = "The browser has taken the picture away. The tree and the numbers go on.";
+  stage.view.lost.push((isLost) => notice(isLost ? loss : "", "error", false));
   stage.view.afterDraw((now) => {
     if (!displays.list.some(({ visible }) => visible)) return;
     requestAnimationFrame((next) => budget.take(next - now));

@@ -1,13 +1,14 @@
 // The frames in the picture: drawing, names, trails, cameras and pointer work together here.
 
 import { Cameras } from "./cameras.js";
-import { cellFor, extentOf, sizeFor } from "./extent.js";
+import { cellFor, crowdOf, extentOf, sizeFor } from "./extent.js";
 import { FrameDrawing } from "./frame_drawing.js";
 import { Labels } from "./labels.js";
 import { Picking } from "./picking.js";
 import { Trails } from "./trails.js";
 
 const FADING_MS = 150;
+const KEEP_MS = 100; // between two looks whether the frames are still in view
 const SETTLE_MS = 300; // names are chosen anew when a movement has ended
 
 export class Stage {
@@ -24,6 +25,8 @@ export class Stage {
   #settling = null;
   #fading = null;
   #fitted = -1;
+  #seen = null; // middle and radius that the cameras look at by themselves
+  #lookedAt = 0;
   #fixed = "";
   #sizeIsChosen = false;
   #onLook;
@@ -70,7 +73,7 @@ export class Stage {
   /** After a `frames` packet. */
   takePoses() {
     const frames = this.#frames;
-    if (this.#fitted !== frames.version && !this.cameras.isTouched) this.fit();
+    if (!this.cameras.isTouched && !this.cameras.followed) this.#keepInView();
     this.#fitted = frames.version;
     this.cameras.take(frames);
     this.trails.take(frames);
@@ -95,15 +98,10 @@ export class Stage {
     this.view.requestDraw();
   }
 
-  /** Show everything, with sizes that fit. */
+  /** Show everything, displays too, with sizes that fit. From then on the camera is the user's. */
   fit() {
-    const extent = extentOf(this.#frames);
-    if (!extent) return;
-    if (!this.#sizeIsChosen) this.drawing.size = sizeFor(this.#frames, extent.radius);
-    this.view.grid.setCell(cellFor(extent.radius));
-    this.cameras.look(extent.middle, extent.radius + this.drawing.size);
-    this.change();
-    this.#onLook();
+    this.cameras.isTouched = true;
+    this.#look(extentOf(this.#frames, this.view.displays));
   }
 
   /** Length of the axes, chosen by the user [m]. */
@@ -111,6 +109,34 @@ export class Stage {
     this.#sizeIsChosen = true;
     this.drawing.size = metres;
     this.change();
+  }
+
+  /** Until the user takes the camera, it shows the frames, also when they move away. */
+  #keepInView() {
+    const now = performance.now();
+    const isNew = this.#fitted !== this.#frames.version;
+    if (!isNew && now - this.#lookedAt < KEEP_MS) return;
+    this.#lookedAt = now;
+    const extent = crowdOf(this.#frames);
+    const seen = this.#seen;
+    if (!extent) return;
+    const moved = seen ? extent.middle.clone().sub(seen.middle) : null;
+    if (isNew || !seen || extent.radius > 1.5 * seen.radius) {
+      this.#look(extent);
+      this.#seen = extent;
+    } else if (extent.isApart || moved.length() > 0.6 * seen.radius) {
+      this.cameras.move(moved);
+      seen.middle = extent.middle;
+    }
+  }
+
+  #look(extent) {
+    if (!extent) return;
+    if (!this.#sizeIsChosen) this.drawing.size = sizeFor(this.#frames, extent.radius);
+    this.view.grid.setCell(cellFor(extent.radius));
+    this.cameras.look(extent.middle, extent.radius + this.drawing.size);
+    this.change();
+    this.#onLook();
   }
 
   #prepare(now) {

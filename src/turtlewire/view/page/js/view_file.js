@@ -6,15 +6,15 @@ import { save } from "./looks.js";
 const SWITCHES = ["names", "axes", "arrows", "grid"];
 const LARGEST_FILE = 60_000; // bytes of a command that the server takes
 
-/** Wire the buttons. `view()` is { fixed, displays, document }; `say(text)` tells the user. */
+/** Wire the buttons. `view()` is { fixed, displays, document, camera }; `say(text)` tells the user. */
 export function listenForFiles(view, send, say) {
   byId("save-view").onclick = () => {
-    const { displays: list, document } = view();
+    const { fixed, displays: list, document, camera } = view();
     const displays = list.map(({ kind, topic, options, visible, place }) => {
       return { kind, topic, options, visible, place };
     });
     const show = Object.fromEntries(SWITCHES.map((name) => [name, byId(`show-${name}`).checked]));
-    send({ type: "save", fixed: view().fixed, document, displays, show });
+    send({ type: "save", fixed, document, displays, show, camera });
   };
   byId("load-view").onclick = () => byId("view-file").click();
   byId("view-file").onchange = async ({ target }) => {
