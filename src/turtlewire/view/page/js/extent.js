@@ -19,9 +19,11 @@ export function extentOf(frames, displays = null) {
 export function crowdOf(frames) {
   const places = placesOf(frames);
   if (!places.length) return null;
-  const middle = new Vector3(...["x", "y", "z"].map((axis) => median(places.map((at) => at[axis]))));
+  const along = (axis) => median(places.map((at) => at[axis]));
+  const middle = new Vector3(along("x"), along("y"), along("z"));
   const away = places.map((place) => place.distanceTo(middle));
-  const limit = Math.max(0.1, APART * [...away].sort((a, b) => a - b)[Math.floor(0.7 * away.length)]);
+  const most = [...away].sort((a, b) => a - b)[Math.floor(0.7 * away.length)];
+  const limit = Math.max(0.1, APART * most);
   const near = places.filter((_, k) => away[k] <= limit);
   return { ...roundOf(new Box3().setFromPoints(near)), isApart: near.length < places.length };
 }

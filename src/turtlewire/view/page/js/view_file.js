@@ -6,7 +6,9 @@ import { save } from "./looks.js";
 const SWITCHES = ["names", "axes", "arrows", "grid"];
 const LARGEST_FILE = 60_000; // bytes of a command that the server takes
 
-/** Wire the buttons. `view()` is { fixed, displays, document, camera }; `say(text)` tells the user. */
+/**
+ * Wire the buttons. `view()` is { fixed, displays, document, camera }; `say(text)` tells the user.
+ */
 export function listenForFiles(view, send, say) {
   byId("save-view").onclick = () => {
     const { fixed, displays: list, document, camera } = view();
