@@ -126,7 +126,7 @@ def test_a_view_is_saved_and_loaded(scene, tmp_path):
     file = tmp_path / "view.rviz"
     download.value.save_as(file)
     saved = yaml.safe_load(file.read_text())["Visualization Manager"]
-    (shown,) = [each for each in saved["Displays"] if each["Name"] == "Path"]
+    (shown,) = [each for each in saved["Displays"] if each.get("Name") == "Path"]
     assert shown["Class"] == "rviz_default_plugins/Path"
     assert (shown["Color"], shown["Line Width"]) == ("255; 0; 0", 0.2)
     scene.page.evaluate(REMOVE_ALL)
