@@ -1,16 +1,19 @@
 """The classroom: what `turtlewire class` does.
 
-============  ==================================================================
-module        what it holds
-============  ==================================================================
-`errors`      what keeps a command from running
-`catalogue`   the exercises: the lessons of the browser tab, and more
-`child`       one exercise of one student, in a process of its own
-`supervise`   a script that ends a process and all that it started
-`runner`      starts a child with limits and reads its results
-`grading`     all exercises of all students, several at a time
-`junit`       results as JUnit XML
-`pages`       results as pages without JavaScript
-`commands`    the verbs that write reports and hand out files
-============  ==================================================================
+==============  ================================================================
+module          what it holds
+==============  ================================================================
+`errors`        what keeps a command from running
+`catalogue`     the exercises: the lessons of the browser tab, and more
+`child`         one exercise of one student, in a process of its own
+`supervise`     a script that ends a process and all that it started
+`runner`        starts a child with limits and reads its results
+`grading`       all exercises of all students, several at a time
+`junit`         results as JUnit XML
+`pages`         results as pages without JavaScript
+`roster`        who is in the class, and in which domain
+`domain_watch`  what is known of one student's domain
+`show`          the page with a card for each student; its files are in `page/`
+`commands`      the verbs that write reports and hand out files
+==============  ================================================================
 """

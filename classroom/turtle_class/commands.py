@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
+import signal
 import sys
+import threading
 import time
 from typing import TYPE_CHECKING
 
@@ -20,7 +23,7 @@ if TYPE_CHECKING:
 
     from turtle_class.grading import Report
 
-__all__ = ["check", "grade", "list_exercises", "start"]
+__all__ = ["check", "grade", "list_exercises", "show", "start"]
 
 
 def list_exercises() -> None:
@@ -108,6 +111,38 @@ def grade(folder: Path, names: Sequence[str], limit_s: float, output: Path) -> N
     for report in reports:
         print(f"{report.student:{width}}  {report.passed} of {len(wanted)} solved")  # noqa: T201
     print(f"The reports are at {printable(str(output / 'index.html'))}")  # noqa: T201
+
+
+def show(domains: str, roster: Path | None, port: int | None, *, lan: bool) -> None:
+    """Serve the page of the class until Ctrl-C or SIGTERM.
+
+    Raises:
+        ClassError: The domains or the roster are wrong, or a domain cannot be joined.
+    """
+    from turtle_class.roster import read_roster, seats_of_domains
+
+    seats = seats_of_domains(domains) if roster is None else read_roster(roster)
+    # What follows takes longer to import, and a wrong roster is told at once.
+    from turtle_class.show import ClassPage
+    from turtlewire.errors import WireError
+    from turtlewire.web.desktop import open_browser, wanted_lan
+    from turtlewire.web.lan import invite
+
+    ended = threading.Event()
+    signal.signal(signal.SIGTERM, lambda *_: ended.set())
+    lan = lan or wanted_lan()
+    try:
+        page = ClassPage(seats, port=port, lan=lan)
+    except WireError as error:
+        raise ClassError(f"{error} {error.hint}".rstrip()) from None
+    with contextlib.closing(page):
+        print(  # noqa: T201
+            f"The class of {len(seats)} is at {page.url} (Ctrl-C ends it)", flush=True
+        )
+        if lan:
+            invite(page.url, print)
+        open_browser(page.url)
+        ended.wait()
 
 
 def _progress(text: str) -> None:

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.cli.parser import seconds
+from turtlewire.cli.view_command import port_number
 
 if TYPE_CHECKING:
     import argparse
@@ -31,7 +32,28 @@ def add_class_command(commands: Any) -> None:
     """Add ``class`` to the command's words."""
     summary = "Show the turtles of many students on one page; grade their exercises"
     parser = commands.add_parser("class", help=summary, description=summary, allow_abbrev=False)
-    parser.set_defaults(run=lambda args: args.parser.print_help() or 0, parser=parser)
+    parser.set_defaults(run=_reporting_errors(_show), parser=parser)
+    who = parser.add_mutually_exclusive_group()
+    who.add_argument(
+        "--domains",
+        default="1-30",
+        metavar="N-M",
+        help="Show the students of these domains (default: %(default)s)",
+    )
+    who.add_argument(
+        "--roster",
+        type=Path,
+        metavar="FILE",
+        help="Show the students of a file with lines `name,domain`, or YAML with `name: domain`",
+    )
+    parser.add_argument(
+        "--port", type=port_number, metavar="N", help="Serve the page at this port (default: 7070)"
+    )
+    parser.add_argument(
+        "--lan",
+        action="store_true",
+        help="Serve other devices of the network, too, at an address with a random token",
+    )
     verbs = parser.add_subparsers(title="Verbs", metavar="VERB")
     _add_check(verbs)
     _add_grade(verbs)
@@ -127,6 +149,11 @@ def _reporting_errors(run: Callable[..., int | None]) -> Callable[[argparse.Name
 
 def _commands() -> Any:
     return import_module("turtle_class.commands")
+
+
+def _show(args: argparse.Namespace) -> int | None:
+    _commands().show(args.domains, args.roster, args.port, lan=args.lan)
+    return None
 
 
 def _grade(args: argparse.Namespace) -> int | None:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from turtlewire.view.source import Source
 
-__all__ = ["add_view_command"]
+__all__ = ["add_view_command", "port_number"]
 
 
 def add_view_command(commands: Any) -> None:
@@ -39,7 +39,7 @@ def add_view_command(commands: Any) -> None:
         help="Show what this .rviz file says; the page saves and loads such files, too",
     )
     parser.add_argument(
-        "--port", type=_port, metavar="N", help="Serve the page at this port (default: 7070)"
+        "--port", type=port_number, metavar="N", help="Serve the page at this port (default: 7070)"
     )
     parser.add_argument(
         "--lan",
@@ -92,7 +92,8 @@ def _source(bag: str | None) -> Source:
     return BagSource(bag)
 
 
-def _port(text: str) -> int:
+def port_number(text: str) -> int:
+    """A TCP port on the command line."""
     import argparse
 
     if not (text.isdecimal() and int(text) < 65536):

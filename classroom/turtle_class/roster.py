@@ -1,0 +1,128 @@
+"""Who is in the class: names and ROS domains."""
+
+from __future__ import annotations
+
+import csv
+import re
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from turtle_class.errors import ClassError
+from turtlewire.printable import printable
+from turtlewire.wire.environment import MAX_DOMAIN_ID
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+    from pathlib import Path
+
+__all__ = ["Seat", "read_roster", "seats_of_domains"]
+
+_RANGE = re.compile(r"(\d{1,4})(?:-(\d{1,4}))?", re.ASCII)
+_DOMAINS = f"a domain is a number from 0 to {MAX_DOMAIN_ID}"
+_HOW = "write a line `name,domain` for each student, or in a .yaml file `name: domain`"
+
+
+class Seat(NamedTuple):
+    """A student.
+
+    Attributes:
+        name: What the page shows.
+        domain: The student's ROS_DOMAIN_ID.
+    """
+
+    name: str
+    domain: int
+
+
+def seats_of_domains(text: str) -> list[Seat]:
+    """The seats of domains such as ``1-30,40``.
+
+    Raises:
+        ClassError: The text is something else.
+    """
+    seats = []
+    for part in text.split(","):
+        found = _RANGE.fullmatch(part.strip())
+        if found is None:
+            raise ClassError(f"{part!r} names no domains: write them as 1-30 or 1-10,15,20")
+        first, last = int(found[1]), int(found[2] or found[1])
+        if not first <= last <= MAX_DOMAIN_ID:
+            raise ClassError(f"{part!r} names no domains: {_DOMAINS}, the smaller one first")
+        seats += [Seat(f"Domain {number}", number) for number in range(first, last + 1)]
+    return _unique(((seat, "") for seat in seats), "--domains")
+
+
+def read_roster(path: Path) -> list[Seat]:
+    """The students of a file: ``name,domain`` lines, or YAML of ``name: domain``.
+
+    Raises:
+        ClassError: The file cannot be read, or a line is wrong; the text names it.
+    """
+    file = printable(path.name)
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        raise ClassError(f"the roster {file} cannot be read: {error}") from None
+    rows = _yaml_rows(text, file) if path.suffix in {".yaml", ".yml"} else _csv_rows(text, file)
+    seats = _unique(
+        (
+            (_seat(name, domain, f"{file}, line {line}"), f", line {line}")
+            for line, name, domain in rows
+        ),
+        file,
+    )
+    if not seats:
+        raise ClassError(f"{file} holds no students: {_HOW}")
+    return seats
+
+
+def _csv_rows(text: str, file: str) -> Iterator[tuple[int, str, str]]:
+    reader = csv.reader(text.splitlines())
+    for row in reader:
+        cells = [cell.strip() for cell in row]
+        if (
+            not any(cells)
+            or cells[0].startswith("#")
+            or (reader.line_num == 1 and [cell.lower() for cell in cells] == ["name", "domain"])
+        ):
+            continue
+        if len(cells) != 2:
+            raise ClassError(f"{file}, line {reader.line_num}: {','.join(row)!r}: {_HOW}")
+        yield reader.line_num, cells[0], cells[1]
+
+
+def _yaml_rows(text: str, file: str) -> Iterator[tuple[int, str, str]]:
+    import yaml
+
+    try:
+        root: Any = yaml.compose(text, yaml.SafeLoader)
+    except yaml.YAMLError as error:
+        raise ClassError(f"{file} is no YAML: {printable(str(error))}") from None
+    if root is None:
+        return
+    if not isinstance(root, yaml.MappingNode):
+        raise ClassError(f"{file}, line {root.start_mark.line + 1}: {_HOW}")
+    for name, domain in root.value:
+        line = name.start_mark.line + 1
+        if not (isinstance(name, yaml.ScalarNode) and isinstance(domain, yaml.ScalarNode)):
+            raise ClassError(f"{file}, line {line}: {_HOW}")
+        yield line, name.value.strip(), domain.value.strip()
+
+
+def _seat(name: str, domain: str, place: str) -> Seat:
+    if not name:
+        raise ClassError(f"{place}: the name is missing: {_HOW}")
+    if not (domain.isascii() and domain.isdigit() and int(domain) <= MAX_DOMAIN_ID):
+        raise ClassError(f"{place}: {domain!r} is no domain of {printable(name)}: {_DOMAINS}")
+    return Seat(printable(name), int(domain))
+
+
+def _unique(seats: Iterable[tuple[Seat, str]], file: str) -> list[Seat]:
+    by_domain: dict[int, Seat] = {}
+    for seat, place in seats:
+        other = by_domain.setdefault(seat.domain, seat)
+        if other is not seat:
+            raise ClassError(
+                f"{file}{place}: domain {seat.domain} is given to {other.name} and {seat.name}: "
+                "give each student another one"
+            )
+    return list(by_domain.values())

@@ -1,0 +1,210 @@
+"""The page of the class: what it tells of each domain, and that it escapes all of it."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+import signal
+import subprocess
+import sys
+import threading
+
+import pytest
+
+from turtle_class.domain_watch import DomainWatch
+from turtle_class.roster import Seat
+from turtle_class.show import ClassPage
+from turtlewire import msg
+from turtlewire.testing import reserved_domain
+from turtlewire.wire import open_context
+from turtlewire.wire.base import TypeId
+from turtlewire.wire.qos import QoS
+
+POSE = "turtlesim/msg/Pose"
+LIMIT_MS = 60_000
+EVIL = "evil\x1b[2J<img src=x onerror=alert(1)>"
+
+
+class Student:
+    """Nodes in a domain, as a student's programs make them."""
+
+    def __init__(self, domain):
+        self.context = open_context(domain)
+
+    def node(self, name):
+        return self.context.create_node(name)
+
+    def turtle(self, node, topic="/turtle1/pose"):
+        kind = TypeId(POSE, msg.type_hash(POSE))
+        return node.create_publisher(topic, kind, QoS(depth=1))
+
+
+@pytest.fixture
+def domains():
+    with contextlib.ExitStack() as stack:
+        yield [stack.enter_context(reserved_domain()) for _ in range(2)]
+
+
+@pytest.fixture
+def student(domains):
+    with contextlib.ExitStack() as stack:
+
+        def student(number=0):
+            made = Student(domains[number])
+            stack.callback(made.context.close)
+            return made
+
+        yield student
+
+
+@pytest.fixture
+def watch(domains):
+    with contextlib.closing(DomainWatch(Seat("Ana", domains[0]))) as watch:
+        yield watch
+
+
+def picture_when(watch, condition, act=lambda: None):
+    """The first picture for which a condition holds."""
+    pause = threading.Event()
+    for _ in range(600):
+        act()
+        picture = watch.picture(fresh=True)
+        if condition(picture):
+            return picture
+        pause.wait(0.1)
+    raise AssertionError(picture)
+
+
+def test_an_empty_domain(watch):
+    picture = watch.picture(fresh=True)
+    assert (picture["name"], picture["count"], picture["turtles"]) == ("Ana", 0, [])
+    assert picture["problem"] is None
+    assert picture["idle"] is None
+
+
+def test_nodes_and_turtles_come_and_go(watch, student):
+    ana = student()
+    node = ana.node("turtlesim")
+    publisher = ana.turtle(node)
+    pose = msg.get_message(POSE)(x=3.0, y=4.0, theta=1.5)
+    picture = picture_when(
+        watch,
+        lambda picture: picture["turtles"],
+        lambda: publisher.publish(msg.serialize(pose)),
+    )
+    assert picture["nodes"] == ["/turtlesim"]
+    assert picture["turtles"] == [["turtle1", 3.0, 4.0, 1.5]]
+    assert picture["idle"] is not None
+    node.close()
+    assert picture_when(watch, lambda picture: not picture["count"])["turtles"] == []
+
+
+def test_poses_that_are_none_are_left_out(watch, student):
+    ana = student()
+    publisher = ana.turtle(ana.node("turtlesim"))
+    other = ana.turtle(ana.node("second"), "/turtle2/pose")
+    kind = msg.get_message(POSE)
+
+    def send():
+        publisher.publish(msg.serialize(kind(x=float("nan"))))
+        publisher.publish(b"\0\1\0\0" + bytes(4))
+        other.publish(msg.serialize(kind(x=1.0)))
+
+    picture = picture_when(watch, lambda picture: picture["turtles"], send)
+    assert [name for name, *_ in picture["turtles"]] == ["turtle2"]
+
+
+def test_two_students_with_one_domain_are_told_so(watch, student):
+    for each in (student(), student()):
+        each.node("turtlesim")
+    picture_when(watch, lambda picture: picture["count"] == 2)
+    watch.examine(threading.Event(), 0.1)
+    problem = watch.picture(fresh=True)["problem"]
+    assert problem["bad"]
+    assert problem["text"] == "2 nodes have the same name /turtlesim."
+    assert "two students use ROS_DOMAIN_ID=" in problem["remedy"]
+
+
+def test_names_are_escaped_and_cut_and_counted(watch, student):
+    ana = student()
+    for name in (EVIL, "a" * 200, *(f"n{number}" for number in range(40))):
+        ana.node(name)
+    picture = picture_when(watch, lambda picture: picture["count"] == 42)
+    assert len(picture["nodes"]) == 20
+    assert all(name.isprintable() and len(name) <= 81 for name in picture["nodes"])
+    assert "/evil\\x1b[2J<img src=x onerror=alert(1)>" in picture["nodes"]
+
+
+@pytest.fixture
+def page(domains):
+    seats = [Seat("<b>Ana</b>", domains[0]), Seat("Björn", domains[1])]
+    with contextlib.closing(ClassPage(seats, port=0)) as page:
+        yield page
+
+
+def test_the_page_in_a_browser(page, student, browser):
+    ana = student()
+    publisher = ana.turtle(ana.node(EVIL))
+    publisher.publish(msg.serialize(msg.get_message(POSE)(x=3.0, y=4.0)))
+    with contextlib.closing(browser.new_context()) as context:
+        tab = context.new_page()
+        tab.set_default_timeout(LIMIT_MS)
+        errors = []
+        tab.on("pageerror", lambda error: errors.append(str(error)))
+        tab.on("dialog", lambda dialog: errors.append(dialog.message))
+        tab.goto(page.url)
+        tab.wait_for_function("document.querySelectorAll('article').length === 2")
+        tab.wait_for_function("document.querySelector('.nodes').textContent.includes('evil')")
+        assert tab.locator("h2").all_text_contents() == ["<b>Ana</b>", "Björn"]
+        assert tab.locator("img").count() == 0
+        tab.wait_for_function(
+            "document.querySelector('#summary').textContent.includes('1 running')"
+        )
+        tab.wait_for_function("document.querySelector('article.note, article.bad') !== null")
+        tab.fill("#filter", "björn")
+        tab.wait_for_function("document.querySelectorAll('article').length === 1")
+        tab.fill("#filter", "nobody")
+        tab.wait_for_selector("#nothing:not([hidden])")
+        tab.fill("#filter", "")
+        tab.select_option("#sort", "bad")
+        tab.select_option("#show", "off")
+        tab.wait_for_function("document.querySelectorAll('article.off').length === 1")
+        tab.select_option("#size", "l")
+        assert tab.evaluate("document.body.dataset.size") == "l"
+    assert errors == []
+
+
+def command(*words):
+    program = "import sys; from turtlewire.cli.main import main; sys.exit(main())"
+    environment = {
+        **os.environ,
+        "PYTHONPATH": os.pathsep.join(sys.path),
+        "TURTLEWIRE_BROWSER": "0",
+    }
+    return subprocess.Popen(
+        [sys.executable, "-c", program, "class", *words],
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_the_command_ends_at_once(domains, number):
+    low, high = sorted(domains)
+    with command("--domains", f"{low},{high}", "--port", "0", "--lan") as program:
+        line = program.stdout.readline()
+        assert re.fullmatch(r"The class of 2 is at http://127\.0\.0\.1:\d+/\w+/ \(.*\)\n", line)
+        program.send_signal(number)
+        _, err = program.communicate(timeout=60)
+    assert program.returncode == (130 if number == signal.SIGINT else 0)
+    assert "Traceback" not in err
+
+
+def test_wrong_domains_are_answered():
+    with command("--domains", "1-999") as program:
+        _, err = program.communicate(timeout=60)
+    assert program.returncode == 2
+    assert err.startswith("turtlewire class: '1-999' names no domains: a domain is a number from 0")
