@@ -69,5 +69,8 @@ function draw() {
 }
 
 for (const id of ["filter", "show", "sort"]) $(id).addEventListener("input", draw);
-$("size").addEventListener("input", () => { document.body.dataset.size = $("size").value; draw(); });
+$("size").addEventListener("input", () => {
+  document.body.dataset.size = $("size").value;
+  draw();
+});
 connect();

@@ -1,0 +1,91 @@
+"""The template for GitHub Classroom: its workflow's steps, done here."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import yaml
+
+from turtle_class.catalogue import exercises
+from turtlewire.cli.main import main
+
+ROOT = Path(__file__).parents[2]
+TEMPLATE = ROOT / "examples" / "classroom_template"
+WORKFLOW = yaml.safe_load((TEMPLATE / ".github/workflows/classroom.yml").read_text("utf-8"))
+STEPS = WORKFLOW["jobs"]["grade"]["steps"]
+GRADERS = [step for step in STEPS if "command-grader" in step.get("uses", "")]
+NAMES = [exercise.name for exercise in exercises()]
+
+
+@pytest.fixture
+def repository(tmp_path):
+    """A student's repository: the first files of all exercises, one of them solved."""
+    folder = tmp_path / "student"
+    shutil.copytree(TEMPLATE, folder)
+    assert main(["class", "start", str(folder)]) == 0
+    (static,) = [exercise for exercise in exercises() if exercise.name == "static"]
+    shutil.copytree(static.folder / "solution", folder / "static", dirs_exist_ok=True)
+    commands = folder / ".venv" / "bin"  # what `./install` makes; tests/classroom/test_bundle.py
+    commands.mkdir(parents=True)
+    program = "import sys; from turtlewire.cli.main import main; sys.exit(main())"
+    (commands / "turtlewire").write_text(
+        f'#!/bin/sh\nexec "{sys.executable}" -c "{program}" "$@"\n'
+    )
+    (commands / "turtlewire").chmod(0o755)
+    return folder
+
+
+def sh(command, folder, **environment):
+    """Run a step as the runner does."""
+    return subprocess.run(
+        ["bash", "-e", "-c", command],
+        cwd=folder,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), **environment},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+def test_the_graders_and_the_report_run(repository):
+    by_name = {step["id"]: step["with"]["command"] for step in GRADERS}
+    solved = sh(by_name["static"], repository)
+    assert (solved.returncode, solved.stdout) == (0, "static: solved\n"), solved.stderr
+    failed = sh(by_name["fixed_carrot"], repository)
+    assert failed.returncode == 1
+    assert "fixed_carrot: " in failed.stdout
+    assert failed.stdout.count("\n") >= 3
+    for name in set(NAMES) - {"static", "fixed_carrot"}:
+        shutil.rmtree(repository / name)
+    (report,) = [step["run"] for step in STEPS if step.get("name") == "Report"]
+    assert sh(report, repository).returncode == 1
+    assert (repository / "results.xml").read_text().count("<testsuite ") == 2
+
+
+def test_every_exercise_is_graded_once():
+    assert [step["id"] for step in GRADERS] == NAMES
+    for step in GRADERS:
+        assert step["with"]["command"].endswith(f" -e {step['id']}")
+    (points,) = [step for step in STEPS if "grading-reporter" in step.get("uses", "")]
+    assert points["with"]["runners"].split(",") == NAMES
+    assert set(points["env"]) == {f"{name.upper()}_RESULTS" for name in NAMES}
+    older = json.loads((TEMPLATE / ".github/classroom/autograding.json").read_text("utf-8"))
+    assert [test["run"] for test in older["tests"]] == [step["with"]["command"] for step in GRADERS]
+
+
+def test_without_wheels_and_sources_the_install_says_what_to_do(repository):
+    (install,) = [step["run"] for step in STEPS if step.get("name") == "Install"]
+    done = sh(install, repository, TURTLEWIRE_SOURCE="")
+    assert done.returncode == 1
+    assert "There is no folder wheelhouse here." in done.stderr
+
+
+def test_the_container_is_json_and_installs():
+    container = json.loads((TEMPLATE / ".devcontainer/devcontainer.json").read_text("utf-8"))
+    assert container["postCreateCommand"] == "./install"
