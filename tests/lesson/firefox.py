@@ -30,26 +30,34 @@ class Firefox:
     """
 
     def __init__(self, program, profile):
-        self._process = subprocess.Popen(
-            [program, "--headless", "--profile", str(profile), "--remote-debugging-port", "0"],
-            stderr=subprocess.PIPE,
-            stdout=subprocess.DEVNULL,
-            text=True,
-        )
         self._numbers = itertools.count()
         self.errors = []
-        heard = next(filter(None, map(_LISTENING.search, self._process.stderr)))
-        self._drain = threading.Thread(target=self._process.stderr.read)
-        self._drain.start()
-        self._socket = connect(f"{heard[1]}/session", max_size=None, open_timeout=60)
-        self._ask("session.new", capabilities={})
-        self._ask("session.subscribe", events=["log.entryAdded"])
-        self._context = self._ask("browsingContext.getTree")["contexts"][0]["context"]
+        with contextlib.ExitStack() as stack:
+            process = stack.enter_context(
+                subprocess.Popen(
+                    [program, "--headless", "--profile", profile, "--remote-debugging-port", "0"],
+                    stderr=subprocess.PIPE,
+                    stdout=subprocess.DEVNULL,
+                    text=True,
+                )
+            )
+            drain = threading.Thread(target=process.stderr.read, daemon=True)
+            stack.callback(process.terminate)
+            heard = next(filter(None, map(_LISTENING.search, process.stderr)))
+            drain.start()
+            self._socket = stack.enter_context(
+                connect(f"{heard[1]}/session", max_size=None, open_timeout=60)
+            )
+            self._ask("session.new", capabilities={})
+            self._ask("session.subscribe", events=["log.entryAdded"])
+            self._context = self._ask("browsingContext.getTree")["contexts"][0]["context"]
+            stack.pop_all()
+            self._process, self._drain = process, drain
 
     def close(self):
         """End Firefox."""
-        self._ask("browser.close")
         self._socket.close()
+        self._process.terminate()
         self._drain.join()
         self._process.wait()
         self._process.stderr.close()
