@@ -64,7 +64,10 @@ def offered(line, answers):
     [
         (
             "turtlewire ",
-            ["--version", "bag", "compare", "doctor", "foxglove", "frames", "trajectory", "view"],
+            [
+                "--version",
+                *("bag", "class", "compare", "doctor", "foxglove", "frames", "trajectory", "view"),
+            ],
         ),
         ("turtlewire d", ["doctor"]),
         ("turtlewire doctor --", ["--json", "--listen", "--static-topic", "--topic"]),

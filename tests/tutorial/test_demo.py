@@ -20,7 +20,8 @@ VICTIMS = {
     "turtle_tf2_broadcaster-3": "a broadcaster has stopped",
     "turtle_tf2_listener-4": "nothing heard of the listener's commands to turtle2",
     "turtlesim_node-1": (
-        "nothing heard of turtle[12]|a broadcaster has stopped|the listener's commands"
+        "nothing heard of turtle[12]|a broadcaster has stopped|the transform between the turtles"
+        "|the listener's commands"
     ),
 }
 
