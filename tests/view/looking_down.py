@@ -65,17 +65,20 @@ RED, GREEN, BLUE, WHITE = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)
 def wait_until(page, check, arg=None):
     """Whether ``check(arg)``, an async function of the page, becomes true.
 
-    Playwright's ``wait_for_function`` takes the promise itself for true.
+    It may return null when it is sure that it never will. A check that never ends counts as false:
+    Playwright's ``evaluate`` knows no limit, and its ``wait_for_function`` takes the promise itself
+    for true.
     """
     return page.evaluate(
         f"""async (arg) => {{
             const check = {check};
-            const end = performance.now() + {LIMIT_MS};
-            while (performance.now() < end) {{
-                if (await check(arg)) return true;
-                await new Promise((done) => setTimeout(done, 30));
+            const over = new Promise((done) => setTimeout(done, {LIMIT_MS}, null));
+            for (;;) {{
+                const found = await Promise.race([check(arg), over]);
+                if (found) return true;
+                const goesOn = new Promise((done) => setTimeout(done, 30, true));
+                if (found === null || !(await Promise.race([over, goesOn]))) return false;
             }}
-            return false;
         }}""",
         arg,
     )
