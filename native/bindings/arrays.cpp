@@ -49,7 +49,7 @@ nb::object contiguous_array(nb::handle object, const char* dtype) {
 
 Stamps stamps_of(nb::handle object) {
   Stamps stamps;
-  if (nb::try_cast(object, stamps, false)) return stamps;
+  if (is_array(object, stamps)) return stamps;
   nb::object array = convert("asarray", object, nullptr);
   if (nb::cast<std::string>(array.attr("dtype").attr("kind")) == "M") array = of_datetimes(array);
   const std::string kind = nb::cast<std::string>(array.attr("dtype").attr("kind"));

@@ -19,6 +19,13 @@ namespace nb = nanobind;
 
 using Stamps = nb::ndarray<const Stamp, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
+// Whether `object` is such an array as it stands. A scalar is none: those of NumPy's times offer a
+// buffer without strides, which nanobind would read. What has no length is a scalar.
+template <typename Array>
+bool is_array(nb::handle object, Array& array) {
+  return nb::hasattr(object, "__len__") && nb::try_cast(object, array, false);
+}
+
 // numpy.ascontiguousarray(object, dtype)
 nb::object contiguous_array(nb::handle object, const char* dtype);
 

@@ -33,7 +33,7 @@ nb::object output(nb::object out, std::initializer_list<std::size_t> shape, doub
     return nb::cast(array);
   }
   Output array;
-  if (!nb::try_cast(out, array, false))
+  if (!is_array(out, array))
     throw nb::type_error("out must be a writable, C-contiguous float64 array");
   check_shape(array, shape, "out");
   begin = array.data();
@@ -48,7 +48,7 @@ class StatusOutput {
       own_.resize(n);
       return;
     }
-    if (!nb::try_cast(given, array_, false))
+    if (!is_array(given, array_))
       throw nb::type_error("status must be a writable, C-contiguous uint8 array");
     check_shape(array_, {n}, "status");
   }
@@ -273,7 +273,7 @@ nb::object move_points(BufferObject& self, const Deskew& way, const Points<T>& p
     result = nb::cast(array);
   } else {
     PointsOut<T> array;
-    if (!nb::try_cast(out, array, false)) {
+    if (!is_array(out, array)) {
       throw nb::type_error(
           "out must be a writable, C-contiguous (N, 3) array of the same type as points");
     }
@@ -319,12 +319,10 @@ nb::object transform_points(BufferObject& self, std::string_view target, std::st
   }
   const Deskew way{target, source, fixed_frame, target_stamp};
   Points<float> single;
-  if (nb::try_cast(points, single, false))
-    return move_points<float>(self, way, single, stamps, out, status);
+  if (is_array(points, single)) return move_points<float>(self, way, single, stamps, out, status);
   Points<double> doubles;
   const nb::object array = contiguous_array(points, "float64");
-  if (!nb::try_cast(array, doubles, false))
-    throw nb::value_error("points must have the shape (N, 3)");
+  if (!is_array(array, doubles)) throw nb::value_error("points must have the shape (N, 3)");
   return move_points<double>(self, way, doubles, stamps, out, status);
 }
 

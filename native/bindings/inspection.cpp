@@ -282,7 +282,7 @@ std::size_t set_transforms(BufferObject& self, std::string_view parent, std::str
   const Stamps stamps = stamps_of(stamps_object);
   PoseRows rows;
   const nb::object array = contiguous_array(poses_object, "float64");
-  if (!nb::try_cast(array, rows, false)) throw nb::value_error("poses must have the shape (N, 7)");
+  if (!is_array(array, rows)) throw nb::value_error("poses must have the shape (N, 7)");
   check_shape(rows, {stamps.shape(0), 7}, "poses");
   std::size_t accepted = 0;
   {

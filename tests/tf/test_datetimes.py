@@ -58,3 +58,19 @@ def test_what_is_no_time(filled, wrong):
             TypeError, match=f"must be an int of nanoseconds, not {type(other).__name__}"
         ):
             filled.lookup_transform("a", "b", other)
+
+
+@pytest.mark.parametrize("scalar", [np.timedelta64(5, "ns"), np.datetime64(5, "ns")])
+def test_a_scalar_is_no_array(filled, scalar):
+    """NumPy's times offer a buffer without strides; reading it ended the process."""
+    points = np.zeros((1, 3))
+    with pytest.raises(TypeError, match="stamps must be"):
+        filled.transform_points("a", "b", points, np.timedelta64(5, "ns"))
+    with pytest.raises((TypeError, ValueError), match="stamps must be"):
+        filled.lookup_batch("a", "b", np.timedelta64(5, "ns"))
+    with pytest.raises(ValueError, match="points must have the shape"):
+        filled.transform_points("a", "b", scalar, STAMP)
+    with pytest.raises(TypeError, match="out must be"):
+        filled.transform_points("a", "b", points, STAMP, out=scalar)
+    with pytest.raises(TypeError, match="status must be"):
+        filled.lookup_batch("a", "b", [STAMP], status=scalar)
