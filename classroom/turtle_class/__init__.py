@@ -11,6 +11,7 @@ module          what it holds
 `grading`       all exercises of all students, several at a time
 `junit`         results as JUnit XML
 `pages`         results as pages without JavaScript
+`launch_file`   a launch file for an exercise, for the wire
 `roster`        who is in the class, and in which domain
 `domain_watch`  what is known of one student's domain
 `show`          the page with a card for each student; its files are in `page/`

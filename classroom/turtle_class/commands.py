@@ -13,6 +13,7 @@ from turtle_class.catalogue import chosen, exercises
 from turtle_class.errors import ClassError
 from turtle_class.grading import grade_all, students_in
 from turtle_class.junit import as_junit
+from turtle_class.launch_file import LAUNCH_FILE, launch_text
 from turtle_class.pages import overview, student_page
 from turtle_class.runner import Limits
 from turtlewire.printable import printable
@@ -42,7 +43,11 @@ def start(folder: Path, names: Sequence[str]) -> None:
     wanted = {
         folder / exercise.name / name: text
         for exercise in chosen(names)
-        for name, text in {"README.md": exercise.plain_text(), **exercise.starter()}.items()
+        for name, text in {
+            "README.md": exercise.plain_text(),
+            LAUNCH_FILE: launch_text(exercise),
+            **exercise.starter(),
+        }.items()
     }
     there = [path for path in wanted if path.exists()]
     if there:

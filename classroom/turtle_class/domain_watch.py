@@ -35,7 +35,17 @@ _POSE_NUMBERS = struct.Struct("<5f")
 #: More are not drawn, and longer names not shown: a student may make thousands.
 _MOST_TURTLES, _MOST_NODES, _LONGEST_NAME = 12, 20, 80
 _STALE_S = 3.0
+#: A tree of more frames, or with longer names in all, is not kept: a program that makes up a name
+#: for each message would fill the memory.
+_MOST_FRAMES, _MOST_LETTERS = 500, 50_000
 _NODE = "_turtlewire_class"
+
+_FLOOD = {
+    "text": f"More than {_MOST_FRAMES} frames, or very long names: TF is no longer listened to.",
+    "remedy": "child_frame_id must stay the same in each message: no counter, no time in it. "
+    "Start the node again, and TF is listened to again.",
+    "bad": True,
+}
 
 
 class DomainWatch:
@@ -54,6 +64,7 @@ class DomainWatch:
         self._node = self._context.create_node(_NODE)
         self._transforms = TransformView(self._context, "/", time.time_ns)
         self._listens = False
+        self._flooded = False
         self._poses: dict[str, Subscription] = {}
         self._turtles: dict[str, tuple[float, float, float]] = {}
         self._active: float | None = None
@@ -75,23 +86,26 @@ class DomainWatch:
         if self._changed.is_set():
             self._changed.clear()
             self._take_graph()
+        self._listen(bool(self._nodes) and not self._flooded)
         self._take_poses()
         if fresh and self._listens:
-            frames = self._transforms.frames()
-            self._frames = {frame.name: frame for frame in frames}
+            self._take_frames()
         idle = None if self._active is None else round(time.monotonic() - self._active)
-        finding = self._finding if self._nodes else None
         return {
             "name": self.seat.name,
             "domain": self.seat.domain,
             "nodes": self._nodes[:_MOST_NODES],
             "count": len(self._nodes),
             "turtles": [[_shown(name), *place] for name, place in self._turtles.items()],
-            "frames": len(self._frames),
+            "frames": None if self._flooded else len(self._frames),
             "follow": self._distance(),
             "idle": idle,
-            "problem": None if finding is None else _as_words(finding, self.seat),
+            "problem": self._problem(),
         }
+
+    def rest(self) -> None:
+        """Nobody looks: leave the transforms alone until the next picture."""
+        self._listen(False)
 
     def examine(self, ended: threading.Event, seconds: float) -> None:
         """Listen as the doctor does, and keep the most important finding.
@@ -105,7 +119,7 @@ class DomainWatch:
         graph = self._context.graph
         listener = TfListener(self._context)
         try:
-            if tf_publishers(graph):
+            if tf_publishers(graph) and not self._flooded:
                 ended.wait(seconds)
         finally:
             traffic = listener.close()
@@ -118,6 +132,7 @@ class DomainWatch:
         nodes = sorted(_shown(name) for name in names if not is_hidden(name))
         if nodes != self._nodes:
             self._active = time.monotonic()
+            self._flooded = False  # it may be mended
         self._nodes = nodes
         topics = sorted(
             {
@@ -134,7 +149,6 @@ class DomainWatch:
         for topic in topics:
             if topic not in self._poses and validate_full_topic_name(topic) is None:
                 self._poses[topic] = self._subscribe(topic)
-        self._listen(bool(nodes))
 
     def _listen(self, wanted: bool) -> None:
         if wanted and not self._listens:
@@ -143,6 +157,21 @@ class DomainWatch:
             self._transforms.leave()
             self._frames = {}
         self._listens = wanted
+
+    def _take_frames(self) -> None:
+        frames = self._transforms.frames()
+        letters = sum(len(frame.name) for frame in frames)
+        if len(frames) > _MOST_FRAMES or letters > _MOST_LETTERS:
+            self._flooded = True
+            self._listen(False)
+        else:
+            self._frames = {frame.name: frame for frame in frames}
+
+    def _problem(self) -> dict[str, Any] | None:
+        if self._flooded:
+            return _FLOOD
+        finding = self._finding if self._nodes else None
+        return None if finding is None else _as_words(finding, self.seat)
 
     def _subscribe(self, topic: str) -> Subscription:
         kind = TypeId(_POSE, msg.type_hash(_POSE))

@@ -91,6 +91,8 @@ class ClassPage:
         count = 0
         while not self._closing.wait(_PERIOD_S):
             if not self._server.watched:
+                for watch in self._watches:
+                    watch.rest()
                 continue
             fresh = count % _FRESH_EACH == 0
             count += 1

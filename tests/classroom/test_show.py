@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import os
 import re
 import signal
@@ -21,6 +22,7 @@ from turtlewire.wire import open_context
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import QoS
 
+TF = "tf2_msgs/msg/TFMessage"
 POSE = "turtlesim/msg/Pose"
 LIMIT_MS = 60_000
 EVIL = "evil\x1b[2J<img src=x onerror=alert(1)>"
@@ -134,6 +136,52 @@ def test_names_are_escaped_and_cut_and_counted(watch, student):
     assert len(picture["nodes"]) == 20
     assert all(name.isprintable() and len(name) <= 81 for name in picture["nodes"])
     assert "/evil\\x1b[2J<img src=x onerror=alert(1)>" in picture["nodes"]
+
+
+def test_a_flood_of_frames_is_not_kept(watch, student):
+    ana = student()
+    node = ana.node("broadcaster")
+    publisher = node.create_publisher("/tf", TypeId(TF, msg.type_hash(TF)), QoS(depth=100))
+    numbers = itertools.count()
+
+    def send():
+        message = msg.get_message(TF)()
+        for number in itertools.islice(numbers, 60):
+            transform = msg.get_message("geometry_msgs/msg/TransformStamped")()
+            transform.header.frame_id, transform.child_frame_id = "world", f"frame{number}"
+            transform.transform.rotation.w = 1.0
+            message.transforms.append(transform)
+        publisher.publish(msg.serialize(message))
+
+    picture_when(watch, lambda picture: picture["problem"] is not None, send)
+    picture = watch.picture(fresh=True)
+    assert picture["problem"]["text"].startswith("More than 500 frames")
+    assert picture["frames"] is None
+    sent = next(numbers)
+    for _ in range(20):
+        send()
+    assert next(numbers) > sent + 1000
+    assert watch.picture(fresh=True)["frames"] is None
+    node.close()
+    ana.node("mended")
+    picture = picture_when(watch, lambda picture: picture["nodes"] == ["/mended"])
+    assert picture["problem"] is None
+
+
+def test_without_a_looker_transforms_are_left_alone(watch, student):
+    ana = student()
+    ana.node("broadcaster")
+    picture_when(watch, lambda picture: picture["count"] == 1)
+    graph = ana.context.graph
+    assert graph.wait_for(lambda: tf_readers(graph), 60_000_000_000)
+    watch.rest()
+    assert graph.wait_for(lambda: not tf_readers(graph), 60_000_000_000)
+    watch.picture(fresh=True)
+    assert graph.wait_for(lambda: tf_readers(graph), 60_000_000_000)
+
+
+def tf_readers(graph):
+    return [end for end in graph.endpoints() if end.kind == "subscription" and end.topic == "/tf"]
 
 
 @pytest.fixture

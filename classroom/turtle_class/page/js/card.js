@@ -42,7 +42,8 @@ export class Card {
   update(seat, kind) {
     this.element.className = kind;
     setText(this.name, seat.name);
-    setText(this.domain, `domain ${seat.domain}`);
+    const domain = `domain ${seat.domain}`;
+    setText(this.domain, seat.name.toLowerCase() === domain ? "" : domain);
     const running = seat.count === 1 ? "1 node" : `${seat.count} nodes`;
     setText(this.state, `${seat.count ? running : "Nothing runs"} · ${ago(seat.idle)}`);
     setText(this.follow, this.#transforms(seat));
@@ -56,7 +57,7 @@ export class Card {
   }
 
   #transforms(seat) {
-    if (!seat.count) return "";
+    if (!seat.count || seat.frames === null) return "";
     if (seat.follow !== null) return `By TF, turtle2 is ${seat.follow.toFixed(1)} m from turtle1.`;
     return seat.frames ? `${seat.frames} frames; none of both turtles` : "No transforms yet";
   }
