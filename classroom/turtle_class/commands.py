@@ -140,7 +140,10 @@ def show(domains: str, roster: Path | None, port: int | None, *, lan: bool) -> N
         page = ClassPage(seats, port=port, lan=lan)
     except WireError as error:
         raise ClassError(f"{error} {error.hint}".rstrip()) from None
-    with contextlib.closing(page):
+    with contextlib.ExitStack() as at_the_end:
+        at_the_end.callback(_progress, "")
+        at_the_end.callback(page.close)
+        at_the_end.callback(_progress, f"Leaving {len(seats)} domains …")
         print(  # noqa: T201
             f"The class of {len(seats)} is at {page.url} (Ctrl-C ends it)", flush=True
         )
