@@ -184,6 +184,17 @@ def test_big_endian_bytes_are_decoded():
     assert list(msg.deserialize(scan, bytes.fromhex("00000000" + body)).position) == [1.0]
 
 
+def test_plain_messages_are_read_as_rows():
+    polygon = msg.get_message("geometry_msgs/msg/Polygon")
+    body = bytes.fromhex("00000000 00000002 3f800000 40000000 40400000 00000000 00000000 bf800000")
+    points = msg.deserialize_rows(polygon, body).points
+    assert points.tolist() == [[1, 2, 3], [0, 0, -1]]
+    assert not points.flags.writeable
+    for data in (body[:-1], body[:7], b"", b"\0\7" + body[2:]):
+        with pytest.raises(CdrError, match="Polygon"):
+            msg.deserialize_rows(polygon, data)
+
+
 def test_big_endian_fixed_arrays_and_wide_strings_are_decoded():
     mesh = msg.get_message("shape_msgs/msg/MeshTriangle")
     assert msg.deserialize(

@@ -6,6 +6,7 @@ Round trip, and the same bytes as two other implementations write.
 from __future__ import annotations
 
 import warnings
+from array import array
 from dataclasses import make_dataclass
 
 import numpy as np
@@ -50,6 +51,27 @@ def _round_trip(message):
     again = msg.serialize(decoded)
     assert again == data
     assert msg.serialize(msg.deserialize(cls, data + bytes(-len(data) % 4))) == data
+
+
+def _flat(value):
+    """The numbers and texts of a message in order, whatever holds them."""
+    if isinstance(value, msg.Message):
+        fields = value.get_fields_and_field_types()
+        return [each for name in fields for each in _flat(getattr(value, name))]
+    if isinstance(value, np.ndarray):
+        return value.ravel().tolist()
+    if isinstance(value, (list, array)):
+        return [each for item in value for each in _flat(item)]
+    return [value]
+
+
+def test_rows_hold_the_same_numbers(all_messages, messages):
+    def check(message):
+        data = msg.serialize(message)
+        read = msg.deserialize_rows(type(message), data)
+        assert repr(_flat(read)) == repr(_flat(msg.deserialize(type(message), data)))
+
+    _check_all(all_messages, messages, check, FEW)
 
 
 # --- oracle one: pycdr2

@@ -191,3 +191,17 @@ def test_an_embedded_mesh_travels_with_the_marker():
     assert status.level == "ok"
     assert bytes(content.arrays["files"]) == b"solid"
     assert content.header["markers"][0]["file"] == [0, 5]
+
+
+@pytest.mark.parametrize("shape", sorted(SEVERAL))
+@pytest.mark.parametrize("colors", [0, 3, 9])
+def test_rows_are_shown_as_messages_are(shape, colors):
+    message = marker(shape, points=9, colors=colors)
+    message.points[4].y = math.nan
+    rows = msg.deserialize_rows(type(message), msg.serialize(message))
+    assert len(rows.points.shape) == 2  # no object for each point
+    shown_rows, shown_messages = (MarkerDisplay().content(each) for each in (rows, message))
+    assert shown_rows[0].header == shown_messages[0].header
+    for name, array in shown_messages[0].arrays.items():
+        assert shown_rows[0].arrays[name].tolist() == array.tolist()
+    assert shown_rows[1:] == shown_messages[1:]

@@ -24,7 +24,7 @@ module                what it holds
 `constructor`         their constructors, compiled for each
 `values`              defaults of fields, and bulk numbers as arrays
 `checks`              ROS 2's checks at every assignment (``check_fields``)
-`cdr`                 `serialize` and `deserialize`
+`cdr`                 `serialize`, `deserialize` and `deserialize_rows`
 `encoder`, `decoder`  generated code from messages to CDR bytes and back
 `wide_text`           ``wstring`` on the wire
 `diagnosis`           which field of a message or of its bytes is wrong
@@ -39,7 +39,7 @@ module                what it holds
 
 from __future__ import annotations
 
-from turtlewire.msg.cdr import deserialize, encode, serialize
+from turtlewire.msg.cdr import deserialize, deserialize_rows, encode, serialize
 from turtlewire.msg.classes import (
     Action,
     Service,
@@ -59,6 +59,7 @@ __all__ = [
     "Message",
     "Service",
     "deserialize",
+    "deserialize_rows",
     "encode",
     "get_action",
     "get_interface_class",

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeVar
+import struct
+from functools import cache
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from turtlewire.errors import CdrError
-from turtlewire.msg.classes import type_name
+from turtlewire.msg.classes import get_message, type_name
 from turtlewire.msg.message import Message
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from turtlewire.msg.values import Cdr
 
-__all__ = ["deserialize", "encode", "serialize"]
+__all__ = ["deserialize", "deserialize_rows", "encode", "serialize"]
 
 _MessageT = TypeVar("_MessageT", bound=Message)
 
@@ -85,3 +89,32 @@ def deserialize(cls: type[_MessageT], data: bytes | bytearray | memoryview) -> _
         f"{type_name(cls)}: unknown encapsulation {encapsulation.hex(' ') or '(no bytes)'} at "
         "offset 0"
     ).with_hint("Plain CDR is read: 00 01 (little endian) and 00 00 (big endian).")
+
+
+def deserialize_rows(cls: type[_MessageT], data: bytes) -> _MessageT:
+    """Decode a message whose long sequences are only looked at as a whole.
+
+    Sequences of messages that hold nothing but ``float`` or nothing but ``double`` numbers (Point,
+    ColorRGBA, Pose …) become read-only arrays of NumPy, ``(n, numbers of each)``, which share the
+    memory of ``data``. A million points take no longer than one. Such a message is for reading:
+    it cannot be compared or encoded.
+
+    Raises:
+        CdrError: As :func:`deserialize`.
+    """
+    order = {_LITTLE_ENDIAN: "<", _BIG_ENDIAN: ">"}.get(data[:2], "")
+    if not order:
+        return deserialize(cls, data)
+    try:
+        decode = _row_decoder(cls, order)  # type: ignore[arg-type] # classes have hashes
+        message: _MessageT = decode(data)
+    except (ValueError, IndexError, struct.error):
+        return deserialize(cls, data)  # which says what is wrong
+    return message
+
+
+@cache
+def _row_decoder(cls: Any, order: str) -> Callable[[bytes], Any]:
+    from turtlewire.msg.decoder import make_decoder
+
+    return make_decoder(cls, order, get_message, rows=True)

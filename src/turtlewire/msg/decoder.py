@@ -37,7 +37,11 @@ __all__ = ["make_decoder", "numbers"]
 
 
 def make_decoder(
-    cls: type[Message], order: str, class_of: Callable[[str], type[Message]]
+    cls: type[Message],
+    order: str,
+    class_of: Callable[[str], type[Message]],
+    *,
+    rows: bool = False,
 ) -> Callable[[bytes], Message]:
     """Generate ``decode(data) -> message`` for a message class.
 
@@ -45,8 +49,10 @@ def make_decoder(
         cls: The class.
         order: ``"<"`` for little endian data, ``">"`` for big endian.
         class_of: Finds the class of a nested message by its full name.
+        rows: Whether sequences of plain messages become arrays of NumPy, which share the memory
+            of ``data`` (see :func:`turtlewire.msg.deserialize_rows`).
     """
-    return _Decoder(order, class_of).compile(cls)
+    return _Decoder(order, class_of, rows=rows).compile(cls)
 
 
 def numbers(code: str, data: memoryview, swap: bool) -> array[Any]:
@@ -64,8 +70,9 @@ class _Decoder:
     ``self.base + self.offset`` is the position in ``data``.
     """
 
-    def __init__(self, order: str, class_of: Callable[[str], type[Message]]) -> None:
+    def __init__(self, order: str, class_of: Callable[[str], type[Message]], *, rows: bool) -> None:
         self.class_of = class_of
+        self.rows = rows
         self.order = order
         self.lines: list[str] = []
         self.indent = " "
@@ -143,8 +150,33 @@ class _Decoder:
             self.number_sequence(code, count, target)
         elif type_.value_type in (BasicType("octet"), BasicType("boolean")):
             self.small_values(type_.value_type, count, target)
+        elif self.rows and len(set(codes := self.plain_codes(type_.value_type))) == 1:
+            self.row_sequence(codes, count, target)
         else:
             self.loop(type_.value_type, count, target)
+
+    def plain_codes(self, type_: AbstractType) -> str:
+        """The letters of a message's floating-point numbers; not all alike if it holds others."""
+        if isinstance(type_, BasicType):
+            return code if (code := CODES[type_.typename]) in "fd" else "?!"
+        if isinstance(type_, NamespacedType):
+            fields = self.class_of(type_.full_name)._DEFINITION.fields
+            return "".join(self.plain_codes(field.type) for field in fields)
+        return "?!"
+
+    def row_sequence(self, codes: str, count: str, target: str) -> None:
+        """A view of numbers that lie one after another, a row for each message."""
+        import numpy as np
+
+        size, width = SIZES[codes[0]], len(codes)
+        dtype = self.name()
+        self.environment.update({"ndarray": np.ndarray, dtype: np.dtype(self.order + codes[0])})
+        position = self.position()
+        self.line(f"begin = {position} + 3 & -8 | 4 if {count} and {size} == 8 else {position}")
+        self.line(f"end = begin + {count} * {size * width}")
+        self.line("if end > len(data): raise ValueError")
+        self.line(f"{target} = ndarray(({count}, {width}), {dtype}, data, begin)")
+        self.jump("end", min(size, 4))
 
     def number_sequence(self, code: str, count: str, target: str) -> None:
         size = SIZES[code]

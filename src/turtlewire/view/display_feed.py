@@ -115,6 +115,7 @@ class DisplayFeed:
         self.display = display
         self.paused = False
         self._classes = {topic: msg.get_message(each) for topic, each in types.items()}
+        self._decode = msg.deserialize_rows if display.reads_rows else msg.deserialize
         self._on_work, self._on_packets = on_work, on_packets
         self._lock = threading.Lock()
         self._inbox: deque[tuple[str, bytes]] = deque(maxlen=_MOST_MESSAGES)
@@ -223,7 +224,7 @@ class DisplayFeed:
 
     def _outputs(self, topic: str, cdr: bytes) -> list[Output]:
         try:
-            message: Any = msg.deserialize(self._classes[topic], cdr)
+            message: Any = self._decode(self._classes[topic], cdr)
         except CdrError as error:
             return [Status.of("error", f"A message on {topic} cannot be read: {error}")]
         return self._guarded(lambda: self.display.content(message))

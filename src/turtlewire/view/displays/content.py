@@ -126,6 +126,8 @@ class Display:
         companions: Further topics of the display: what is appended to the topic's name, and the
             message type there. Messages of both go to :meth:`content`.
         replays: Whether the last message is shown again with other options.
+        reads_rows: Whether it takes sequences of plain messages as arrays, without a Python object
+            for each (see :func:`turtlewire.msg.deserialize_rows`).
         options: What the user chose.
         budget: How many points may be sent with one message.
     """
@@ -133,6 +135,7 @@ class Display:
     kind: ClassVar[str]
     companions: ClassVar[dict[str, str]] = {}
     replays: ClassVar[bool] = False
+    reads_rows: ClassVar[bool] = False
 
     def __init__(
         self,

@@ -51,6 +51,7 @@ class MarkerDisplay(Display):
     """
 
     kind = "marker"
+    reads_rows = True
 
     def __init__(self, options: Mapping[str, object] | None = None, **keywords: Any) -> None:
         super().__init__(options, **keywords)

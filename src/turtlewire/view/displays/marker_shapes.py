@@ -8,9 +8,10 @@ import numpy as np
 
 from turtlewire.view.displays.content import UnusableMessageError
 from turtlewire.view.displays.numeric import (
-    colors_of,
+    color_bytes,
+    finite_points,
     finite_pose,
-    points_of,
+    picked_rows,
     rgba_bytes,
     rows_within,
     spread,
@@ -143,7 +144,7 @@ def _points(
     picked = _picked(shape, count - count % group, group, budget)
     if len(picked) < count - count % group:
         warn(f"{len(picked)} of {count} points are drawn")
-    points = points_of([marker.points[at] for at in picked])
+    points = finite_points(picked_rows(marker.points, picked, "xyz"))
     finite = rows_within(points)
     if group > 1:
         finite = np.repeat(finite.reshape(-1, group).all(axis=1), group)
@@ -153,7 +154,7 @@ def _points(
     if colors != count and not per_group:
         return points.astype(np.float32), np.empty((0, 4), np.uint8)
     own = picked // group if per_group else picked
-    return points.astype(np.float32), colors_of([marker.colors[at] for at in own])
+    return points.astype(np.float32), color_bytes(picked_rows(marker.colors, own, "rgba"))
 
 
 def _picked(shape: str, count: int, group: int, budget: int) -> NDArray[np.intp]:

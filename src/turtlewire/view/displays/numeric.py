@@ -19,8 +19,10 @@ if TYPE_CHECKING:
 __all__ = [
     "LARGEST",
     "anchored",
-    "colors_of",
+    "color_bytes",
+    "finite_points",
     "finite_pose",
+    "picked_rows",
     "points_of",
     "pose_rows",
     "rgba_bytes",
@@ -78,10 +80,27 @@ def rows_within(rows: NDArray[np.float64], bound: float = LARGEST) -> NDArray[np
     return within
 
 
+def picked_rows(values: Any, picked: NDArray[np.intp], names: str) -> NDArray[np.float64]:
+    """Some of a sequence of plain messages, ``(n, numbers of each)``.
+
+    Args:
+        values: The messages, or all as rows (see :func:`turtlewire.msg.deserialize_rows`).
+        picked: Which of them.
+        names: The letters that are the messages' fields.
+    """
+    if isinstance(values, np.ndarray):
+        return values[picked].astype(np.float64)
+    numbers = [[getattr(values[at], name) for name in names] for at in picked]
+    return np.array(numbers, dtype=np.float64).reshape(-1, len(names))
+
+
 def points_of(points: Sequence[Any]) -> NDArray[np.float64]:
     """x, y, z of Point messages as ``(n, 3)``; what is not finite or absurdly large is NaN."""
-    array = np.array([(point.x, point.y, point.z) for point in points], dtype=np.float64)
-    array = array.reshape(-1, 3)
+    return finite_points(picked_rows(points, np.arange(len(points)), "xyz"))
+
+
+def finite_points(array: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rows of numbers, whose numbers that are not finite or absurdly large become NaN."""
     with np.errstate(invalid="ignore"):
         array[~(np.abs(array) < LARGEST)] = math.nan
     return array
@@ -105,12 +124,11 @@ def spread(count: int, budget: int) -> NDArray[np.intp]:
     return np.linspace(0, count - 1, max(1, budget)).astype(np.intp)
 
 
-def colors_of(colors: Sequence[Any]) -> NDArray[np.uint8]:
-    """ColorRGBA messages as bytes ``(n, 4)``."""
-    rows = np.array([(c.r, c.g, c.b, c.a) for c in colors], dtype=np.float64).reshape(-1, 4)
+def color_bytes(rows: NDArray[np.float64]) -> NDArray[np.uint8]:
+    """Colours from 0 to 1, ``(n, 4)``, as bytes."""
     return np.rint(np.clip(np.nan_to_num(rows, nan=0.0), 0.0, 1.0) * 255).astype(np.uint8)
 
 
 def rgba_bytes(color: Any) -> list[int]:
     """One ColorRGBA message as four bytes."""
-    return [int(value) for value in colors_of([color])[0]]
+    return [int(value) for value in color_bytes(picked_rows([color], np.arange(1), "rgba"))[0]]
