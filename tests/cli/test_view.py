@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+import socket
 import sys
 from pathlib import Path
 
@@ -33,6 +34,16 @@ def test_it_tells_its_address_serves_and_ends_at_ctrl_c(view):
         program.type("\x03")
         assert program.wait() == 130
     assert "Traceback" not in program.text
+
+
+def test_a_port_in_use_is_said(view):
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        port = server.getsockname()[1]
+        program = view("--port", str(port))
+        assert not address_of(program).endswith(f":{port}/")
+        program.process.send_signal(signal.SIGTERM)
+        assert program.wait() == 0
+    assert program.text.startswith(f"Port {port} is in use: the view takes a free one\n")
 
 
 def test_a_bag_is_shown_without_the_network(view, tmp_path):

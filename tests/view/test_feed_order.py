@@ -123,3 +123,14 @@ def test_the_status_of_a_wait_ends_with_it(page):
     assert page.take()[-1] == {
         "type": "status", "id": "d", "level": "ok", "text": "", "arrays": {},
     }  # fmt: skip
+
+
+def test_a_fault_of_a_display_is_logged_once(page, monkeypatch, caplog):
+    def fail(message):
+        raise ArithmeticError("ours")
+
+    monkeypatch.setattr(page.feed.display, "content", fail)
+    page.send(marker(1))
+    page.send(marker(2))
+    assert [packet["level"] for packet in page.take()] == ["error"]
+    assert [record.exc_info[0] for record in caplog.records] == [ArithmeticError]

@@ -347,6 +347,14 @@ def test_from_above_x_goes_right_and_y_up(page):
     assert page.get_attribute("#orbit", "aria-pressed") == "true"
 
 
+def test_a_pressed_button_is_as_clear_below_the_mouse(page):
+    color = "getComputedStyle(document.getElementById('top')).backgroundColor"
+    page.click("#top")
+    below = page.evaluate(color)
+    page.mouse.move(0, 0)
+    assert page.evaluate(color) == below
+
+
 @pytest.mark.parametrize("camera", ["orbit", "top"])
 def test_a_followed_frame_stays_where_it_is(page, fake, camera):
     page.click(f"#{camera}")

@@ -137,7 +137,13 @@ def test_a_claim_of_billions_of_points_takes_no_memory():
     assert len(content.arrays["points"]) == 3
     message.fields[0].offset = 2**32 - 1
     (status,) = PointCloudDisplay().content(message)
-    assert "no field x" in status.text
+    assert status.text == "field 'x' at 4294967295 lies outside the point of 12 bytes"
+    message.fields[0].datatype = 99
+    (status,) = PointCloudDisplay().content(message)
+    assert status.text == "field 'x' at 4294967295 has the unknown datatype 99"
+    message.point_step = 2**32 - 1
+    (status,) = PointCloudDisplay().content(message)
+    assert status.text == "a point_step of 4294967295 bytes is too large"
 
 
 def test_options_choose_colors():

@@ -51,6 +51,8 @@ def add_view_command(commands: Any) -> None:
 
 def _view(args: argparse.Namespace) -> int:
     """Serve the page until Ctrl-C or SIGTERM."""
+    from urllib.parse import urlsplit
+
     from turtlewire.errors import WireError
     from turtlewire.view.rviz_file import RvizFileError, load_rviz
     from turtlewire.view.viewer import Viewer
@@ -74,6 +76,8 @@ def _view(args: argparse.Namespace) -> int:
         viewer = Viewer(source, args.fixed_frame, port=args.port, lan=lan, saved=saved)
         stack.pop_all()
         stack.callback(viewer.close)  # closes the source, too
+        if args.port and args.port != urlsplit(viewer.url).port:
+            print(f"Port {args.port} is in use: the view takes a free one", flush=True)
         print(f"The view is at {viewer.url} (Ctrl-C ends it)", flush=True)
         if lan:
             invite(viewer.url, print)

@@ -128,6 +128,7 @@ class DisplayFeed:
         self._told: set[str] = set()  # parts that the page has
         self._status: Status | None = None
         self._own_status = Status("ok", "")
+        self._logged = False
         self._events = count()
         self._said: Status | None = None
         self._asks: tuple[str, str] | None = None
@@ -233,7 +234,9 @@ class DisplayFeed:
         try:
             return make()
         except Exception:  # a fault of ours must not end the thread of all displays
-            _logger.exception("The display %s cannot show a message", self.display.kind)
+            if not self._logged:  # one traceback, not one for each message of the topic
+                self._logged = True
+                _logger.exception("The display %s cannot show a message", self.display.kind)
             return [Status.of("error", "This message cannot be shown; the log says why.")]
 
     def _take(self, outputs: list[Output]) -> None:

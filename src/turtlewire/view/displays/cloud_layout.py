@@ -10,7 +10,7 @@ from turtlewire.view.displays.content import UnusableMessageError
 from turtlewire.view.displays.numeric import spread
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Collection, Mapping
 
     from numpy.typing import NDArray
 
@@ -18,6 +18,8 @@ __all__ = ["picked_points"]
 
 #: PointField's datatypes in order, from 1.
 _TYPES = ("", "i1", "u1", "i2", "u2", "i4", "u4", "f4", "f8")
+#: NumPy's limit of a record's size, in bytes.
+_LARGEST_STEP = 2**31 - 1
 
 
 def picked_points(message: Any, budget: int, warn: Callable[[str], None]) -> NDArray[np.void]:
@@ -50,22 +52,23 @@ def picked_points(message: Any, budget: int, warn: Callable[[str], None]) -> NDA
 def _layout(message: Any, warn: Callable[[str], None]) -> np.dtype[np.void]:
     """The record of one point; a field with several elements counts as its first one."""
     step = message.point_step
+    if step > _LARGEST_STEP:
+        raise UnusableMessageError(f"a point_step of {step} bytes is too large")
     order = ">" if message.is_bigendian else "<"
     fields: dict[str, tuple[str, int]] = {}
+    unreadable: dict[str, str] = {}
     for field in message.fields:
         code = _TYPES[field.datatype] if 0 < field.datatype < len(_TYPES) else ""
+        place = f"field '{field.name}' at {field.offset}"
         if not code:
-            warn(f"field '{field.name}' has the unknown datatype {field.datatype}")
+            unreadable[field.name] = f"{place} has the unknown datatype {field.datatype}"
         elif field.offset + int(code[1]) > step:
-            warn(f"field '{field.name}' at {field.offset} lies outside the point of {step} bytes")
+            unreadable[field.name] = f"{place} lies outside the point of {step} bytes"
         elif field.name not in fields:
             fields[field.name] = (order + code, field.offset)
-    missing = [name for name in "xyz" if name not in fields]
-    if missing:
-        raise UnusableMessageError(
-            f"the cloud has no field {', '.join(missing)} to place points by; its fields: "
-            f"{', '.join(field.name for field in message.fields) or 'none'}"
-        )
+    _require_places(message, fields, unreadable)
+    for problem in unreadable.values():
+        warn(problem)
     return np.dtype(
         {
             "names": list(fields),
@@ -74,6 +77,19 @@ def _layout(message: Any, warn: Callable[[str], None]) -> np.dtype[np.void]:
             "itemsize": step,
         }
     )
+
+
+def _require_places(message: Any, fields: Collection[str], unreadable: Mapping[str, str]) -> None:
+    """Raise UnusableMessageError that tells why x, y or z cannot be read."""
+    missing = [name for name in "xyz" if name not in fields]
+    for name in missing:
+        if name in unreadable:
+            raise UnusableMessageError(unreadable[name])
+    if missing:
+        raise UnusableMessageError(
+            f"the cloud has no field {', '.join(missing)} to place points by; its fields: "
+            f"{', '.join(field.name for field in message.fields) or 'none'}"
+        )
 
 
 def _size(message: Any, warn: Callable[[str], None]) -> tuple[int, int]:
