@@ -117,6 +117,7 @@ def build(output: Path, language: str = "en", base: str = "/") -> None:
         sphinx("html", fresh, *settings, caches=BUILD / f"docs-cache-{language}")
         if (LESSON / "manifest.json").exists():
             shutil.copytree(LESSON, fresh / "lesson")
+            _link_back(fresh / "lesson" / "index.html")
         else:
             _without_lesson(fresh)
         if faults := list(faults_of(fresh, apart={"lesson"})):
@@ -124,6 +125,16 @@ def build(output: Path, language: str = "en", base: str = "/") -> None:
         shutil.rmtree(output, ignore_errors=True)
         output.parent.mkdir(parents=True, exist_ok=True)
         fresh.rename(output)
+
+
+def _link_back(page: Path) -> None:
+    """Show the lesson's link to the site; spaces keep the size that its manifest names."""
+    text = page.read_text(encoding="utf-8")
+    hidden = '<a id="site" href="../index.html" hidden>'
+    if hidden not in text:
+        raise BuildError(f"{page} has no hidden link to the site: build it anew (scripts/lesson)")
+    shown = hidden.replace("hidden", " " * len("hidden"))
+    page.write_text(text.replace(hidden, shown), encoding="utf-8")
 
 
 def _without_lesson(output: Path) -> None:

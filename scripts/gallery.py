@@ -1,4 +1,4 @@
-"""Makes the pictures of the site's gallery, in ``docs/images/gallery``.
+"""Makes the pictures of the site's gallery, in ``docs/images``.
 
 The drawings (SVG) come from fixed data and are the same each time; the screenshots need Debian's
 chromium, and that of the lesson what ``scripts/lesson`` builds.
@@ -6,6 +6,7 @@ chromium, and that of the lesson what ``scripts/lesson`` builds.
 
 from __future__ import annotations
 
+import contextlib
 import json
 import math
 import os
@@ -34,9 +35,17 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
 ROOT = Path(__file__).resolve().parent.parent
-GALLERY = ROOT / "docs" / "images" / "gallery"
+IMAGES = ROOT / "docs" / "images"
+GALLERY = IMAGES / "gallery"
 LESSON = ROOT / "build" / "lesson"
 LESSONS = ROOT / "site" / "lesson" / "lessons"
+URDF_TUTORIAL = ROOT / "tests" / "robots" / "urdf_ws" / "src" / "urdf_tutorial"
+#: WebGL without a graphics card.
+FLAGS_3D = [
+    *(flag for flag in CHROMIUM_FLAGS if flag != "--disable-gpu"),
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+]
 SECOND = 1_000_000_000
 #: A browser that starts Python, or a robot's page, on a busy machine.
 PATIENCE_MS = 180_000
@@ -53,6 +62,11 @@ def main() -> None:
         )
         picture_lesson(browser)
         picture_sliders(browser)
+        browser.close()
+        browser = playwright.chromium.launch(
+            executable_path=shutil.which("chromium"), args=FLAGS_3D
+        )
+        picture_view(browser)
         browser.close()
 
 
@@ -132,37 +146,70 @@ class _Quiet(SimpleHTTPRequestHandler):
 
 def picture_sliders(browser: Browser) -> None:
     """The sliders of a robot's joints."""
-    bin_dir = Path(sys.executable).parent
+    with tempfile.NamedTemporaryFile("w", suffix=".urdf") as robot:
+        xacro = [_program("xacro"), str(ROOT / "examples" / "robots" / "walker.urdf.xacro")]
+        subprocess.run(xacro, stdout=robot, check=True)
+        gui = "joint_state_publisher_gui"
+        with running(_program("ros2"), "run", gui, gui, robot.name) as sliders:
+            page = browser.new_page(viewport={"width": 720, "height": 520})
+            page.goto(address_of(sliders))
+            page.locator("input[type=range]").first.wait_for(timeout=PATIENCE_MS)
+            page.screenshot(path=GALLERY / "sliders.png")
+            page.close()
+
+
+def picture_view(browser: Browser) -> None:
+    """The robot of the URDF tutorial in ``turtlewire view``."""
+    with tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as programs:
+        share = Path(folder) / "share"
+        index = share / "ament_index" / "resource_index" / "packages"
+        index.mkdir(parents=True)
+        (index / "urdf_tutorial").touch()
+        (share / "urdf_tutorial").symlink_to(URDF_TUTORIAL)
+        robot = str(URDF_TUTORIAL / "urdf" / "06-flexible.urdf")
+        for name in ("robot_state_publisher", "joint_state_publisher"):
+            programs.enter_context(running(_program("ros2"), "run", name, name, robot))
+        view = programs.enter_context(running(_program("turtlewire"), "view", prefix=folder))
+        page = browser.new_page(viewport={"width": 1400, "height": 900})
+        page.goto(address_of(view))
+        page.locator("#topic option", has_text="/robot_description").wait_for(
+            state="attached", timeout=PATIENCE_MS
+        )
+        page.select_option("#topic", label="/robot_description (robot model)")
+        page.click("#add-display")
+        page.wait_for_timeout(3000)
+        page.screenshot(path=IMAGES / "view.png")
+        page.close()
+
+
+def _program(name: str) -> str:
+    return str(Path(sys.executable).parent / name)
+
+
+@contextlib.contextmanager
+def running(*command: str, prefix: str = "") -> Iterator[subprocess.Popen[str]]:
+    """Run a program until the block ends; ``prefix``: a folder with installed packages."""
     environment = dict(
         os.environ,
         ROS_DOMAIN_ID=str(1 + os.getpid() % 101),
         TURTLEWIRE_BROWSER="0",
-        PATH=f"{bin_dir}{os.pathsep}{os.environ['PATH']}",
+        AMENT_PREFIX_PATH=prefix,
     )
-    with tempfile.NamedTemporaryFile("w", suffix=".urdf") as robot:
-        xacro = [str(bin_dir / "xacro"), str(ROOT / "examples" / "robots" / "walker.urdf.xacro")]
-        subprocess.run(xacro, stdout=robot, check=True)
-        gui = "joint_state_publisher_gui"
-        command = ["ros2", "run", gui, gui, robot.name]
-        with subprocess.Popen(
-            command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
-        ) as sliders:
-            try:
-                _take_sliders(browser, sliders)
-            finally:
-                sliders.send_signal(signal.SIGINT)
+    with subprocess.Popen(
+        command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+    ) as program:
+        try:
+            yield program
+        finally:
+            program.send_signal(signal.SIGINT)
 
 
-def _take_sliders(browser: Browser, sliders: subprocess.Popen[str]) -> None:
-    for line in sliders.stdout or ():
-        if found := re.search(r"sliders are at (http://\S+)", line):
-            page = browser.new_page(viewport={"width": 720, "height": 520})
-            page.goto(found[1])
-            page.locator("input[type=range]").first.wait_for(timeout=PATIENCE_MS)
-            page.screenshot(path=GALLERY / "sliders.png")
-            page.close()
-            return
-    raise RuntimeError("the sliders ended before their page was there")
+def address_of(program: subprocess.Popen[str]) -> str:
+    """Where its page is, as soon as it says so."""
+    for line in program.stdout or ():
+        if found := re.search(r"http://\S+", line):
+            return found[0]
+    raise RuntimeError(f"{program.args} ended before its page was there")
 
 
 if __name__ == "__main__":

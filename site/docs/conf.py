@@ -85,6 +85,7 @@ def setup(app: Sphinx) -> None:
     app.add_transform(LeaveBuiltinsAlone)
     app.connect("source-read", name_files_outside)
     app.connect("source-read", add_unsorted_pages)
+    app.connect("source-read", add_run_button)
     app.connect("autodoc-process-docstring", leave_out_module_tables)
 
 
@@ -110,6 +111,16 @@ def add_unsorted_pages(_app: Sphinx, docname: str, source: list[str]) -> None:
     if unsorted:
         names = "\n".join(unsorted)
         source[0] += f"\n```{{toctree}}\n:caption: More\n:hidden:\n\n{names}\n```\n"
+
+
+def add_run_button(_app: Sphinx, docname: str, source: list[str]) -> None:
+    """Let the how-to page about the lesson open the one of this site."""
+    if docname != "how-to/lesson":
+        return
+    title, rest = source[0].split("\n\n", 1)
+    button = "```{button-link} ../lesson/index.html\n:color: primary\n\n▶ Run\n```"
+    own = "**Run** opens it here. To build a page of your own,"
+    source[0] = f"{title}\n\n{button}\n\n{own}\n\n{rest}"
 
 
 def leave_out_module_tables(

@@ -3,6 +3,9 @@
 const unpacked = globalThis.unpackedFiles; // { path: blob }
 const published = {};
 
+/** Whether the page was opened from a folder, without a host. */
+export const isFromFolder = unpacked !== undefined;
+
 /** Address of a file of the page. */
 export function addressOf(path) {
   if (!unpacked) return new URL(path, document.baseURI).href;

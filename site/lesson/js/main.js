@@ -2,7 +2,7 @@
 
 import { listenForDriving } from "../turtlesim/controls.js";
 import { Editors } from "./editors.js";
-import { fetchFile, filesForWorker } from "./files.js";
+import { fetchFile, filesForWorker, isFromFolder } from "./files.js";
 import { Grading } from "./grading.js";
 import { fetchAll, prepareOffline } from "./loader.js";
 import { Runtime } from "./runtime.js";
@@ -235,8 +235,9 @@ class Page {
 async function loadFiles(manifest) {
   const megabytes = (bytes) => (bytes / 1e6).toFixed(1);
   const weight = `${megabytes(manifest.compressed)} MB compressed`;
-  byId("loading-text").textContent =
-    `Loading Python and the lesson: ${weight}, once. Then it also works without a network.`;
+  byId("loading-text").textContent = isFromFolder
+    ? `Loading Python and the lesson from this folder: ${weight}. No network is needed.`
+    : `Loading Python and the lesson: ${weight}, once. Then it also works without a network.`;
   await fetchAll(manifest.files, (done, total) => {
     byId("loading-bar").value = done / total;
     status("loading", `loading, ${Math.round((100 * done) / total)} %`);

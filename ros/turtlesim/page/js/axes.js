@@ -6,14 +6,15 @@ const Y_COLOUR = "#5df0a2";
 const EDGE = "rgb(12 17 60 / 70%)";
 const AXIS_METRES = 0.75;
 const SHORT_METRES = 0.25; // a shorter component gets no number
+const STEPS_ASIDE = [0, 1, -1, 2, -2, 3, -3]; // of its height, to a place without a name
 
 /**
  * Draw on `ctx`. `frames`: Map of name to [x, y, and the directions of its two axes seen from
  * above]; `from`, `to`: the frames of the arrow, or null; `named(name)`: whether the field names
  * the frame anyway; `toCanvas({ x, y })`: canvas pixels; `scale`: canvas pixels per metre;
- * `label(name, at)` writes a name.
+ * `label(name, at)` writes a name; `taken`: the boxes of all names, which numbers avoid.
  */
-export function drawAxes(ctx, { frames, from, to, named, toCanvas, scale, label }) {
+export function drawAxes(ctx, { frames, from, to, named, toCanvas, scale, label, taken }) {
   const arrow = from !== to && frames.has(from) && frames.has(to);
   if (arrow) drawArrow(ctx, frames.get(from), frames.get(to), toCanvas, scale);
   for (const [x, y, ...axes] of frames.values()) {
@@ -29,7 +30,10 @@ export function drawAxes(ctx, { frames, from, to, named, toCanvas, scale, label 
     const place = toCanvas({ x, y });
     if (!named(name) && isSeen(place)) label(name, place);
   }
-  if (arrow) writeComponents(ctx, frames.get(from), frames.get(to), toCanvas, scale);
+  if (!arrow) return;
+  for (const [a, b, text, colour] of writtenComponents(frames.get(from), frames.get(to))) {
+    taken.push(number(ctx, toCanvas(a), toCanvas(b), { text, colour, scale, taken }));
+  }
 }
 
 /** Metres along both axes of a frame, and the corner where the first component ends. */
@@ -49,12 +53,14 @@ function drawArrow(ctx, start, end, toCanvas, scale) {
   line(ctx, a, b, 0.045 * scale, "#ffffff", true);
 }
 
-function writeComponents(ctx, start, end, toCanvas, scale) {
+/** The components that are long enough: begin and end of the line, text and colour. */
+function writtenComponents(start, end) {
   const { ahead, left, corner } = components(start, end);
-  const [a, b] = [start, end].map(([x, y]) => toCanvas({ x, y }));
-  const c = toCanvas(corner);
-  if (Math.abs(ahead) > SHORT_METRES) number(ctx, a, c, `x ${ahead.toFixed(2)}`, X_COLOUR, scale);
-  if (Math.abs(left) > SHORT_METRES) number(ctx, c, b, `y ${left.toFixed(2)}`, Y_COLOUR, scale);
+  const [a, b] = [start, end].map(([x, y]) => ({ x, y }));
+  const lines = [[ahead, a, corner, "x", X_COLOUR], [left, corner, b, "y", Y_COLOUR]];
+  return lines.filter(([metres]) => Math.abs(metres) > SHORT_METRES).map(
+    ([metres, begin, stop, axis, colour]) => [begin, stop, `${axis} ${metres.toFixed(2)}`, colour],
+  );
 }
 
 /** A line, with a head at its end if `pointed`; its dark edge shows it on any background. */
@@ -89,14 +95,25 @@ function dot(ctx, [x, y], radius) {
   ctx.fill();
 }
 
-/** A component's number in the middle of its line, inside of the canvas. */
-function number(ctx, [x0, y0], [x1, y1], text, colour, scale) {
+/**
+ * Write a component's number in the middle of its line or, where a name is, above or below it, and
+ * inside of the canvas; the box that it takes.
+ */
+function number(ctx, [x0, y0], [x1, y1], { text, colour, scale, taken }) {
   const font = Math.max(10 * devicePixelRatio, 0.24 * scale);
   ctx.font = `600 ${font}px system-ui, sans-serif`;
   const [width, height] = [ctx.measureText(text).width + 0.9 * font, 1.45 * font];
   const size = ctx.canvas.width;
   const inside = (at, extent) => Math.min(Math.max(at - extent / 2, 4), size - extent - 4);
-  const [left, top] = [inside((x0 + x1) / 2, width), inside((y0 + y1) / 2, height)];
+  const boxes = STEPS_ASIDE.map((step) => ({
+    left: inside((x0 + x1) / 2, width),
+    top: inside((y0 + y1) / 2 + step * height, height),
+    width,
+    height,
+  }));
+  const isFree = (box) => !taken.some((other) => overlap(box, other));
+  const box = boxes.find(isFree) ?? boxes[0];
+  const { left, top } = box;
   ctx.fillStyle = "rgb(12 17 60 / 80%)";
   ctx.beginPath();
   ctx.roundRect(left, top, width, height, height / 2);
@@ -105,4 +122,11 @@ function number(ctx, [x0, y0], [x1, y1], text, colour, scale) {
   ctx.textAlign = "center";
   ctx.textBaseline = "middle";
   ctx.fillText(text, left + width / 2, top + 0.53 * height);
+  return box;
+}
+
+function overlap(a, b) {
+  const apart = a.left > b.left + b.width || b.left > a.left + a.width ||
+    a.top > b.top + b.height || b.top > a.top + a.height;
+  return !apart;
 }

@@ -69,7 +69,7 @@ export class Field {
       driven,
       scale: this.#scale,
       now,
-      above: (label) => axes && this.#drawAxes(axes, names, label),
+      above: (label, taken) => axes && this.#drawAxes(axes, names, label, taken),
     });
   }
 
@@ -109,10 +109,10 @@ export class Field {
     return [pixels(x) - this.#camera.left, pixels(FIELD_METRES - y) - this.#camera.top];
   }
 
-  #drawAxes(axes, names, label) {
+  #drawAxes(axes, names, label, taken) {
     const toCanvas = (place) => this.#toCanvas(place);
     const named = (name) => names.includes(name);
-    drawAxes(this.#live, { ...axes, named, toCanvas, scale: this.#scale, label });
+    drawAxes(this.#live, { ...axes, named, toCanvas, scale: this.#scale, label, taken });
   }
 
   #lookAt(pose, now) {

@@ -20,8 +20,9 @@ export class TurtlePainter {
 
   /**
    * `turtles`: [{ name, pose, at: [x, y] }] in canvas pixels; `scale`: canvas pixels per metre;
-   * `above(label)`: draws what lies over the turtles, and below the driven one's name; the rest as
-   * in Field. The driven turtle lies on the others, and nothing on its name.
+   * `above(label, taken)`: draws what lies over the turtles, and below the driven one's name;
+   * `taken`: the boxes of all names, which its own texts avoid; the rest as in Field. The driven
+   * turtle lies on the others, and nothing on its name.
    */
   paint(ctx, { turtles, ghost, driven, scale, now, above }) {
     if (scale !== this.#spriteScale) this.#sprites.clear();
@@ -35,7 +36,8 @@ export class TurtlePainter {
     const top = turtles.find(({ name }) => name === driven);
     others.forEach(draw);
     const named = turtles.length > MOST_NAMES ? [] : others;
-    for (const { name, at } of named) label(ctx, name, at, scale);
+    const taken = named.map(({ name, at }) => label(ctx, name, at, scale));
+    if (top) taken.push(boxOf(ctx, driven, top.at, scale));
     if (top) {
       ring(ctx, top.at, scale);
       draw(top);
@@ -45,7 +47,7 @@ export class TurtlePainter {
       this.#put(ctx, ghost.name, ghost.at, ghost.theta, 0);
       ctx.globalAlpha = 1;
     }
-    above((name, at) => label(ctx, name, at, 0.4 * scale));
+    above((name, at) => taken.push(label(ctx, name, at, 0.4 * scale)), taken);
     if (top) label(ctx, driven, top.at, scale, "rgb(12 17 60 / 86%)");
   }
 
@@ -107,25 +109,38 @@ function ring(ctx, [x, y], scale) {
   ctx.setLineDash([]);
 }
 
-/** The name below the turtle, above it at the lower edge, and always inside of the canvas. */
-function label(ctx, fullName, [x, y], scale, fill = "rgb(12 17 60 / 55%)") {
+function shortened(name) {
   const half = LONGEST_LABEL / 2;
-  const isLong = fullName.length > LONGEST_LABEL;
-  const name = isLong ? `${fullName.slice(0, half)}…${fullName.slice(1 - half)}` : fullName;
+  return name.length > LONGEST_LABEL ? `${name.slice(0, half)}…${name.slice(1 - half)}` : name;
+}
+
+/**
+ * Where a name stands: below the turtle, above it at the lower edge, and always inside of the
+ * canvas. It sets the font.
+ */
+function boxOf(ctx, name, [x, y], scale) {
   const size = ctx.canvas.width;
   const font = Math.max(11 * devicePixelRatio, size / 45);
   ctx.font = `600 ${font}px system-ui, sans-serif`;
-  const width = ctx.measureText(name).width + 1.1 * font;
+  const width = ctx.measureText(shortened(name)).width + 1.1 * font;
   const left = Math.min(Math.max(x - width / 2, 4), size - width - 4);
   const below = y + 0.72 * scale;
   const beside = below > size - 1.6 * font ? y - 0.72 * scale - 1.5 * font : below;
   const top = Math.min(Math.max(beside, 4), size - 1.5 * font - 4);
+  return { left, top, width, height: 1.5 * font };
+}
+
+/** Write a name; the box that it takes. */
+function label(ctx, name, at, scale, fill = "rgb(12 17 60 / 55%)") {
+  const box = boxOf(ctx, name, at, scale);
+  const { left, top, width, height } = box;
   ctx.fillStyle = fill;
   ctx.beginPath();
-  ctx.roundRect(left, top, width, 1.5 * font, 0.75 * font);
+  ctx.roundRect(left, top, width, height, height / 2);
   ctx.fill();
   ctx.fillStyle = "#ffffff";
   ctx.textAlign = "center";
   ctx.textBaseline = "middle";
-  ctx.fillText(name, left + width / 2, top + 0.79 * font);
+  ctx.fillText(shortened(name), left + width / 2, top + 0.53 * height);
+  return box;
 }
