@@ -272,6 +272,58 @@ def test_a_marker_on_a_frame_moves_with_it(scene):
     scene.expect(((0, -2, 0), RED), ((0, 2, 0), GROUND))
 
 
+def bmp(rows):
+    """An image file of rows of colours, each ``(r, g, b)``."""
+    lines = [b"".join(bytes(color[::-1]) for color in row) for row in rows[::-1]]
+    pixels = b"".join(line + bytes(-len(line) % 4) for line in lines)
+    head = struct.pack("<IiiHH24x", 40, len(rows[0]), len(rows), 1, 24)
+    return b"BM" + struct.pack("<IHHI", 54 + len(pixels), 0, 0, 54) + head + pixels
+
+
+def textured(name, **values):
+    """A square of 2 m, on which the image's first row lies in the north."""
+    UV = get("visualization_msgs/msg/UVCoordinate")  # noqa: N806
+    corners = [(-1, -1), (1, -1), (1, 1), (-1, -1), (1, 1), (-1, 1)]
+    return marker(
+        11, points=points(*[(x, y, 0) for x, y in corners]), color=(1, 1, 1),
+        uv_coordinates=[UV(u=(x + 1) / 2, v=(1 - y) / 2) for x, y in corners],
+        texture_resource=name, **values,
+    )  # fmt: skip
+
+
+#: Four colours, the red one in the north-west.
+IMAGE = bmp([[RED, BLUE], [GREEN, BLUE]])
+
+
+def expect_image(scene):
+    scene.expect_red((0.5, 0.5, 0))
+    scene.expect(((1.5, 0.5, 0), BLUE), ((1.5, -0.5, 0), BLUE), tolerance=110)
+    scene.expect(((0.5, -0.5, 0), GREEN), tolerance=110)
+
+
+def test_a_texture_comes_with_the_marker(scene):
+    message = textured("embedded://four")
+    message.texture.data = IMAGE
+    scene.show("marker", message)
+    expect_image(scene)
+    message.texture.data = bmp([[RED]])
+    scene.send(message)
+    scene.expect_red((0.5, -0.5, 0), (1.5, 0.5, 0))
+
+
+@pytest.mark.usefixtures("package")
+def test_a_texture_of_a_package(scene):
+    scene.show("marker", textured("package://arm/meshes/four.bmp"))
+    expect_image(scene)
+
+
+def test_a_texture_that_is_none(scene):
+    message = textured("embedded://four")
+    message.texture.data = b"no image"
+    scene.show("marker", message)
+    scene.expect_status("marker n/1: 'embedded://four' is no image that this browser can read")
+
+
 def stl(*triangles):
     """A binary STL file."""
     data = bytes(80) + struct.pack("<I", len(triangles))
@@ -290,6 +342,7 @@ def package(tmp_path, monkeypatch):
     (markers / "arm").touch()
     corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
     (meshes / "flat.stl").write_bytes(stl(corners))
+    (meshes / "four.bmp").write_bytes(IMAGE)
     (meshes / "flat.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     (meshes / "flat.dae").write_text(DAE)
     (meshes / "flat.gltf").write_text(GLTF)

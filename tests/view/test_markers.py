@@ -205,3 +205,45 @@ def test_rows_are_shown_as_messages_are(shape, colors):
     for name, array in shown_messages[0].arrays.items():
         assert shown_rows[0].arrays[name].tolist() == array.tolist()
     assert shown_rows[1:] == shown_messages[1:]
+
+
+def textured(**values):
+    uv = msg.get_message("visualization_msgs/msg/UVCoordinate")
+    coordinates = [uv(u=float(k), v=0.5) for k in range(9)]
+    return marker("triangle_list", points=9, **{"uv_coordinates": coordinates, **values})
+
+
+def test_thinned_triangles_keep_their_place_in_the_texture():
+    message = textured(texture_resource="embedded://a")
+    message.texture.data = b"image"
+    display = MarkerDisplay()
+    display.budget = 6
+    content, status = display.content(message)
+    assert status.text == "marker robot/1: 6 of 9 points are drawn"
+    assert content.arrays["uv"][:, 0].tolist() == content.arrays["points"][:, 0].tolist()
+    assert bytes(content.arrays["files"]) == b"image"
+    (sent,) = shown([content])
+    assert sent["texture"] == {"name": "embedded://a"}
+    assert (sent["uv"], sent["file"]) == ([0, 6], [0, 5])
+
+
+@pytest.mark.parametrize(
+    ("values", "line"),
+    [
+        ({}, "texture_resource is empty: the triangles have no texture"),
+        ({"texture_resource": "embedded://a"},
+         "'embedded://a' is not drawn: the field texture of this message is empty"),
+        ({"texture_resource": "embedded://a", "uv_coordinates": []},
+         "0 uv_coordinates for 9 points: the texture is not drawn"),
+        ({"texture_resource": "package://arm/a.stl", "uv_coordinates": []},
+         "0 uv_coordinates for 9 points: the texture is not drawn"),
+        ({"texture_resource": "package://no such/a.png"},
+         "'package://no such/a.png' is not loaded: 'no such' is no name of a package"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_with_a_texture(values, line):
+    content, status = MarkerDisplay().content(textured(**values))
+    assert (status.level, status.text) == ("warn", f"marker robot/1: {line}")
+    (sent,) = shown([content])
+    assert sent["texture"] is None
+    assert not len(content.arrays["uv"])

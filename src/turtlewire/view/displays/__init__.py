@@ -18,6 +18,7 @@ module             what it holds
 `occupancy_grid`   OccupancyGrid and OccupancyGridUpdate
 `marker`           Marker and MarkerArray
 `marker_shapes`    one marker
+`marker_texture`   the image on its triangles
 `image`            Image and CompressedImage
 `encodings`        pixels as RGBA
 `robot_model`      the links of a URDF

@@ -45,9 +45,10 @@ class MarkerDisplay(Display):
     """Markers of ``visualization_msgs/msg/Marker`` and ``MarkerArray``.
 
     Markers of one message that share frame, stamp and ``frame_locked`` travel as one part: the
-    header's ``markers`` say what each is and which rows of ``points``, ``colors`` and ``files`` are
-    its own. ``clear`` and ``delete`` (pairs of namespace and id) are events. A marker replaces
-    the one with its namespace and id, in whichever part that is. The page counts lifetimes.
+    header's ``markers`` say what each is and which rows of ``points``, ``colors``, ``uv`` and
+    ``files`` are its own. ``clear`` and ``delete`` (pairs of namespace and id) are events. A marker
+    replaces the one with its namespace and id, in whichever part that is. The page counts
+    lifetimes.
     """
 
     kind = "marker"
@@ -111,12 +112,12 @@ class MarkerDisplay(Display):
     def _part(self, place: _Place, group: dict[_Key, tuple[Any, MarkerShape]]) -> Content:
         frame_id, stamp_ns, locked = place
         part = str(next(self._numbers))
-        entries, rows, offsets = [], list(group.items()), [0, 0, 0]
+        entries, rows, offsets = [], list(group.items()), [0, 0, 0, 0]
         for key, (marker, shape) in rows:
             lifetime = _lifetime(marker)
             self._hold(key, part, lifetime)
-            sizes = [len(shape.points), len(shape.colors), len(shape.file)]
-            names = ("points", "colors", "file")
+            names = ("points", "colors", "file", "uv")
+            sizes = [len(getattr(shape, name)) for name in names]
             ranges = {
                 name: [offset, size]
                 for name, offset, size in zip(names, offsets, sizes, strict=True)
@@ -128,6 +129,7 @@ class MarkerDisplay(Display):
             "points": np.concatenate([shape.points for shape in shapes]),
             "colors": np.concatenate([shape.colors for shape in shapes]),
             "files": np.concatenate([shape.file for shape in shapes]),
+            "uv": np.concatenate([shape.uv for shape in shapes]),
         }
         packages = tuple(sorted({name for shape in shapes for name in shape.packages}))
         header = {"markers": entries}

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from turtlewire.view.displays.content import UnusableMessageError
+from turtlewire.view.displays.marker_texture import marker_texture
 from turtlewire.view.displays.numeric import (
     color_bytes,
     finite_points,
@@ -65,8 +66,9 @@ class MarkerShape(NamedTuple):
         header: Shape, pose, scale, colour and what else the shape needs.
         points: ``(n, 3)``, relative to the marker's pose.
         colors: ``(n, 4)``, one for each point, or none.
-        file: The bytes of an embedded mesh, or none.
-        packages: Packages whose meshes it needs.
+        file: The bytes of an embedded mesh or texture, or none.
+        packages: Packages whose meshes and textures it needs.
+        uv: ``(n, 2)``, where each point lies in the texture, or none.
     """
 
     header: dict[str, Any]
@@ -74,6 +76,7 @@ class MarkerShape(NamedTuple):
     colors: NDArray[np.uint8]
     file: NDArray[np.uint8]
     packages: tuple[str, ...]
+    uv: NDArray[np.float32]
 
 
 def marker_shape(marker: Any, budget: int, warn: Callable[[str], None]) -> MarkerShape:
@@ -97,10 +100,12 @@ def marker_shape(marker: Any, budget: int, warn: Callable[[str], None]) -> Marke
         "color": rgba_bytes(marker.color),
     }
     points, colors = np.empty((0, 3), np.float32), np.empty((0, 4), np.uint8)
-    file = np.empty(0, np.uint8)
+    file, uv = np.empty(0, np.uint8), np.empty((0, 2), np.float32)
     packages: tuple[str, ...] = ()
     if shape in _GROUPS or (shape == "arrow" and len(marker.points)):
-        points, colors = _points(marker, shape, budget, warn)
+        picked, points, colors = _points(marker, shape, budget, warn)
+        if shape == "triangle_list":
+            header["texture"], uv, file, packages = marker_texture(marker, picked, warn)
     elif shape == "text":
         header["text"] = marker.text[:_LONGEST_TEXT]
         if not marker.text.strip():
@@ -109,7 +114,7 @@ def marker_shape(marker: Any, budget: int, warn: Callable[[str], None]) -> Marke
         file, packages = _mesh(marker, header, warn)
     if not header["color"][3] and not len(colors) and not header.get("embedded_materials"):
         warn("the marker is invisible: color.a is 0")
-    return MarkerShape(header, points, colors, file, packages)
+    return MarkerShape(header, points, colors, file, packages, uv)
 
 
 def _scale_of(marker: Any, shape: str, warn: Callable[[str], None]) -> list[float]:
@@ -131,7 +136,8 @@ def _scale_of(marker: Any, shape: str, warn: Callable[[str], None]) -> list[floa
 
 def _points(
     marker: Any, shape: str, budget: int, warn: Callable[[str], None]
-) -> tuple[NDArray[np.float32], NDArray[np.uint8]]:
+) -> tuple[NDArray[np.intp], NDArray[np.float32], NDArray[np.uint8]]:
+    """Which points are drawn, where they are, and their colours if they have their own."""
     count, colors = len(marker.points), len(marker.colors)
     least, group = _GROUPS.get(shape, (2, 1))
     if count < least:
@@ -152,9 +158,10 @@ def _points(
         warn(f"{np.count_nonzero(~finite)} of {count} points are left out: not finite")
         picked, points = picked[finite], points[finite]
     if colors != count and not per_group:
-        return points.astype(np.float32), np.empty((0, 4), np.uint8)
+        return picked, points.astype(np.float32), np.empty((0, 4), np.uint8)
     own = picked // group if per_group else picked
-    return points.astype(np.float32), color_bytes(picked_rows(marker.colors, own, "rgba"))
+    rgba = color_bytes(picked_rows(marker.colors, own, "rgba"))
+    return picked, points.astype(np.float32), rgba
 
 
 def _picked(shape: str, count: int, group: int, budget: int) -> NDArray[np.intp]:

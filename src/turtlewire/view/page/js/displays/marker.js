@@ -1,9 +1,10 @@
 // Marker and MarkerArray: what there is of each namespace and id, until its lifetime ends.
 
-import { Group } from "three";
+import { BufferAttribute, Group } from "three";
 import { clear, free, setPose } from "./parts/common.js";
 import { makeMarker } from "./parts/marker_shapes.js";
 import { loadMesh, makePlaceholder, paint } from "./parts/meshes.js";
+import { loadTexture } from "./parts/textures.js";
 
 /** Longest time that a browser's timer can wait [s]. */
 const LONGEST_TIMER_S = 2e6;
@@ -55,7 +56,9 @@ export default class Marker {
     if (marker.shape === "mesh") this.#addMesh(holder, marker, arrays);
     else {
       const points = rows(arrays.points, marker.points, 3);
-      holder.add(makeMarker(marker, points, rows(arrays.colors, marker.colors, 4)));
+      const object = makeMarker(marker, points, rows(arrays.colors, marker.colors, 4));
+      holder.add(object);
+      if (marker.texture) this.#addTexture(object, marker, arrays);
     }
     if (marker.lifetime > 0) {
       const wait = 1000 * Math.min(marker.lifetime, LONGEST_TIMER_S);
@@ -83,6 +86,21 @@ export default class Marker {
     }
     if (holder.parent) holder.add(object);
     else free(object);
+    this.#view.requestDraw();
+  }
+
+  async #addTexture(object, marker, { files, uv }) {
+    const { geometry, material } = object;
+    const corners = rows(uv, marker.uv, 2).slice();
+    const bytes = marker.file[1] ? rows(files, marker.file, 1).slice() : null;
+    try {
+      const texture = await loadTexture(marker.texture, bytes);
+      if (!object.parent?.parent) return texture.dispose(); // another one has come meanwhile
+      geometry.setAttribute("uv", new BufferAttribute(corners, 2));
+      Object.assign(material, { map: texture, needsUpdate: true });
+    } catch (error) {
+      this.#view.report?.(`marker ${marker.key.join("/")}: ${error.message}`);
+    }
     this.#view.requestDraw();
   }
 
