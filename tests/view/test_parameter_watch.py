@@ -11,8 +11,10 @@ import pytest
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
+from turtlewire import msg
 from turtlewire.view import LiveSource
 from turtlewire.view.source import ParameterAnswer
+from turtlewire.wire.qos import QoS
 
 LIMIT_S = 60
 
@@ -91,3 +93,21 @@ def test_a_name_that_no_node_has(source):
     answers, end = ask(source, "/not a node", "robot")
     end()
     assert answers.get(timeout=LIMIT_S).problem.startswith("'/not a node' is no name of a node: ")
+
+
+def test_a_changed_parameter_is_followed(source, describer, robot):
+    """Its node's own event may come before the view has found that publisher: one more is sent."""
+    node = describer(robot="<robot/>")
+    events = robot.publisher("/parameter_events", "rcl_interfaces/msg/ParameterEvent", QoS())
+    answers, end = ask(source, "/describer", "robot")
+    assert robot.wait_for(events.is_heard)
+    assert wait_for(answers, lambda answer: answer.text).text == "<robot/>"
+    for kind in ("new", "changed"):
+        text = f"<robot name='{kind}'/>"
+        node.set_parameters([Parameter("robot", value=text)])
+        event = msg.get_message("rcl_interfaces/msg/ParameterEvent")(node="/describer")
+        changed = msg.get_message("rcl_interfaces/msg/Parameter")(name="robot")
+        setattr(event, f"{kind}_parameters", [changed])
+        events.publish(msg.serialize(event))
+        wait_for(answers, lambda answer, text=text: answer.text == text)
+    end()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import threading
 from typing import TYPE_CHECKING, Any
 
@@ -18,8 +19,13 @@ if TYPE_CHECKING:
 
 __all__ = ["ParameterWatch"]
 
+_logger = logging.getLogger(__name__)
+
 _SERVICE = "rcl_interfaces/srv/GetParameters"
 _SUFFIX = "/get_parameters"
+_EVENTS, _EVENT = "/parameter_events", "rcl_interfaces/msg/ParameterEvent"
+#: ROS 2's for the topic of all nodes' parameters.
+_EVENTS_QOS = QoS(depth=1000)
 #: Types of ParameterValue by number.
 _TYPES = (
     "not set", "a bool", "an integer", "a double", "a string", "a byte array", "a bool array",
@@ -30,7 +36,7 @@ _MOST_NAMED = 5
 
 
 class ParameterWatch:
-    """Asks for a text parameter when its node is there, and again when the node comes again.
+    """Asks for a text parameter when its node is there, comes again or says that it has changed.
 
     A thread of its own waits for the response.
 
@@ -67,6 +73,9 @@ class ParameterWatch:
         self._wait_set.attach(self._client)
         self._thread = threading.Thread(target=self._take, name="view-parameter", daemon=True)
         self._thread.start()
+        self._events = node.create_subscription(
+            _EVENTS, _type_id(_EVENT), _EVENTS_QOS, lambda cdr, _: self._take_event(cdr)
+        )
         self._end = context.graph.add_listener(self._look)
         self._look()
 
@@ -74,6 +83,7 @@ class ParameterWatch:
         """Ask no more."""
         self._end()
         self._is_closed = True
+        self._events.close()
         self._wait_set.wake()
         self._thread.join()
         self._client.close()
@@ -87,10 +97,27 @@ class ParameterWatch:
                 return
             self._is_there = is_there
             if is_there:
-                request = self._interface.Request(names=[self._parameter])
-                self._asked = self._client.send_request(msg.serialize(request))
+                self._ask()
             waiting = f"the node {self._owner} does not answer yet"
             self._on_answer(ParameterAnswer(problem=waiting if is_there else self._absent()))
+
+    def _ask(self) -> None:
+        request = self._interface.Request(names=[self._parameter])
+        self._asked = self._client.send_request(msg.serialize(request))
+
+    def _take_event(self, cdr: bytes) -> None:
+        """Ask again when the parameter has changed: the value itself may be of another type now."""
+        try:
+            event: Any = msg.deserialize(msg.get_message(_EVENT), cdr)
+        except CdrError as error:
+            _logger.warning("A message on %s cannot be read: %s", _EVENTS, error)
+            return
+        changed = [*event.new_parameters, *event.changed_parameters, *event.deleted_parameters]
+        if event.node != self._owner or self._parameter not in {each.name for each in changed}:
+            return
+        with self._lock:
+            if self._is_there and not self._is_closed:
+                self._ask()
 
     def _absent(self) -> str:
         """Why nobody can be asked, and who could be."""
