@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import random
+import re
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
@@ -70,3 +74,38 @@ def test_a_clock_that_ticks_faster_than_transforms_come_is_no_loss():
 @pytest.mark.parametrize("stamps", [[], [5], [7] * 100, list(range(0, 10**9, 10**8))])
 def test_too_few_moments_say_nothing(stamps):
     assert find_gaps(stamps) is None
+
+
+LOSSY = """
+import rclpy
+from geometry_msgs.msg import TransformStamped
+from rclpy.node import Node
+from tf2_ros import TransformBroadcaster
+from turtlesim.testing.faults import Loss
+
+rclpy.init()
+node, loss = Node("lossy"), Loss(0.5)
+broadcaster = TransformBroadcaster(node)
+
+def send():
+    transform = TransformStamped()
+    transform.header.stamp = node.get_clock().now().to_msg()
+    transform.header.frame_id, transform.child_frame_id = "world", "turtle1"
+    transform.transform.rotation.w = 1.0
+    if loss.delay_s(transform) is not None:
+        broadcaster.sendTransform(transform)
+
+node.create_timer(0.02, send)
+rclpy.spin(node)
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(120)
+def test_the_doctor_tells_of_loss_on_the_wire(run):
+    """A busy host holds the timer up, and its rhythm is none: the doctor is asked again."""
+    run(sys.executable, "-c", LOSSY)
+    doctor = [Path(sys.executable).parent / "turtlewire", "doctor"]
+    told = ""
+    while not re.search("About [3-7].% of the transforms of 'turtle1' are missing", told):
+        told = subprocess.run(doctor, capture_output=True, text=True, check=False).stdout
