@@ -134,3 +134,16 @@ def test_a_fault_of_a_display_is_logged_once(page, monkeypatch, caplog):
     page.send(marker(2))
     assert [packet["level"] for packet in page.take()] == ["error"]
     assert [record.exc_info[0] for record in caplog.records] == [ArithmeticError]
+
+
+def test_that_no_message_has_come_is_said_until_one_does(page):
+    base = Base(page.buffer, "map", (0.0, 0.0, 0.0))
+    page.feed.work(base)
+    (status,) = page.take()
+    assert (status["level"], status["text"]) == ("warn", "No messages received")
+    page.know("base")
+    page.send(marker(1))
+    assert (page.take()[-1]["level"], page.feed.waits) == ("ok", False)
+    page.feed.set_options({})
+    page.feed.work(base)
+    assert page.take() == []

@@ -37,6 +37,8 @@ _logger = logging.getLogger(__name__)
 _MOST_MESSAGES = 1000
 _MOST_WAITING = 50
 _MOST_EVENTS = 1000
+#: As RViz has it until the first message comes.
+_NO_MESSAGE = Status("warn", "No messages received")
 
 
 class Base:
@@ -123,6 +125,7 @@ class DisplayFeed:
         self._shown: dict[str, Content] = {}
         self._base: Base | None = None
         self._starts = True
+        self._has_message = False
         self._last: dict[str, bytes] = {}  # topic to message, for displays that show it again
         self._ready: dict[str, bytes] = {}
         self._told: set[str] = set()  # parts that the page has
@@ -188,9 +191,12 @@ class DisplayFeed:
         """Turn messages into packets as far as transforms allow."""
         if self._starts:
             self._starts = False
+            if self._classes and not self._has_message and not self._inbox:
+                self._say(_NO_MESSAGE)
             self._take(self._guarded(self.display.start))
             self._show_answer()
         while self._inbox:
+            self._has_message = True
             topic, cdr = self._inbox.popleft()
             if self.display.replays:
                 self._last[topic] = cdr
