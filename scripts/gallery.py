@@ -62,6 +62,7 @@ def main() -> None:
         )
         picture_lesson(browser)
         picture_sliders(browser)
+        picture_class(browser)
         browser.close()
         browser = playwright.chromium.launch(
             executable_path=shutil.which("chromium"), args=FLAGS_3D
@@ -210,6 +211,29 @@ def address_of(program: subprocess.Popen[str]) -> str:
         if found := re.search(r"http://\S+", line):
             return found[0]
     raise RuntimeError(f"{program.args} ended before its page was there")
+
+
+def picture_class(browser: Browser) -> None:
+    """The page of a class of three, each of whom runs the demo."""
+    bin_dir = Path(sys.executable).parent
+    environment = dict(os.environ, TURTLEWIRE_BROWSER="0", TURTLEWIRE_PORT="0")
+    first = 1 + os.getpid() % 90
+    demo = [str(bin_dir / "ros2"), "launch", "learning_tf2_py", "turtle_tf2_demo.launch.py"]
+    roster = [str(bin_dir / "turtlewire"), "class", "--domains", f"{first}-{first + 2}"]
+    with contextlib.ExitStack() as stack:
+        for domain in range(first, first + 3):
+            own = {**environment, "ROS_DOMAIN_ID": str(domain)}
+            launch = stack.enter_context(subprocess.Popen(demo, env=own))
+            stack.callback(launch.send_signal, signal.SIGINT)
+        shown = subprocess.Popen(roster, env=environment, stdout=subprocess.PIPE, text=True)
+        stack.enter_context(shown)
+        stack.callback(shown.send_signal, signal.SIGINT)
+        page = browser.new_page(viewport={"width": 860, "height": 480})
+        page.goto(address_of(shown))
+        page.locator("article p", has_text="By TF").nth(2).wait_for(timeout=PATIENCE_MS)
+        page.wait_for_timeout(4000)
+        page.screenshot(path=GALLERY / "class.png")
+        page.close()
 
 
 if __name__ == "__main__":
