@@ -179,10 +179,6 @@ def test_an_endless_loop_is_stopped_and_the_tab_lives_on(open_page, where):
         ("[0] * 10**10", "more than the memory of a tab"),
         ("input('who? ')", "Nobody can type here"),
         ("f = lambda: f(); f()", "calls itself again and again"),
-        (
-            "import sys; sys.setrecursionlimit(10**9); f = lambda: f(); f()",
-            "calls itself without an end",
-        ),
         ("kept = []\n        while True: kept.append(bytearray(10**8))", "the memory of a tab"),
         ("import time; time.sleep(1e9)", "did not come to an end"),
         ("while True: print('a line')", "did not come to an end"),
