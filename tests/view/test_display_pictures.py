@@ -344,6 +344,12 @@ def package(tmp_path, monkeypatch):
     (meshes / "flat.stl").write_bytes(stl(corners))
     (meshes / "four.bmp").write_bytes(IMAGE)
     (meshes / "flat.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    (meshes / "painted.obj").write_text(
+        "mtllib paints.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0.25 0.75\n"
+        "o a\nusemtl green\nf 1 2 3\no b\nusemtl image\nf 2/1 4/1 3/1\n"
+    )
+    (meshes / "paints.mtl").write_text("newmtl green\nKd 0 1 0\nnewmtl image\nmap_Kd four.bmp\n")
+    (meshes / "lost.obj").write_text("mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     (meshes / "flat.dae").write_text(DAE)
     (meshes / "flat.gltf").write_text(GLTF)
     (meshes / "broken.stl").write_bytes(stl(corners)[:90])
@@ -358,6 +364,25 @@ def test_a_mesh(scene, form):
     scene.show("marker", message)
     scene.expect_red((1.2, 0.2, 0), (2.2, 0.2, 0))
     scene.expect_ground((2.5, 0.8, 0))
+
+
+@pytest.mark.usefixtures("package")
+def test_materials_of_an_obj_file(scene):
+    message = marker(10, scale=(2, 1, 1), mesh_resource="package://arm/meshes/painted.obj")
+    message.mesh_use_embedded_materials = True
+    scene.show("marker", message)
+    scene.expect(((1.2, 0.2, 0), GREEN), tolerance=110)
+    scene.expect_red((2.6, 0.8, 0))
+
+
+@pytest.mark.usefixtures("package")
+def test_lost_materials_of_an_obj_file(scene, shown_page):
+    scene.show("marker", marker(10, mesh_resource="package://arm/meshes/lost.obj"))
+    scene.expect_red((1.2, 0.2, 0))
+    scene.expect_status("'package://arm/meshes/lost.obj' asks for 'none.mtl', which cannot be")
+    (answer,) = shown_page[2]  # the browser itself tells of the file that there is not
+    assert "404" in answer
+    shown_page[2].clear()
 
 
 @pytest.mark.usefixtures("package")

@@ -76,6 +76,7 @@ export default class Marker {
     try {
       const loaded = await loadMesh(mesh, bytes);
       object = loaded.object;
+      if (loaded.problem) this.#view.report?.(`marker ${marker.key.join("/")}: ${loaded.problem}`);
       if (!keepsOwn || !loaded.isOwn) paint(object, color);
       const alpha = color[3] / 255;
       if (alpha < 1 && !keepsOwn) makeClear(object, alpha);

@@ -108,7 +108,7 @@ export default class RobotModel {
   async #addMesh(holder, { mesh, size, color: own }, color) {
     const generation = this.#generation;
     try {
-      const { object, isOwn } = await loadMesh(mesh);
+      const { object, isOwn, problem } = await loadMesh(mesh);
       if (generation !== this.#generation) {
         free(object);
         return;
@@ -119,6 +119,7 @@ export default class RobotModel {
       object.userData.alpha = (wanted?.[3] ?? 255) / 255;
       holder.add(object);
       this.setOptions(this.#options);
+      if (problem) this.#fail(problem);
     } catch (error) {
       if (generation !== this.#generation) return;
       holder.add(makePlaceholder());

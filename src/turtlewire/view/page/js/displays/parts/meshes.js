@@ -1,7 +1,7 @@
 // Files of meshes: STL, DAE, OBJ, GLB; a box stands for what cannot be loaded.
 
 import {
-  Box3, BoxGeometry, EdgesGeometry, Group, LineBasicMaterial, LineSegments, Mesh,
+  Box3, BoxGeometry, EdgesGeometry, Group, LineBasicMaterial, LineSegments, LoadingManager, Mesh,
   MeshLambertMaterial,
 } from "three";
 import { free, litColor } from "./common.js";
@@ -9,28 +9,35 @@ import { free, litColor } from "./common.js";
 const PLACEHOLDER_SIZE = 0.1;
 const PLACEHOLDER_COLOR = "#e0405a";
 const PLAIN_COLOR = [200, 10, 10]; // RViz's, of what has no material
-/** Format to what makes an object of the bytes; loaders come when the first file needs them. */
+/**
+ * Format to what makes `object` of bytes, and tells whether it `isOwn`, with materials of its own.
+ * Loaders come when the first file needs them; images are asked for by way of the `manager`.
+ */
 const PARSERS = {
   stl: async (bytes) => {
     const { STLLoader } = await import("three/addons/loaders/STLLoader.js");
     const geometry = new STLLoader().parse(bytes);
-    return new Mesh(geometry, new MeshLambertMaterial({ vertexColors: geometry.hasColors }));
+    const look = new MeshLambertMaterial({ vertexColors: geometry.hasColors });
+    return { object: new Mesh(geometry, look), isOwn: false };
   },
-  obj: async (bytes) => {
+  obj: async (bytes, folder, manager) => {
     const { OBJLoader } = await import("three/addons/loaders/OBJLoader.js");
-    return new OBJLoader().parse(new TextDecoder().decode(bytes));
+    const text = new TextDecoder().decode(bytes);
+    const materials = await loadMaterials(text, folder, manager);
+    const object = new OBJLoader(manager).setMaterials(materials).parse(text);
+    return { object, isOwn: materials !== null };
   },
-  dae: async (bytes, folder) => {
+  dae: async (bytes, folder, manager) => {
     const { ColladaLoader } = await import("three/addons/loaders/ColladaLoader.js");
     const text = new TextDecoder().decode(bytes);
-    const loaded = /<COLLADA[\s>]/.test(text) && new ColladaLoader().parse(text, folder);
+    const loaded = /<COLLADA[\s>]/.test(text) && new ColladaLoader(manager).parse(text, folder);
     if (!loaded) throw new Error("this is no COLLADA");
     loaded.scene.rotation.set(0, 0, 0); // RViz takes the numbers as they are, whatever is "up"
-    return loaded.scene;
+    return { object: loaded.scene, isOwn: true };
   },
   glb: async (bytes, folder) => {
     const { GLTFLoader } = await import("three/addons/loaders/GLTFLoader.js");
-    return (await new GLTFLoader().parseAsync(bytes, folder)).scene;
+    return { object: (await new GLTFLoader().parseAsync(bytes, folder)).scene, isOwn: true };
   },
 };
 PARSERS.gltf = PARSERS.glb;
@@ -40,7 +47,8 @@ const known = new Map();
 
 /**
  * The object of a header's `mesh` ({ url, name } or { problem, name }), or of `bytes`.
- * `isOwn` tells whether it brings its own materials. Raises an Error that says what is wrong.
+ * `isOwn` tells whether it brings its own materials, `problem` which file of these is missing.
+ * Raises an Error that says what is wrong.
  */
 export async function loadMesh(mesh, bytes = null) {
   if (mesh.problem) throw new Error(mesh.problem);
@@ -49,8 +57,8 @@ export async function loadMesh(mesh, bytes = null) {
     known.set(mesh.url, fetchMesh(mesh));
     known.get(mesh.url).catch(() => known.delete(mesh.url)); // it may be there the next time
   }
-  const { object, isOwn } = await known.get(mesh.url);
-  return { object: copyOf(object), isOwn };
+  const { object, ...rest } = await known.get(mesh.url);
+  return { object: copyOf(object), ...rest };
 }
 
 /** A box of wires in place of a mesh. */
@@ -86,12 +94,20 @@ async function parse(name, bytes, folder) {
   if (!Object.hasOwn(PARSERS, format)) {
     throw new Error(`'${name}' is none of ${Object.keys(PARSERS).join(", ")}`);
   }
-  let object;
+  const manager = new LoadingManager();
+  let problem = "";
+  let images = null;
+  manager.onStart = () => (images = new Promise((resolve) => (manager.onLoad = resolve)));
+  manager.onError = (url) => {
+    problem ||= `'${name}' asks for '${url.split("/").pop()}', which cannot be loaded`;
+  };
+  let object, isOwn;
   try {
-    object = await PARSERS[format](bytes, folder);
+    ({ object, isOwn } = await PARSERS[format](bytes, folder, manager));
   } catch (error) {
     throw new Error(`'${name}' is no ${format.toUpperCase()} that can be read: ${error.message}`);
   }
+  await images;
   keepSolids(object);
   const extent = new Box3().setFromObject(object);
   if (extent.isEmpty() || ![...extent.min, ...extent.max].every(Number.isFinite)) {
@@ -100,7 +116,25 @@ async function parse(name, bytes, folder) {
   }
   const holder = new Group(); // the object has a scale and a turn of its own
   holder.add(object);
-  return { object: holder, isOwn: format !== "stl" && format !== "obj" };
+  return { object: holder, isOwn, problem };
+}
+
+/** The materials that the text of an OBJ file names, or null if it has none or they are missing. */
+async function loadMaterials(text, folder, manager) {
+  const names = [...text.matchAll(/^mtllib\s+(.+?)\s*$/gm)].map((found) => found[1]);
+  const wanted = folder ? names : []; // bytes that came with a message have no files beside them
+  const texts = await Promise.all(wanted.map((name) => fetchText(folder + name, manager)));
+  const found = texts.filter((each) => each !== null);
+  if (!found.length) return null;
+  const { MTLLoader } = await import("three/addons/loaders/MTLLoader.js");
+  return new MTLLoader(manager).parse(found.join("\n"), folder);
+}
+
+async function fetchText(url, manager) {
+  const answer = await fetch(url);
+  if (answer.ok) return answer.text();
+  manager.itemError(url);
+  return null;
 }
 
 /** Lights and cameras of a file are not ours. */
