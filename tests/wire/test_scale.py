@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import signal
 import subprocess
 import sys
@@ -14,6 +15,7 @@ import pytest
 from turtlewire.errors import WireError
 from turtlewire.wire import open_context
 from turtlewire.wire.base import Context, TypeId
+from turtlewire.wire.cyclone import library
 from turtlewire.wire.cyclone.announcer import ANNOUNCEMENT_INTERVAL_NS
 from turtlewire.wire.graph import DISCOVERY_TOPIC, DISCOVERY_TYPE, unpack_discovery_info
 from turtlewire.wire.qos import Durability, History, QoS
@@ -227,3 +229,19 @@ def test_the_fiftieth_process_and_the_others_see_each_other(record_property):
         codes = [member.end() for member in members]
     record_property("seconds from the last start until all see all", seen - members[-1].started)
     assert codes == [0] * count
+
+
+def test_topics_that_come_and_go_leave_nothing(contexts: list[Context]):
+    """A view of a robot that runs for days sees ever new names."""
+    context = contexts[0]
+    node = context.create_node("passing")
+    count_children = ctypes.CDLL(library.LIBRARY.path).dds_get_children
+
+    def come_and_go(number: int) -> int:
+        publisher = node.create_publisher(f"/topic_{number}", STRING, QoS())
+        subscription = node.create_subscription(f"/topic_{number}", STRING, QoS())
+        subscription.close()
+        publisher.close()
+        return int(count_children(context._core.participant.handle, None, 0))
+
+    assert come_and_go(1) == come_and_go(2)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import os
 import threading
+from typing import TYPE_CHECKING
 
 from turtlewire.errors import TurtlewireError, WireError
 from turtlewire.wire import names
@@ -16,6 +18,9 @@ from .configuration import domain_configuration
 from .log import CycloneLog
 from .ports import max_processes, processes_on_host
 from .sertype import sertype_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 __all__ = ["Participant"]
 
@@ -159,8 +164,6 @@ class Participant:
 
     def __init__(self, domain_id: int, enclave: str) -> None:
         self.domain_id = domain_id
-        self._lock = threading.Lock()
-        self._topics: dict[tuple[str, str], int] = {}
         _domains.join(domain_id)
         try:
             self.handle = self._create(enclave)
@@ -178,18 +181,10 @@ class Participant:
         Peers do not see this: Cyclone does not announce topics, only their readers and writers.
         """
         # A build with another layout of its structures would not fail, but send wrong bytes.
-        topic = self.topic("turtlewire/check", "turtlewire/msg/Check")
-        sertype = sertype_of(topic)
         probe = b"\x00\x01\x00\x00\x07turtle"
-        serdata = dds.serdata_from_bytes(
-            sertype, dds.SERDATA_KIND_DATA, 1, dds.IoVec(base=probe, size=len(probe)), len(probe)
-        )
-        copy = bytes(dds.serdata_size(serdata)) if serdata else b""
-        if serdata:
-            dds.serdata_to_bytes(serdata, 0, len(copy), copy)
-            dds.serdata_unref(serdata)
-        if copy != probe:
-            raise WireError(f"{dds.LIBRARY} lays out types in another way than it should")
+        with self.topic("turtlewire/check", "turtlewire/msg/Check") as topic:
+            if _there_and_back(probe, sertype_of(topic)) != probe:
+                raise WireError(f"{dds.LIBRARY} lays out types in another way than it should")
 
     def _create(self, enclave: str) -> int:
         qos = dds.create_qos()
@@ -210,13 +205,18 @@ class Participant:
         finally:
             dds.delete_qos(qos)
 
-    def topic(self, dds_topic: str, type_name: str) -> int:
-        """The handle of a topic; it lives as long as the participant."""
-        with self._lock:
-            key = (dds_topic, type_name)
-            if key not in self._topics:
-                self._topics[key] = self._create_topic(dds_topic, type_name)
-            return self._topics[key]
+    @contextlib.contextmanager
+    def topic(self, dds_topic: str, type_name: str) -> Iterator[int]:
+        """The handle of a topic, to make readers and writers of.
+
+        It is deleted afterwards. What was made of it keeps it alive, and the last of these to go
+        ends it: names that come and go leave nothing behind.
+        """
+        handle = self._create_topic(dds_topic, type_name)
+        try:
+            yield handle
+        finally:
+            dds.delete(handle)
 
     def _create_topic(self, dds_topic: str, type_name: str) -> int:
         descriptor = dds.TopicDescriptor(
@@ -238,6 +238,19 @@ class Participant:
         """Leave the domain; everything made in this participant is deleted."""
         dds.delete(self.handle)
         _domains.leave(self.domain_id)
+
+
+def _there_and_back(probe: bytes, sertype: int) -> bytes:
+    """Bytes that Cyclone took as a message and gave out again; none if it refused them."""
+    serdata = dds.serdata_from_bytes(
+        sertype, dds.SERDATA_KIND_DATA, 1, dds.IoVec(base=probe, size=len(probe)), len(probe)
+    )
+    if not serdata:
+        return b""
+    copy = bytes(dds.serdata_size(serdata))
+    dds.serdata_to_bytes(serdata, 0, len(copy), copy)
+    dds.serdata_unref(serdata)
+    return copy
 
 
 def _set_enclave(qos: int, enclave: str) -> None:

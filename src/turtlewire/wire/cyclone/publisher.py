@@ -53,8 +53,10 @@ class CyclonePublisher(Endpoint, Publisher):
     def __init__(self, participant: Participant, spec: EndpointSpec) -> None:
         super().__init__(spec)
         self.topic = spec.name
-        topic = participant.topic(spec.dds_topic, spec.type_id.name)
-        with dds_qos(spec.qos, spec.user_data, writer=True) as qos:
+        with (
+            participant.topic(spec.dds_topic, spec.type_id.name) as topic,
+            dds_qos(spec.qos, spec.user_data, writer=True) as qos,
+        ):
             self._created(dds.create_writer(participant.handle, topic, qos, None))
         self._writer = make_writer(self.handle)
         self._write = self._writer.write

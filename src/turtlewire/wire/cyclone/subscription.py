@@ -84,12 +84,14 @@ class CycloneSubscription(Endpoint, Subscription):
         self._user_data: dict[bytes, bytes] = {}
         self._forget = False
         self.on_matched.append(self._publishers_changed)
-        topic = participant.topic(spec.dds_topic, spec.type_id.name)
         self.inlet = None
         if sink is not None and NATIVE is not None:
             self.inlet = Inlet(NATIVE, participant.handle, sink)
         listener = None if self.inlet is None else self.inlet.listener
-        with dds_qos(spec.qos, spec.user_data, writer=False, ignore_local=ignore_local) as qos:
+        with (
+            participant.topic(spec.dds_topic, spec.type_id.name) as topic,
+            dds_qos(spec.qos, spec.user_data, writer=False, ignore_local=ignore_local) as qos,
+        ):
             handle = dds.create_reader(participant.handle, topic, qos, listener)
         if handle < 0 and self.inlet is not None:
             self.inlet.close()
