@@ -24,7 +24,7 @@ def blocks(language):
 def test_the_page_does_what_it_says(run, tmp_path, monkeypatch):
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join(sys.path))
     shutil.copytree(ROOT / "examples", tmp_path / "examples")
-    (tmp_path / "roster.csv").write_text(blocks("csv")[0], encoding="utf-8")
+    (tmp_path / "roster.csv").write_text(blocks("text")[0], encoding="utf-8")
     assert [seat.name for seat in read_roster(tmp_path / "roster.csv")] == ["Ana", "Björn"]
     solved = exercises()[0]
     shutil.copytree(solved.folder / "solution", tmp_path / "submissions/ana" / solved.name)

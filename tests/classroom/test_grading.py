@@ -214,6 +214,7 @@ def test_first_files_are_written_once(tmp_path, capsys):
     assert sorted(path.name for path in (folder / "camera").iterdir()) == [
         "README.md",
         "camera_tf2_broadcaster.py",
+        "exercise.launch.py",
     ]
     assert main(["class", "start", str(folder), "-e", "camera"]) == 2
     assert "README.md is there already: nothing was written" in capsys.readouterr().err
