@@ -47,6 +47,8 @@ FLAGS_3D = [
     "--enable-unsafe-swiftshader",
 ]
 SECOND = 1_000_000_000
+#: The first of up to three domains in a row that a picture uses.
+FIRST_DOMAIN = 1 + os.getpid() % 90
 #: A browser that starts Python, or a robot's page, on a busy machine.
 PATIENCE_MS = 180_000
 
@@ -188,11 +190,13 @@ def _program(name: str) -> str:
 
 
 @contextlib.contextmanager
-def running(*command: str, prefix: str = "") -> Iterator[subprocess.Popen[str]]:
+def running(
+    *command: str, prefix: str = "", domain: int = FIRST_DOMAIN
+) -> Iterator[subprocess.Popen[str]]:
     """Run a program until the block ends; ``prefix``: a folder with installed packages."""
     environment = dict(
         os.environ,
-        ROS_DOMAIN_ID=str(1 + os.getpid() % 101),
+        ROS_DOMAIN_ID=str(domain),
         TURTLEWIRE_BROWSER="0",
         AMENT_PREFIX_PATH=prefix,
     )
@@ -215,19 +219,14 @@ def address_of(program: subprocess.Popen[str]) -> str:
 
 def picture_class(browser: Browser) -> None:
     """The page of a class of three, each of whom runs the demo."""
-    bin_dir = Path(sys.executable).parent
-    environment = dict(os.environ, TURTLEWIRE_BROWSER="0", TURTLEWIRE_PORT="0")
-    first = 1 + os.getpid() % 90
-    demo = [str(bin_dir / "ros2"), "launch", "learning_tf2_py", "turtle_tf2_demo.launch.py"]
-    roster = [str(bin_dir / "turtlewire"), "class", "--domains", f"{first}-{first + 2}"]
-    with contextlib.ExitStack() as stack:
-        for domain in range(first, first + 3):
-            own = {**environment, "ROS_DOMAIN_ID": str(domain)}
-            launch = stack.enter_context(subprocess.Popen(demo, env=own))
-            stack.callback(launch.send_signal, signal.SIGINT)
-        shown = subprocess.Popen(roster, env=environment, stdout=subprocess.PIPE, text=True)
-        stack.enter_context(shown)
-        stack.callback(shown.send_signal, signal.SIGINT)
+    domains = range(FIRST_DOMAIN, FIRST_DOMAIN + 3)
+    demo = ("launch", "learning_tf2_py", "turtle_tf2_demo.launch.py")
+    with contextlib.ExitStack() as programs:
+        for domain in domains:
+            programs.enter_context(running(_program("ros2"), *demo, domain=domain))
+        shown = programs.enter_context(
+            running(_program("turtlewire"), "class", "--domains", f"{domains[0]}-{domains[-1]}")
+        )
         page = browser.new_page(viewport={"width": 860, "height": 480})
         page.goto(address_of(shown))
         page.locator("article p", has_text="By TF").nth(2).wait_for(timeout=PATIENCE_MS)

@@ -29,7 +29,7 @@ class Report(NamedTuple):
 
     Attributes:
         student: The name of the student's folder, safe to show.
-        slug: A name for files and links: letters, digits, dashes, dots and underscores.
+        slug: A name for files: letters of any script, digits, dashes, dots and underscores.
         outcomes: One for each exercise.
     """
 
@@ -120,13 +120,12 @@ def _slugs(students: Sequence[Path]) -> dict[Path, str]:
     taken = {"index"}  # the overview; file systems may ignore case
     for student in students:
         plain = "".join(
-            letter if letter.isascii() and (letter.isalnum() or letter in "._-") else "_"
-            for letter in student.name
+            letter if letter.isalnum() or letter in "._-" else "_" for letter in student.name
         )
         slug, number = plain, 1
-        while slug.lower() in taken:
+        while slug.casefold() in taken:
             number += 1
             slug = f"{plain}-{number}"
-        taken.add(slug.lower())
+        taken.add(slug.casefold())
         slugs[student] = slug
     return slugs

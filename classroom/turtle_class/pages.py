@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import html
 from typing import TYPE_CHECKING
+from urllib.parse import quote
 
 from turtlewire.printable import printable, printable_lines
 
@@ -65,7 +66,7 @@ def overview(reports: Sequence[Report], title: str, when: str) -> str:
 def _row(report: Report) -> str:
     cells = "".join(f"<td>{_cell(outcome)}</td>" for outcome in report.outcomes)
     return (
-        f'<tr><th scope=row><a href="{report.slug}.html">{_text(report.student)}</a></th>'
+        f'<tr><th scope=row><a href="{quote(report.slug)}.html">{_text(report.student)}</a></th>'
         f"<td>{report.passed} of {len(report.outcomes)}</td>{cells}</tr>"
     )
 

@@ -19,7 +19,7 @@ struct Attachment {
   std::int64_t sent;
   std::array<unsigned char, 16> gid;
 
-  // Of either layout; nothing if the bytes are none of both.
+  // Of either layout; nothing if the bytes match neither.
   static std::optional<Attachment> read(std::span<const unsigned char> bytes);
 };
 
@@ -37,7 +37,7 @@ class Origins {
   std::string gid_of(std::uint64_t publisher);
 
  private:
-  // They come and go; beyond it, all are forgotten.
+  // Publishers come and go: beyond this many, all are forgotten.
   static constexpr std::size_t kMostPublishers = 1000;
   struct Publisher {
     std::string gid;

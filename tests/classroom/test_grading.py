@@ -208,6 +208,18 @@ def test_a_student_checks_the_own_folder(submissions, tmp_path, capsys):
     assert ET.parse(xml).getroot().get("failures") == "1"
 
 
+def test_report_files_keep_the_letters_of_names(tmp_path):
+    submissions = tmp_path / "in"
+    for name in ("Björn", "李雷", "<b> x", "ana", "Ana"):
+        (submissions / name).mkdir(parents=True)
+    out = tmp_path / "out"
+    assert main(["class", "grade", str(submissions), "-e", "static", "-o", str(out)]) == 0
+    pages = {path.stem for path in out.glob("*.html")}
+    assert pages == {"index", "Björn", "李雷", "_b__x", "Ana", "ana-2"}
+    overview = (out / "index.html").read_text(encoding="utf-8")
+    assert 'href="Bj%C3%B6rn.html"' in overview
+
+
 def test_first_files_are_written_once(tmp_path, capsys):
     folder = tmp_path / "mine"
     assert main(["class", "start", str(folder), "-e", "camera"]) == 0

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.cli.parser import seconds
-from turtlewire.cli.view_command import port_number
+from turtlewire.cli.view_command import add_page_options
 
 if TYPE_CHECKING:
     import argparse
@@ -46,14 +46,7 @@ def add_class_command(commands: Any) -> None:
         metavar="FILE",
         help="Show the students of a file with lines `name,domain`, or YAML with `name: domain`",
     )
-    parser.add_argument(
-        "--port", type=port_number, metavar="N", help="Serve the page at this port (default: 7070)"
-    )
-    parser.add_argument(
-        "--lan",
-        action="store_true",
-        help="Serve other devices of the network, too, at an address with a random token",
-    )
+    add_page_options(parser)
     verbs = parser.add_subparsers(title="Verbs", metavar="VERB")
     _add_check(verbs)
     _add_grade(verbs)

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from turtlewire.view.source import Source
 
-__all__ = ["add_view_command", "port_number"]
+__all__ = ["add_page_options", "add_view_command"]
 
 
 def add_view_command(commands: Any) -> None:
@@ -38,15 +38,20 @@ def add_view_command(commands: Any) -> None:
         metavar="FILE",
         help="Show what this .rviz file says; the page saves and loads such files, too",
     )
+    add_page_options(parser)
+    parser.set_defaults(run=reporting_errors("view", _view), parser=parser)
+
+
+def add_page_options(parser: argparse.ArgumentParser) -> None:
+    """Add where a page is served: ``--port`` and ``--lan``."""
     parser.add_argument(
-        "--port", type=port_number, metavar="N", help="Serve the page at this port (default: 7070)"
+        "--port", type=_port_number, metavar="N", help="Serve the page at this port (default: 7070)"
     )
     parser.add_argument(
         "--lan",
         action="store_true",
         help="Serve other devices of the network, too, at an address with a random token",
     )
-    parser.set_defaults(run=reporting_errors("view", _view), parser=parser)
 
 
 def _view(args: argparse.Namespace) -> int:
@@ -96,7 +101,7 @@ def _source(bag: str | None) -> Source:
     return BagSource(bag)
 
 
-def port_number(text: str) -> int:
+def _port_number(text: str) -> int:
     """A TCP port on the command line."""
     import argparse
 
