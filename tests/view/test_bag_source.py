@@ -11,9 +11,11 @@ from turtlewire import msg
 from turtlewire.bag import BagWriter
 from turtlewire.errors import BagError
 from turtlewire.view import BagSource, Viewer
+from turtlewire.view.frames import FrameScene
 from turtlewire.view.source import Topic
 
 LIMIT_S = 60
+TF = "tf2_msgs/msg/TFMessage"
 
 
 class Heard:
@@ -94,6 +96,33 @@ def test_it_stops_at_its_end_and_plays_again(source):
 def test_it_takes_no_messages(source):
     with pytest.raises(BagError, match="nothing was published on /goal_pose"):
         source.publish("/goal_pose", "geometry_msgs/msg/PoseStamped", b"")
+
+
+def test_a_bag_whose_stamps_are_of_a_simulation(tmp_path):
+    source = BagSource(write_tf(tmp_path / "simulated", [(10, 0), (11, 4), (12, 8)]))
+    scene = FrameScene()
+    source.pause()
+    places = []
+    for second in (0, 1, 2, 1):
+        source.seek(START + second * SECOND)
+        found = scene.look(source.buffer, "", source.stamp_ns())
+        places.append(float(found.poses[found.structure.names.index("robot"), 0]))
+    assert places == [0, 4, 8, 4]
+    source.close()
+
+
+def write_tf(path, samples):
+    """A bag with a transform a second; `samples` are seconds of the simulation, and x."""
+    tf, one = (msg.get_message(name) for name in (TF, "geometry_msgs/msg/TransformStamped"))
+    with BagWriter(path) as writer:
+        writer.add_topic("/tf", TF)
+        writer.write("/tf", tf(), START, START)  # none at all
+        for number, (stamp_s, x) in enumerate(samples):
+            link = one(child_frame_id="robot")
+            link.header.frame_id, link.header.stamp.sec = "world", stamp_s
+            link.transform.translation.x = float(x)
+            writer.write("/tf", tf(transforms=[link]), START + number * SECOND)
+    return path
 
 
 def test_a_bag_without_frames_is_shown_empty(tmp_path):

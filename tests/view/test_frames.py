@@ -53,8 +53,17 @@ def test_another_fixed_frame_and_another_time(buffer):
         "laser": (0, 0, 0),
     }
     assert places(scene.look(buffer, "map", 3 * SECOND // 2))["base"] == (1.5, 0, 0)
-    late = places(scene.look(buffer, "map", 9 * SECOND))
-    assert (late["map"], late["base"]) == ((0, 0, 0), None)
+    early = places(scene.look(buffer, "map", SECOND // 2))
+    assert (early["map"], early["base"]) == ((0, 0, 0), None)
+
+
+def test_frames_whose_data_end_stay_as_long_as_rviz_shows_them(buffer):
+    scene = FrameScene()
+    put(buffer, "map", "fast", (5, 0, 0), 16)
+    frames = scene.look(buffer, "map", 16 * SECOND)
+    assert places(frames)["base"] == (2, 0, 0)
+    assert frames.stamps[frames.structure.names.index("base")] == 2
+    assert places(scene.look(buffer, "map", 18 * SECOND))["base"] is None
 
 
 def test_an_unknown_fixed_frame_falls_back(buffer):

@@ -35,8 +35,17 @@ def test_rows_say_who_sends_how_often_and_how_late(buffer):
         "age": None,
         "delay": None,
     }
-    rows = {row["name"]: row for row in table.rows(buffer, 3 * SECOND)}
+    assert rows["base"]["delay"] is None  # its newest sample may have come long ago
+    buffer.set_transform("map", "base", 3 * SECOND, (1, 2, 0), IDENTITY)
+    table.rows(buffer, 3 * SECOND + SECOND // 4)
+    rows = {row["name"]: row for row in table.rows(buffer, 4 * SECOND)}
     assert (rows["base"]["age"], rows["base"]["delay"]) == (1.0, 0.25)
+
+
+def test_a_single_sample_has_no_rate():
+    buffer = Buffer()
+    buffer.set_transform("map", "base", SECOND, (1, 2, 0), IDENTITY)
+    assert TreeTable().rows(buffer, 2 * SECOND)[0]["rate"] is None
 
 
 def test_a_relation_has_numbers_and_a_sentence(buffer):
@@ -59,6 +68,24 @@ def test_a_relation_that_is_not_there_says_why(buffer):
     assert "laser" in unknown["hint"]
     early = relation(buffer, "map", "base", SECOND // 2)
     assert "extrapolation into the past" in early["error"]
+
+
+def test_a_link_that_ended_is_named():
+    buffer = Buffer(2 * SECOND)
+    buffer.set_transform("map", "stopped", SECOND, (1, 0, 0), IDENTITY, authority="/old_node")
+    for second in range(1, 31):
+        buffer.set_transform("map", "base", second * SECOND, (0, 0, 0), IDENTITY)
+    found = relation(buffer, "base", "stopped", 0)
+    assert "extrapolation into the past" in found["error"]
+    assert found["hint"] == (
+        "The last transform of 'stopped' is 29 s older than that of 'base', of which 3 s are kept. "
+        "Does /old_node still publish 'stopped'?"
+    )
+
+
+def test_at_a_stamp_the_last_known_place_counts(buffer):
+    assert relation(buffer, "map", "base", 16 * SECOND)["translation"] == [1.0, 2.0, 0.0]
+    assert "extrapolation into the future" in relation(buffer, "map", "base", 18 * SECOND)["error"]
 
 
 def test_the_path_leads_over_the_common_ancestor():

@@ -73,6 +73,29 @@ def test_a_paused_page_goes_back_in_time(robot, page):
     page.wait_for_places({"map": (0, 0, 0), "base": (9, 0, 0)}, after=seen)
 
 
+def test_a_pause_changes_nothing_of_the_picture(robot, page):
+    robot.send("map", "slow", (1, 0, 0), NOW_S)
+    for late in (0.0, 0.5):
+        robot.send("map", "fast", (2, 0, 0), NOW_S + late)
+    everything = {"map": (0, 0, 0), "slow": (1, 0, 0), "fast": (2, 0, 0)}
+    page.wait_for_places(everything)
+    page.send("relation", target="slow", source="fast")
+    page.send("pause")
+    page.wait_for("time", lambda p: not p["live"])
+    seen = page.count()
+    page.send("fixed", frame="slow")
+    page.wait_for_places({"map": (-1, 0, 0), "slow": (0, 0, 0), "fast": (1, 0, 0)}, after=seen)
+    found = page.wait_for("relation", after=seen)
+    assert found["translation"] == [1, 0, 0]
+
+
+def test_the_time_that_can_be_shown_does_not_begin_with_a_link_that_ended(robot, page):
+    robot.send("map", "ended", (1, 0, 0), NOW_S - 500)
+    for second in range(3):
+        robot.send("map", "base", (second, 0, 0), NOW_S + second)
+    page.wait_for("time", lambda p: p["newest"] == NOW_S + 2 and p["oldest"] == NOW_S + 2 - 60)
+
+
 @pytest.mark.parametrize(
     ("message", "answer"),
     [

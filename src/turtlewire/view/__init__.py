@@ -15,6 +15,7 @@ module             what it holds
 `source`           `Source`, `Timeline`: what frames and messages come from, and at which time
 `live`             `LiveSource`: the wire
 `bag_source`       `BagSource`: a bag with its own time
+`bag_stamps`       which stamps belong to a time of a bag, where they are of another clock
 `parameter_watch`  asks a node for a parameter
 `frames`           `FrameScene`: all poses in one frame, at one time, as one array
 `tree`             the rows of the tree; one frame as another sees it

@@ -10,6 +10,8 @@ from turtlewire.bag import open_bag
 from turtlewire.bag.playback import PlayClock, ReadAhead
 from turtlewire.errors import BagError
 from turtlewire.tf.buffer import Buffer
+from turtlewire.view.bag_stamps import StampsOfLog
+from turtlewire.view.live import stamp_range_ns
 from turtlewire.view.source import ParameterAnswer, TimelineState, Topic
 
 if TYPE_CHECKING:
@@ -47,6 +49,7 @@ class BagSource:
             self._topics = [Topic(name, info.type, 1) for name, info in sorted(bag.topics.items())]
         self.name = os.path.basename(os.path.normpath(os.fspath(path)))
         self.buffer = self._read_frames()
+        self._stamps = StampsOfLog(path) if self._has_other_stamps() else None
         self._changed: Callable[[], None] = _nothing
         self._news = threading.Condition()
         self._clock = PlayClock(self._start_ns, is_paused=True)
@@ -117,8 +120,9 @@ class BagSource:
         """The bag has one time only."""
 
     def stamp_ns(self) -> int:
-        """The time of the bag; never 0."""
-        return max(1, self.now_ns())
+        """The time of the bag, or what its transforms' stamps were then; never 0."""
+        now_ns = self.now_ns()
+        return max(1, now_ns if self._stamps is None else self._stamps.at(now_ns))
 
     def state(self) -> TimelineState:
         """The bag's time."""
@@ -167,6 +171,11 @@ class BagSource:
         if not {"/tf", "/tf_static"} & types.keys():
             return Buffer(None)
         return Buffer.from_bag(self._path)
+
+    def _has_other_stamps(self) -> bool:
+        """Whether the transforms lie outside the time in which the bag was recorded."""
+        found = stamp_range_ns(self.buffer)
+        return found is not None and (found[1] < self._start_ns or found[0] > self._end_ns)
 
     def _read_again(self) -> None:
         """Let the thread start anew from the time that is shown; with the lock held."""

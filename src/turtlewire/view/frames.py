@@ -14,13 +14,15 @@ if TYPE_CHECKING:
 
     from turtlewire.tf.buffer import Buffer
 
-__all__ = ["FrameScene", "Frames", "Structure"]
+__all__ = ["FRAME_TIMEOUT_S", "FrameScene", "Frames", "Structure"]
 
 #: Beyond this distance from the origin [m], 32-bit coordinates would be wrong by a millimetre.
 _FAR_M = 10_000.0
 _ORIGIN_STEP_M = 1_000.0
 #: What is farther than the sun is a mistake, and cannot be drawn.
 _FARTHEST_M = 1.5e11
+#: How long RViz shows a frame that gets no newer data [s].
+FRAME_TIMEOUT_S = 15.0
 
 
 class Structure(NamedTuple):
@@ -91,7 +93,9 @@ class FrameScene:
             buffer: The frames.
             fixed: The frame to look from; empty, or one that does not exist, takes the root of the
                 largest tree.
-            stamp_ns: 0 takes the newest time that each frame has in common with the fixed one.
+            stamp_ns: 0 takes the newest time that each frame has in common with the fixed one. A
+                frame whose data end before the stamp stays where it was for as long as RViz shows
+                it.
         """
         frame_strings = buffer.frame_strings()
         if frame_strings != self._frame_strings:
@@ -106,6 +110,8 @@ class FrameScene:
         for number, root in enumerate(structure.roots):
             target = shown if number == tree else root
             self._fill(buffer, target, stamp_ns, poses, stamps, known)
+            if stamp_ns and not known[np.asarray(structure.trees) == number].all():
+                self._fill_last_seen(buffer, target, stamp_ns, poses, stamps, known)
         with np.errstate(invalid="ignore"):
             known &= (np.abs(poses) < _FARTHEST_M).all(axis=1)
         poses[known == 0] = 0.0
@@ -159,6 +165,22 @@ class FrameScene:
         there = rows >= 0  # a frame may have come since the structure was read
         poses[rows[there]], stamps[rows[there]] = found[there], times_ns[there] / 1e9
         known[rows[there]] = 1
+
+    def _fill_last_seen(
+        self,
+        buffer: Buffer,
+        target: str,
+        stamp_ns: int,
+        poses: NDArray[np.float64],
+        stamps: NDArray[np.float64],
+        known: NDArray[np.uint8],
+    ) -> None:
+        """Put frames whose newest data are a little older than the stamp where they were then."""
+        last, seen = (poses.copy(), stamps.copy()), np.zeros_like(known)
+        self._fill(buffer, target, 0, *last, seen)
+        age = stamp_ns / 1e9 - last[1]
+        rows = (known == 0) & (seen == 1) & (age >= 0) & (age <= FRAME_TIMEOUT_S)
+        poses[rows], stamps[rows], known[rows] = last[0][rows], last[1][rows], 1
 
     def _subtract_origin(self, poses: NDArray[np.float64], rows: NDArray[np.bool_]) -> None:
         """Keep coordinates small enough for 32 bits; the origin moves only when it must."""

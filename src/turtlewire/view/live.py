@@ -53,6 +53,7 @@ class LiveSource:
         self._own_context = wire.open_context() if context is None else None
         self._context = context or cast("base.Context", self._own_context)
         self.name = f"ROS_DOMAIN_ID {self._context.domain_id}"
+        self.history_ns = history_ns
         self.buffer = Buffer(history_ns)
         self._restarts = RestartWatch(self.buffer)
         self._changed: Callable[[], None] = _nothing
@@ -173,7 +174,7 @@ class LiveTimeline:
     def state(self) -> TimelineState:
         """The history that there is."""
         with self._lock:
-            oldest, newest = stamp_range_ns(self.buffer) or (0, 0)
+            oldest, newest = self._range()
             live = self._kept is None
             now = newest if live else self._stamp_ns
         simulated = newest < _WALL_TIME_FROM_NS
@@ -195,11 +196,16 @@ class LiveTimeline:
         """Pause, and show this time."""
         self.pause()
         with self._lock:
-            oldest, newest = stamp_range_ns(self.buffer) or (0, 0)
+            oldest, newest = self._range()
             self._stamp_ns = max(1, min(max(stamp_ns, oldest), newest))
 
     def set_speed(self, factor: float) -> None:
         """The wire has only one speed."""
+
+    def _range(self) -> tuple[int, int]:
+        """From when to when the page can go: a link that ended long ago is no history of others."""
+        oldest, newest = stamp_range_ns(self.buffer) or (0, 0)
+        return max(oldest, newest - self._source.history_ns), newest
 
 
 class _FittedSubscription:

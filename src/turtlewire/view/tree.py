@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from turtlewire.errors import TransformException
+from turtlewire.errors import ExtrapolationException, TransformException
 from turtlewire.suggestion import did_you_mean
 from turtlewire.tf import inspection
 from turtlewire.tf.conversions import euler_from_quaternion
+from turtlewire.view.frames import FRAME_TIMEOUT_S
 from turtlewire.view.words import transform_in_words
 
 if TYPE_CHECKING:
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["TreeTable", "path_between", "relation"]
 
-#: The delay of a link is the smallest age that was seen in so many looks, one a second.
+#: The delay of a link is the smallest age of its newest sample in so many looks, one a second.
 _LOOKS = 10
 
 
@@ -29,7 +30,8 @@ class TreeTable:
     """The rows of the tree; looked at once a second. Not thread-safe."""
 
     def __init__(self) -> None:
-        self._ages: dict[str, deque[float]] = {}
+        self._delays: dict[str, deque[float]] = {}
+        self._newest_ns: dict[str, int] = {}
 
     def rows(self, buffer: Buffer, now_ns: int) -> list[dict[str, Any]]:
         """A row for each frame with a parent, in no order.
@@ -37,13 +39,16 @@ class TreeTable:
         Its rate is in Hz, its times in seconds; a static link has neither rate, age nor delay.
         """
         links = [link for link in inspection.links(buffer) if link.samples]
-        self._ages = {link.child_frame: self._aged(link, now_ns) for link in links}
+        self._delays = {link.child_frame: self._delayed(link, now_ns) for link in links}
+        self._newest_ns = {link.child_frame: link.newest_ns for link in links}
         return [self._row(link, now_ns) for link in links]
 
-    def _aged(self, link: inspection.LinkInfo, now_ns: int) -> deque[float]:
-        ages = self._ages.get(link.child_frame) or deque(maxlen=_LOOKS)
-        ages.append(link.age_ns(now_ns) / 1e9)
-        return ages
+    def _delayed(self, link: inspection.LinkInfo, now_ns: int) -> deque[float]:
+        """The ages of new samples: what has no newer one grows older, and is not more delayed."""
+        delays = self._delays.get(link.child_frame, deque(maxlen=_LOOKS))
+        if self._newest_ns.get(link.child_frame) not in (None, link.newest_ns):
+            delays.append(link.age_ns(now_ns) / 1e9)
+        return delays
 
     def _row(self, link: inspection.LinkInfo, now_ns: int) -> dict[str, Any]:
         moving = not link.static
@@ -53,9 +58,9 @@ class TreeTable:
             "publisher": ", ".join(sorted({sender.name for sender in link.senders})),
             "static": link.static,
             "samples": link.samples,
-            "rate": link.rate_hz if moving else None,
+            "rate": link.rate_hz if moving and link.samples > 1 else None,
             "age": link.age_ns(now_ns) / 1e9 if moving else None,
-            "delay": min(self._ages[link.child_frame]) if moving else None,
+            "delay": min(self._delays[link.child_frame], default=None) if moving else None,
         }
 
 
@@ -72,9 +77,10 @@ def relation(buffer: Buffer, target: str, source: str, stamp_ns: int) -> dict[st
             text = f"There is no frame {frame!r}."
             return {**answer, "error": text, "hint": did_you_mean(frame, known)}
     try:
-        target_from_source = buffer.lookup_transform(target, source, stamp_ns)
+        target_from_source = _lookup(buffer, target, source, stamp_ns)
     except TransformException as error:
-        return {**answer, "error": str(error), "hint": error.hint}
+        hint = "" if stamp_ns else _ended_link(buffer, error)
+        return {**answer, "error": str(error), "hint": hint or error.hint}
     translation, rotation = target_from_source.translation, target_from_source.rotation
     rpy = euler_from_quaternion(rotation).tolist()
     return {
@@ -86,6 +92,37 @@ def relation(buffer: Buffer, target: str, source: str, stamp_ns: int) -> dict[st
         "matrix": [_finite(row) for row in np.asarray(target_from_source.as_matrix())],
         "sentence": transform_in_words(source, target, translation, rotation),
     }
+
+
+def _lookup(buffer: Buffer, target: str, source: str, stamp_ns: int) -> Any:
+    """The transform at a stamp, or the last one before as long as the picture shows that."""
+    try:
+        return buffer.lookup_transform(target, source, stamp_ns)
+    except ExtrapolationException:
+        newest_ns = buffer.latest_common_time(target, source) if stamp_ns else 0
+        if newest_ns and 0 <= stamp_ns - newest_ns <= FRAME_TIMEOUT_S * 1e9:
+            return buffer.lookup_transform(target, source, newest_ns)
+        raise
+
+
+def _ended_link(buffer: Buffer, error: TransformException) -> str:
+    """Which link ended so long ago that no others are kept from then; or nothing."""
+    if not isinstance(error, ExtrapolationException) or error.reason != "past":
+        return ""
+    ended = [
+        link
+        for link in inspection.links(buffer)
+        if link.samples and not link.static and link.newest_ns == error.requested_ns
+    ]
+    if not ended:
+        return ""
+    gap, kept = error.newest_ns - error.requested_ns, error.newest_ns - error.oldest_ns
+    senders = " and ".join(sorted({sender.name for sender in ended[0].senders}))
+    return (
+        f"The last transform of '{ended[0].child_frame}' is {gap / 1e9:.0f} s older than that of "
+        f"'{error.child_frame}', of which {kept / 1e9:.0f} s are kept. "
+        f"Does {senders or 'its publisher'} still publish '{ended[0].child_frame}'?"
+    )
 
 
 def path_between(

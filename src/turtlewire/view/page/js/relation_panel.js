@@ -1,7 +1,7 @@
 // Where one frame is as another sees it: the sentence, the numbers, or why there is no answer.
 
 import { byId, make, naturalOrder, offer, setFacts, setText } from "./dom.js";
-import { ageInWords, isNumber, numbersInWords, rateInWords } from "./words.js";
+import { ageInWords, delayInWords, isNumber, numbersInWords, rateInWords } from "./words.js";
 
 const FIXED = ""; // the target that is always the fixed frame
 const ASK = "Press a frame in the picture or in the tree.";
@@ -81,7 +81,7 @@ export class RelationPanel {
       ["published by", row.publisher || null],
       ["rate", row.static ? "static" : isNumber(row.rate) ? rateInWords(row.rate) : null],
       ["age", isMoving && isNumber(row.age) ? ageInWords(row.age) : null],
-      ["delay", isMoving && isNumber(row.delay) ? `${(1000 * row.delay).toFixed(1)} ms` : null],
+      ["delay", isMoving && isNumber(row.delay) ? delayInWords(row.delay) : null],
       ["samples", isMoving && isNumber(row.samples) ? String(row.samples) : null],
     ]);
   }

@@ -15,6 +15,12 @@ export function rateInWords(hertz) {
   return `${hertz.toFixed(hertz < 9.95 ? 1 : 0)} Hz`;
 }
 
+/** How late a transform comes: "0.7 ms", "2.5 s". */
+export function delayInWords(seconds) {
+  const isLong = Math.abs(seconds) >= 1;
+  return isLong ? `${seconds.toFixed(1)} s` : `${(1000 * seconds).toFixed(1)} ms`;
+}
+
 /** What the tree says under a name: "62 Hz · 12 ms old", "static". */
 export function readingInWords(row) {
   if (!row) return "";
