@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sqlite3
+
 import numpy as np
 import pytest
 import yaml
@@ -43,6 +45,26 @@ def test_what_is_written_is_read(tmp_path, way):
         assert bag.problems == []
         assert (len(bag.metadata.paths) > 1) == ("split" in way or way == "mcap file")
         assert sum(file.message_count for file in bag.metadata.files) == len(expected)
+
+
+@pytest.mark.parametrize("way", [way for way in WAYS if "sqlite3" in way])
+def test_a_database_can_be_finished_while_somebody_reads_it(tmp_path, way):
+    text = msg.get_message("std_msgs/msg/String")
+    with BagWriter(tmp_path / "made", **WAYS[way]) as writer:
+        writer.add_topic("/chatter", "std_msgs/msg/String")
+        for number in range(100):
+            writer.write("/chatter", text(data=f"number {number}"), START + number)
+            if number == 10:
+                writer.flush()
+                reader = sqlite3.connect(tmp_path / "made" / "made_0.db3")
+                rows = reader.execute("SELECT * FROM messages")
+                rows.fetchone()
+    rows.close()
+    reader.close()
+    assert not list((tmp_path / "made").glob("*-*"))  # no log is left
+    with open_bag(tmp_path / "made") as bag:
+        assert [m.decode().data for m in bag] == [f"number {number}" for number in range(100)]
+        assert bag.problems == []
 
 
 @pytest.mark.parametrize("way", [way for way in WAYS if "file" not in way])

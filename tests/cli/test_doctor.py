@@ -300,6 +300,9 @@ def test_what_is_not_right_is_listened_to_for_all_the_time(context, monkeypatch,
 
 def test_listening_ends_when_each_publisher_was_heard_often(context, monkeypatch):
     """The time limit is longer than the test's: only the event can end the wait."""
+    heard = []
+    # A machine that is busy publishes late, which would be a finding, and a reason to go on.
+    monkeypatch.setattr(doctor, "tf_findings", lambda _, traffic: heard.append(traffic) or [])
     monkeypatch.setattr(doctor, "_LISTEN_S", 1000.0)
     monkeypatch.setattr("turtlewire.wire.open_context", lambda: context)
     publisher = context.create_node("one").create_publisher("/tf", TF, QoS())
@@ -313,11 +316,11 @@ def test_listening_ends_when_each_publisher_was_heard_often(context, monkeypatch
     sender = threading.Thread(target=send)
     sender.start()
     try:
-        found = doctor.examine()
+        doctor.examine()
     finally:
         end.set()
         sender.join()
-    assert [finding for finding in found if "moving" in finding.text] == []
+    assert len(heard[0].stamps_ns["moving", publisher.gid]) >= 50
 
 
 def test_beside_static_transforms_alone_listening_ends_when_they_came(context, monkeypatch):

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 import sqlite3
+from contextlib import closing, suppress
 
-__all__ = ["SqliteWriter"]
+__all__ = ["SqliteWriter", "merge_by_copy"]
 
 _SCHEMA = """
 CREATE TABLE schema(schema_version INTEGER PRIMARY KEY, ros_distro TEXT NOT NULL);
@@ -31,7 +32,7 @@ class SqliteWriter:
     """A sqlite3 file that is being written.
 
     While it is open a write-ahead log lies beside it, so that a killed process loses only what was
-    not flushed; closing merges the log into the file.
+    not flushed; closing merges the log into the file, or leaves that to who is reading it.
 
     Args:
         path: The file; it must not exist.
@@ -119,6 +120,33 @@ class SqliteWriter:
         """Write pending messages, merge the log and close the file."""
         try:
             self.flush()
-            self._database.execute("PRAGMA journal_mode = DELETE")
+            self._merge_log()
         finally:
             self._database.close()
+
+    def _merge_log(self) -> None:
+        try:
+            self._database.execute("PRAGMA journal_mode = DELETE")
+        except sqlite3.OperationalError as error:
+            # Somebody reads the file just now: the last reader that closes it merges the log.
+            if "locked" not in str(error):
+                raise
+
+
+def merge_by_copy(path: str) -> None:
+    """Make a closed file whole whose log waits for its readers: they keep the former file.
+
+    Raises:
+        OSError: The system does not replace files that are open.
+        sqlite3.Error: The file cannot be read, or its copy not be written.
+    """
+    if not os.path.exists(path + "-wal"):
+        return
+    copy = path + ".whole"
+    with closing(sqlite3.connect(path)) as source, closing(sqlite3.connect(copy)) as target:
+        source.backup(target)
+        target.execute("PRAGMA journal_mode = DELETE")
+    os.replace(copy, path)
+    for log in (path + "-wal", path + "-shm"):
+        with suppress(FileNotFoundError):
+            os.remove(log)

@@ -16,7 +16,7 @@ from turtlewire.bag.metadata import (
     write_metadata,
 )
 from turtlewire.bag.qos_yaml import profiles_to_text
-from turtlewire.bag.sqlite_writer import SqliteWriter
+from turtlewire.bag.sqlite_writer import SqliteWriter, merge_by_copy
 from turtlewire.bag.writer_checks import (
     ENDINGS,
     as_cdr,
@@ -327,6 +327,7 @@ class BagWriter:
         if self.metadata.compression_mode == "FILE":
             if self.on_compress is not None:
                 self.on_compress(file.path)
+            merge_by_copy(file.path)
             write_zstd_file(file.path, file.path + ".zstd")
             os.remove(file.path)
             self.metadata.paths[-1] += ".zstd"
