@@ -15,6 +15,7 @@ class StillSource:
 
     kind = "live"
     name = "still"
+    history_ns = 60 * 10**9
     problem = ""
 
     def __init__(self) -> None:
