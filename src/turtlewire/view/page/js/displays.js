@@ -163,6 +163,8 @@ export class Displays {
       viewport: view.viewport,
       get camera() { return view.camera; },
       get colors() { return view.colors; },
+      get topic() { return entry.topic; },
+      hide: () => this.setVisible(entry.id, false),
       requestDraw: () => view.requestDraw(),
       now: () => this.#frames.stamp,
       poseOf: (name) => this.#frames.poseOf(name),

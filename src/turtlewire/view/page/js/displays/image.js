@@ -1,28 +1,15 @@
 // Image and CompressedImage: a window over the scene with the picture.
 
-const STYLE = new URL("../../image_window.css", import.meta.url).href;
-const OFFSET_PX = 26;
+import { PictureWindow } from "./parts/picture_window.js";
 
-let opened = 0;
-
-export default class ImageWindow {
+export default class ImageDisplay {
   #view;
-  #window = document.createElement("figure");
-  #canvas = document.createElement("canvas");
-  #caption = document.createElement("figcaption");
+  #window;
   #latest = 0;
 
   constructor(view) {
     this.#view = view;
-    loadStyle();
-    this.#window.className = "image-window";
-    this.#window.append(this.#caption, this.#canvas);
-    this.#canvas.setAttribute("role", "img");
-    const shift = OFFSET_PX * (opened++ % 6);
-    this.#window.style.left = `${12 + shift}px`;
-    this.#window.style.bottom = `${12 + shift}px`;
-    this.#makeMovable();
-    document.getElementById("viewport").append(this.#window);
+    this.#window = new PictureWindow(() => view.hide());
   }
 
   show(_group, header, arrays, shapes) {
@@ -31,7 +18,7 @@ export default class ImageWindow {
   }
 
   setVisible(isVisible) {
-    this.#window.hidden = !isVisible;
+    this.#window.setVisible(isVisible);
   }
 
   setOptions() {}
@@ -44,10 +31,10 @@ export default class ImageWindow {
   #showPixels(header, rgba, [height, width]) {
     this.#latest += 1;
     const bytes = new Uint8ClampedArray(rgba.buffer, rgba.byteOffset, rgba.length);
-    this.#fit(width, height);
-    const picture = new ImageData(bytes.slice(), width, height);
-    this.#canvas.getContext("2d").putImageData(picture, 0, 0);
     this.#label(header, header.width, header.height);
+    this.#window.fit(width, height);
+    const picture = new ImageData(bytes.slice(), width, height);
+    this.#window.canvas.getContext("2d").putImageData(picture, 0, 0);
   }
 
   async #showFile(header, file) {
@@ -57,9 +44,9 @@ export default class ImageWindow {
       const blob = new Blob([file.slice()], { type: header.media_type });
       const bitmap = await createImageBitmap(blob);
       if (mine === this.#latest) {
-        this.#fit(bitmap.width, bitmap.height);
-        this.#canvas.getContext("2d").drawImage(bitmap, 0, 0);
         this.#label(header, bitmap.width, bitmap.height);
+        this.#window.fit(bitmap.width, bitmap.height);
+        this.#window.canvas.getContext("2d").drawImage(bitmap, 0, 0);
         this.#view.report?.("");
       }
       bitmap.close();
@@ -69,36 +56,8 @@ export default class ImageWindow {
     }
   }
 
-  #fit(width, height) {
-    if (this.#canvas.width === width && this.#canvas.height === height) return;
-    Object.assign(this.#canvas, { width, height });
-  }
-
   #label({ encoding, camera }, width, height) {
-    const text = `${width} × ${height} · ${encoding}${camera ? ` · ${camera}` : ""}`;
-    this.#caption.textContent = text;
-    this.#canvas.setAttribute("aria-label", `Camera picture, ${text}`);
+    const frame = camera ? ` · ${camera}` : "";
+    this.#window.label(this.#view.topic, `${width} × ${height} · ${encoding}${frame}`);
   }
-
-  /** The caption is a handle; arrow keys are the browser's, for scrolling. */
-  #makeMovable() {
-    const { style } = this.#window;
-    this.#caption.onpointerdown = (event) => {
-      this.#caption.setPointerCapture(event.pointerId);
-      const from = [event.clientX, event.clientY];
-      const start = [parseFloat(style.left), parseFloat(style.bottom)];
-      this.#caption.onpointermove = ({ clientX, clientY }) => {
-        style.left = `${Math.max(0, start[0] + clientX - from[0])}px`;
-        style.bottom = `${Math.max(0, start[1] - clientY + from[1])}px`;
-      };
-      this.#caption.onpointerup = () => { this.#caption.onpointermove = null; };
-    };
-  }
-}
-
-function loadStyle() {
-  if (document.querySelector(`link[href="${STYLE}"]`)) return;
-  const link = document.createElement("link");
-  Object.assign(link, { rel: "stylesheet", href: STYLE });
-  document.head.append(link);
 }

@@ -1,0 +1,163 @@
+// A window over the scene with a picture: it finds a free place, and is moved by its caption.
+
+const STYLE = new URL("../../../image_window.css", import.meta.url).href;
+const GAP_PX = 12;
+const CASCADE_PX = 28;
+const STEP_PX = 20; // of an arrow key
+const STEPS = {
+  ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1],
+};
+
+const windows = new Set();
+let front = 0;
+
+export class PictureWindow {
+  canvas = document.createElement("canvas");
+  #frame = document.createElement("figure");
+  #caption = document.createElement("figcaption");
+  #name = document.createElement("b");
+  #details = document.createElement("span");
+  #isWanted = true;
+  #isPlaced = false;
+  #around = document.getElementById("viewport");
+  #watch = new ResizeObserver(() => this.#move(this.#place()));
+
+  /** `close()`: the user does not want to see it. */
+  constructor(close) {
+    loadStyle();
+    this.canvas.setAttribute("role", "img");
+    this.#frame.className = "image-window";
+    this.#frame.hidden = true; // until there is a picture
+    this.#caption.append(this.#name, " ", this.#details);
+    this.#frame.append(this.#caption, closeButton(close), this.canvas);
+    this.#makeMovable();
+    layer(this.#around).append(this.#frame);
+    windows.add(this);
+  }
+
+  /** Show a picture of this size, which the caller draws on `canvas`. */
+  fit(width, height) {
+    const { canvas } = this;
+    const isSame = canvas.width === width && canvas.height === height;
+    if (!isSame) Object.assign(canvas, { width, height });
+    if (this.#isPlaced) return;
+    this.#isPlaced = true;
+    this.setVisible(this.#isWanted);
+  }
+
+  /** What the caption says: whose picture it is, and what is known of it. */
+  label(name, details) {
+    this.#name.textContent = name;
+    this.#details.textContent = details;
+    this.canvas.setAttribute("aria-label", `Picture of ${name}, ${details}`);
+  }
+
+  setVisible(isVisible) {
+    const wasHidden = this.#frame.hidden;
+    this.#isWanted = isVisible;
+    this.#frame.hidden = !isVisible || !this.#isPlaced;
+    if (!wasHidden || this.#frame.hidden) return;
+    this.#move(this.#frame.style.left ? this.#place() : this.#freePlace());
+    this.#raise();
+    this.#watch.observe(this.#around);
+  }
+
+  remove() {
+    windows.delete(this);
+    this.#watch.disconnect();
+    this.#frame.remove();
+  }
+
+  /** Left, top, width and height within the viewport [px]. */
+  #box() {
+    const { offsetLeft, offsetTop, offsetWidth, offsetHeight } = this.#frame;
+    return [offsetLeft, offsetTop, offsetWidth, offsetHeight];
+  }
+
+  #place() {
+    return this.#box().slice(0, 2);
+  }
+
+  /** As near as possible, with all of it in the viewport if it fits in. */
+  #move([left, top]) {
+    if (this.#frame.hidden) return;
+    const { clientWidth, clientHeight } = this.#around;
+    const [, , width, height] = this.#box();
+    this.#frame.style.left = `${Math.max(0, Math.min(left, clientWidth - width))}px`;
+    this.#frame.style.top = `${Math.max(0, Math.min(top, clientHeight - height))}px`;
+  }
+
+  /** From the lower left corner to the right, then above; a cascade when all is taken. */
+  #freePlace() {
+    const { clientWidth, clientHeight } = this.#around;
+    const [, , width, height] = this.#box();
+    const others = [...windows].filter((each) => each !== this && !each.#frame.hidden)
+      .map((each) => each.#box());
+    for (let top = clientHeight - height - GAP_PX; top >= height / 2; top -= height + GAP_PX) {
+      for (let left = GAP_PX; left + width <= clientWidth; left += width + GAP_PX) {
+        if (!others.some((other) => overlap(other, [left, top, width, height]))) return [left, top];
+      }
+    }
+    const room = Math.max(1, Math.floor((clientHeight - height - GAP_PX) / CASCADE_PX));
+    const shift = GAP_PX + CASCADE_PX * (others.length % room);
+    return [shift, shift];
+  }
+
+  #raise() {
+    this.#frame.style.zIndex = String((front += 1));
+  }
+
+  /** By the caption, with a pointer or with arrow keys. */
+  #makeMovable() {
+    const caption = this.#caption;
+    caption.tabIndex = 0;
+    caption.title = "Drag, or use the arrow keys, to move the picture";
+    this.#frame.addEventListener("pointerdown", () => this.#raise());
+    caption.addEventListener("keydown", (event) => {
+      const step = STEPS[event.key];
+      if (!step) return;
+      event.preventDefault();
+      const [left, top] = this.#place();
+      this.#move([left + STEP_PX * step[0], top + STEP_PX * step[1]]);
+    });
+    caption.onpointerdown = (event) => {
+      caption.setPointerCapture(event.pointerId);
+      const [left, top] = this.#place();
+      caption.onpointermove = ({ clientX, clientY }) => {
+        this.#move([left + clientX - event.clientX, top + clientY - event.clientY]);
+      };
+    };
+    for (const ending of ["onpointerup", "onpointercancel"]) {
+      caption[ending] = () => { caption.onpointermove = null; };
+    }
+  }
+}
+
+function overlap([x, y, width, height], [left, top, across, down]) {
+  return x < left + across && left < x + width && y < top + down && top < y + height;
+}
+
+function closeButton(close) {
+  const button = document.createElement("button");
+  Object.assign(button, { type: "button", textContent: "✕", title: "Hide the picture" });
+  button.setAttribute("aria-label", "Hide the picture");
+  button.onclick = close;
+  return button;
+}
+
+/** All windows are in one element, so that the buttons of the scene stay above them. */
+function layer(viewport) {
+  const known = viewport.querySelector("#image-windows");
+  if (known) return known;
+  const made = document.createElement("div");
+  made.id = "image-windows";
+  viewport.querySelector("canvas").after(made);
+  return made;
+}
+
+function loadStyle() {
+  if (document.querySelector(`link[href="${STYLE}"]`)) return;
+  const link = document.createElement("link");
+  Object.assign(link, { rel: "stylesheet", href: STYLE });
+  document.head.append(link);
+}
