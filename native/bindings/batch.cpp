@@ -184,7 +184,10 @@ nb::tuple lookup_all(BufferObject& self, std::string_view target, nb::handle whe
 }
 
 bool is_datetime(nb::handle object) {
-  return std::string_view(Py_TYPE(object.ptr())->tp_name) == "numpy.datetime64" ||
+  // nanobind's inst_name() leaves the module out where a class is not made by Python code.
+  const nb::handle type = object.type();
+  const nb::str name = nb::str("{}.{}").format(type.attr("__module__"), type.attr("__name__"));
+  return std::string_view(name.c_str()) == "numpy.datetime64" ||
          nb::hasattr(object, "to_datetime64");
 }
 

@@ -71,10 +71,10 @@ bool numbers_of(PyObject* sequence, double* values, Py_ssize_t count, const char
   return taking_gil([=] {
     PyObject* items = PySequence_Tuple(sequence);
     if (items == nullptr) return false;
-    bool fits = PyTuple_GET_SIZE(items) == count;
+    bool fits = tuple_size(items) == count;
     if (!fits) PyErr_Format(PyExc_ValueError, "%s must have %zd numbers", what, count);
     for (Py_ssize_t i = 0; fits && i < count; ++i) {
-      values[i] = PyFloat_AsDouble(PyTuple_GET_ITEM(items, i));
+      values[i] = PyFloat_AsDouble(tuple_item(items, i));
       fits = values[i] != -1.0 || PyErr_Occurred() == nullptr;
     }
     Py_DECREF(items);

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <span>
 
+#include "concrete.hpp"
+
 namespace turtlewire::python {
 
 // The bytes of any object with the buffer protocol, for as long as this lives.
@@ -21,8 +23,8 @@ class Bytes {
   bool read(PyObject* object) {
     if (!PyBytes_CheckExact(object)) return PyObject_GetBuffer(object, &view_, PyBUF_SIMPLE) == 0;
     view_.obj = Py_NewRef(object);  // as PyObject_GetBuffer() would do it
-    view_.buf = PyBytes_AS_STRING(object);
-    view_.len = PyBytes_GET_SIZE(object);
+    view_.buf = bytes_start(object);
+    view_.len = PyBytes_Size(object);
     return true;
   }
   const unsigned char* data() const { return static_cast<const unsigned char*>(view_.buf); }

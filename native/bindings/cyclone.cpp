@@ -42,7 +42,7 @@ nb::list take(const Library& library, Entity reader, std::int64_t most) {
       const auto bytes =
           nb::steal(PyBytes_FromStringAndSize(nullptr, static_cast<Py_ssize_t>(size)));
       if (!bytes.is_valid()) throw nb::python_error();
-      samples.copy(i, size, PyBytes_AS_STRING(bytes.ptr()));
+      samples.copy(i, size, bytes_start(bytes.ptr()));
       list.append(nb::make_tuple(bytes, samples.publisher(i), samples.sent(i)));
     }
     more = samples.size() == wanted;
@@ -59,13 +59,13 @@ class Buffers {
       add(cdr);
       return;
     }
-    const auto count = static_cast<std::size_t>(PyTuple_GET_SIZE(cdr));
+    const auto count = static_cast<std::size_t>(tuple_size(cdr));
     if (count > Writer::kMostParts) {
       joined_ = nb::bytes("", 0).attr("join")(nb::handle(cdr));
       add(joined_.ptr());
       return;
     }
-    for (std::size_t i = 0; i < count; ++i) add(PyTuple_GET_ITEM(cdr, static_cast<Py_ssize_t>(i)));
+    for (std::size_t i = 0; i < count; ++i) add(tuple_item(cdr, static_cast<Py_ssize_t>(i)));
   }
   Buffers(const Buffers&) = delete;
   Buffers& operator=(const Buffers&) = delete;

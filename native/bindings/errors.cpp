@@ -120,7 +120,8 @@ bool describe(PyObject* error, const Failure& f, Question question, PyObject* bu
 PyObject* make(Class which, const std::string& text) {
   PyObject* message = text_of(text);
   if (message == nullptr) return nullptr;
-  PyObject* error = taking_gil([=] { return PyObject_CallOneArg(classes[which], message); });
+  PyObject* error =
+      taking_gil([=] { return PyObject_CallFunctionObjArgs(classes[which], message, nullptr); });
   Py_DECREF(message);
   return error;
 }

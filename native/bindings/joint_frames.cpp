@@ -44,7 +44,7 @@ nb::bytes message(const JointFrames& self, const nb::bytes& joint_state, std::si
   auto out = nb::steal<nb::bytes>(
       PyBytes_FromStringAndSize(nullptr, static_cast<Py_ssize_t>(self.size())));
   if (!out.is_valid()) throw nb::python_error();
-  auto* const begin = reinterpret_cast<unsigned char*>(PyBytes_AS_STRING(out.ptr()));
+  auto* const begin = reinterpret_cast<unsigned char*>(bytes_start(out.ptr()));
   if (!self.write(span_of(joint_state), positions, begin))
     throw std::invalid_argument("the JointState ends within its positions");
   return out;

@@ -1,7 +1,5 @@
 #include "message.hpp"
 
-#include <structmember.h>
-
 #include <cstring>
 
 #include "buffer.hpp"
@@ -16,7 +14,10 @@ using namespace nb::literals;
 PyObject* optional_attribute(PyObject* object, PyObject* name) {
   return taking_gil([=] {
     PyObject* value = nullptr;
-#if PY_VERSION_HEX >= 0x030D0000
+#if defined(Py_LIMITED_API)
+    value = PyObject_GetAttr(object, name);
+    if (value == nullptr && PyErr_ExceptionMatches(PyExc_AttributeError) != 0) PyErr_Clear();
+#elif PY_VERSION_HEX >= 0x030D0000
     PyObject_GetOptionalAttr(object, name, &value);
 #else
     _PyObject_LookupAttr(object, name, &value);
@@ -82,24 +83,22 @@ class Layout {
   Layout(nb::handle cls, const std::array<const char*, N>& fields)
       : type_(reinterpret_cast<PyTypeObject*>(cls.ptr())) {
     for (std::size_t i = 0; i < N; ++i) {
-      const nb::object slot = cls.attr(fields[i]);
-      const auto* member = reinterpret_cast<PyMemberDescrObject*>(slot.ptr())->d_member;
-      if (Py_TYPE(slot.ptr()) != &PyMemberDescr_Type || member->type != T_OBJECT_EX) {
+      offsets_[i] = offset_of(cls, cls.attr(fields[i]));
+      if (offsets_[i] == 0) {
         throw nb::type_error(
             (std::string(nb::str(cls).c_str()) + ": the field '" + fields[i] + "' is not a slot")
                 .c_str());
       }
-      offsets_[i] = member->offset;
     }
-    Py_INCREF(type_);
+    Py_INCREF(cls.ptr());
   }
   Layout(const Layout&) = delete;
   Layout& operator=(const Layout&) = delete;
-  ~Layout() { Py_DECREF(type_); }
+  ~Layout() { Py_DECREF(reinterpret_cast<PyObject*>(type_)); }
 
   // A new instance that owns the given values; null, and the values gone, if one of them is null.
   PyObject* make(const std::array<PyObject*, N>& values) const {
-    PyObject* object = type_->tp_alloc(type_, 0);
+    PyObject* object = PyType_GenericAlloc(type_, 0);
     bool complete = object != nullptr;
     for (std::size_t i = 0; i < N; ++i) {
       complete = complete && values[i] != nullptr;
@@ -115,8 +114,26 @@ class Layout {
   }
 
  private:
+  // Where an instance holds the value of a slot, found by setting one; 0 for what is no slot. The
+  // stable ABI has no other way to tell.
+  static std::size_t offset_of(nb::handle cls, nb::handle slot) {
+    if (Py_TYPE(slot.ptr()) != &PyMemberDescr_Type) return 0;
+    auto* type = reinterpret_cast<PyTypeObject*>(cls.ptr());
+    const auto instance = nb::steal(PyType_GenericAlloc(type, 0));
+    const nb::object value = nb::list();  // a new one, which nothing else refers to
+    slot.attr("__set__")(instance, value);
+    const auto size = nb::cast<std::size_t>(cls.attr("__basicsize__"));
+    for (std::size_t at = sizeof(PyObject); at + sizeof(PyObject*) <= size;
+         at += sizeof(PyObject*)) {
+      PyObject* held = nullptr;
+      std::memcpy(&held, reinterpret_cast<const char*>(instance.ptr()) + at, sizeof held);
+      if (held == value.ptr()) return at;
+    }
+    return 0;
+  }
+
   PyTypeObject* type_;
-  std::array<Py_ssize_t, N> offsets_{};
+  std::array<std::size_t, N> offsets_{};
 };
 
 // The six classes that make up a TransformStamped, as a default instance shows them.

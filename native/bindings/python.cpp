@@ -16,6 +16,13 @@ PyObject* from_datetime(PyObject* object, const char* what) {
 
 }  // namespace
 
+bool raise_no_text(PyObject* object, const char* what) {
+  PyObject* name = PyObject_GetAttrString(reinterpret_cast<PyObject*>(Py_TYPE(object)), "__name__");
+  if (name != nullptr) PyErr_Format(PyExc_TypeError, "%s must be str, not %U", what, name);
+  Py_XDECREF(name);
+  return false;
+}
+
 bool nanoseconds_of_other(PyObject* object, Stamp& value, const char* what) {
   if (!PyErr_ExceptionMatches(PyExc_TypeError)) return false;
   PyErr_Clear();

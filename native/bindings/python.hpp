@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "../core/samples.hpp"
+#include "concrete.hpp"
 #include "gil.hpp"
 
 namespace turtlewire::python {
@@ -71,8 +72,8 @@ class Signature {
  private:
   bool read_keywords(PyObject* const* given, PyObject* keywords,
                      std::array<PyObject*, N>& values) const {
-    for (Py_ssize_t k = 0; k < PyTuple_GET_SIZE(keywords); ++k) {
-      PyObject* keyword = PyTuple_GET_ITEM(keywords, k);
+    for (Py_ssize_t k = 0; k < tuple_size(keywords); ++k) {
+      PyObject* keyword = tuple_item(keywords, k);
       std::size_t i = 0;
       while (i < N && names_[i] != keyword && PyUnicode_Compare(names_[i], keyword) != 0) ++i;
       if (i == N) {
@@ -95,12 +96,14 @@ class Signature {
   std::array<PyObject*, N> names_;
 };
 
+// False, with the TypeError for an object that is no str.
+bool raise_no_text(PyObject* object, const char* what);
+
 // A string's own bytes; they live as long as the object. False with a TypeError or
 // UnicodeEncodeError set.
 inline bool text_of(PyObject* object, std::string_view& text, const char* what) {
   if (!PyUnicode_Check(object)) {
-    PyErr_Format(PyExc_TypeError, "%s must be str, not %.200s", what, Py_TYPE(object)->tp_name);
-    return false;
+    return raise_no_text(object, what);
   }
   Py_ssize_t size = 0;
   const char* bytes = PyUnicode_AsUTF8AndSize(object, &size);

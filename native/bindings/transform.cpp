@@ -29,7 +29,7 @@ PyObject* floats(std::initializer_list<double> values) {
       Py_DECREF(tuple);
       return nullptr;
     }
-    PyTuple_SET_ITEM(tuple, i++, item);
+    set_tuple_item(tuple, i++, item);
   }
   return tuple;
 }

@@ -30,9 +30,9 @@ struct Message {
   Attachment attachment;
 
   std::span<const unsigned char> span() const {
-    return {reinterpret_cast<const unsigned char*>(PyBytes_AS_STRING(bytes.ptr())), size()};
+    return {reinterpret_cast<const unsigned char*>(bytes_start(bytes.ptr())), size()};
   }
-  std::size_t size() const { return static_cast<std::size_t>(PyBytes_GET_SIZE(bytes.ptr())); }
+  std::size_t size() const { return static_cast<std::size_t>(PyBytes_Size(bytes.ptr())); }
 };
 
 // The bytes of a zenoh.ZBytes.
@@ -47,9 +47,9 @@ std::optional<Message> read(nb::handle sample) {
   const nb::object beside = sample.attr("attachment");
   if (beside.is_none()) return std::nullopt;
   const nb::object bytes = bytes_of(beside);
-  const auto* first = reinterpret_cast<const unsigned char*>(PyBytes_AS_STRING(bytes.ptr()));
+  const auto* first = reinterpret_cast<const unsigned char*>(bytes_start(bytes.ptr()));
   const std::optional<Attachment> attachment =
-      Attachment::read({first, static_cast<std::size_t>(PyBytes_GET_SIZE(bytes.ptr()))});
+      Attachment::read({first, static_cast<std::size_t>(PyBytes_Size(bytes.ptr()))});
   if (!attachment) return std::nullopt;
   Message message{bytes_of(sample.attr("payload")), *attachment};
   if (message.size() < kShortest) return std::nullopt;
