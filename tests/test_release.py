@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import importlib.util
 import re
+import tarfile
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -65,3 +67,78 @@ def test_an_unknown_python_is_refused(release, monkeypatch, capsys):
         release.main()
     assert ended.value.code == 2
     assert "3.9" in capsys.readouterr().err
+
+
+@pytest.fixture
+def wheels(release):
+    return importlib.import_module("release_wheels")
+
+
+@pytest.fixture
+def checks(release):
+    return importlib.import_module("release_checks")
+
+
+def test_one_wheel_is_for_python_3_12_and_all_later_ones(wheels):
+    pythons = {version: f"/python{version}" for version in wheels.VERSIONS}
+    made = wheels.targets(pythons, ("x86_64", "aarch64"))
+    for machine in ("x86_64", "aarch64"):
+        found = {target.tag: target.python for target in made if target.machine == machine}
+        assert found == {
+            "cp310-cp310": "/python3.10",
+            "cp311-cp311": "/python3.11",
+            "cp312-abi3": "/python3.12",
+            "cp313-cp313t": "/python3.13t",
+            "cp314-cp314t": "/python3.14t",
+        }
+    assert len(made) == 10
+
+
+def test_a_machine_asked_for_needs_its_compiler(wheels, monkeypatch, capsys):
+    monkeypatch.setattr(wheels, "here", lambda: "x86_64")
+    monkeypatch.setattr(wheels.sys, "platform", "linux")
+    monkeypatch.setattr(wheels.shutil, "which", lambda name: None)
+    with pytest.raises(wheels.ReleaseError, match=r"apt install g\+\+-aarch64-linux-gnu"):
+        wheels.possible_machines(("aarch64",))
+    assert wheels.possible_machines(wheels.MACHINES) == ("x86_64",)
+    assert "no such wheels" in capsys.readouterr().err
+
+
+def zipped(path, *names):
+    with zipfile.ZipFile(path, "w") as archive:
+        for name in names:
+            archive.writestr(name, "")
+    return path
+
+
+GOOD = ("turtlewire/__init__.py", "turtlewire/_native.abi3.so", "turtlewire-1.dist-info/METADATA")
+
+
+def test_a_wheel_holds_its_package_and_one_compiled_module(checks, tmp_path):
+    checks.check_wheel(zipped(tmp_path / "good.whl", *GOOD), "turtlewire")
+    checks.check_wheel(zipped(tmp_path / "pure.whl", "rclpy/node.py", "tf2_ros/a.py"), None)
+
+
+@pytest.mark.parametrize(
+    ("names", "package", "told"),
+    [
+        ((*GOOD, "tests/test_buffer.py"), "turtlewire", "tests/test_buffer.py"),
+        ((*GOOD, "turtlewire/__pycache__/a.pyc"), "turtlewire", "__pycache__"),
+        ((*GOOD, "turtlewire/libother.so"), "turtlewire", "libother.so"),
+        (GOOD[:1], "turtlewire", "one compiled module, not 0"),
+        (("rclpy/node.py", "rclpy/node.so"), None, "node.so"),
+    ],
+)
+def test_a_wheel_with_anything_else_is_refused(checks, tmp_path, names, package, told):
+    with pytest.raises(checks.ReleaseError, match=re.escape(told)):
+        checks.check_wheel(zipped(tmp_path / "bad.whl", *names), package)
+
+
+def test_an_sdist_holds_sources_alone(checks, tmp_path):
+    (tmp_path / "a.py").write_text("")
+    for name, inside in (("good", "p-1/src/a.py"), ("bad", "p-1/src/_native.so")):
+        with tarfile.open(tmp_path / f"{name}.tar.gz", "w:gz") as archive:
+            archive.add(tmp_path / "a.py", inside)
+    checks.check_sdist(tmp_path / "good.tar.gz")
+    with pytest.raises(checks.ReleaseError, match=r"src/_native\.so"):
+        checks.check_sdist(tmp_path / "bad.tar.gz")

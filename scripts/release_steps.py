@@ -1,0 +1,55 @@
+"""What the parts of scripts/release share: folders, steps that say how long they took, errors."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+WORK = ROOT / "build" / "release"
+
+
+class ReleaseError(Exception):
+    """What keeps this from being a release, in one sentence."""
+
+
+def run(
+    *command: object,
+    what: str,
+    environment: dict[str, str] | None = None,
+    folder: Path = ROOT,
+) -> str:
+    """Run a step, and say how long it took; returns what it printed.
+
+    Raises:
+        ReleaseError: It failed; what it printed has been shown.
+    """
+    say(f"{what} …")
+    started = time.monotonic()
+    done = subprocess.run(
+        list(map(str, command)),
+        cwd=folder,
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+    )
+    if done.returncode:
+        sys.stderr.write(done.stdout)
+        raise ReleaseError(f"{what} failed, see above")
+    say(f"{what}: {time.monotonic() - started:.0f} s")
+    return done.stdout
+
+
+def output(*command: str) -> str:
+    """What a command prints."""
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+    return done.stdout.strip()
+
+
+def say(text: str) -> None:
+    """Print a line for the user."""
+    print(f"[{Path(sys.argv[0]).stem}] {text}", file=sys.stderr, flush=True)

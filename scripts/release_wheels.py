@@ -1,0 +1,184 @@
+"""The wheels of a release: one for Python 3.10, one for 3.11, one for 3.12 and all later ones.
+
+Each is made from the sdist, so that nothing is missing in it. Free-threaded Pythons, which the
+stable ABI leaves out, get one each. Linux wheels get their manylinux tag from auditwheel, which
+finds the oldest glibc that they run on: build where that is old enough. Those for arm64 are
+compiled on x86-64 by Debian's cross compiler, whose C library is the one of the same Debian.
+"""
+
+from __future__ import annotations
+
+import glob
+import os
+import platform
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from release_steps import WORK, ReleaseError, run, say
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+VERSIONS = ("3.10", "3.11", "3.12", "3.13", "3.14", "3.13t", "3.14t")
+MACHINES = ("x86_64", "aarch64")
+OWN = ("3.10", "3.11")  # older than nanobind's stable ABI
+#: CMake 3.26 is the first to find what a module of the stable ABI links with.
+BACKEND = ("build", "scikit-build-core>=1.0", "nanobind>=2.2", "cmake>=3.26", "ninja", "hatchling")
+CROSS = "aarch64-linux-gnu-g++"
+TOOLCHAIN = f"""set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR aarch64)
+set(CMAKE_CXX_COMPILER {CROSS})
+"""
+
+
+@dataclass(frozen=True)
+class Target:
+    """One compiled wheel."""
+
+    tag: str  # of Python and ABI, as in the file's name
+    python: str  # the interpreter that builds it
+    machine: str
+
+    @property
+    def stable(self) -> bool:
+        """Whether it is for all later Pythons, too."""
+        return self.tag.endswith("abi3")
+
+    @property
+    def foreign(self) -> bool:
+        """Whether it does not run here."""
+        return self.machine != here()
+
+
+def here() -> str:
+    """The machine that this is, as wheels name it."""
+    return {"AMD64": "x86_64", "arm64": "aarch64"}.get(platform.machine(), platform.machine())
+
+
+def interpreters(versions: tuple[str, ...]) -> dict[str, str]:
+    """The Pythons that this machine has, by version.
+
+    Raises:
+        ReleaseError: It has none of them.
+    """
+    found = {version: path for version in versions if (path := interpreter(version))}
+    missing = [version for version in versions if version not in found]
+    if missing:
+        say(f"not on this machine: Python {', '.join(missing)}")
+    if not found:
+        raise ReleaseError("none of these Pythons is on this machine")
+    return found
+
+
+def interpreter(version: str) -> str | None:
+    """A Python of a version that can make a venv; pyenv's own, because its shims may fail."""
+    number, free = version.rstrip("t"), version.endswith("t")
+    pattern = f"~/.pyenv/versions/{number}.*{'t' if free else '[0-9]'}/bin/python"
+    for path in [*sorted(glob.glob(os.path.expanduser(pattern))), shutil.which(f"python{version}")]:
+        if path and subprocess.run([path, "-c", "import ensurepip"], check=False).returncode == 0:
+            return path
+    return None
+
+
+def targets(pythons: dict[str, str], machines: tuple[str, ...]) -> list[Target]:
+    """The wheels that these Pythons can build: no two with the same tag."""
+    found: dict[tuple[str, str], Target] = {}
+    for machine in machines:
+        for version, python in pythons.items():
+            tag = wheel_tag(version)
+            found.setdefault((machine, tag), Target(tag, python, machine))
+    return list(found.values())
+
+
+def wheel_tag(version: str) -> str:
+    """The tag of the wheel that a Python takes."""
+    number = f"cp{version.rstrip('t').replace('.', '')}"
+    if version.endswith("t"):
+        return f"{number}-{number}t"
+    return f"{number}-{number}" if version in OWN else "cp312-abi3"
+
+
+def possible_machines(asked: tuple[str, ...]) -> tuple[str, ...]:
+    """Those of the machines for which this one can compile.
+
+    Raises:
+        ReleaseError: A machine was asked for by name, and its compiler is missing.
+    """
+    if sys.platform != "linux":
+        return (here(),)
+    others = [machine for machine in asked if machine != here()]
+    if not others:
+        return asked
+    if here() == "x86_64" and shutil.which(CROSS):
+        return asked
+    need = f"{', '.join(others)} needs {CROSS} on x86-64: apt install g++-aarch64-linux-gnu"
+    if len(asked) == len(others):
+        raise ReleaseError(need)
+    say(f"{need}; no such wheels")
+    return tuple(machine for machine in asked if machine == here())
+
+
+def make_builder(python: str) -> Path:
+    """A venv with what builds a wheel, kept from one run to the next; its Python."""
+    version = subprocess.run(
+        [python, "-c", "import sys; print('%d.%d' % sys.version_info[:2] + sys.abiflags)"],
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout.strip()
+    venv = WORK.parent / "release-tools" / version
+    if not (venv / "bin" / "python").exists():
+        run(python, "-m", "venv", "--clear", venv, what=f"a venv for Python {version}")
+    command = [venv / "bin" / "python", "-m", "pip", "install", "-q", "-U", *BACKEND]
+    run(*command, what=f"what builds with Python {version}")
+    return venv / "bin" / "python"
+
+
+def make_sdist(python: Path, name: str, folder: Path) -> Path:
+    """The sdist of a project."""
+    command = [python, "-m", "build", "--no-isolation", "--sdist", "-o", WORK, folder]
+    run(*command, what=f"the sdist of {name}")
+    [path] = WORK.glob(f"{name.replace('-', '_')}-*.tar.gz")
+    return path
+
+
+def make_wheel(python: Path, source: Path, target: Target | None, folder: Path) -> Path:
+    """The wheel of an unpacked sdist; a pure one where there is no target."""
+    options: list[str] = []
+    environment = {**os.environ, "PATH": f"{python.parent}{os.pathsep}{os.environ['PATH']}"}
+    what = f"the wheel of {source.name}"
+    if target is not None:
+        what = f"{what}, {target.tag} for {target.machine}"
+        if target.stable:
+            options += ["-Cwheel.py-api=cp312", "-Ccmake.define.TURTLEWIRE_STABLE_ABI=ON"]
+        if target.foreign:
+            options += [f"-Ccmake.define.Python_INCLUDE_DIR={headers(python)}"]
+            environment |= cross_environment(target)
+    command = [python, "-m", "build", "--no-isolation", "--wheel", "-o", folder, *options, source]
+    run(*command, what=what, environment=environment)
+    [wheel] = folder.glob("*.whl")
+    if target is not None and wheel.name.endswith("none-any.whl"):
+        raise ReleaseError(f"the core did not compile for {target.tag}: {wheel.name}")
+    return wheel
+
+
+def headers(python: Path) -> str:
+    """Python's headers, which say nothing of the processor where a long has 64 bits."""
+    command = [str(python), "-c", "import sysconfig; print(sysconfig.get_path('include'))"]
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+
+
+def cross_environment(target: Target) -> dict[str, str]:
+    """What makes CMake and scikit-build-core compile for another machine."""
+    toolchain = WORK / "toolchain.cmake"
+    toolchain.write_text(TOOLCHAIN, encoding="utf-8")
+    abi = "abi3" if target.stable else f"cpython-{target.tag.split('-')[1][2:]}"
+    suffix = ".abi3.so" if target.stable else f".{abi}-{target.machine}-linux-gnu.so"
+    return {
+        "CMAKE_TOOLCHAIN_FILE": str(toolchain),
+        "_PYTHON_HOST_PLATFORM": f"linux-{target.machine}",
+        "SETUPTOOLS_EXT_SUFFIX": suffix,
+    }
