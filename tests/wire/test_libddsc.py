@@ -156,7 +156,7 @@ def of_system() -> str:
         found = list(libddsc._below(prefix, "the system"))
         if found and found[0].abi == libddsc.ABIS[1]:
             return prefix
-    pytest.skip("no libddsc 0.10 (Debian: apt install libddsc0debian)")
+    pytest.skip("no libddsc 0.10 (Debian 12: apt install libddsc0debian)")
 
 
 def test_a_library_of_the_system_carries_messages():

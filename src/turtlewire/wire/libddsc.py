@@ -1,7 +1,8 @@
 """Where ``libddsc`` of Cyclone DDS is, and which of its binary interfaces it has.
 
 The ``cyclonedds`` wheel brings one for most platforms. Elsewhere, that of a ROS 2 installation or
-of the system does as well: Debian, Ubuntu and Raspberry Pi OS have it as ``libddsc0debian``.
+of the system does as well: Debian, Ubuntu and Raspberry Pi OS have it as ``libddsc0debian``, newer
+ones (from Debian 13 on) as ``libddsc0t64``.
 Nothing is loaded here.
 """
 

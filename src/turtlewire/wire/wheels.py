@@ -16,6 +16,7 @@ __all__ = ["Platform", "advice", "this_platform"]
 _BOTH = {("linux", "x86_64"), ("darwin", "arm64"), ("darwin", "x86_64"), ("win32", "AMD64")}
 _ZENOH_ONLY = {("linux", machine) for machine in ("aarch64", "armv7l", "i686")}
 _TOO_NEW_FOR_CYCLONE = (3, 14)
+_PACKAGES = "libddsc0debian, in newer ones libddsc0t64"
 
 
 class Platform(NamedTuple):
@@ -59,7 +60,7 @@ def advice(here: Platform) -> str:
     if here.has_cyclone:
         ways.append("type: pip install cyclonedds==11.0.1")
     elif here.system == "linux":
-        ways.append("install libddsc 0.10 (Debian, Ubuntu, Raspberry Pi OS: libddsc0debian)")
+        ways.append(f"install libddsc 0.10 (Debian, Ubuntu, Raspberry Pi OS: {_PACKAGES})")
     if here.has_zenoh:
         ways.append(
             "take Zenoh: pip install 'turtlewire[zenoh]' and RMW_IMPLEMENTATION=rmw_zenoh_cpp"
