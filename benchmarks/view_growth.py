@@ -1,13 +1,15 @@
 """What `turtlewire view` and its page hold while topics, displays and pages come and go.
 
-`python -m benchmarks.view_growth [SECONDS]` prints a line every ten seconds: of the server the
-resident memory, file descriptors and threads; of the page the JavaScript heap after a collection,
-DOM nodes, and what three.js holds on the graphics card. A real robot publishes 30 moving frames at
-30 Hz; each round opens new topics, shows them in the page and in a second one, and ends them.
+`python -m benchmarks.view_growth [--minutes M] [--every SECONDS]` prints a line every so often: of
+the server the resident memory, file descriptors and threads; of the page the JavaScript heap after
+a collection, DOM nodes, and what three.js holds on the graphics card. A robot publishes 30 moving
+frames at 30 Hz; each round opens new topics, shows them in the page, tells them to a second page,
+and ends them. The first minute fills the history of frames.
 """
 
 from __future__ import annotations
 
+import argparse
 import contextlib
 import os
 import shutil
@@ -23,8 +25,7 @@ from benchmarks.view_page import FLAGS
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-FRAMES, RATE_HZ, EVERY_S = 30, 30, 10.0
-COLUMNS = ("RSS kB", "fds", "threads", "heap kB", "nodes", "geometries", "textures", "programs")
+FRAMES, RATE_HZ = 30, 30
 KINDS = {
     "nav_msgs/msg/Path": "path",
     "visualization_msgs/msg/Marker": "marker",
@@ -51,20 +52,20 @@ HELD = """async () => {
 }"""
 
 
-def main(seconds: float) -> None:
+def main(seconds: float, every_s: float) -> None:
     with running_view() as (url, server_pid), robot() as node, browser(url) as page:
         print(
             "   s  rounds  RSS kB  fds  threads  heap kB  nodes  geometries  textures  programs",
             flush=True,
         )
         begin, rounds, told = time.monotonic(), 0, 0.0
-        while (elapsed := time.monotonic() - begin) < seconds:
+        while (elapsed := time.monotonic() - begin) < seconds or told <= seconds:
             if elapsed >= told:
                 values = [*server_values(server_pid), *page_values(page)]
                 print(
                     f"{elapsed:5.0f} {rounds:6d}", *(f"{value:8d}" for value in values), flush=True
                 )
-                told += EVERY_S
+                told += every_s
             come_and_go(page, url, node, rounds)
             rounds += 1
 
@@ -231,4 +232,8 @@ def page_values(page: Any) -> list[int]:
 
 
 if __name__ == "__main__":
-    main(float(sys.argv[1]) if len(sys.argv) > 1 else 60.0)
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--minutes", type=float, default=1.0, help="how long topics come and go")
+    parser.add_argument("--every", type=float, default=10.0, help="seconds between two lines")
+    given = parser.parse_args()
+    main(60 * given.minutes, given.every)

@@ -88,3 +88,15 @@ def test_a_page_that_stops_reading_holds_up_nobody(robot, viewer, open_view_page
             if packet["type"] == "frames" and len(packet["arrays"]["poses"]) == 2:
                 place = packet["arrays"]["poses"][1][0]
     assert 0 < pictures < OFFERED / 2
+
+
+def test_topics_that_tools_have_published_on_do_not_add_up(robot, viewer):
+    point = "geometry_msgs/msg/PointStamped"
+    cdr = msg.serialize(msg.get_message(point)())
+    for number in range(3 * ROUNDS):
+        viewer.source.publish(f"/point_{number % (2 * ROUNDS)}", point, cdr)
+    last = 3 * ROUNDS % (2 * ROUNDS) - 1
+    graph = viewer.source._context.graph
+    topics = [end.topic for end in graph.endpoints() if end.topic.startswith("/point_")]
+    assert len(topics) <= ROUNDS
+    assert f"/point_{last}" in topics

@@ -89,6 +89,32 @@ def test_why_there_is_no_text(source, describer, name, why):
         assert wait_for(answers, lambda answer: answer.problem == why)
 
 
+def test_no_lock_is_held_while_an_answer_is_given(source, describer):
+    """The graph's news can be taken while the callback of an answer has not returned."""
+    entered, left, texts = threading.Event(), threading.Event(), queue.SimpleQueue()
+
+    def take(answer):
+        if answer.text:
+            texts.put(answer.text)
+        entered.set()
+        assert left.wait(LIMIT_S)
+
+    end = source.ask_parameter("/describer", "robot", take)
+    assert entered.wait(LIMIT_S)
+    describer(robot="<robot/>")
+    graph = source._context.graph
+    assert graph.wait_for(
+        lambda: any(n.name == "describer" for n in graph.nodes()), 10**9 * LIMIT_S
+    )
+    told = threading.Thread(target=graph.notify_changed, daemon=True)
+    told.start()
+    told.join(LIMIT_S)
+    assert not told.is_alive()
+    left.set()
+    assert texts.get(timeout=LIMIT_S) == "<robot/>"
+    end()
+
+
 def test_a_name_that_no_node_has(source):
     answers, end = ask(source, "/not a node", "robot")
     end()

@@ -48,6 +48,15 @@ def test_each_is_asked_once_for_each():
     assert (peers.opened, peers.renewed) == (1, 1)
 
 
+def test_nothing_is_kept_of_participants_that_have_left():
+    peers = Asked()
+    for gid in FAST:
+        peers.ask(peers.to_ask([gid], []))
+        peers.ask(peers.to_ask([gid], [writer_of(gid)]))
+        peers.gone(gid)
+    assert peers._asked == (set(), set())
+
+
 def test_several_are_asked_at_once():
     peers = Asked()
     peers.ask(peers.to_ask(FAST, []))

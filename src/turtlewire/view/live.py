@@ -31,6 +31,8 @@ _HISTORY_NS = 60 * 10**9
 _WALL_TIME_FROM_NS = 10**18
 _NODE_NAME = "turtlewire_view"
 _DEPTH = 100
+#: Publishers of the tools; the one that was used longest ago ends for another.
+_MOST_PUBLISHERS = 16
 
 
 class LiveSource:
@@ -118,11 +120,13 @@ class LiveSource:
     def publish(self, topic: str, type_name: str, cdr: bytes) -> None:
         """Send a message; the publisher stays for the next one."""
         with self._lock:
-            publisher = self._publishers.get((topic, type_name))
+            publisher = self._publishers.pop((topic, type_name), None)
             if publisher is None:
                 identity = TypeId(type_name, msg.type_hash(type_name))
                 publisher = self._node.create_publisher(topic, identity, QoS())
-                self._publishers[topic, type_name] = publisher
+            self._publishers[topic, type_name] = publisher
+            while len(self._publishers) > _MOST_PUBLISHERS:
+                self._publishers.pop(next(iter(self._publishers))).close()
         publisher.publish(cdr)
 
     def on_change(self, call: Callable[[], None]) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import threading
+from collections import deque
 from typing import TYPE_CHECKING, Any
 
 from turtlewire import msg
@@ -38,14 +39,14 @@ _MOST_NAMED = 5
 class ParameterWatch:
     """Asks for a text parameter when its node is there, comes again or says that it has changed.
 
-    A thread of its own waits for the response.
+    A thread of its own waits for the responses and gives the answers, without any lock held.
 
     Args:
         context: The participant.
         node: Whose client asks.
         owner: Fully qualified name of the node that has the parameter.
         parameter: The parameter's name.
-        on_answer: Called with each answer, on any thread.
+        on_answer: Called with each answer, in their order, on the watch's thread.
 
     Raises:
         WireError: ``owner`` is no name of a node.
@@ -64,6 +65,7 @@ class ParameterWatch:
         self._lock = threading.Lock()
         self._is_there: bool | None = None
         self._asked = 0
+        self._answers: deque[ParameterAnswer] = deque()
         self._is_closed = False
         self._interface = msg.get_service(_SERVICE)
         request, response = _type_id(f"{_SERVICE}_Request"), _type_id(f"{_SERVICE}_Response")
@@ -82,7 +84,8 @@ class ParameterWatch:
     def close(self) -> None:
         """Ask no more."""
         self._end()
-        self._is_closed = True
+        with self._lock:
+            self._is_closed = True
         self._events.close()
         self._wait_set.wake()
         self._thread.join()
@@ -99,7 +102,8 @@ class ParameterWatch:
             if is_there:
                 self._ask()
             waiting = f"the node {self._owner} does not answer yet"
-            self._on_answer(ParameterAnswer(problem=waiting if is_there else self._absent()))
+            self._answers.append(ParameterAnswer(problem=waiting if is_there else self._absent()))
+            self._wait_set.wake()
 
     def _ask(self) -> None:
         request = self._interface.Request(names=[self._parameter])
@@ -134,7 +138,9 @@ class ParameterWatch:
                     for number, cdr in self._responses(client):
                         with self._lock:  # the request's number may not be known before
                             if number == self._asked:
-                                self._on_answer(self._answer(cdr))
+                                self._answers.append(self._answer(cdr))
+            while self._answers and not self._is_closed:
+                self._on_answer(self._answers.popleft())
 
     def _responses(self, client: Client) -> list[tuple[int, bytes]]:
         try:

@@ -206,6 +206,7 @@ class CycloneGraph(GraphView):
                 self._enclaves.pop(gid, None)
                 self._announced.pop(gid, None)
                 self._node_names.gone(gid)
+                self._silent_peers.gone(gid)
         return news
 
     def _update_endpoints(self, kind: str, source: _BuiltinReader) -> bool:

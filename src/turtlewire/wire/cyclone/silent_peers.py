@@ -70,6 +70,11 @@ class SilentPeers:
             self._asked.nodes.update(questions.nodes)
             self._renew_reader()
 
+    def gone(self, gid: bytes) -> None:
+        """A participant has left: what it was asked need not be known any more."""
+        self._asked.endpoints.discard(gid)
+        self._asked.nodes.discard(gid)
+
     def _open_second(self) -> None:
         self.close()
         created = dds.create_participant(self._participant.domain_id, None, None)

@@ -1,0 +1,25 @@
+"""Warnings of the wire: each once, and bounded memory for which were said."""
+
+from __future__ import annotations
+
+from turtlewire.wire import report
+
+
+def test_each_is_said_once(monkeypatch, capfd):
+    monkeypatch.setattr(report, "_said", set())
+    for _ in range(3):
+        report.warn_once("a", "the first")
+    report.warn_once("b", "the second")
+    assert [line.rpartition(": ")[2] for line in capfd.readouterr().err.splitlines()] == [
+        "the first",
+        "the second",
+    ]
+
+
+def test_names_that_come_and_go_for_ever_do_not_fill_the_memory(monkeypatch, capfd):
+    said = set()
+    monkeypatch.setattr(report, "_said", said)
+    for number in range(5000):
+        report.warn_once(f"topic {number}", "a mistake")
+    capfd.readouterr()
+    assert len(said) <= 1000
