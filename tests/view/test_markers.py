@@ -247,3 +247,38 @@ def test_what_is_wrong_with_a_texture(values, line):
     (sent,) = shown([content])
     assert sent["texture"] is None
     assert not len(content.arrays["uv"])
+
+
+def test_two_markers_of_one_name_in_an_array_are_told_and_the_last_is_drawn():
+    *outputs, status = MarkerDisplay().content(
+        Array(markers=[marker("cube"), marker("sphere"), marker("cube", key=("robot", 2))])
+    )
+    assert [each["shape"] for each in shown(outputs)] == ["sphere", "cube"]
+    assert status.level == "warn"
+    assert status.text == (
+        "Multiple Markers in the same MarkerArray message had the same ns and id: (robot, 1)"
+    )
+
+
+@pytest.mark.parametrize("between", [marker(action=2), marker(action=3)])
+def test_a_marker_that_is_deleted_in_between_is_no_duplicate(between):
+    *_, status = MarkerDisplay().content(Array(markers=[marker(), between, marker()]))
+    assert status.level == "ok"
+
+
+@pytest.mark.parametrize(
+    ("w", "said"),
+    [
+        (0.0, "marker robot/1: Uninitialized quaternion, assuming identity."),
+        (0.5, "marker robot/1: Unnormalized quaternion, drawn with length 1."),
+        (1.004, ""),
+        (-1.0, ""),
+    ],
+)
+def test_a_quaternion_that_is_no_rotation_is_told(w, said):
+    message, text = marker(), marker("text", text="a")
+    message.pose.orientation.w = text.pose.orientation.w = w
+    content, status = MarkerDisplay().content(message)
+    assert shown([content])[0]["pose"] == [0, 0, 0, 0, 0, 0, math.copysign(1, w or 1)]
+    assert status.text == said
+    assert MarkerDisplay().content(text)[-1].level == "ok"  # it faces the camera

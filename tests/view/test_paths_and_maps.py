@@ -197,3 +197,29 @@ def test_a_large_map_is_drawn_coarser_and_keeps_obstacles():
     content, _ = display.content(update(8998, 1, 2, 1, [50, 60]))
     assert content.header["update"] == [2999, 0, 1, 1]
     assert content.arrays["cells"].tolist() == [[60]]
+
+
+def with_quaternions(*ws):
+    poses = [pose(float(number)) for number in range(len(ws))]
+    for each, w in zip(poses, ws, strict=True):
+        each.orientation.w = w
+    return poses
+
+
+def test_poses_with_quaternions_that_are_no_rotations():
+    (zero,) = with_quaternions(0.0)
+    stamped = new("geometry_msgs/msg/PoseStamped", pose=zero)
+    content, status = PoseDisplay().content(stamped)
+    assert content.header["at"] == [0, 0, 0, 0, 0, 0, 1]
+    assert status.text == "Uninitialized quaternion, assuming identity."
+    poses = with_quaternions(0.0, 1.0, 2.0)
+    content, status = PoseArrayDisplay().content(new("geometry_msgs/msg/PoseArray", poses=poses))
+    assert content.arrays["rotations"].tolist() == [[0, 0, 0, 1]] * 3
+    assert status.text == "Uninitialized quaternion, assuming identity. (1 of 3 poses) (and 1 more)"
+
+
+def test_a_path_says_so_only_when_it_draws_orientations():
+    message = new("nav_msgs/msg/Path", poses=[PoseStamped(pose=p) for p in with_quaternions(0.0)])
+    assert PathDisplay().content(message)[-1].level == "ok"
+    status = PathDisplay({"pose_style": "axes"}).content(message)[-1]
+    assert status.text == "Uninitialized quaternion, assuming identity."

@@ -22,9 +22,15 @@ START = 1000 * SECOND
 
 def scan(count=5, increment=0.25, **values):
     message = msg.get_message("sensor_msgs/msg/LaserScan")(
-        angle_min=0.0, angle_increment=0.0, range_max=10.0, ranges=[1.0] * count,
-        time_increment=increment, **values,
-    )  # fmt: skip
+        **{
+            "angle_max": (count - 1) * 1e-9,
+            "angle_increment": 1e-9,  # all beams point ahead
+            "range_max": 10.0,
+            "ranges": [1.0] * count,
+            "time_increment": increment,
+            **values,
+        }
+    )
     message.header.frame_id = "lidar"
     message.header.stamp.sec = 1000
     return message
@@ -165,3 +171,36 @@ def test_points_that_stay_share_the_budget():
                 held[output.part] = len(output.arrays["points"])
         assert sum(held.values()) <= 150
     assert len(held) == 100
+
+
+@pytest.mark.parametrize(
+    ("values", "said"),
+    [
+        ({"angle_increment": 0.0}, "angle_increment is 0: all 5 beams are drawn at 0 rad"),
+        ({"angle_max": math.nan}, "angle_max is nan: the beams are drawn by angle_min and"),
+        ({"angle_increment": -0.5, "angle_max": 2.0}, "-0.5 leads from angle_min 0 away from"),
+        ({"angle_increment": 0.5, "angle_max": 1.0}, "and angle_increment say 3"),
+        ({"range_max": 0.0}, "none of the 5 ranges lies between range_min 0 and range_max 0"),
+        ({"range_min": math.nan}, "none of the 5 ranges lies between range_min nan and"),
+        ({"range_min": 3.0, "range_max": 2.0}, "lies between range_min 3 and range_max 2"),
+    ],
+)
+def test_a_scan_with_impossible_limits_says_so(values, said):
+    *_, status = LaserScanDisplay().content(scan(**values))
+    assert status.level == "warn"
+    assert said in status.text
+
+
+@pytest.mark.parametrize("values", [{"angle_increment": math.nan}, {"angle_min": math.inf}])
+def test_a_scan_without_angles_is_not_drawn(values):
+    (status,) = LaserScanDisplay().content(scan(**values))
+    assert status.level == "error"
+    assert "must be finite" in status.text
+
+
+def test_a_scan_that_turns_clockwise_is_no_mistake():
+    content, status = LaserScanDisplay().content(scan(angle_increment=-0.5, angle_max=-2.0))
+    assert status.level == "ok"
+    assert content.arrays["points"][-1].tolist() == pytest.approx(
+        [math.cos(2.0), -math.sin(2.0), 0.0]
+    )

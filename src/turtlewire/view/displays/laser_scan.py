@@ -99,12 +99,9 @@ class LaserScanDisplay(PointsDisplay):
             raise UnusableMessageError(
                 f"angle_min {start} and angle_increment {step} must be finite"
             )
-        claimed = message.angle_max - start
-        if count > 1 and step and np.isfinite(claimed) and abs(claimed / step) + 1.5 < count:
-            self.warn(
-                f"{count} ranges, but angle_min, angle_max and angle_increment say "
-                f"{round(claimed / step) + 1}"
-            )
+        problem = _problem_of_angles(start, step, message.angle_max, count)
+        if problem:
+            self.warn(problem)
         return start + step * np.arange(count)
 
     def _offsets_ns(self, message: Any, index: NDArray[np.intp]) -> NDArray[np.int64]:
@@ -133,3 +130,23 @@ class LaserScanDisplay(PointsDisplay):
         if way == "intensity" and not given:
             self.warn(f"{len(message.intensities)} intensities for {len(message.ranges)} ranges")
         return flat(len(index), self.options.color("flat_color"))
+
+
+def _problem_of_angles(start: float, step: float, end: float, count: int) -> str:
+    """What is wrong with the angles of a scan's beams, or the empty text."""
+    if count < 2:
+        return ""
+    if not step:
+        return f"angle_increment is 0: all {count} beams are drawn at {start:g} rad"
+    if not np.isfinite(end):
+        return f"angle_max is {end}: the beams are drawn by angle_min and angle_increment"
+    claimed = (end - start) / step
+    if claimed < -0.5:
+        return (
+            f"angle_increment {step:g} leads from angle_min {start:g} away from angle_max {end:g}"
+        )
+    if claimed + 1.5 < count:
+        return (
+            f"{count} ranges, but angle_min, angle_max and angle_increment say {round(claimed) + 1}"
+        )
+    return ""

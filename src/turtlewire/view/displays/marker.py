@@ -66,17 +66,26 @@ class MarkerDisplay(Display):
         outputs: list[Output] = []
         groups: dict[_Place, dict[_Key, tuple[Any, MarkerShape]]] = {}
         budget = self.budget
+        added: set[_Key] = set()
         for marker in markers:
             key = (marker.ns, marker.id)
             if marker.action == _DELETEALL:
                 groups.clear()
+                added.clear()
                 outputs = [Content(self._clear(), event=True)]
             elif marker.action == _DELETE:
+                added.discard(key)
                 for group in groups.values():
                     group.pop(key, None)
                 if self._forget(key):
                     outputs.append(Content({"delete": [list(key)]}, event=True))
             elif marker.action == _ADD:
+                if key in added:
+                    self.warn(
+                        "Multiple Markers in the same MarkerArray message had the same ns and id: "
+                        f"({marker.ns}, {marker.id})"
+                    )
+                added.add(key)
                 budget -= self._add(marker, groups, budget)
             else:
                 self.warn(f"marker {_named(key)}: the action {marker.action} is unknown")

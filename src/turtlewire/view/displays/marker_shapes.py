@@ -95,7 +95,7 @@ def marker_shape(marker: Any, budget: int, warn: Callable[[str], None]) -> Marke
     shape = MARKER_TYPES[marker.type]
     header: dict[str, Any] = {
         "shape": shape,
-        "pose": finite_pose(marker.pose),
+        "pose": finite_pose(marker.pose, warn if shape != "text" else _ignore),
         "scale": _scale_of(marker, shape, warn),
         "color": rgba_bytes(marker.color),
     }
@@ -115,6 +115,10 @@ def marker_shape(marker: Any, budget: int, warn: Callable[[str], None]) -> Marke
     if not header["color"][3] and not len(colors) and not header.get("embedded_materials"):
         warn("the marker is invisible: color.a is 0")
     return MarkerShape(header, points, colors, file, packages, uv)
+
+
+def _ignore(_: str) -> None:
+    """A text faces the camera: its orientation does not matter."""
 
 
 def _scale_of(marker: Any, shape: str, warn: Callable[[str], None]) -> list[float]:

@@ -10,7 +10,7 @@ import numpy as np
 from turtlewire.view.displays.content import UnusableMessageError
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
@@ -28,6 +28,7 @@ __all__ = [
     "rgba_bytes",
     "rows_within",
     "spread",
+    "warn_of_quaternions",
 ]
 
 #: 32-bit coordinates are exact to a millimetre up to here [m].
@@ -35,24 +36,47 @@ _EXACT_BELOW = 8192.0
 #: Beyond this a length is nonsense, and 32-bit numbers overflow in the page's products.
 LARGEST = 1e9
 _SHORTEST_QUATERNION = 1e-9
+#: How far the square of a quaternion's length may be from 1, in RViz as well.
+_NORMALIZED_WITHIN = 0.01
 
 
-def finite_pose(pose: Any) -> list[float]:
+def finite_pose(pose: Any, warn: Callable[[str], None]) -> list[float]:
     """x, y, z, qx, qy, qz, qw of a Pose message, the quaternion of unit length.
 
     As in RViz a quaternion of zeros means no rotation.
+
+    Args:
+        pose: The message.
+        warn: Gets what is wrong with the quaternion.
 
     Raises:
         UnusableMessageError: A number is not finite, or absurdly large.
     """
     at, turn = pose.position, pose.orientation
-    rows, kept = pose_rows([(at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w)])
+    given = [(at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w)]
+    rows, kept = pose_rows(given)
     if not kept[0]:
         raise UnusableMessageError(
             f"the pose holds a number that is not finite or too large: position ({at.x}, {at.y}, "
             f"{at.z}), orientation ({turn.x}, {turn.y}, {turn.z}, {turn.w})"
         )
+    warn_of_quaternions(given, warn)
     return [float(value) for value in rows[0]]
+
+
+def warn_of_quaternions(rows: Sequence[tuple[float, ...]], warn: Callable[[str], None]) -> None:
+    """Say which quaternions of poses (x, y, z, then xyzw) are no rotations, as RViz does."""
+    poses = np.array(rows, dtype=np.float64).reshape(-1, 7)
+    lengths = np.linalg.norm(poses[rows_within(poses), 3:], axis=1)
+    none = lengths < _SHORTEST_QUATERNION
+    scaled = (np.abs(lengths**2 - 1.0) > _NORMALIZED_WITHIN) & ~none
+    for which, text in (
+        (none, "Uninitialized quaternion, assuming identity."),
+        (scaled, "Unnormalized quaternion, drawn with length 1."),
+    ):
+        count = int(np.count_nonzero(which))
+        if count:
+            warn(text if len(rows) == 1 else f"{text} ({count} of {len(rows)} poses)")
 
 
 def pose_rows(

@@ -49,7 +49,7 @@ class OccupancyGridDisplay(Display):
             raise UnusableMessageError(f"the map has no cells: width {width}, height {height}")
         if not 0 < info.resolution < 1e6:
             raise UnusableMessageError(f"a resolution of {info.resolution} m per cell is no map")
-        origin = finite_pose(info.origin)
+        origin = finite_pose(info.origin, self.warn)
         self._cells = _cells_of(message, width, height).copy()
         self._step = -(-max(width, height) // _LARGEST_SIDE)
         if self._step > 1:

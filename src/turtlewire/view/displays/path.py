@@ -15,7 +15,7 @@ from turtlewire.view.displays.content import (
     frame_of,
     stamp_ns_of,
 )
-from turtlewire.view.displays.numeric import anchored, pose_rows, spread
+from turtlewire.view.displays.numeric import anchored, pose_rows, spread, warn_of_quaternions
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -55,6 +55,7 @@ class PathDisplay(Display):
         points, anchor = anchored(poses[:, :3])
         arrays = {"points": points}
         if self.options.text("pose_style") != "none":
+            warn_of_quaternions(rows, self.warn)
             arrays["rotations"] = poses[:, 3:].astype(np.float32)
         part = str(next(self._numbers))
         header = {"count": len(points)}

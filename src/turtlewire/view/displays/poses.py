@@ -18,7 +18,13 @@ from turtlewire.view.displays.content import (
     stamp_ns_of,
 )
 from turtlewire.view.displays.covariance import covariance_shape
-from turtlewire.view.displays.numeric import anchored, finite_pose, pose_rows, spread
+from turtlewire.view.displays.numeric import (
+    anchored,
+    finite_pose,
+    pose_rows,
+    spread,
+    warn_of_quaternions,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -38,9 +44,9 @@ class PoseDisplay(Display):
     def _header(self, pose: Any) -> dict[str, Any]:
         """The pose and, if it has one, its covariance."""
         if not hasattr(pose, "covariance"):
-            return {"at": finite_pose(pose), "covariance": None}
+            return {"at": finite_pose(pose, self.warn), "covariance": None}
         shape = covariance_shape(pose.covariance, self.warn)
-        return {"at": finite_pose(pose.pose), "covariance": shape}
+        return {"at": finite_pose(pose.pose, self.warn), "covariance": shape}
 
 
 class OdometryDisplay(PoseDisplay):
@@ -97,6 +103,7 @@ class PoseArrayDisplay(Display):
             raise UnusableMessageError(f"none of the {len(message.poses)} poses is finite")
         if not finite.all():
             self.warn(f"{np.count_nonzero(~finite)} of {len(message.poses)} poses are not finite")
+        warn_of_quaternions(rows, self.warn)
         if len(kept) < len(message.poses):
             self.warn(f"{len(kept)} of {len(message.poses)} poses are drawn")
         points, anchor = anchored(poses[:, :3])
