@@ -23,6 +23,7 @@ BOXES = """() => {
     const seen = [...document.querySelectorAll(".image-window")].filter((each) => !each.hidden);
     return [seen.map(box), box(document.getElementById("viewport"))];
 }"""
+HEIGHTS = "() => [...document.querySelectorAll('.image-window')].map((e) => +e.style.zIndex)"
 COUNT = "(n) => document.querySelectorAll('.image-window:not([hidden])').length === n"
 
 
@@ -88,9 +89,12 @@ def test_when_all_is_taken_the_next_ones_are_a_cascade(show):
     show(count + 3)
     boxes, room = page.evaluate(BOXES)
     assert all(is_inside(box, room) for box in boxes)
-    (left, top, *_), (second_left, second_top, *_) = boxes[-2:]
+    heights = page.evaluate(HEIGHTS)
+    last = sorted(range(count + 3), key=lambda k: heights[k])[-2:]  # in the order of their coming
+    (left, top, *_), (second_left, second_top, *_) = (boxes[k] for k in last)
     assert (second_left - left, second_top - top) == (28, 28)
-    for caption in page.locator(".image-window figcaption").all()[-2:]:
+    for k in last:
+        caption = page.locator(".image-window figcaption").nth(k)
         box = caption.bounding_box()
         at = [box["x"] + 20, box["y"] + box["height"] / 2]
         found = "([x, y]) => document.elementFromPoint(x, y).closest('figcaption').textContent"
