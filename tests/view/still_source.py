@@ -16,6 +16,7 @@ class StillSource:
     kind = "live"
     name = "still"
     history_ns = 60 * 10**9
+    listeners = 1
     problem = ""
 
     def __init__(self) -> None:
@@ -71,6 +72,7 @@ class StillSource:
 
     def publish(self, topic, type_name, cdr):
         self.published.append((topic, type_name, cdr))
+        return self.listeners
 
     def forget_former_time(self):
         pass

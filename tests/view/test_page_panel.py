@@ -84,7 +84,9 @@ def test_search_finds_names_and_publishers(page):
     assert reading(page, "carrot1").startswith("below turtle1")
     page.fill("#search", "nothing")
     assert shown(page) == []
+    assert page.inner_text("#no-match") == "No frame and no publisher has this in its name."
     page.fill("#search", "")
+    assert not page.is_visible("#no-match")
     assert len(shown(page)) == 4
 
 
@@ -101,6 +103,62 @@ def test_the_tree_is_used_with_keys_alone(page, fake):
         page.keyboard.press(key)
     assert shown(page) == ["world", "turtle1", "turtle2"]
     fake.wait_for(lambda c: c["type"] == "relation" and c.get("source") == "turtle2")
+
+
+def active(page) -> str:
+    """The frame that the keyboard is at, as a screen reader is told."""
+    return page.evaluate("""() => {
+        const id = document.getElementById("tree").getAttribute("aria-activedescendant");
+        return document.getElementById(id).getAttribute("aria-label");
+    }""")
+
+
+def test_arrow_keys_go_in_and_out_of_branches(page):
+    page.click("#tree .row:has(.name:text-is('turtle1'))")
+    assert active(page).startswith("turtle1, 62 Hz")
+    page.focus("#tree")
+    page.keyboard.press("ArrowRight")
+    assert active(page).startswith("carrot1, static")
+    page.keyboard.press("ArrowLeft")
+    assert active(page).startswith("turtle1")
+    assert "carrot1" in shown(page)
+    page.keyboard.press("ArrowLeft")
+    assert "carrot1" not in shown(page)
+    page.keyboard.press("ArrowRight")
+    assert "carrot1" in shown(page)
+
+
+def test_the_selected_row_stays_in_sight_when_the_numbers_open(fake, open_view):
+    names = {"world": "", **{f"link{number}": "world" for number in range(30)}}
+    fake.names(names)
+    fake.frames([IDENTITY] * len(names), stamps=[0] + [5] * 30)
+    page = open_view(fake.url)
+    page.wait_for_selector("#tree .row")
+    bottom = page.evaluate("document.getElementById('tree').getBoundingClientRect().bottom")
+    last = max(
+        (each for each in page.locator("#tree .row").all()
+         if each.bounding_box()["y"] + each.bounding_box()["height"] <= bottom),
+        key=lambda each: each.bounding_box()["y"],
+    )  # fmt: skip
+    name = last.locator(".name").inner_text()
+    last.click()
+    fake.tell({**RELATION, "source": name, "sentence": "far " * 40})
+    page.click("#numbers summary")
+    page.wait_for_function(
+        """([name, former]) => {
+            const tree = document.getElementById("tree").getBoundingClientRect();
+            const row = [...document.querySelectorAll("#tree .row")]
+                .find((each) => each.title === name)?.getBoundingClientRect();
+            return tree.bottom < former - 5 && row && row.bottom <= tree.bottom + 1;
+        }""",
+        arg=[name, bottom],
+    )
+
+
+def test_a_phone_reads_nothing_of_keys(told, open_view):
+    page = open_view(told.url, has_touch=True, is_mobile=True)
+    assert page.locator("#help li:visible").count() == 2
+    assert "Shift" not in page.locator("#help").inner_text()
 
 
 def test_frames_are_hidden_by_a_regular_expression_or_one_by_one(page):
@@ -153,6 +211,17 @@ def test_the_relation_in_words_and_numbers(page, fake):
         "delay": "1.4 ms",
         "samples": "600",
     }
+
+
+def test_what_rounds_to_zero_has_no_sign(page, fake):
+    page.click("#tree .row:has(.name:text-is('turtle2'))")
+    small = [[-1e-9] * 4 for _ in range(4)]
+    fake.tell({**RELATION, "translation": [-1e-9, -0.001, 0.0], "matrix": small})
+    page.click("#numbers summary")
+    page.wait_for_function(
+        "() => document.querySelector('#number-list dd').textContent === '0.000, -0.001, 0.000 m'"
+    )
+    assert page.inner_text("#matrix td >> nth=0") == "0.000"
 
 
 def test_why_a_relation_is_not_known(page, fake):
@@ -285,7 +354,7 @@ def test_topics_are_offered_and_others_are_named(page, fake):
     offered = page.locator("#topic option").all_inner_texts()
     robot = "robot from a parameter or file"
     assert offered == ["/scan2 (laser scan)", "/scan10 (laser scan)", robot]
-    assert page.inner_text("#other-topics") == "Without a picture: /rosout"
+    assert page.inner_text("#other-topics") == "No display shows: /rosout"
 
 
 def test_a_display_that_the_page_cannot_draw_says_so(page, fake):

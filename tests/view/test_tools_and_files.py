@@ -53,6 +53,26 @@ def published(scene, topic):
     return msg.deserialize(get(type_name), cdr)
 
 
+def test_a_topic_without_listeners_is_named(scene):
+    scene.source.listeners = 0
+    take(scene, "point")
+    scene.page.mouse.click(450, 350)
+    notice = scene.page.locator("#notice", has_text="but no node subscribes to it")
+    notice.wait_for(timeout=LIMIT_MS)
+    scene.source.listeners = 1
+
+
+def test_escape_puts_away_the_tool_and_only_then_the_frame(scene):
+    page = scene.page
+    page.click("#tree .row:has(.name:text-is('base'))")
+    take(scene, "goal")
+    page.keyboard.press("Escape")
+    assert page.get_attribute("[data-tool=goal]", "aria-pressed") == "false"
+    assert page.input_value("#relation-source") == "base"
+    page.keyboard.press("Escape")
+    assert page.input_value("#relation-source") == ""
+
+
 def take(scene, tool):
     scene.page.click(f"[data-tool={tool}]")
     assert scene.page.get_attribute(f"[data-tool={tool}]", "aria-pressed") == "true"

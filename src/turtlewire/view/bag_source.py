@@ -104,7 +104,7 @@ class BagSource:
         on_answer(ParameterAnswer(problem=problem))
         return _nothing
 
-    def publish(self, topic: str, type_name: str, cdr: bytes) -> None:  # noqa: ARG002 - Source's
+    def publish(self, topic: str, type_name: str, cdr: bytes) -> int:  # noqa: ARG002 - Source's
         """Refused.
 
         Raises:

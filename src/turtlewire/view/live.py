@@ -117,8 +117,11 @@ class LiveSource:
             on_answer(ParameterAnswer(problem=f"{node!r} is no name of a node: {error}"))
             return _nothing
 
-    def publish(self, topic: str, type_name: str, cdr: bytes) -> None:
-        """Send a message; the publisher stays for the next one."""
+    def publish(self, topic: str, type_name: str, cdr: bytes) -> int:
+        """Send a message, and give how many subscriptions there are.
+
+        The publisher stays for the next message.
+        """
         with self._lock:
             publisher = self._publishers.pop((topic, type_name), None)
             if publisher is None:
@@ -128,6 +131,8 @@ class LiveSource:
             while len(self._publishers) > _MOST_PUBLISHERS:
                 self._publishers.pop(next(iter(self._publishers))).close()
         publisher.publish(cdr)
+        endpoints = self._context.graph.endpoints()
+        return sum(each.kind == "subscription" and each.topic == topic for each in endpoints)
 
     def on_change(self, call: Callable[[], None]) -> None:
         """Call ``call()`` on the wire's reader thread."""

@@ -282,8 +282,9 @@ class Session:
             sent = message_of_tool(command, frame, self._base.origin, self._source.now_ns())
         except RequestError as error:
             raise CommandError(f"Nothing was published: {error}.") from error
-        self._source.publish(*sent)
-        self._answers.append(encode_packet({"type": "published", "topic": sent.topic}))
+        heard = self._source.publish(*sent) > 0
+        answer = {"type": "published", "topic": sent.topic, "heard": heard}
+        self._answers.append(encode_packet(answer))
 
     def _save(self, command: dict[str, Any]) -> None:
         types = {topic.name: topic.type_name for topic in self._source.topics()}

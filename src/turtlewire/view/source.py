@@ -132,8 +132,8 @@ class Source(Protocol):
         """
         ...
 
-    def publish(self, topic: str, type_name: str, cdr: bytes) -> None:
-        """Send a message.
+    def publish(self, topic: str, type_name: str, cdr: bytes) -> int:
+        """Send a message, and give how many subscriptions of the topic are known.
 
         Raises:
             TurtlewireError: The source cannot send.

@@ -138,7 +138,8 @@ export class FramesPanel {
 }
 
 function numbers({ translation, rotation }) {
-  const number = (value) => (value === null ? "not finite" : value.toFixed(3));
+  const unsigned = (text) => (text === "-0.000" ? "0.000" : text);
+  const number = (value) => (value === null ? "not finite" : unsigned(value.toFixed(3)));
   const list = (values) => values.map(number).join(", ");
   return [`translation ${list(translation)}`, `rotation xyzw ${list(rotation)}`];
 }

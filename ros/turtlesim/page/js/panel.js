@@ -78,8 +78,8 @@ export class Panel {
   }
 
   #announceChanges(names) {
-    const came = names.filter((name) => !this.#names.includes(name));
-    const went = this.#names.filter((name) => !names.includes(name));
+    const came = names.filter((name) => !this.#names.includes(name)).sort(byName);
+    const went = this.#names.filter((name) => !names.includes(name)).sort(byName);
     const parts = [
       came.length && `${came.slice(0, 5).join(", ")} appeared`,
       went.length && `${went.slice(0, 5).join(", ")} left`,

@@ -36,7 +36,7 @@ export class DisplaysPanel {
     const others = this.#topics.filter(({ kind }) => !kind).map(({ name }) => name);
     const rest = others.length > MOST_OTHERS ? ` and ${others.length - MOST_OTHERS} more` : "";
     const list = others.slice(0, MOST_OTHERS).join(", ");
-    setText(byId("other-topics"), others.length ? `Without a picture: ${list}${rest}` : "");
+    setText(byId("other-topics"), others.length ? `No display shows: ${list}${rest}` : "");
   }
 
   /** The list anew; items that stay keep their focus. */

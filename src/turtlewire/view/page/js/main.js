@@ -58,7 +58,10 @@ const TAKERS = {
   time: takeTime,
   view: takeView,
   saved: takeSaved,
-  published: ({ topic }) => notice(`Published on ${topic}`, "ok"),
+  published: ({ topic, heard }) => {
+    if (heard) notice(`Published on ${topic}`, "ok");
+    else notice(`Published on ${topic}, but no node subscribes to it`, "warn");
+  },
   error: ({ text }) => notice(text, "error"),
 };
 const connection = new Connection({
@@ -206,6 +209,7 @@ byId("trail").onclick = () => {
   showSelection();
 };
 addEventListener("keydown", (event) => {
+  if (event.key === "Escape" && tools?.active) return tools.choose("");
   if (event.target.matches(TYPED_IN)) return;
   if (event.key === " " && event.target.matches(PRESSED)) return;
   if (event.ctrlKey || event.altKey || event.metaKey) return;

@@ -1,7 +1,7 @@
 // Where one frame is as another sees it: the sentence, the numbers, or why there is no answer.
 
 import { byId, make, naturalOrder, offer, setFacts, setText } from "./dom.js";
-import { ageInWords, delayInWords, isNumber, numbersInWords, rateInWords } from "./words.js";
+import { ageInWords, delayInWords, fixed, isNumber, numbersInWords, rateInWords } from "./words.js";
 
 const FIXED = ""; // the target that is always the fixed frame
 const ASK = "Press a frame in the picture or in the tree.";
@@ -109,7 +109,7 @@ export class RelationPanel {
       ["in degrees", numbersInWords(degrees, 1)],
     ]);
     const cells = byId("matrix").querySelectorAll("td");
-    const values = matrix.flat().map((value) => (isNumber(value) ? value.toFixed(3) : "nan"));
+    const values = matrix.flat().map((value) => (isNumber(value) ? fixed(value, 3) : "nan"));
     if (cells.length === values.length) {
       return cells.forEach((cell, n) => setText(cell, values[n]));
     }

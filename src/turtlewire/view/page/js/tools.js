@@ -9,19 +9,19 @@ import { byId, make } from "./dom.js";
 const TOOLS = [
   {
     name: "measure", label: "Measure", key: "m",
-    help: "Press two places: how far apart are they?",
+    help: "Press two places to measure how far apart they are.",
   },
   {
     name: "point", label: "Point", key: "c",
-    help: "Press a place: it goes to /clicked_point",
+    help: "Press a place to publish it on /clicked_point.",
   },
   {
     name: "pose_estimate", label: "Pose", key: "p", drags: true,
-    help: "Press where the robot is and drag to where it looks: it goes to /initialpose",
+    help: "Press where the robot is and drag to where it looks; published on /initialpose.",
   },
   {
     name: "goal", label: "Goal", key: "g", drags: true,
-    help: "Press where the robot shall go and drag to where it shall look: it goes to /goal_pose",
+    help: "Press the goal and drag to where the robot is to look; published on /goal_pose.",
   },
 ];
 const COLORS = { goal: [255, 25, 200, 255], pose_estimate: [25, 200, 60, 255] };
@@ -59,9 +59,6 @@ export class Tools {
     around.addEventListener("pointermove", (event) => this.#move(event), first);
     around.addEventListener("pointerup", (event) => this.#up(event), first);
     around.addEventListener("pointercancel", () => this.choose(""), first);
-    addEventListener("keydown", ({ key }) => {
-      if (key === "Escape") this.choose("");
-    });
   }
 
   /** Take a tool in hand; "" or the one in use puts it away. */

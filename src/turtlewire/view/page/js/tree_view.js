@@ -20,6 +20,7 @@ export class TreeView {
   #path = new Set();
   #hovered = -1;
   #active = -1; // row of the keyboard
+  #height = 0; // of the box, before it changed [px]
   #box = byId("tree");
   #inside = byId("tree-rows");
 
@@ -31,7 +32,7 @@ export class TreeView {
     this.#box.addEventListener("scroll", () => this.#draw(), { passive: true });
     this.#box.addEventListener("keydown", (event) => this.#key(event));
     this.#box.addEventListener("pointerleave", () => actions.hover(-1));
-    new ResizeObserver(() => this.#draw()).observe(this.#box);
+    new ResizeObserver(() => this.#keepInSight()).observe(this.#box);
     byId("search").addEventListener("input", ({ target }) => {
       this.#model.search(target.value);
       this.#box.scrollTop = 0;
@@ -76,8 +77,9 @@ export class TreeView {
     if (!isNew || k < 0) return this.#draw();
     this.#model.reveal(k);
     this.#layout();
-    this.#active = this.#rows.findIndex((row) => row.k === k);
-    this.#scrollTo(this.#active);
+    const at = this.#rows.findIndex((row) => row.k === k);
+    if (at >= 0) this.#activate(at);
+    else this.#active = -1; // the search does not find it
   }
 
   showHovered(k) {
@@ -88,6 +90,9 @@ export class TreeView {
 
   #layout() {
     this.#rows = this.#model.rows();
+    const isLost = this.#model.isSearching && !this.#rows.length;
+    byId("no-match").hidden = !isLost;
+    setText(byId("no-match"), isLost ? "No frame and no publisher has this in its name." : "");
     this.#inside.style.height = `${this.#rows.length * ROW_REM}rem`;
     this.#draw();
   }
@@ -130,8 +135,10 @@ export class TreeView {
     this.#drawFold(element, row, name);
     this.#drawEye(element, row.k);
     this.#drawName(element.querySelector(".name"), name, row.found);
-    setText(element.querySelector("small"), this.#readingText(row.k, reading));
+    const text = this.#readingText(row.k, reading);
+    setText(element.querySelector("small"), text);
     element.title = name;
+    element.setAttribute("aria-label", `${name}, ${text}`);
   }
 
   #readingText(k, reading) {
@@ -196,6 +203,17 @@ export class TreeView {
     this.#layout();
   }
 
+  /** When the box becomes smaller, the selected row stays in sight if it was. */
+  #keepInSight() {
+    const at = this.#rows.findIndex(({ k }) => this.#frames.names[k] === this.#selected);
+    const { scrollTop } = this.#box;
+    const row = this.#rowPixels();
+    const wasInSight = at * row >= scrollTop && (at + 1) * row <= scrollTop + this.#height;
+    this.#height = this.#box.clientHeight;
+    if (at >= 0 && wasInSight && this.#height) this.#scrollTo(at);
+    else this.#draw();
+  }
+
   #scrollTo(at) {
     const height = this.#rowPixels();
     const { scrollTop, clientHeight } = this.#box;
@@ -206,18 +224,35 @@ export class TreeView {
     this.#draw();
   }
 
+  #activate(at) {
+    this.#active = at;
+    this.#scrollTo(at);
+    this.#box.setAttribute("aria-activedescendant", `frame-${this.#rows[at]?.k}`);
+  }
+
+  /** Unfold, or go to the first frame below. */
+  #unfold({ k, fold }) {
+    if (fold === "closed") this.#setFolded(this.#frames.names[k], false);
+    else if (fold === "open") this.#activate(this.#active + 1);
+  }
+
+  /** Fold, or go to the frame above. */
+  #fold({ k, fold }) {
+    const above = this.#rows.findIndex((row) => row.k === this.#frames.parents[k]);
+    if (fold === "open") this.#setFolded(this.#frames.names[k], true);
+    else if (above >= 0) this.#activate(above);
+  }
+
   #key(event) {
     const row = this.#rows[this.#active];
     const moves = { ArrowDown: 1, ArrowUp: -1, PageDown: 10, PageUp: -10, Home: -1e9, End: 1e9 };
     if (event.target !== this.#box || event.ctrlKey || event.altKey || event.metaKey) return;
     if (event.key in moves) {
       const last = this.#rows.length - 1;
-      this.#active = Math.min(last, Math.max(0, this.#active + moves[event.key]));
-      this.#scrollTo(this.#active);
-      this.#box.setAttribute("aria-activedescendant", `frame-${this.#rows[this.#active]?.k}`);
+      this.#activate(Math.min(last, Math.max(0, this.#active + moves[event.key])));
     } else if (!row) return;
-    else if (event.key === "ArrowRight") this.#setFolded(this.#frames.names[row.k], false);
-    else if (event.key === "ArrowLeft") this.#setFolded(this.#frames.names[row.k], true);
+    else if (event.key === "ArrowRight") this.#unfold(row);
+    else if (event.key === "ArrowLeft") this.#fold(row);
     else if (event.key === "Enter" || event.key === " ") {
       this.#actions.select(this.#frames.names[row.k], event);
     } else return;

@@ -43,9 +43,14 @@ export function isNumber(value) {
   return typeof value === "number" && Number.isFinite(value);
 }
 
+/** With so many digits; what rounds to zero has no sign. */
+export function fixed(value, digits) {
+  return value.toFixed(digits).replace(/^-(0(\.0*)?)$/, "$1");
+}
+
 /** Numbers in a row, or "not finite". */
 export function numbersInWords(values, digits = 3) {
-  return values.map((value) => (isNumber(value) ? value.toFixed(digits) : "not finite")).join(", ");
+  return values.map((value) => (isNumber(value) ? fixed(value, digits) : "not finite")).join(", ");
 }
 
 /** Time of day for system time, else seconds. */
