@@ -235,6 +235,12 @@ def test_why_a_relation_is_not_known(page, fake):
     assert page.is_hidden("#numbers")
     page.click("#swap")
     fake.wait_for(lambda c: (c.get("target"), c.get("source")) == ("turtle2", "carrot1"))
+    text = "They do not move.  Requested time 17 but the latest data is at time 3, when looking up"
+    fake.tell({"type": "relation", "target": "turtle2", "source": "carrot1", "error": text})
+    page.wait_for_selector("#sentence summary:text('They do not move.')")
+    assert page.inner_text("#sentence") == "They do not move."
+    page.click("#sentence summary")
+    assert "Requested time 17" in page.inner_text("#sentence")
 
 
 def test_numbers_that_are_not_finite_are_told(page, fake):

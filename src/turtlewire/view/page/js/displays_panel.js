@@ -1,6 +1,6 @@
 // The list of displays with their options, and the topics that can be added.
 
-import { byId, make, naturalOrder, offer, setText } from "./dom.js";
+import { byId, make, naturalOrder, offer, setLine, setText } from "./dom.js";
 import { ItemList } from "./item_list.js";
 import { optionControl } from "./option_controls.js";
 
@@ -73,7 +73,7 @@ export class DisplaysPanel {
     const text = entry.text || entry.problem || "";
     item.dataset.level = entry.text ? entry.level : entry.problem ? "warn" : "ok";
     item.querySelector(".eye").setAttribute("aria-pressed", String(!entry.visible));
-    setText(item.querySelector(".status"), text);
+    setLine(item.querySelector(".status"), text);
     item.querySelector(".status").hidden = !text;
   }
 
@@ -92,7 +92,7 @@ export class DisplaysPanel {
     const title = make("span", { className: "title" },
       make("b", { textContent: name }), make("small", { textContent: kindInWords(kind) }));
     const item = make("li", { className: "display" },
-      make("div", {}, eye, title, remove), make("p", { className: "status" }));
+      make("div", {}, eye, title, remove), make("div", { className: "status" }));
     if (!schema.length) return { item, lists: [], topics: null };
     const topics = make("datalist", { id: `${id}-topics` });
     topics.dataset.kind = kind;

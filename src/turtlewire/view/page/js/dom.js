@@ -10,6 +10,19 @@ export function setText(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
 
+/** The first sentence as a line, which opens to show the rest of a longer text. */
+export function setLine(element, text) {
+  const end = text.search(/[.?!]\s+\S/) + 1;
+  if (!end) return setText(element, text);
+  let details = element.querySelector("details");
+  if (!details) {
+    details = make("details", {}, make("summary"), make("span"));
+    element.replaceChildren(details);
+  }
+  setText(details.firstChild, text.slice(0, end));
+  setText(details.lastChild, text.slice(end).trim());
+}
+
 /** An element with attributes and children; `attributes` may hold `className` and handlers. */
 export function make(tag, attributes = {}, ...children) {
   const element = document.createElement(tag);

@@ -1,6 +1,6 @@
 // Where one frame is as another sees it: the sentence, the numbers, or why there is no answer.
 
-import { byId, make, naturalOrder, offer, setFacts, setText } from "./dom.js";
+import { byId, make, naturalOrder, offer, setFacts, setLine, setText } from "./dom.js";
 import { ageInWords, delayInWords, fixed, isNumber, numbersInWords, rateInWords } from "./words.js";
 
 const FIXED = ""; // the target that is always the fixed frame
@@ -64,7 +64,8 @@ export class RelationPanel {
     const sentence = byId("sentence");
     sentence.toggleAttribute("data-error", Boolean(relation.error));
     sentence.removeAttribute("data-empty");
-    setText(sentence, relation.error || relation.sentence || "");
+    if (relation.error) setLine(sentence, relation.error);
+    else setText(sentence, relation.sentence || "");
     setText(byId("hint"), relation.error ? (relation.hint ?? "") : "");
     byId("hint").hidden = !byId("hint").textContent;
     byId("numbers").hidden = Boolean(relation.error);
