@@ -133,6 +133,18 @@ def test_occupancy_grid(scene):
     scene.expect(((0.5, -0.5, 0), (255, 0, 255)), ((0.5, 0.5, 0), GROUND))
 
 
+def test_a_map_moves_with_its_frame(scene):
+    message = grid([0, 0, 0, 0])
+    message.header.frame_id = "carrier"
+    scene.show("occupancy_grid", message, alpha=1.0)
+    scene.expect_status("No transform tells where the map's frame 'carrier' is")
+    scene.source.put_frame("map", "carrier", (0, 0, 0))
+    scene.expect(((0.5, 0, 0), WHITE), ((2.5, 0, 0), GROUND))
+    assert "No transform" not in scene.status()
+    scene.source.put_frame("map", "carrier", (2, 0, 0))
+    scene.expect(((0.5, 0, 0), GROUND), ((2.5, 0, 0), WHITE))
+
+
 #: Removes all displays; how many geometries, materials and textures were not freed, and were there.
 LEFT_AFTER_REMOVAL = f"""async () => {{
     const {{ stage }} = await import("./js/main.js");

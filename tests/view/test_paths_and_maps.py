@@ -163,6 +163,20 @@ def test_a_map_and_its_updates():
     assert content.arrays["cells"].tolist() == [[7, 8]]
 
 
+def test_a_map_goes_with_its_frame_unless_its_stamp_is_to_count():
+    display = OccupancyGridDisplay()
+    assert display.start() == []
+    content, _ = display.content(grid(2, 1, [0, 100]))
+    assert content.locked
+    display.content(update(0, 0, 1, 1, [50]))
+    display.set_options({"use_timestamp": True})
+    (again,) = display.start()
+    assert not again.locked
+    assert again.arrays["cells"].tolist() == [[50, 100]]
+    assert display.start() == []
+    assert not display.content(grid(2, 1, [0, 100]))[0].locked
+
+
 @pytest.mark.parametrize(
     ("message", "line"),
     [

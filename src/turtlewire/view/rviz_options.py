@@ -208,6 +208,7 @@ CLASSES: dict[str, tuple[str, tuple[_Option, ...]]] = {
             _choice("color_scheme", "Color Scheme", {"map": "map", "costmap": "costmap",
                                                      "raw": "raw"}),
             _flag("draw_behind", "Draw Behind"),
+            _flag("use_timestamp", "Use Timestamp"),
         ),
     ),
     "Path": (

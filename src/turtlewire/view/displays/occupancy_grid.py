@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -30,7 +31,8 @@ class OccupancyGridDisplay(Display):
 
     An update sends only its own cells: the header's ``update`` is x, y, width and height in cells
     of the picture. Where several cells of a large map share one of the picture, the most occupied
-    counts. Options are the page's: ``color_scheme``, ``alpha``.
+    counts. The map goes with its frame, as in RViz, unless the option ``use_timestamp`` says that
+    it stays where the frame was at its stamp. Other options are the page's.
     """
 
     kind = "occupancy_grid"
@@ -38,6 +40,16 @@ class OccupancyGridDisplay(Display):
 
     _cells: NDArray[np.int8] | None = None
     _step = 1
+    _shown: Content | None = None
+
+    def start(self) -> list[Output]:
+        """The map again, as far as it is known, when it is to be placed in another way."""
+        shown, locked = self._shown, not self.options.flag("use_timestamp")
+        if shown is None or self._cells is None or shown.locked == locked:
+            return []
+        arrays = {"cells": _coarse(self._cells, self._step)}
+        self._shown = replace(shown, arrays=arrays, locked=locked)
+        return [self._shown]
 
     def _outputs(self, message: Any) -> list[Output]:
         return [self._update(message) if hasattr(message, "x") else self._whole(message)]
@@ -60,8 +72,11 @@ class OccupancyGridDisplay(Display):
             "cells": [width, height],
             "origin": origin,
         }
-        picture = _coarse(self._cells, self._step)
-        return Content(header, {"cells": picture}, frame_of(message), stamp_ns_of(message))
+        arrays = {"cells": _coarse(self._cells, self._step)}
+        locked = not self.options.flag("use_timestamp")
+        place = frame_of(message), stamp_ns_of(message)
+        self._shown = Content(header, arrays, *place, locked=locked)
+        return self._shown
 
     def _update(self, message: Any) -> Content:
         if self._cells is None:

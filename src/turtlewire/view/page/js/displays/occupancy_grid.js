@@ -28,14 +28,25 @@ export default class OccupancyGrid {
   #options;
   #cells = null; // DataTexture
   #mesh = null;
+  #view;
+  #frame = null; // that the map goes with
 
-  constructor(_view, options) {
+  constructor(view, options) {
+    this.#view = view;
     this.#options = options;
   }
 
   show(group, header, arrays, shapes) {
-    if (header.update) this.#patch(header.update, arrays.cells);
-    else this.#replace(group, header, arrays.cells, shapes.cells);
+    if (header.update) return this.#patch(header.update, arrays.cells);
+    this.#replace(group, header, arrays.cells, shapes.cells);
+    this.#frame = header.frame ?? null;
+    this.update();
+  }
+
+  /** After each packet of frames: the server tells only why a map has no place at its stamp. */
+  update() {
+    const isLost = this.#frame !== null && this.#view.poseOf(this.#frame) === null;
+    this.#view.report(isLost ? `No transform tells where the map's frame '${this.#frame}' is` : "");
   }
 
   setOptions(options) {

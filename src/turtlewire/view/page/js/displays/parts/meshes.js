@@ -17,7 +17,7 @@ const PARSERS = {
   stl: async (bytes) => {
     const { STLLoader } = await import("three/addons/loaders/STLLoader.js");
     const geometry = new STLLoader().parse(bytes);
-    const look = new MeshLambertMaterial({ vertexColors: geometry.hasColors });
+    const look = new MeshLambertMaterial({ vertexColors: geometry.hasColors ?? false });
     return { object: new Mesh(geometry, look), isOwn: false };
   },
   obj: async (bytes, folder, manager) => {
