@@ -25,8 +25,10 @@ NEEDS = {"mmdebstrap": "mmdebstrap"}
 EMULATOR_NEEDS = NEEDS | {"arch-test": "arch-test", "qemu-aarch64-static": "qemu-user-static"}
 EMULATED = 'qemu-aarch64-static -L {root} -0 "$0"'
 LOADED = '{root}/usr/lib64/ld-linux-x86-64.so.2 --argv0 "$0" --library-path {libraries}'
-TEST_PACKAGES = ("pytest", "pytest-timeout", "pytest-xdist", "hypothesis", "scipy", "transforms3d")
-ZENOH = ("eclipse-zenoh>=1.9", "xxhash")
+TEST_PACKAGES = (
+    *("pytest", "pytest-timeout", "pytest-xdist", "hypothesis", "scipy", "transforms3d"),
+    *("eclipse-zenoh>=1.9", "xxhash", "zenoh-ros2-sdk"),
+)
 
 
 class Place(NamedTuple):
@@ -197,7 +199,7 @@ def install(place: Place) -> None:
     venv = place.python.parent.parent
     command = [tools, ROOT / "scripts" / "elsewhere_wheels.py"]
     command += [wheels, venv, place.version, place.machine]
-    run(*command, *TEST_PACKAGES, *ZENOH, what="the wheels and what they ask for")
+    run(*command, *TEST_PACKAGES, what="the wheels and what they ask for")
     compile_modules(place, venv / "lib" / f"python{place.version}" / "site-packages")
 
 

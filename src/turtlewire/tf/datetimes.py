@@ -46,9 +46,13 @@ def nanoseconds_array(times: NDArray[np.datetime64]) -> NDArray[np.int64]:
     """
     import numpy as np
 
-    fine = times.astype("datetime64[ns]")
-    if np.isnat(fine).any():
+    if np.isnat(times).any():
         raise ValueError("a time is NaT (not a time)")
-    if (fine.astype(times.dtype) != times).any():
+    try:
+        fine = times.astype("datetime64[ns]")
+        fits = bool((fine.astype(times.dtype) == times).all())
+    except OverflowError:  # of NumPy 2.5; older ones wrap around
+        fits = False
+    if not fits:
         raise ValueError("a time does not fit into 64 bits of nanoseconds: 1677 to 2262")
     return fine.astype(np.int64)

@@ -180,6 +180,8 @@ def _context(tls: dict[str, Any]) -> ssl.SSLContext | Fault:
             f"{tls['root_ca_certificate']} holds no certificate",
             f"{_TLS}/root_ca_certificate names it; it must be PEM.",
         )
+    # Strict is Python's default from 3.13 on; Zenoh takes certificates without key identifiers.
+    context.verify_flags &= ~ssl.VERIFY_X509_STRICT
     context.check_hostname = tls.get("verify_name_on_connect") is not False
     if shows_certificate:
         certificate, private_key = tls["connect_certificate"], tls.get("connect_private_key")
