@@ -24,10 +24,12 @@ _DESCRIPTION = (
 
 def main(args: list[str] | None = None) -> None:
     """Serve the page until Ctrl-C or the end of the context."""
-    options = _parse(remove_ros_args(sys.argv if args is None else ["", *args])[1:])
+    options, others = _parse(remove_ros_args(sys.argv if args is None else ["", *args])[1:])
     with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
         node = rclpy.create_node("rviz2")
         log = node.get_logger()
+        if others:
+            log.warning(_ignored(others))
         saved = None
         if options.display_config:
             try:
@@ -48,8 +50,15 @@ def main(args: list[str] | None = None) -> None:
             viewer.close()
 
 
-def _parse(words: list[str]) -> argparse.Namespace:
-    """RViz's options; those about its window are taken and mean nothing."""
+def _ignored(words: list[str]) -> str:
+    """What is said of words that mean nothing: a launch file must not fail because of them."""
+    files = [word for word in words if word.endswith(".rviz")]
+    hint = f" To show a file: -d {files[0]}" if files else " See --help."
+    return f"ignored: {' '.join(words)}.{hint}"
+
+
+def _parse(words: list[str]) -> tuple[argparse.Namespace, list[str]]:
+    """RViz's options, and all other words; options about RViz's window mean nothing."""
     parser = argparse.ArgumentParser(prog="rviz2", description=_DESCRIPTION)
     parser.add_argument("-d", "--display-config", default="", help="A .rviz file to show")
     parser.add_argument("-f", "--fixed-frame", default="", help="Look from this frame first")
@@ -61,4 +70,4 @@ def _parse(words: list[str]) -> argparse.Namespace:
     ):
         parser.add_argument(*names, nargs="?", help=argparse.SUPPRESS)
     parser.add_argument("--fullscreen", action="store_true", help=argparse.SUPPRESS)
-    return parser.parse_known_args(words)[0]
+    return parser.parse_known_args(words)

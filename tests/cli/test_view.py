@@ -80,6 +80,7 @@ def test_a_file_of_rviz_is_what_the_page_shows_first(view, tmp_path):
         (["--port", "99999"], "'99999' is not a port number, from 0 (any) to 65535"),
         (["--fixed-fram", "map"], "Did you mean: --fixed-frame"),
         (["no_such_bag"], "turtlewire view: "),
+        (["robot.rviz"], "robot.rviz is no bag. To show a file of RViz: -d robot.rviz"),
         (["a", "b"], "unrecognized arguments: b"),
     ],
 )
@@ -87,6 +88,27 @@ def test_wrong_words(view, words, answer):
     program = view(*words)
     assert program.wait() == 2
     assert answer in program.text
+    assert "Traceback" not in program.text
+
+
+def test_two_views_have_names_of_their_own(view):
+    first, second = view("--port", "0"), view("--port", "0")
+    for program in (first, second):
+        address_of(program)
+    for program in (first, second):
+        program.process.send_signal(signal.SIGTERM)
+        assert program.wait() == 0
+        assert "another process has a node" not in program.text
+
+
+def test_rviz2_names_the_words_that_it_ignores(run):
+    headless = {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0"}
+    words = ("run", "rviz2", "rviz2", "robot.rviz", "--no-such")
+    program = run(TURTLEWIRE.parent / "ros2", *words, environment=headless)
+    program.wait_for(r"ignored: robot\.rviz --no-such\. To show a file: -d robot\.rviz")
+    program.wait_for(r"\[rviz2\]: The view is at http://")
+    program.process.send_signal(signal.SIGINT)
+    program.wait()
     assert "Traceback" not in program.text
 
 

@@ -96,6 +96,10 @@ def _source(bag: str | None) -> Source:
         from turtlewire.view.live import LiveSource
 
         return LiveSource()
+    if bag.endswith(".rviz"):
+        from turtlewire.view.rviz_file import RvizFileError
+
+        raise RvizFileError(f"{bag} is no bag. To show a file of RViz: -d {bag}")
     from turtlewire.view.bag_source import BagSource
 
     return BagSource(bag)

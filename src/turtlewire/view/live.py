@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 import time
 from typing import TYPE_CHECKING, cast
@@ -29,7 +30,7 @@ __all__ = ["LiveSource", "LiveTimeline", "newest_stamp_ns", "stamp_range_ns"]
 _HISTORY_NS = 60 * 10**9
 #: Stamps below are of a simulation, and no system time [ns].
 _WALL_TIME_FROM_NS = 10**18
-_NODE_NAME = "turtlewire_view"
+_NODE_NAME = "turtlewire_view_{}"
 _DEPTH = 100
 #: Publishers of the tools; the one that was used longest ago ends for another.
 _MOST_PUBLISHERS = 16
@@ -62,7 +63,7 @@ class LiveSource:
         self._lock = threading.Lock()
         self._subscriptions: set[_FittedSubscription] = set()
         self._publishers: dict[tuple[str, str], base.Publisher] = {}
-        self._node = self._context.create_node(_NODE_NAME)
+        self._node = self._context.create_node(_NODE_NAME.format(os.getpid()))
         self._listener = TransformListener(self.buffer, self._node, context=self._context)
         self._ends = [
             self.buffer.add_change_listener(self._tell),
