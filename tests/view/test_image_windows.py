@@ -80,6 +80,23 @@ def test_windows_open_side_by_side(show):
     assert [name[-2:] for name in names] == ["_0", "_1"]
 
 
+def test_captions_stay_below_the_buttons_of_a_low_scene(show):
+    page = show(1)
+    page.evaluate(REMOVE_ALL)
+    page.set_viewport_size({"width": 844, "height": 390})
+    show(2)
+    (first, second), room = page.evaluate(BOXES)
+    assert not overlap(first, second)
+    assert is_inside(second, room)
+    drag(page, (first[0] + 20, first[1] + 8), (first[0] + 20, -500))
+    caption = page.locator(".image-window figcaption").first
+    box = caption.bounding_box()
+    at = [box["x"] + 20, box["y"] + 4]
+    found = "([x, y]) => document.elementFromPoint(x, y).closest('figcaption')?.textContent"
+    assert page.evaluate(found, at) == caption.text_content()
+    page.set_viewport_size({"width": 900, "height": 700})
+
+
 def test_when_all_is_taken_the_next_ones_are_a_cascade(show):
     page = show(1)
     (small,), room = page.evaluate(BOXES)

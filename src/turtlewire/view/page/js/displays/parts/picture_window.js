@@ -78,29 +78,39 @@ export class PictureWindow {
     return this.#box().slice(0, 2);
   }
 
-  /** As near as possible, with all of it in the viewport if it fits in. */
+  /** As near as possible, with all of it in the viewport, and its caption below the buttons. */
   #move([left, top]) {
     if (this.#frame.hidden) return;
+    const { highest, lowest, rightmost } = this.#limits();
+    this.#frame.style.left = `${Math.max(0, Math.min(left, rightmost))}px`;
+    this.#frame.style.top = `${Math.max(highest, Math.min(top, lowest))}px`;
+  }
+
+  /** The least and the greatest `top`, and the greatest `left`. */
+  #limits() {
     const { clientWidth, clientHeight } = this.#around;
     const [, , width, height] = this.#box();
-    this.#frame.style.left = `${Math.max(0, Math.min(left, clientWidth - width))}px`;
-    this.#frame.style.top = `${Math.max(0, Math.min(top, clientHeight - height))}px`;
+    const bars = [...this.#around.querySelectorAll(".bar")];
+    const free = Math.max(0, ...bars.map((bar) => bar.offsetTop + bar.offsetHeight));
+    const lowest = Math.max(0, clientHeight - height);
+    return { highest: Math.min(free, lowest), lowest, rightmost: clientWidth - width };
   }
 
   /** From the lower left corner to the right, then above; a cascade when all is taken. */
   #freePlace() {
-    const { clientWidth, clientHeight } = this.#around;
     const [, , width, height] = this.#box();
+    const { highest, lowest, rightmost } = this.#limits();
     const others = [...windows].filter((each) => each !== this && !each.#frame.hidden)
       .map((each) => each.#box());
-    for (let top = clientHeight - height - GAP_PX; top >= height / 2; top -= height + GAP_PX) {
-      for (let left = GAP_PX; left + width <= clientWidth; left += width + GAP_PX) {
+    const bottom = Math.max(highest, lowest - GAP_PX);
+    for (let top = bottom; top >= highest; top -= height + GAP_PX) {
+      for (let left = GAP_PX; left <= rightmost; left += width + GAP_PX) {
         if (!others.some((other) => overlap(other, [left, top, width, height]))) return [left, top];
       }
     }
-    const room = Math.max(1, Math.floor((clientHeight - height - GAP_PX) / CASCADE_PX));
-    const shift = GAP_PX + CASCADE_PX * (others.length % room);
-    return [shift, shift];
+    const room = Math.max(1, Math.floor((lowest - highest) / CASCADE_PX));
+    const shift = CASCADE_PX * (others.length % room);
+    return [GAP_PX + shift, highest + shift];
   }
 
   #raise() {
