@@ -374,6 +374,9 @@ RViz's RobotModel reads a topic or a file
   view/test_display_panel.py test_a_robot_of_a_parameter_and_its_links
 RViz takes the default for a wrong value in a `.rviz` file
   view/test_rviz_file.py test_wrong_values_of_a_file_are_named
+RViz subscribes with the QoS that its display is set to
+  view/test_viewer.py test_a_display_subscribes_as_its_publishers_offer
+  view/test_rviz_file.py test_what_the_page_does_not_have_is_written_back
 RViz loads meshes from any file and from `http`
   view/test_robot_model.py test_addresses_that_are_refused
 `ament_cmake` packages need CMake

@@ -395,3 +395,50 @@ def test_the_budget_of_points_follows_the_time_of_pictures(page, fake):
         """,
     )
     assert told == [28_000, 35_000, 5_000]
+
+
+#: Lines that pass by themselves stay, so that only what the page does ends them.
+FOR_EVER = """
+const plain = window.setTimeout;
+window.setTimeout = (call, ms, ...rest) => plain(call, ms >= 5000 ? 2 ** 30 : ms, ...rest);
+"""
+
+
+def test_a_good_file_ends_what_was_said_of_the_refused_one(fake, open_view):
+    fake.names(PARENTS)
+    page = open_view(fake.url, FOR_EVER)
+    page.wait_for_selector("#tree .row")
+    fake.tell({"type": "error", "text": "This is no view: it is empty."})
+    page.wait_for_selector("#notice:text('This is no view')")
+    fake.tell({"type": "view", "fixed": "", "displays": [], "show": {}, "text": ""})
+    page.wait_for_selector("#notice", state="hidden")
+
+
+def test_a_line_that_does_not_pass_stands_again_after_one_that_does(fake, open_view):
+    page = open_view(fake.url)
+    fake.tell({"type": "status", "id": None, "level": "error", "text": "The bag has no frames."})
+    page.wait_for_selector("#notice:text('The bag has no frames.')")
+    fake.tell({"type": "error", "text": "Nothing was published."})
+    page.wait_for_selector("#notice:text('Nothing was published.')")
+    page.wait_for_selector("#notice[data-level=error]:text('The bag has no frames.')")
+
+
+def test_tools_that_publish_say_why_they_do_not_in_a_bag(fake, open_view):
+    why = "A bag is shown: nothing can be published into it."
+    fake.tell({"type": "hello", "source": {"kind": "bag", "name": "walk.mcap"}})
+    fake.names(PARENTS)
+    page = open_view(fake.url)
+    page.wait_for_selector("#tree .row")
+    for tool in ("point", "pose_estimate", "goal"):
+        assert page.get_attribute(f"[data-tool={tool}]", "title") == why
+        page.click(f"[data-tool={tool}]", force=True)
+        page.wait_for_selector(f"#notice:text('{why}')")
+        assert page.get_attribute(f"[data-tool={tool}]", "aria-pressed") == "false"
+    page.keyboard.press("g")
+    assert page.get_attribute("[data-tool=goal]", "aria-pressed") == "false"
+    page.click("[data-tool=measure]")
+    assert page.get_attribute("[data-tool=measure]", "aria-pressed") == "true"
+    fake.tell({"type": "hello", "source": {"kind": "live", "name": "domain 7"}})
+    page.wait_for_selector("[data-tool=goal][aria-disabled=false]")
+    page.click("[data-tool=goal]")
+    assert page.get_attribute("[data-tool=goal]", "aria-pressed") == "true"

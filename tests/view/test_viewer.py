@@ -6,9 +6,17 @@ import json
 
 import pytest
 
+from turtlewire import msg
 from turtlewire.view import LiveSource, Viewer
+from turtlewire.wire.qos import Durability, QoS, Reliability
 
 NOW_S = 1_800_000_000
+#: Kinds of displays with a type that is not the first one of the kind.
+TWO_TYPES = [
+    ("image", "sensor_msgs/msg/Image"),
+    ("marker", "visualization_msgs/msg/MarkerArray"),
+    ("pose", "geometry_msgs/msg/PoseWithCovarianceStamped"),
+]
 
 
 def test_frames_come_with_their_names_and_move(robot, page):
@@ -130,6 +138,37 @@ def test_pages_that_leave_are_forgotten(viewer, open_view_page):
     viewer.close()  # returns
     with pytest.raises(ConnectionRefusedError):
         open_view_page(viewer)
+
+
+def test_a_display_takes_the_type_that_its_topic_comes_with(robot, page):
+    """A page that connects again asks for its displays before their topics are discovered."""
+    for number, (kind, type_name) in enumerate(TWO_TYPES):
+        page.send("add", id=kind, kind=kind, topic=f"/later_{number}", options={})
+        page.wait_for("status", lambda packet, kind=kind: packet["id"] == kind)
+        publisher = robot.publisher(f"/later_{number}", type_name, QoS())
+        assert robot.wait_for(publisher.is_heard)
+        publisher.publish(msg.serialize(msg.get_message(type_name)()))
+        page.wait_for("status", lambda p, kind=kind: p["id"] == kind and "No mes" not in p["text"])
+
+
+@pytest.mark.parametrize(
+    "qos",
+    [
+        QoS(durability=Durability.TRANSIENT_LOCAL),
+        QoS(reliability=Reliability.BEST_EFFORT),
+    ],
+)
+def test_a_display_subscribes_as_its_publishers_offer(robot, page, qos):
+    """Whatever a file says: it hears the best-effort ones, and what latched ones have said."""
+    publisher = robot.publisher("/pose", TWO_TYPES[2][1], qos)
+    cdr = msg.serialize(msg.get_message(TWO_TYPES[2][1])())
+    publisher.publish(cdr)
+    page.wait_for("topics", lambda packet: any(t["name"] == "/pose" for t in packet["topics"]))
+    page.send("add", id="a", kind="pose", topic="/pose", options={})
+    assert robot.wait_for(publisher.is_heard)
+    if qos.durability != Durability.TRANSIENT_LOCAL:
+        publisher.publish(cdr)
+    page.wait_for("status", lambda packet: "header.frame_id is empty" in packet["text"])
 
 
 def test_a_source_without_anything_closes_at_once():

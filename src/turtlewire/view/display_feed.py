@@ -96,6 +96,7 @@ class DisplayFeed:
         ask: Asks for a parameter, as :meth:`turtlewire.view.source.Source.ask_parameter`.
         ends: What :meth:`close` calls.
         on_packages: Gets the packages whose files the page will ask for.
+        types: Message types by topic.
 
     Args:
         name: The page's name of the display.
@@ -115,6 +116,7 @@ class DisplayFeed:
     ) -> None:
         self.name = name
         self.display = display
+        self.types = types
         self.paused = False
         self._classes = {topic: msg.get_message(each) for topic, each in types.items()}
         self._decode = msg.deserialize_rows if display.reads_rows else msg.deserialize

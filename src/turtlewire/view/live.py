@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import threading
 import time
+from collections import Counter
 from typing import TYPE_CHECKING, cast
 
 from turtlewire import msg, wire
@@ -82,13 +83,12 @@ class LiveSource:
     def topics(self) -> list[Topic]:
         """All topics of the graph."""
         endpoints = self._context.graph.endpoints()
-        counts: dict[str, int] = {}
-        for endpoint in endpoints:
-            if endpoint.kind == "publisher":
-                counts[endpoint.topic] = counts.get(endpoint.topic, 0) + 1
+        counts = Counter(
+            (each.topic, each.type_name) for each in endpoints if each.kind == "publisher"
+        )
         named = self._context.graph.topic_names_and_types()
         return [
-            Topic(name, type_name, counts.get(name, 0))
+            Topic(name, type_name, counts[name, type_name])
             for name, type_names in sorted(named.items())
             for type_name in type_names
         ]

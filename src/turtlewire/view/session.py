@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import time
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from turtlewire.errors import TurtlewireError
 from turtlewire.printable import printable
@@ -68,6 +68,14 @@ class Host(Protocol):
         ...
 
 
+class _Wish(NamedTuple):
+    """What a page asked for."""
+
+    kind: str
+    topic: str
+    options: dict[str, object]
+
+
 class Session:
     """The server's thread calls all methods but :meth:`base`."""
 
@@ -80,6 +88,7 @@ class Session:
         self._fixed = viewer.fixed_frame
         self._relation: tuple[str, str] | None = None
         self._feeds: dict[str, DisplayFeed] = {}
+        self._wishes: dict[str, _Wish] = {}  # what the displays were asked for
         self._budget = 0
         self._base = Base(self._timeline.buffer, "", (0.0, 0.0, 0.0))
         self._said: dict[str, Any] = {}
@@ -129,13 +138,17 @@ class Session:
         try:
             self._run(message)
         except (CommandError, TurtlewireError) as error:
-            self._answers.append(encode_packet({"type": "error", "text": printable(str(error))}))
+            self._refuse(error)
+
+    def _refuse(self, error: Exception) -> None:
+        self._answers.append(encode_packet({"type": "error", "text": printable(str(error))}))
 
     def closed(self) -> None:
         """The page is gone."""
         for feed in self._feeds.values():
             feed.close()
         self._feeds.clear()
+        self._wishes.clear()
         self._viewer.forget(self)
 
     def _run(self, message: str | bytes) -> None:
@@ -194,7 +207,11 @@ class Session:
         self._scene.read_structure(buffer)
         rows = self._table.rows(buffer, now_ns)
         packets = [encode_packet({"type": "tree", "now": now_ns / 1e9, "rows": rows})]
-        packets += self._if_new("topics", {"type": "topics", "topics": self._viewer.topics()})
+        topics = self._viewer.topics()
+        news = self._if_new("topics", {"type": "topics", "topics": topics})
+        if news:
+            self._follow_types(topics)
+        packets += news
         packets += self._if_new("time", {"type": "time", **self._timeline.state()._asdict()})
         text = self._source.problem
         status = {"type": "status", "id": None, "level": "error" if text else "ok", "text": text}
@@ -230,14 +247,36 @@ class Session:
             raise CommandError(f"There is a display {name!r} already.")
         if len(self._feeds) >= _MOST_DISPLAYS:
             raise CommandError(f"There are {_MOST_DISPLAYS} displays already.")
-        feed = self._viewer.new_feed(name, kind, topic, _options(command))
-        self._feeds[name] = feed
+        wish = _Wish(kind, topic, _options(command))
+        self._feeds[name] = self._viewer.new_feed(name, *wish)
+        self._wishes[name] = wish
         self._share_budget()
         self._viewer.work()  # latched messages may have come already
 
+    def _follow_types(self, topics: list[dict[str, Any]]) -> None:
+        """Begin displays again whose topic has come with another type than was expected."""
+        for name, wish in self._wishes.items():
+            feed = self._feeds[name]
+            sent = [each for each in topics if each["name"] == wish.topic and each["publishers"]]
+            fits = any(each["kind"] == wish.kind for each in sent)
+            if not fits or any(each["type_name"] in feed.types.values() for each in sent):
+                continue
+            try:
+                new = self._viewer.new_feed(name, *wish)
+            except (CommandError, TurtlewireError) as error:
+                self._refuse(error)
+                continue
+            new.paused = feed.paused
+            self._feeds[name] = new
+            feed.close()
+            self._share_budget()
+            self._viewer.work()
+
     def _remove(self, command: dict[str, Any]) -> None:
-        feed = self._feeds.pop(_text(command, "id"), None)
+        name = _text(command, "id")
+        feed = self._feeds.pop(name, None)
         if feed is not None:
+            del self._wishes[name]
             feed.close()
             self._share_budget()
 
@@ -247,6 +286,7 @@ class Session:
             raise CommandError(f"There is no display {name!r}.")
         try:
             self._feeds[name].set_options(_options(command))
+            self._wishes[name] = self._wishes[name]._replace(options=_options(command))
         except OptionError as error:
             raise CommandError(f"This stays as it was: {error}.") from error
 

@@ -135,7 +135,8 @@ class Viewer:
             CommandError: There is no such display or topic, or an option is refused.
             WireError: The topic cannot be subscribed.
         """
-        types_there = {each.name: each.type_name for each in self.source.topics()}
+        topics = sorted(self.source.topics(), key=lambda each: each.publishers)
+        types_there = {each.name: each.type_name for each in topics}  # what is published counts
         of_kind = {each: shows for each, shows in display_types().items() if shows.kind == kind}
         asked = options.get("message_type")  # a file knows it before the topic is there
         if not isinstance(asked, str) or asked not in of_kind:

@@ -6,6 +6,8 @@ import { optionsOf } from "./display_options.js";
 import { DisplayParts } from "./display_parts.js";
 
 export class Displays {
+  /** Called when a display has its first content. */
+  onFirst = () => {};
   #view;
   #frames;
   #send;
@@ -130,6 +132,10 @@ export class Displays {
       }
       entry.parts.place(part, packet);
       if (packet.frame) entry.parts.follow(this.#frames);
+      if (packet.type === "display" && !entry.isSeen) {
+        entry.isSeen = true;
+        this.onFirst();
+      }
     }
   }
 

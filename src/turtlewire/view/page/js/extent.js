@@ -4,6 +4,7 @@ import { Box3, Vector3 } from "three";
 
 const APART = 30; // times as far from the middle as most frames are: not looked at first
 const FARTHEST = 1e7; // [m]
+const SURROUNDINGS = 100; // so far away a display belongs to even the smallest robot [m]
 
 /** Middle and radius [m] of all shown frames, and of what is visible below `displays`; or null. */
 export function extentOf(frames, displays = null) {
@@ -14,9 +15,10 @@ export function extentOf(frames, displays = null) {
 
 /**
  * As `extentOf`, without the few frames that are very far from all others, as a map's origin may
- * be from its robot; `isApart` says whether there are such frames.
+ * be from its robot, and without what displays show so far away; `isApart` says whether there are
+ * such frames.
  */
-export function crowdOf(frames) {
+export function crowdOf(frames, displays) {
   const places = placesOf(frames);
   if (!places.length) return null;
   const along = (axis) => median(places.map((at) => at[axis]));
@@ -25,7 +27,10 @@ export function crowdOf(frames) {
   const most = [...away].sort((a, b) => a - b)[Math.floor(0.7 * away.length)];
   const limit = Math.max(0.1, APART * most);
   const near = places.filter((_, k) => away[k] <= limit);
-  return { ...roundOf(new Box3().setFromPoints(near)), isApart: near.length < places.length };
+  const box = new Box3().setFromPoints(near);
+  const { middle: centre, radius } = roundOf(box);
+  addObjects(displays, box, centre, Math.max(SURROUNDINGS, APART * radius));
+  return { ...roundOf(box), isApart: near.length < places.length };
 }
 
 function placesOf(frames) {
@@ -45,16 +50,15 @@ function median(values) {
   return values.sort((a, b) => a - b)[values.length >> 1];
 }
 
-/** Let a box hold all that is visible below an object. */
-function addObjects(object, box) {
+/** Let a box hold all that is visible below an object and within `farthest` [m] of `middle`. */
+function addObjects(object, box, middle = new Vector3(), farthest = FARTHEST) {
   if (!object.visible) return;
   if (object.geometry) {
     object.updateWorldMatrix(true, false);
     const own = boxOf(object).clone().applyMatrix4(object.matrixWorld);
-    const ends = [...own.min, ...own.max];
-    if (ends.every((value) => Math.abs(value) < FARTHEST)) box.union(own);
+    if ([own.min, own.max].every((end) => end.distanceTo(middle) < farthest)) box.union(own);
   }
-  for (const child of object.children) addObjects(child, box);
+  for (const child of object.children) addObjects(child, box, middle, farthest);
 }
 
 function boxOf(object) {

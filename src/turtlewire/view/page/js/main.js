@@ -26,6 +26,7 @@ let chosenFixed = "";
 let hasView = false;
 let loadedDocument = null; // names the loaded file to the server
 let noticeTimer = null;
+let standing = { text: "", level: "ok" }; // the line that does not pass
 const frames = new Frames();
 const send = (command) => connection.send(command);
 const hiding = new Hiding(applyHiding);
@@ -39,9 +40,12 @@ const tree = new TreeView(frames, {
   follow: (name) => stage?.cameras.follow(name),
 });
 const displays = new Displays(stage?.view ?? null, frames, send, () => displaysPanel.show());
+displays.onFirst = () => stage?.takeDisplay();
 const displaysPanel = new DisplaysPanel(displays);
 const time = new TimeBar(send);
-const tools = stage && new Tools(stage, frames, send, (text) => notice(text, "ok", false));
+const tools = stage && new Tools(stage, frames, send, (text, passes = false) => {
+  notice(text, "ok", passes);
+});
 const budget = new Budget(stage?.view.isSoftware ?? true, send);
 
 const TAKERS = {
@@ -98,6 +102,7 @@ function takeState(state) {
 
 function takeHello({ source }) {
   time.isBag = source.kind === "bag";
+  tools?.refuse(time.isBag ? "A bag is shown: nothing can be published into it." : "");
   setText(byId("source"), source.name);
   document.title = `${source.name} · turtlewire view`;
 }
@@ -143,7 +148,7 @@ async function takeView(packet) {
   if (packet.first && hasView) return; // a new connection; the user may have changed much
   hasView = true;
   loadedDocument = packet.document ?? null;
-  if (packet.text) notice(packet.text, "warn");
+  notice(packet.text, "warn"); // without a text it ends what was said of the file before
   applySwitches(packet.show);
   if (packet.fixed) chooseFixed(packet.fixed);
   if (packet.camera) stage?.cameras.restore(packet.camera, frames.origin);
@@ -183,13 +188,16 @@ function applyHiding() {
   stage?.change();
 }
 
+/** Say a line; what does not pass stands again when one that passes has ended. */
 function notice(text, level, passes = true) {
+  if (!passes) standing = { text, level };
+  const said = passes && text ? { text, level } : standing;
   const line = byId("notice");
-  line.hidden = !text;
-  line.dataset.level = level;
-  setText(line, text);
+  line.hidden = !said.text;
+  line.dataset.level = said.level;
+  setText(line, said.text);
   clearTimeout(noticeTimer);
-  if (passes) noticeTimer = setTimeout(() => { line.hidden = true; }, NOTICE_MS);
+  if (said !== standing) noticeTimer = setTimeout(() => notice("", "ok"), NOTICE_MS);
 }
 
 function chooseFixed(name) {

@@ -111,13 +111,17 @@ export class Stage {
     this.change();
   }
 
-  /** Until the user takes the camera, it shows the frames, also when they move away. */
-  #keepInView() {
+  /** After the first content of a display. */
+  takeDisplay() {
+    if (!this.cameras.isTouched && !this.cameras.followed) this.#keepInView(true);
+  }
+
+  /** Until the user takes the camera, it shows frames and displays, also when they move away. */
+  #keepInView(isNew = this.#fitted !== this.#frames.version) {
     const now = performance.now();
-    const isNew = this.#fitted !== this.#frames.version;
     if (!isNew && now - this.#lookedAt < KEEP_MS) return;
     this.#lookedAt = now;
-    const extent = crowdOf(this.#frames);
+    const extent = crowdOf(this.#frames, this.view.displays);
     const seen = this.#seen;
     if (!extent) return;
     const moved = seen ? extent.middle.clone().sub(seen.middle) : null;

@@ -24,6 +24,8 @@ const TOOLS = [
     help: "Press the goal and drag to where the robot is to look; published on /goal_pose.",
   },
 ];
+/** The tools that need a source one can publish to. */
+const PUBLISH = new Set(["point", "pose_estimate", "goal"]);
 const COLORS = { goal: [255, 25, 200, 255], pose_estimate: [25, 200, 60, 255] };
 const MEASURE_COLOR = [255, 140, 0, 255];
 const NEAREST_DRAG = 0.02; // of the picture's height: a shorter one is no direction
@@ -41,8 +43,9 @@ export class Tools {
   #mark = new Group();
   #start = null; // Vector3 in the picture
   #pointer = null;
+  #refusal = "";
 
-  /** `say(text)` tells the user something; "" ends it. */
+  /** `say(text, passes)` tells the user something, for a while if it passes; "" ends it. */
   constructor(stage, frames, send, say) {
     this.#stage = stage;
     this.#frames = frames;
@@ -63,6 +66,8 @@ export class Tools {
 
   /** Take a tool in hand; "" or the one in use puts it away. */
   choose(name) {
+    const refused = this.#refusal && PUBLISH.has(name);
+    if (refused) name = "";
     this.active = name === this.active ? "" : name;
     this.#start = this.#pointer = null;
     for (const [each, button] of this.#buttons) {
@@ -71,16 +76,27 @@ export class Tools {
     this.#stage.view.canvas.style.cursor = this.active ? "crosshair" : "";
     this.#clear();
     this.#say(this.#tool()?.help ?? "");
+    if (refused) this.#say(this.#refusal, true);
+  }
+
+  /** From now on tools that publish only say why not; "" lets them work. */
+  refuse(reason) {
+    this.#refusal = reason;
+    for (const tool of TOOLS.filter(({ name }) => PUBLISH.has(name))) {
+      const button = this.#buttons.get(tool.name);
+      button.setAttribute("aria-disabled", String(reason !== ""));
+      button.title = reason || titleOf(tool);
+    }
+    if (reason && PUBLISH.has(this.active)) this.choose("");
   }
 
   #tool() {
     return TOOLS.find(({ name }) => name === this.active);
   }
 
-  #addButton({ name, label, key, help }) {
-    const button = make("button", {
-      type: "button", textContent: label, title: `${help} (${key.toUpperCase()})`,
-    });
+  #addButton(tool) {
+    const { name, label, key } = tool;
+    const button = make("button", { type: "button", textContent: label, title: titleOf(tool) });
     button.setAttribute("aria-pressed", "false");
     button.dataset.tool = name;
     button.onclick = () => this.choose(name);
@@ -201,4 +217,8 @@ export class Tools {
 function isSeen(object) {
   for (let at = object; at; at = at.parent) if (!at.visible) return false;
   return true;
+}
+
+function titleOf({ help, key }) {
+  return `${help} (${key.toUpperCase()})`;
 }
