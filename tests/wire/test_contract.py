@@ -189,8 +189,11 @@ def test_publishers_of_several_threads_lose_nothing(node: Node, other: Node):
 def test_a_late_joiner_receives_what_is_transient_local(node: Node, other: Node):
     latched = QoS(depth=2, durability=Durability.TRANSIENT_LOCAL)
     publisher = other.create_publisher("/latched", STRING, latched)
+    early = node.create_subscription("/latched", STRING, QoS(depth=10))
+    connect(other, publisher, node, early)
     for number in range(5):
         publisher.publish(cdr(str(number)))
+    take_all(node, early, 5)  # none is on its way when the others join
     volatile = node.create_subscription("/latched", STRING, QoS(depth=10))
     late = node.create_subscription("/latched", STRING, latched._replace(depth=10))
     assert take_all(node, late, 2) == [cdr("3"), cdr("4")]
