@@ -85,6 +85,25 @@ def test_each_update_of_a_map_is_sent():
     assert updates == [[0, 0, 1, 1], [1, 0, 1, 1]]
 
 
+@pytest.mark.parametrize("taken", [True, False])
+def test_a_new_map_comes_after_the_updates_of_the_former_one(taken):
+    types = {"/t": "nav_msgs/msg/OccupancyGrid", "/u": "map_msgs/msg/OccupancyGridUpdate"}
+    page = Page(OccupancyGridDisplay(), types)
+    page.know("base")
+    grid = msg.get_message(types["/t"])(data=[0])
+    grid.header.frame_id = "base"
+    grid.info.width = grid.info.height = 1
+    grid.info.resolution = 1.0
+    page.send(grid)
+    if taken:
+        page.take()
+    change = msg.get_message(types["/u"])(width=1, height=1, data=[7])
+    page.feed.take_message("/u", msg.serialize(change))
+    page.send(grid)  # both are seen at once
+    cells = [p["arrays"]["cells"].tolist() for p in page.take() if p["type"] == "display"]
+    assert cells == [[[7]], [[0]]]
+
+
 def test_a_page_that_takes_nothing_fills_no_memory(page):
     page.know("base")
     page.send(marker(1))

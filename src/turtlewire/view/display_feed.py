@@ -254,11 +254,8 @@ class DisplayFeed:
                 self._say(output)
             elif isinstance(output, Removal):
                 self._forget(output.part)
-            elif output.event:
-                self._waiting.append(output)
-            elif output.frame_id is None or output.locked:
-                self._shown[output.part] = output
-                self._send(output, {"frame": output.frame_id, "anchor": list(output.anchor)})
+            elif _is_live(output) and not any(content.event for content in self._waiting):
+                self._send_live(output)
             else:
                 self._waiting.append(output)
         while len(self._waiting) > _MOST_WAITING:
@@ -284,6 +281,9 @@ class DisplayFeed:
                     still.append(content)
                 else:
                     self._send_event(content)
+                continue
+            if _is_live(content):
+                self._send_live(content)
                 continue
             error = self._place(content, base)
             if error is None:
@@ -342,7 +342,13 @@ class DisplayFeed:
         packet = encode_packet(header, content.arrays if arrays is None else arrays)
         with self._lock:
             self._ready.pop(f"pose {content.part}", None)
+            self._ready.pop(content.part if key is None else key, None)  # it comes after events
             self._ready[content.part if key is None else key] = packet
+
+    def _send_live(self, content: Content) -> None:
+        """Send what hangs on a live frame, or on none."""
+        self._shown[content.part] = content
+        self._send(content, {"frame": content.frame_id, "anchor": list(content.anchor)})
 
     def _send_event(self, content: Content) -> None:
         number = next(self._events)
@@ -357,6 +363,11 @@ class DisplayFeed:
 
 def _nothing(_: object) -> None:
     pass
+
+
+def _is_live(content: Content) -> bool:
+    """Whether it needs no transform at a stamp."""
+    return not content.event and (content.frame_id is None or content.locked)
 
 
 def _is_too_old(error: TransformException, content: Content, base: Base) -> bool:
