@@ -30,6 +30,19 @@ HAND_IN = """async ([lesson, files]) => {
     }
 }"""
 
+#: Presses `Check my solution`; each result as [passed, texts]. The button is disabled at once, and
+#: may be enabled again before the next picture.
+CHECK = """(async () => {
+    const button = document.getElementById("check");
+    button.click();
+    await new Promise((resolve) => {
+        const tell = () => button.disabled || resolve();
+        new MutationObserver(tell).observe(button, { attributes: true });
+    });
+    const items = [...document.querySelectorAll("#results li")];
+    return items.map((item) => [item.dataset.passed, item.textContent]);
+})()"""
+
 
 def hand_in(page, lesson, files):
     """Open a lesson with these files in the editors, as if they had been typed, and run it."""
@@ -38,12 +51,8 @@ def hand_in(page, lesson, files):
 
 def check(page):
     """Press `Check my solution`; each result as (passed, texts)."""
-    page.click("#check")
-    page.wait_for_function("document.getElementById('check').disabled")
-    page.wait_for_function("!document.getElementById('check').disabled")
-    return page.eval_on_selector_all(
-        "#results li", "(items) => items.map((item) => [item.dataset.passed, item.textContent])"
-    )
+    page.wait_for_selector("#check:enabled")
+    return page.evaluate(CHECK)
 
 
 def listener_with(old, new):

@@ -10,20 +10,10 @@ import pytest
 from turtle_lesson.lesson import load_lesson
 
 from .firefox import Firefox
-from .test_in_browser import HAND_IN, LESSONS, ORDER
+from .test_in_browser import CHECK, HAND_IN, LESSONS, ORDER
 
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(600)]
 FIREFOX = shutil.which("firefox-esr") or shutil.which("firefox")
-#: Presses `Check my solution`; each result as [passed, texts].
-CHECK = """(async () => {
-    const button = document.getElementById("check");
-    const frame = () => new Promise(requestAnimationFrame);
-    button.click();
-    while (!button.disabled) await frame();
-    while (button.disabled) await frame();
-    const items = [...document.querySelectorAll("#results li")];
-    return items.map((item) => [item.dataset.passed, item.textContent]);
-})()"""
 
 
 @pytest.fixture
