@@ -79,13 +79,14 @@ def main() -> int:
     """Prepare what is missing, and run the trials; the exit status."""
     parser = argparse.ArgumentParser(
         prog="scripts/elsewhere",
-        description="Tries the wheels in build/release with the Python of another Debian.",
+        description="Tries the wheels in build/release, as they are, with the Python of another "
+        "Debian; scripts/release makes new ones.",
     )
     parser.add_argument("place", choices=PLACES, help="bookworm's arm64 under qemu, or forky")
     parser.add_argument(
         "--only",
         choices=("prepare", "tests", "demo"),
-        help="one step; `tests` and `demo` take what was prepared before, and need no network",
+        help="one step; `tests` and `demo` need no network once that is prepared",
     )
     arguments = parser.parse_args()
     place = PLACES[arguments.place]
@@ -204,13 +205,13 @@ def install(place: Place) -> None:
 
 
 def ours(place: Place) -> list[Path]:
-    """The release's wheels for this Python, which are built if they are missing."""
+    """The release's wheels for this Python."""
     tag = wheel_tag(place.version)
     patterns = (f"turtlewire-*-{tag}-*{place.machine}.whl", "turtlewire_ros-*.whl")
     if not all(list(WHEELS.glob(pattern)) for pattern in patterns):
-        version = "3.12" if tag.endswith("abi3") else place.version
-        release = [ROOT / "scripts" / "release", "--dirty", "--python", version]
-        run(*release, "--machine", place.machine, what="the wheels")
+        raise ReleaseError(
+            f"build/release has no wheel {tag} for {place.machine}: scripts/release makes it"
+        )
     return [path for pattern in patterns for path in WHEELS.glob(pattern)]
 
 

@@ -46,7 +46,9 @@ def run(
 
 def output(*command: str) -> str:
     """What a command prints."""
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise ReleaseError(f"{' '.join(command)}: {done.stderr.strip()}")
     return done.stdout.strip()
 
 
