@@ -71,6 +71,18 @@ class Frames(NamedTuple):
         return {"poses": self.poses, "stamps": self.stamps, "known": self.known}
 
 
+class _Rows(NamedTuple):
+    """A row for each frame of the structure, to be filled."""
+
+    poses: NDArray[np.float64]
+    stamps: NDArray[np.float64]
+    known: NDArray[np.uint8]
+
+
+def _no_rows(count: int) -> _Rows:
+    return _Rows(np.zeros((count, 7)), np.zeros(count), np.zeros(count, np.uint8))
+
+
 class FrameScene:
     """Computes frames for one page. Not thread-safe."""
 
@@ -105,13 +117,13 @@ class FrameScene:
         is_there = fixed in self._index
         tree = structure.trees[self._index[fixed]] if is_there else 0
         shown = fixed if is_there else (structure.roots or [""])[0]
-        poses, stamps = np.zeros((len(structure.names), 7)), np.zeros(len(structure.names))
-        known = np.zeros(len(structure.names), np.uint8)
+        rows = _no_rows(len(structure.names))
+        poses, stamps, known = rows
         for number, root in enumerate(structure.roots):
             target = shown if number == tree else root
-            self._fill(buffer, target, stamp_ns, poses, stamps, known)
+            self._fill(rows, buffer, target, stamp_ns)
             if stamp_ns and not known[np.asarray(structure.trees) == number].all():
-                self._fill_last_seen(buffer, target, stamp_ns, poses, stamps, known)
+                self._fill_last_seen(rows, buffer, target, stamp_ns)
         with np.errstate(invalid="ignore"):
             known &= (np.abs(poses) < _FARTHEST_M).all(axis=1)
         poses[known == 0] = 0.0
@@ -144,15 +156,7 @@ class FrameScene:
             self._index = index
             self._rows.clear()
 
-    def _fill(
-        self,
-        buffer: Buffer,
-        target: str,
-        stamp_ns: int,
-        poses: NDArray[np.float64],
-        stamps: NDArray[np.float64],
-        known: NDArray[np.uint8],
-    ) -> None:
+    def _fill(self, out: _Rows, buffer: Buffer, target: str, stamp_ns: int) -> None:
         """Look up all frames in ``target``, and put them in the rows of the structure."""
         try:
             names, found, times_ns = buffer.lookup_all(target, stamp_ns)
@@ -163,24 +167,16 @@ class FrameScene:
             rows = np.array([self._index.get(name, -1) for name in names], np.intp)
             self._rows[target] = (names, rows)
         there = rows >= 0  # a frame may have come since the structure was read
-        poses[rows[there]], stamps[rows[there]] = found[there], times_ns[there] / 1e9
-        known[rows[there]] = 1
+        out.poses[rows[there]], out.stamps[rows[there]] = found[there], times_ns[there] / 1e9
+        out.known[rows[there]] = 1
 
-    def _fill_last_seen(
-        self,
-        buffer: Buffer,
-        target: str,
-        stamp_ns: int,
-        poses: NDArray[np.float64],
-        stamps: NDArray[np.float64],
-        known: NDArray[np.uint8],
-    ) -> None:
+    def _fill_last_seen(self, out: _Rows, buffer: Buffer, target: str, stamp_ns: int) -> None:
         """Put frames whose newest data are a little older than the stamp where they were then."""
-        last, seen = (poses.copy(), stamps.copy()), np.zeros_like(known)
-        self._fill(buffer, target, 0, *last, seen)
-        age = stamp_ns / 1e9 - last[1]
-        rows = (known == 0) & (seen == 1) & (age >= 0) & (age <= FRAME_TIMEOUT_S)
-        poses[rows], stamps[rows], known[rows] = last[0][rows], last[1][rows], 1
+        last = _no_rows(len(out.known))
+        self._fill(last, buffer, target, 0)
+        age = stamp_ns / 1e9 - last.stamps
+        rows = (out.known == 0) & (last.known == 1) & (age >= 0) & (age <= FRAME_TIMEOUT_S)
+        out.poses[rows], out.stamps[rows], out.known[rows] = last.poses[rows], last.stamps[rows], 1
 
     def _subtract_origin(self, poses: NDArray[np.float64], rows: NDArray[np.bool_]) -> None:
         """Keep coordinates small enough for 32 bits; the origin moves only when it must."""

@@ -15,13 +15,14 @@ if TYPE_CHECKING:
 
 __all__ = ["call_guarded", "warn", "warn_once"]
 
-#: Keys hold names, which peers may choose anew for ever; then warnings are said a second time.
+#: Keys contain names, and peers may invent new ones without end. After so many the set begins anew,
+#: and a warning can be repeated.
 _MOST_KEYS = 1000
 _said: set[str] = set()
 
 
 def warn_once(key: str, text: str) -> None:
-    """Write ``text`` as a ROS 2 warning, once for each of the last many ``key``s."""
+    """Write ``text`` as a ROS 2 warning, once for each ``key``; see ``_MOST_KEYS``."""
     if key not in _said:
         if len(_said) >= _MOST_KEYS:
             _said.clear()
