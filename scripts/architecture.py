@@ -173,7 +173,6 @@ def strong_components(nodes: Iterable[str], arrows: dict[str, set[str]]) -> list
             found.append(stack[at:])
             del stack[at:]
 
-    sys.setrecursionlimit(10_000)
     for node in nodes:
         if node not in index:
             visit(node)

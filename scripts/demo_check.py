@@ -171,17 +171,23 @@ class Observer:
             self._moved.set()
 
     def wait_for_first_movement(self, launch: Launch) -> None:
-        """Block until turtle2 moves.
+        """Block until turtle2 moves and its transform has arrived here.
 
         Raises:
-            CheckError: It does not.
+            CheckError: turtle2 does not move, its transform does not arrive, or the launch ends.
         """
         deadline = time.monotonic() + START_LIMIT_S
-        while not self._moved.wait(0.5):
+        why = f"{FOLLOWER} did not move within {START_LIMIT_S:.0f} s"
+        while not self._moved.wait(0.5) or (why := self._missing_transform()):
             if launch.ended.is_set():
                 raise CheckError("the launch ended before anything moved")
             if time.monotonic() > deadline:
-                raise CheckError(f"{FOLLOWER} did not move within {START_LIMIT_S:.0f} s")
+                raise CheckError(why)
+
+    def _missing_transform(self) -> str:
+        """Why turtle2's transform has not arrived within half a second; "" when it has."""
+        why = self._buffer.can_transform_reason(FOLLOWER, LEADER, timeout_ns=500_000_000)
+        return why and f"no transform of {FOLLOWER} arrives: {why}"
 
     def drive(self, forward: float, turn: float, duration: float, launch: Launch) -> None:
         """Command turtle1 for some seconds, with a lookup between the turtles at each command.

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import os
 import queue
+import signal
+import threading
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtle_class.errors import ClassError
 from turtle_class.runner import Runner
 from turtlewire.printable import printable
+from turtlewire.signal_watch import watched
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -78,6 +81,9 @@ def grade_all(
         limits: Of each exercise; None takes the usual ones.
         tell: Called with the progress after each exercise.
         jobs: How many run at a time; None takes one for each core.
+
+    Raises:
+        KeyboardInterrupt: Ctrl-C. All that ran has been stopped.
     """
     jobs = jobs or os.cpu_count() or 1
     runner = Runner(limits)
@@ -92,18 +98,27 @@ def grade_all(
         finally:
             domains.put(domain)
 
-    pool = ThreadPoolExecutor(jobs)
-    try:
-        work = {
-            (student, exercise.name): pool.submit(run, student, exercise)
-            for student in students
-            for exercise in exercises
-        }
-        for number, _ in enumerate(as_completed(work.values()), 1):
-            tell(f"{number} of {len(work)} graded")
-    finally:  # after Ctrl-C, what has not begun does not begin
-        pool.shutdown(wait=False, cancel_futures=True)
+    interrupted = threading.Event()
+
+    def interrupt() -> None:
+        interrupted.set()
         runner.stop()
+
+    pool = ThreadPoolExecutor(jobs)
+    with watched([signal.SIGINT], interrupt):
+        try:
+            work = {
+                (student, exercise.name): pool.submit(run, student, exercise)
+                for student in students
+                for exercise in exercises
+            }
+            for number, _ in enumerate(as_completed(work.values()), 1):
+                tell(f"{number} of {len(work)} graded")
+        finally:  # after Ctrl-C, what has not begun does not begin
+            pool.shutdown(wait=False, cancel_futures=True)
+            runner.stop()
+    if interrupted.is_set():  # a child that was stopped says nothing of what it graded
+        raise KeyboardInterrupt
     slugs = _slugs(students)
     return [
         Report(

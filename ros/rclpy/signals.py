@@ -23,6 +23,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from turtlewire.platforms import in_browser
 
 from . import excepthooks
+from .task import running_asyncio_loop
 
 if TYPE_CHECKING:
     from types import FrameType
@@ -74,6 +75,7 @@ class _Watcher:
     def __init__(self, signals: list[signal.Signals]) -> None:
         self._previous: dict[int, Any] = {}
         self._interrupted_at = self._terminated_at = -REPEATED_INTERRUPT_S
+        self._is_deferred = False
         self._read_fd, self._write_fd = os.pipe()
         if sys.platform != "win32":
             os.set_blocking(self._write_fd, False)
@@ -137,8 +139,18 @@ class _Watcher:
             self._terminated_at = time.monotonic()
         _note_stop()
         previous = self._previous[signum]
-        if callable(previous):
+        loop = running_asyncio_loop() if _is_in_asyncio(frame) else None
+        if previous is signal.default_int_handler and loop is not None and not self._is_deferred:
+            # In asyncio's own code KeyboardInterrupt could lose a callback that is about to be
+            # called, and a task would wait for it for ever. Raised by a callback, it loses none.
+            self._is_deferred = True
+            loop.call_soon_threadsafe(self._interrupt, signum, frame)
+        elif callable(previous):
             previous(signum, frame)
+
+    def _interrupt(self, signum: int, frame: FrameType | None) -> None:
+        self._is_deferred = False
+        signal.default_int_handler(signum, frame)
 
     def forget(self) -> None:
         """Leave the pipe to the parent, in a forked child that has no thread to read it."""
@@ -146,6 +158,12 @@ class _Watcher:
         self._write_fd = -1
         for signum, previous in self._previous.items():
             signal.signal(signum, previous if previous is not None else signal.SIG_DFL)
+
+
+def _is_in_asyncio(frame: FrameType | None) -> bool:
+    """Whether a signal interrupted asyncio itself, not a coroutine or callback of the program."""
+    module = "" if frame is None else str(frame.f_globals.get("__name__", ""))
+    return module.partition(".")[0] == "asyncio"
 
 
 def _is_fresh(moment: float) -> bool:

@@ -18,7 +18,7 @@ from ._typing import T
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
 
-__all__ = ["Future", "Task"]
+__all__ = ["Future", "Task", "running_asyncio_loop"]
 
 
 class _TaskRunner(Protocol):
@@ -57,7 +57,7 @@ class Future(Generic[T]):
 
     def __await__(self) -> Generator[Any, None, T]:
         if self._pending():
-            loop = _running_asyncio_loop()
+            loop = running_asyncio_loop()
             if loop is None or loop is _steps.loop_outside:
                 while self._pending():
                     yield self
@@ -234,7 +234,7 @@ class Task(Future[T]):
                     self._complete(result=outcome)
                     return
                 self._handler = outcome
-            outer, _steps.loop_outside = _steps.loop_outside, _running_asyncio_loop()
+            outer, _steps.loop_outside = _steps.loop_outside, running_asyncio_loop()
             try:
                 self._awaited = self._handler.send(None)
             finally:
@@ -288,7 +288,7 @@ class _Steps(threading.local):
 _steps = _Steps()
 
 
-def _running_asyncio_loop() -> Any:
+def running_asyncio_loop() -> Any:
     """The asyncio loop that runs in this thread, if any; never imports asyncio."""
     # While another thread imports asyncio, this one runs no loop and the module is not complete.
     running_loop = getattr(sys.modules.get("asyncio"), "_get_running_loop", None)

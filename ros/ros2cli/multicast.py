@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import errno
 import ipaddress
 import socket
+import sys
 from argparse import ArgumentTypeError
 from contextlib import suppress
 from typing import TYPE_CHECKING
@@ -18,10 +20,14 @@ if TYPE_CHECKING:
 __all__ = ["GROUP_ARGUMENTS", "MulticastSocket"]
 
 _LONGEST = 4096
+#: What Linux says, and what others say, when the system finds no interface for a group.
+_NO_ROUTE = (errno.ENODEV, errno.EADDRNOTAVAIL)
 
 
 class MulticastSocket:
     """Sends to a group and receives from it; a context manager.
+
+    Without a route to the group, the datagrams stay on this host, and one line says so.
 
     Args:
         group: Address of the group.
@@ -43,9 +49,7 @@ class MulticastSocket:
                 self._sender.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, self._ttl)
             self._receiver.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             self._receiver.bind(("", port))
-            every_interface = socket.inet_aton("0.0.0.0")  # noqa: S104  it comes from the network
-            membership = socket.inet_aton(group) + every_interface
-            self._receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, membership)
+            self._join(socket.inet_aton(group))
         except OSError:
             self.__exit__(None, None, None)
             raise
@@ -60,6 +64,22 @@ class MulticastSocket:
         """Leave the group."""
         self._sender.close()
         self._receiver.close()
+
+    def _join(self, group: bytes) -> None:
+        chosen_by_system = socket.inet_aton("0.0.0.0")  # noqa: S104  no address to bind to
+        loopback = socket.inet_aton("127.0.0.1")
+        join = (socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP)
+        try:
+            self._receiver.setsockopt(*join, group + chosen_by_system)
+        except OSError as error:
+            if error.errno not in _NO_ROUTE:
+                raise
+            print(
+                f"no route leads to the group {self._target[0]}: the datagrams stay on this host",
+                file=sys.stderr,
+            )
+            self._receiver.setsockopt(*join, group + loopback)
+            self._sender.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, loopback)
 
     def send(self, data: bytes) -> None:
         """Send a datagram to the group."""

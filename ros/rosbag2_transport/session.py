@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import os
 import signal
-import socket
 import sys
 import threading
 from typing import TYPE_CHECKING
@@ -15,6 +14,7 @@ from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from turtlewire.keyboard import Keyboard
+from turtlewire.signal_watch import watched
 
 if TYPE_CHECKING:
     import queue
@@ -84,8 +84,7 @@ def stopped_by_signals(stop: queue.SimpleQueue[None]) -> Iterator[None]:
     """Have SIGINT, SIGTERM and SIGHUP put an item into ``stop``; nothing in a thread.
 
     SIGHUP comes when the terminal is closed: a recording is finished then, too, unless ``nohup``
-    lets it go on. A thread puts the item: a signal that comes just before the main thread begins to
-    wait for it does not end that wait.
+    lets it go on.
     """
     if threading.current_thread() is not threading.main_thread():
         yield
@@ -93,27 +92,14 @@ def stopped_by_signals(stop: queue.SimpleQueue[None]) -> Iterator[None]:
     numbers = [signal.SIGINT, signal.SIGTERM]
     if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
         numbers.append(signal.SIGHUP)
-    arrived, wakeup = socket.socketpair()
-    wakeup.setblocking(False)
-
-    def watch() -> None:
-        while number := arrived.recv(1):
-            if number[0] in numbers:
-                stop.put(None)
-
-    watcher = threading.Thread(target=watch, name="bag-signals", daemon=True)
-    watcher.start()
-    former_fd = signal.set_wakeup_fd(wakeup.fileno(), warn_on_full_buffer=False)
-    former = {number: signal.signal(number, lambda *_: None) for number in numbers}
-    try:
-        yield
-    finally:
-        for number, handler in former.items():
-            signal.signal(number, handler if handler is not None else signal.SIG_DFL)
-        signal.set_wakeup_fd(former_fd)
-        wakeup.close()
-        watcher.join()
-        arrived.close()
+    with watched(numbers, lambda: stop.put(None)):
+        # No KeyboardInterrupt: the item ends the wait, and the recording is finished in order.
+        former = {number: signal.signal(number, lambda *_: None) for number in numbers}
+        try:
+            yield
+        finally:
+            for number, handler in former.items():
+                signal.signal(number, handler if handler is not None else signal.SIG_DFL)
 
 
 @contextlib.contextmanager

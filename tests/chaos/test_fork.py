@@ -25,7 +25,7 @@ stop = threading.Event()
 def write(child):
     stamp = 1
     while not stop.is_set():
-        stamp += 1
+        stamp += 10_000_000  # old samples go: memory that grows would make each fork slower
         buffer.set_transform("a", child, stamp, *pose)
 
 def wait():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import select
 import signal
 import subprocess
 import sys
@@ -119,7 +120,7 @@ for _ in range(3):
             os.write(1, b"%d\\n" % os.getpid())
             time.sleep(1e6)
         os._exit(0)
-print("begun", flush=True)
+os.write(1, b"begun\\n")
 {then}
 """
 
@@ -249,7 +250,8 @@ def test_wrong_words_are_answered(tmp_path, monkeypatch, capsys, words, told):
     assert told in capsys.readouterr().err
 
 
-def test_ctrl_c_ends_grading_and_all_that_runs(submissions, tmp_path):
+@pytest.mark.parametrize("thread", ["main", "another"])
+def test_ctrl_c_ends_grading_and_all_that_runs(submissions, tmp_path, thread):
     folder = submissions({"waits": silly("waits")})
     program = "import sys; from turtlewire.cli.main import main; sys.exit(main())"
     command = ["class", "grade", str(folder), "-e", "fixed_carrot", "-o", str(tmp_path / "out")]
@@ -257,18 +259,24 @@ def test_ctrl_c_ends_grading_and_all_that_runs(submissions, tmp_path):
     started = [sys.executable, "-c", program, *command]
     with subprocess.Popen(started, env=environment) as grader:
         child = wait_for_child(grader.pid)
-        grader.send_signal(signal.SIGINT)
+        handle = os.pidfd_open(child)
+        threads = [grader.pid]
+        if thread == "another":
+            wait_for_child(child)  # now a thread reads what it prints
+            threads = [int(task.name) for task in Path(f"/proc/{grader.pid}/task").iterdir()]
+        os.kill(max(threads), signal.SIGINT)
         assert grader.wait(60) == 130
-    os.close(child)
+    assert select.select([handle], [], [], 60)[0]
+    os.close(handle)
     assert not (tmp_path / "out").exists()
 
 
 def wait_for_child(pid):
-    """Wait until a process has a child; a handle of it."""
+    """Wait until a process has a child; its number."""
     while True:
         for task in Path(f"/proc/{pid}/task").iterdir():
             if children := (task / "children").read_text().split():
-                return os.pidfd_open(int(children[0]))
+                return int(children[0])
 
 
 def test_the_list(capsys):

@@ -202,22 +202,22 @@ def test_the_page_in_a_browser(page, student, browser):
         tab.on("pageerror", lambda error: errors.append(str(error)))
         tab.on("dialog", lambda dialog: errors.append(dialog.message))
         tab.goto(page.url)
-        tab.wait_for_function("document.querySelectorAll('article').length === 2")
-        tab.wait_for_function("document.querySelector('.nodes').textContent.includes('evil')")
+        tab.wait_for_function("() => document.querySelectorAll('article').length === 2")
+        tab.wait_for_function("() => document.querySelector('.nodes').textContent.includes('evil')")
         assert tab.locator("h2").all_text_contents() == ["<b>Ana</b>", "Björn"]
         assert tab.locator("img").count() == 0
         tab.wait_for_function(
-            "document.querySelector('#summary').textContent.includes('1 running')"
+            "() => document.querySelector('#summary').textContent.includes('1 running')"
         )
-        tab.wait_for_function("document.querySelector('article.note, article.bad') !== null")
+        tab.wait_for_function("() => document.querySelector('article.note, article.bad') !== null")
         tab.fill("#filter", "björn")
-        tab.wait_for_function("document.querySelectorAll('article').length === 1")
+        tab.wait_for_function("() => document.querySelectorAll('article').length === 1")
         tab.fill("#filter", "nobody")
         tab.wait_for_selector("#nothing:not([hidden])")
         tab.fill("#filter", "")
         tab.select_option("#sort", "bad")
         tab.select_option("#show", "off")
-        tab.wait_for_function("document.querySelectorAll('article.off').length === 1")
+        tab.wait_for_function("() => document.querySelectorAll('article.off').length === 1")
         tab.select_option("#size", "l")
         assert tab.evaluate("document.body.dataset.size") == "l"
     assert errors == []

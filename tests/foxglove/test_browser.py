@@ -32,7 +32,7 @@ def test_pages_of_a_browser(serve, log, browser, url, protocols, title, warnings
         body = PAGE % (json.dumps(server.url), json.dumps(protocols))
         page.route("**/*", lambda route: route.fulfill(body=body, content_type="text/html"))
         page.goto(url)
-        page.wait_for_function("document.title != 'page'", timeout=120_000)
+        page.wait_for_function("() => document.title != 'page'", timeout=120_000)
         assert page.title() == title
         assert len(log.warnings()) == warnings
     finally:

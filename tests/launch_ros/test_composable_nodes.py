@@ -83,7 +83,12 @@ def test_nodes_of_a_container(launch):
             ),
         ],
     )
-    outcome = launch(until_loaded(container), SetLaunchConfiguration("colour", "green"), container)
+    outcome = launch(
+        until_loaded(container),
+        SetLaunchConfiguration("colour", "green"),
+        SetLaunchConfiguration("sigterm_timeout", "120"),  # beside much load, an exit takes a while
+        container,
+    )
     assert outcome.status == 0, outcome.text
     assert here(outcome) == ["/shows /a 1 red", "/ns/n /ns/b 2 5", "/wanted /a 1 green"]
     loaded = [line.split("]: ")[1] for line in outcome.lines if "Loaded node" in line]

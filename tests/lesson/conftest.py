@@ -95,4 +95,4 @@ def open_page(browser, host):
 
 
 def wait_until_loaded(page):
-    page.wait_for_function("document.body?.dataset.loadedMs !== undefined", timeout=LONG_MS)
+    page.wait_for_function("() => document.body?.dataset.loadedMs !== undefined", timeout=LONG_MS)

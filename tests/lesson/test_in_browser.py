@@ -116,19 +116,19 @@ def test_turtle2_follows_and_the_arrow_keys_drive(open_page):
     page.keyboard.press("ArrowUp")
     wait_for_words(page, r"^turtle1 is 1\.\d+ m ahead")
     page.wait_for_function(  # it is told when the turtles are drawn
-        "document.getElementById('turtles').getAttribute('aria-label').includes('turtle2 at')"
+        "() => document.getElementById('turtles').getAttribute('aria-label').includes('turtle2 at')"
     )
     tree = page.text_content("#tree")
     assert "turtle1" in tree
     assert "Hz" in tree
     page.locator("summary", has_text="tf2_echo").click()
     page.wait_for_function(
-        "document.getElementById('tf-echo').textContent.includes('- Translation: [')"
+        "() => document.getElementById('tf-echo').textContent.includes('- Translation: [')"
     )
     page.locator("summary", has_text="ros2 topic echo").click()
     page.select_option("#topic", "/turtle1/pose")
     page.wait_for_function(
-        "document.getElementById('topic-echo').textContent.includes('linear_velocity')"
+        "() => document.getElementById('topic-echo').textContent.includes('linear_velocity')"
     )
 
 
@@ -144,7 +144,7 @@ def test_keys_in_the_editor_are_for_the_editor(open_page):
     assert "# typed import math" in page.text_content("#editors .cm-content")
     page.click("#reset")
     page.wait_for_function(
-        "!document.querySelector('#editors .cm-content').textContent.includes('typed')"
+        "() => !document.querySelector('#editors .cm-content').textContent.includes('typed')"
     )
 
 
@@ -177,7 +177,7 @@ def test_an_endless_loop_is_stopped_and_the_tab_lives_on(open_page, where):
         assert passed == "no"
         assert "did not come to an end" in text
     page.click("#reset")
-    page.wait_for_function("document.getElementById('status').textContent === 'running'")
+    page.wait_for_function("() => document.getElementById('status').textContent === 'running'")
     wait_for_words(page, r"^turtle1 is 0\.\d+ m ahead")
 
 
@@ -200,7 +200,7 @@ def test_code_that_does_harm_ends_in_a_sentence(offline_page, code, sentence):
     page.wait_for_selector("#mistake:not([hidden])")
     assert sentence in page.text_content("#mistake")
     page.click("#reset")
-    page.wait_for_function("document.getElementById('status').textContent === 'running'")
+    page.wait_for_function("() => document.getElementById('status').textContent === 'running'")
     wait_for_words(page, "^turtle1 is ")
 
 
@@ -213,7 +213,7 @@ def test_code_that_swallows_the_interrupt_is_stopped_by_another_worker(open_page
     hand_in(page, "listener", listener_with("msg = Twist()", loop))
     page.wait_for_selector("#mistake:not([hidden])")
     page.click("#reset")
-    page.wait_for_function("document.getElementById('status').textContent === 'running'")
+    page.wait_for_function("() => document.getElementById('status').textContent === 'running'")
 
 
 def test_without_a_service_worker_the_loop_is_stopped_by_another_worker(open_page):
@@ -239,10 +239,12 @@ def test_buttons_and_other_lessons_do_no_harm_while_it_loads(browser, host):
     page.click("#editors .cm-content")
     page.keyboard.press("Control+Enter")
     wait_until_loaded(page)
-    page.wait_for_function("document.getElementById('tree').textContent.includes('my_static_')")
+    page.wait_for_function(
+        "() => document.getElementById('tree').textContent.includes('my_static_')"
+    )
     page.click("#check")
     page.evaluate("location.hash = 'faults'")  # the results of the other lesson do not follow
-    page.wait_for_function("document.getElementById('tree').textContent.includes('tower')")
+    page.wait_for_function("() => document.getElementById('tree').textContent.includes('tower')")
     assert page.locator("#results li").count() == 0
     context.close()
     assert errors == []
@@ -250,13 +252,13 @@ def test_buttons_and_other_lessons_do_no_harm_while_it_loads(browser, host):
 
 def test_faults_show_in_the_tree_and_the_doctor_names_them(open_page):
     page = open_page("faults")
-    page.wait_for_function("document.getElementById('tree').textContent.includes('turtle2')")
+    page.wait_for_function("() => document.getElementById('tree').textContent.includes('turtle2')")
     page.check("#faults input[value=two_publishers]")
     page.locator("summary", has_text="turtlewire doctor").click()
-    page.wait_for_function("document.getElementById('status').textContent === 'running'")
+    page.wait_for_function("() => document.getElementById('status').textContent === 'running'")
     page.click("#examine")
     page.wait_for_function(
-        "document.getElementById('doctor').textContent.includes('second_broadcaster')"
+        "() => document.getElementById('doctor').textContent.includes('second_broadcaster')"
     )
     page.uncheck("#faults input[value=two_publishers]")
     page.check("#faults input[value=delay]")
@@ -310,7 +312,7 @@ def test_the_frames_are_drawn_on_the_field_until_they_are_hidden(open_page):
         const isRed = (k) => data[k] > 230 && data[k + 1] < 130 && data[k + 2] < 150;
         return data.filter((_, k) => k % 4 === 0 && isRed(k)).length;
     })()"""
-    page.wait_for_function(f"{red} > 20")
+    page.wait_for_function(f"() => {red} > 20")
     page.click("#axes")
     assert page.get_attribute("#axes", "aria-pressed") == "false"
-    page.wait_for_function(f"{red} === 0")
+    page.wait_for_function(f"() => {red} === 0")

@@ -236,6 +236,62 @@ def test_ctrl_c_that_is_not_caught_ends_without_a_traceback(start):
     assert program.finish() == (-signal.SIGINT, "", "")
 
 
+def test_ctrl_c_between_two_callbacks_of_asyncio_loses_none(start):
+    """The one that was next wakes a task: without it, asyncio.run waited for the task for ever."""
+    program = start('''
+        import asyncio, rclpy
+
+        # As part of asyncio's module: the signal meets asyncio's own code.
+        exec('if 1:' + """
+            import signal
+            run, meets = Handle._run, True
+
+            def interrupted_run(self):
+                global meets
+                if meets and "wakeup" in repr(self._callback):
+                    meets = False
+                    signal.raise_signal(signal.SIGINT)
+                return run(self)
+            """, vars(asyncio.events))
+
+        async def main():
+            woken = asyncio.get_running_loop().create_future()
+            asyncio.get_running_loop().call_soon(woken.set_result, None)
+            async def wait():
+                await woken
+                await asyncio.sleep(1e6)
+            await wait()
+
+        rclpy.init()
+        print("up")
+        asyncio.Handle._run = asyncio.events.interrupted_run
+        try:
+            asyncio.run(main())
+        except KeyboardInterrupt:
+            print("interrupted", asyncio.events.meets)
+        ''')
+    assert program.finish() == (0, "interrupted False\n", "")
+
+
+def test_ctrl_c_in_a_coroutine_raises_there(start):
+    """As a cell of a notebook is interrupted, which runs below the kernel's loop."""
+    program = start("""
+        import asyncio, signal, rclpy
+
+        async def main():
+            try:
+                signal.raise_signal(signal.SIGINT)
+                print("goes on")
+            except KeyboardInterrupt:
+                print("interrupted")
+
+        rclpy.init()
+        print("up")
+        asyncio.run(main())
+        """)
+    assert program.finish() == (0, "interrupted\n", "")
+
+
 def test_ctrl_c_while_a_program_still_imports_ends_without_a_traceback(start):
     program = start("import threading, rclpy\nprint('up')\nthreading.Event().wait()")
     program.send_signal(signal.SIGINT)

@@ -116,7 +116,7 @@ def test_a_slider_moved_in_the_browser_moves_the_transform(browser, sourced, run
     page.get_by_role("button", name="Center").click()
     launch.wait_for(r"\[joint_state_publisher\]: Centering$")
     page.wait_for_function(
-        "document.querySelector('.joint[data-name=lamp_tilt] .value input').value === '0.000'"
+        "() => document.querySelector('.joint[data-name=lamp_tilt] .value input').value === '0.000'"
     )
     page.close()
     echo.kill()

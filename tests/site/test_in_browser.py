@@ -64,7 +64,7 @@ def test_the_front_page_leads_to_the_lesson(open_page):
     page.click(".hero-buttons a >> nth=0")
     page.wait_for_url("**/lesson/index.html")
     if (ROOT / "build" / "lesson" / "manifest.json").exists():
-        page.wait_for_function("document.body?.dataset.loadedMs !== undefined")
+        page.wait_for_function("() => document.body?.dataset.loadedMs !== undefined")
     else:
         assert "not in this build" in page.inner_text("h1")
 
@@ -88,7 +88,7 @@ def test_dark_follows_the_system_and_the_button(open_page):
     ground = "getComputedStyle(document.body).backgroundColor"
     dark = page.evaluate(ground)
     page.locator(".theme-toggle:visible").first.click()
-    page.wait_for_function(f"{ground} !== {dark!r}")
+    page.wait_for_function(f"() => {ground} !== {dark!r}")
     assert sum(map(int, dark[4:-1].split(","))) < 150
 
 

@@ -64,14 +64,15 @@ def for_yourdfpy(robot, positions):
     }
 
 
-def test_as_yourdfpy(kinematics, robots):
+@pytest.mark.parametrize("count", [100, pytest.param(STATES, marks=pytest.mark.slow)])
+def test_as_yourdfpy(kinematics, robots, count):
     import yourdfpy
 
     robot = kinematics.robot
     # yourdfpy does not resolve mimic joints of mimic joints: it gets all positions.
     free = re.sub("<mimic[^>]*/>", "", robots[robot.name])
     oracle = yourdfpy.URDF.load(io.StringIO(free), build_scene_graph=True)
-    states = random_states(kinematics, STATES)
+    states = random_states(kinematics, count)
     found = matrices(kinematics.link_poses(states))
     for state, links in zip(states, found, strict=True):
         named = dict(zip(kinematics.joints, state.tolist(), strict=True))

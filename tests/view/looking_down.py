@@ -133,6 +133,13 @@ class Scene:
             timeout=LIMIT_MS,
         )
 
+    def expect_no_status(self, text):
+        self.page.wait_for_function(
+            "(text) => !document.querySelector('#display-list').textContent.includes(text)",
+            arg=text,
+            timeout=LIMIT_MS,
+        )
+
     def status(self):
         return self.page.inner_text("#display-list")
 
@@ -148,7 +155,7 @@ def shown_page(browser_3d):
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.on("console", lambda line: errors.append(line.text) if line.type == "error" else None)
     page.goto(viewer.url)
-    page.wait_for_function("document.querySelector('#connection').dataset.state === 'live'")
+    page.wait_for_selector("#connection[data-state=live]")
     page.evaluate(LOOK_DOWN)
     yield page, source, errors
     context.close()
@@ -160,6 +167,7 @@ def scene(shown_page):
     page, source, errors = shown_page
     yield Scene(page, source, len(source.topics()))
     page.evaluate(REMOVE_ALL)
+    page.evaluate("document.querySelector('#looks').open = false")  # open, it covers the picture
     seen, errors[:] = errors[:], []
     assert seen == []
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 
 import pytest
-from tests.view.looking_down import LIMIT_MS, get, stamped
+from tests.view.looking_down import get, stamped, wait_until
 from tests.view.still_source import StillSource
 
 from turtlewire.view import Viewer
@@ -50,7 +50,7 @@ def source():
 def shown(page, source, topic, message):
     source.offer(topic, message)
     page.evaluate(ADD, topic)
-    page.wait_for_function(DRAWN, arg=topic, timeout=LIMIT_MS)
+    assert wait_until(page, DRAWN, topic)
 
 
 def test_a_map_larger_than_the_frames_is_seen_whole(source, open_view):
@@ -58,8 +58,8 @@ def test_a_map_larger_than_the_frames_is_seen_whole(source, open_view):
     corners = [[-20, -20, 0], [20, -20, 0], [20, 20, 0], [-20, 20, 0]]
     page.wait_for_selector("#tree .row:has-text('tip')")
     shown(page, source, "/map", grid(40, 1.0, (-20.0, -20.0)))
-    page.wait_for_function(SEEN, arg=corners, timeout=LIMIT_MS)
-    page.wait_for_function(SEEN, arg=[[0, 0, 0], [1, 1, 0]], timeout=LIMIT_MS)
+    assert wait_until(page, SEEN, corners)
+    assert wait_until(page, SEEN, [[0, 0, 0], [1, 1, 0]])
 
 
 def test_what_is_far_away_and_a_camera_that_was_moved_change_nothing(source, open_view):

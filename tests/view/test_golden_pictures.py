@@ -260,7 +260,7 @@ def small_page(browser_3d):
     context = browser_3d.new_context(viewport={"width": 800, "height": 600})
     page = context.new_page()
     page.goto(viewer.url)
-    page.wait_for_function("document.querySelector('#connection').dataset.state === 'live'")
+    page.wait_for_selector("#connection[data-state=live]")
     page.evaluate(SET_UP)
     empty = {}
     for scheme in SCHEMES:

@@ -6,6 +6,7 @@ import math
 
 import pytest
 from tests.view.fake_view import IDENTITY, pose
+from tests.view.looking_down import wait_until
 
 CHAIN = {"world": "", "base": "world", "arm": "base", "beacon": "world"}
 POSES = [IDENTITY, pose(3, 0, 0), pose(3, 2, 1), pose(-1, 3, 0)]
@@ -86,7 +87,6 @@ def test_axes_are_red_green_and_blue_along_x_y_and_z(page):
 
 def test_an_axis_turns_with_its_frame(page, fake):
     fake.frames([*POSES[:3], pose(-1, 3, 0, yaw=math.pi / 2)])
-    page.wait_for_function("() => true")
     in_page(page, "while (frames.poses[26] > 0.9) await new Promise(requestAnimationFrame);")
     points = [along(3, 1), along(3, 0, -0.5), along(3, 0, 0.5)]
     near(page.evaluate(PIXELS, points), [RED, GREEN, GROUND])
@@ -304,9 +304,8 @@ def test_a_saved_camera_is_looked_through_again(fresh, fake):
     angles = {"distance": 7.0, "yaw": 0.4, "pitch": 0.6, "scale": None}
     view = {"type": "view", "fixed": "", "displays": [], "show": {}, "text": ""}
     fake.tell({**view, "camera": camera | angles})
-    fresh.wait_for_function(
-        "async () => (await import('./js/main.js')).stage.cameras.isTouched", polling=50
-    )
+    touched = "async () => (await import('./js/main.js')).stage.cameras.isTouched"
+    assert wait_until(fresh, touched)
     saved = camera_of(fresh)
     assert saved["focus"] == pytest.approx(camera["focus"])
     assert [saved[word] for word in angles] == [*map(pytest.approx, [7.0, 0.4, 0.6]), None]

@@ -92,7 +92,8 @@ def get_with_hosts(server: Server, *hosts: str) -> int:
 
 
 def live(server: Server, **options) -> connect:
-    return connect(server.url.replace("http", "ws") + "live", **options)
+    """Connect without keepalive: on a busy machine an answer may take longer than its 20 s."""
+    return connect(server.url.replace("http", "ws") + "live", ping_interval=None, **options)
 
 
 def read_to_end(browser) -> ConnectionClosed:
