@@ -29,7 +29,11 @@ def python(run):
             for name, value in (limits or {}).items()
         )
         source = head + textwrap.dedent(source)
-        return run(sys.executable, "-u", "-c", source, *arguments, **options)
+        # A module that is compiled beyond the limit of a file's size would stay cut off for all.
+        environment = {"PYTHONDONTWRITEBYTECODE": "1"} if limits else {}
+        return run(
+            sys.executable, "-u", "-c", source, *arguments, environment=environment, **options
+        )
 
     return start
 
