@@ -54,6 +54,7 @@ module                                      what it holds
 `validate_parameter_name`                   checks of names of parameters
 `constants`, `experimental`                 names and modules that ROS 2 has, too
 `_typing`                                   type variables of `Publisher`, `Client` and others
+`_asyncio_loop`                             asyncio's loop, where one runs
 `_rclpy_pybind11`                           the few names of ROS 2's extension that programs use
 ==========================================  ========================================================
 """

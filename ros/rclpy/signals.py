@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from turtlewire.platforms import in_browser
 
 from . import excepthooks
-from .task import running_asyncio_loop
+from ._asyncio_loop import interrupted_loop
 
 if TYPE_CHECKING:
     from types import FrameType
@@ -139,7 +139,7 @@ class _Watcher:
             self._terminated_at = time.monotonic()
         _note_stop()
         previous = self._previous[signum]
-        loop = running_asyncio_loop() if _is_in_asyncio(frame) else None
+        loop = interrupted_loop(frame)
         if previous is signal.default_int_handler and loop is not None and not self._is_deferred:
             # In asyncio's own code KeyboardInterrupt could lose a callback that is about to be
             # called, and a task would wait for it for ever. Raised by a callback, it loses none.
@@ -158,12 +158,6 @@ class _Watcher:
         self._write_fd = -1
         for signum, previous in self._previous.items():
             signal.signal(signum, previous if previous is not None else signal.SIG_DFL)
-
-
-def _is_in_asyncio(frame: FrameType | None) -> bool:
-    """Whether a signal interrupted asyncio itself, not a coroutine or callback of the program."""
-    module = "" if frame is None else str(frame.f_globals.get("__name__", ""))
-    return module.partition(".")[0] == "asyncio"
 
 
 def _is_fresh(moment: float) -> bool:

@@ -13,12 +13,13 @@ import weakref
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any, Generic, Protocol
 
+from ._asyncio_loop import running_loop
 from ._typing import T
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
 
-__all__ = ["Future", "Task", "running_asyncio_loop"]
+__all__ = ["Future", "Task"]
 
 
 class _TaskRunner(Protocol):
@@ -57,7 +58,7 @@ class Future(Generic[T]):
 
     def __await__(self) -> Generator[Any, None, T]:
         if self._pending():
-            loop = running_asyncio_loop()
+            loop = running_loop()
             if loop is None or loop is _steps.loop_outside:
                 while self._pending():
                     yield self
@@ -234,7 +235,7 @@ class Task(Future[T]):
                     self._complete(result=outcome)
                     return
                 self._handler = outcome
-            outer, _steps.loop_outside = _steps.loop_outside, running_asyncio_loop()
+            outer, _steps.loop_outside = _steps.loop_outside, running_loop()
             try:
                 self._awaited = self._handler.send(None)
             finally:
@@ -286,10 +287,3 @@ class _Steps(threading.local):
 
 
 _steps = _Steps()
-
-
-def running_asyncio_loop() -> Any:
-    """The asyncio loop that runs in this thread, if any; never imports asyncio."""
-    # While another thread imports asyncio, this one runs no loop and the module is not complete.
-    running_loop = getattr(sys.modules.get("asyncio"), "_get_running_loop", None)
-    return None if running_loop is None else running_loop()
