@@ -75,14 +75,14 @@ def _end_all(child: subprocess.Popen[bytes]) -> None:
         _send(-child.pid, signal.SIGKILL)
         return
     for _ in range(_ROUNDS):
-        left = _descendants()
-        if not left:
-            return
-        for process in left:  # stopped first: what is stopped starts no others
+        for process in _descendants():  # stopped first: what is stopped starts no others
             _send(process, signal.SIGSTOP)
         for process in _descendants():
             _send(process, signal.SIGKILL)
-        _reap()
+        # A look may have missed a process that began meanwhile and whose parent has ended. But
+        # orphans are given to this process: when it has no child, no descendant is left.
+        if not _reap():
+            return
 
 
 def _descendants() -> list[int]:
@@ -114,16 +114,17 @@ def _send(process: int, number: signal.Signals) -> None:
         return
 
 
-def _reap() -> None:
-    """Wait until a child has ended, and take the exit statuses of all that have."""
+def _reap() -> bool:
+    """Take the exit statuses of all children that have ended, at least one; whether any is left."""
     if sys.platform == "win32":
-        return
+        return False
     try:
         os.waitpid(-1, 0)
         while os.waitpid(-1, os.WNOHANG)[0]:
             pass
     except ChildProcessError:
-        return
+        return False
+    return True
 
 
 if __name__ == "__main__":

@@ -144,6 +144,31 @@ def test_processes_in_the_background_are_ended(then, seconds, status):
     assert "begun" in told
 
 
+#: The first looks see nobody, as when all of them began during the look.
+LOOKS_THAT_MISS = """
+import sys
+from turtle_class import supervise
+looks = [supervise._descendants] * 100 + [list] * 2
+supervise._descendants = lambda: looks.pop()()
+sys.exit(supervise.supervise(60, 2 << 30, sys.argv[1:]))
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux gives orphans to another process")
+def test_processes_that_began_during_the_look_are_ended():
+    then = "import signal; signal.alarm(2); signal.pause()"  # by then all of them have begun
+    command = [sys.executable, "-c", BACKGROUND.format(then=then)]
+    with subprocess.Popen(
+        [sys.executable, "-c", LOOKS_THAT_MISS, *command],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as child:
+        told = child.stdout.read()  # ends when no process holds the pipe any more
+        assert child.wait(60) != supervise.TIME_IS_OVER
+    assert "begun" in told
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux gives orphans to another process")
 def test_they_end_with_the_grader(tmp_path):
     command = [sys.executable, "-c", BACKGROUND.format(then="time.sleep(1e6)")]

@@ -32,6 +32,7 @@ def test_generator(speaker, launch_context):
     assert not process.wait_for_output_sync(launch_context, speaker, "".__eq__, timeout=0.01)
     with pytest.raises(AssertionError, match="not accepted: 'hello"):
         process.assert_output_sync(launch_context, speaker, "".__eq__, timeout=0.01)
+    assert process.wait_for_exit_sync(launch_context, speaker, timeout=60)
     yield
     assert speaker.return_code == 0
 
