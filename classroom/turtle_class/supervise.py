@@ -20,7 +20,7 @@ __all__ = ["TIME_IS_OVER", "supervise"]
 #: Exit status when the command did not end in time, as that of ``timeout``.
 TIME_IS_OVER = 124
 _SET_CHILD_SUBREAPER = 36  # <sys/prctl.h>
-#: A process may start another one between the look and the signal; each round finds fewer.
+#: A process may start another group between the look and the signal; each round finds fewer.
 _ROUNDS = 100
 
 
@@ -75,36 +75,33 @@ def _end_all(child: subprocess.Popen[bytes]) -> None:
         _send(-child.pid, signal.SIGKILL)
         return
     for _ in range(_ROUNDS):
-        for process in _descendants():  # stopped first: what is stopped starts no others
-            _send(process, signal.SIGSTOP)
-        for process in _descendants():
-            _send(process, signal.SIGKILL)
+        for group in _groups_below():  # a whole group at once, or one could start another meanwhile
+            _send(-group, signal.SIGKILL)
         # A look may have missed a process that began meanwhile and whose parent has ended. But
         # orphans are given to this process: when it has no child, no descendant is left.
         if not _reap():
             return
 
 
-def _descendants() -> list[int]:
-    """All processes below this one that have not ended."""
-    children: dict[int, list[int]] = {}
+def _groups_below() -> set[int]:
+    """The process groups of all processes below this one, of those that have just ended, too."""
+    below: dict[int, list[tuple[int, int]]] = {}
     for name in os.listdir("/proc"):
         if not name.isdigit():
             continue
         try:
             with open(f"/proc/{name}/stat", "rb") as file:
-                state, parent = file.read().rpartition(b")")[2].split()[:2]
+                _, parent, group = file.read().rpartition(b")")[2].split()[:3]
         except OSError:  # it has ended meanwhile
             continue
-        if state not in b"ZX":
-            children.setdefault(int(parent), []).append(int(name))
-    found: list[int] = []
+        below.setdefault(int(parent), []).append((int(name), int(group)))
+    groups = set()
     waiting = [os.getpid()]
     while waiting:
-        below = children.get(waiting.pop(), [])
-        found += below
-        waiting += below
-    return found
+        for process, group in below.get(waiting.pop(), []):
+            waiting.append(process)
+            groups.add(group)
+    return groups
 
 
 def _send(process: int, number: signal.Signals) -> None:

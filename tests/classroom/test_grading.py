@@ -144,12 +144,44 @@ def test_processes_in_the_background_are_ended(then, seconds, status):
     assert "begun" in told
 
 
-#: The first looks see nobody, as when all of them began during the look.
-LOOKS_THAT_MISS = """
+#: Each process starts the next one and ends: no look sees one that is still there.
+RUNAWAY = """
+import os
+os.write(1, b"begun\\n")
+if os.fork() == 0:
+    os.setsid()
+    while os.fork() == 0:
+        pass
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux gives orphans to another process")
+def test_a_process_that_runs_away_is_ended():
+    with subprocess.Popen(
+        [
+            sys.executable,
+            "-I",
+            supervise.__file__,
+            "60",
+            str(2 << 30),
+            sys.executable,
+            "-c",
+            RUNAWAY,
+        ],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as child:
+        assert child.stdout.read() == "begun\n"  # ends when no process holds the pipe any more
+        assert child.wait(60) == 0
+
+
+#: The first look sees nobody, as when all of them began during the look.
+LOOK_THAT_MISSES = """
 import sys
 from turtle_class import supervise
-looks = [supervise._descendants] * 100 + [list] * 2
-supervise._descendants = lambda: looks.pop()()
+looks = [supervise._groups_below] * 100 + [set]
+supervise._groups_below = lambda: looks.pop()()
 sys.exit(supervise.supervise(60, 2 << 30, sys.argv[1:]))
 """
 
@@ -159,7 +191,7 @@ def test_processes_that_began_during_the_look_are_ended():
     then = "import signal; signal.alarm(2); signal.pause()"  # by then all of them have begun
     command = [sys.executable, "-c", BACKGROUND.format(then=then)]
     with subprocess.Popen(
-        [sys.executable, "-c", LOOKS_THAT_MISS, *command],
+        [sys.executable, "-c", LOOK_THAT_MISSES, *command],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         text=True,
