@@ -91,11 +91,11 @@ def _groups_below() -> set[int]:
             continue
         try:
             with open(f"/proc/{name}/stat", "rb") as file:
-                _, parent, group = file.read().rpartition(b")")[2].split()[:3]
+                _, parent, pgrp = file.read().rpartition(b")")[2].split()[:3]
         except OSError:  # it has ended meanwhile
             continue
-        below.setdefault(int(parent), []).append((int(name), int(group)))
-    groups = set()
+        below.setdefault(int(parent), []).append((int(name), int(pgrp)))
+    groups: set[int] = set()
     waiting = [os.getpid()]
     while waiting:
         for process, group in below.get(waiting.pop(), []):
