@@ -188,7 +188,10 @@ def test_an_endless_loop_is_stopped_and_the_tab_lives_on(open_page, where):
         ("[0] * 10**10", "more than the memory of a tab"),
         ("input('who? ')", "Nobody can type here"),
         ("f = lambda: f(); f()", "calls itself again and again"),
-        ("kept = []\n        while True: kept.append(bytearray(10**8))", "the memory of a tab"),
+        (  # on a slow machine the time is over before all memory is filled
+            "kept = []\n        while True: kept.append(bytearray(10**8))",
+            "the memory of a tab|did not come to an end",
+        ),
         ("import time; time.sleep(1e9)", "did not come to an end"),
         ("while True: print('a line')", "did not come to an end"),
         ("import os; os._exit(1)", "ended Python itself"),
@@ -198,7 +201,7 @@ def test_code_that_does_harm_ends_in_a_sentence(offline_page, code, sentence):
     page = offline_page
     hand_in(page, "listener", listener_with("msg = Twist()", f"\n        {code}"))
     page.wait_for_selector("#mistake:not([hidden])")
-    assert sentence in page.text_content("#mistake")
+    assert re.search(sentence, page.text_content("#mistake"))
     page.click("#reset")
     page.wait_for_function("() => document.getElementById('status').textContent === 'running'")
     wait_for_words(page, "^turtle1 is ")
