@@ -340,6 +340,8 @@ Ctrl-C of a verb may end in error lines
   turtlewire_ros/test_prefix.py test_prefixes_that_exist_in_their_order_and_the_own_one_last
 `pkg create` makes C++ packages, and does when no `--build-type` is given
   ros2cli/test_pkg_create.py test_a_package_with_a_node test_a_node_of_cpp_is_refused
+without a route to the group, `ros2 multicast` ends with `No such device`
+  ros2cli/test_multicast.py test_without_a_network_it_arrives_on_the_same_host
 `ros2 doctor` counts checks
   cli/test_doctor.py test_the_command_says_problems_first_and_fails
 `dependent_joints` have no effect once there is a description
