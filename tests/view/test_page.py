@@ -87,7 +87,7 @@ def test_axes_are_red_green_and_blue_along_x_y_and_z(page):
 
 def test_an_axis_turns_with_its_frame(page, fake):
     fake.frames([*POSES[:3], pose(-1, 3, 0, yaw=math.pi / 2)])
-    in_page(page, "while (frames.poses[26] > 0.9) await new Promise(requestAnimationFrame);")
+    in_page(page, "while (frames.poses[27] > 0.9) await new Promise(requestAnimationFrame);")
     points = [along(3, 1), along(3, 0, -0.5), along(3, 0, 0.5)]
     near(page.evaluate(PIXELS, points), [RED, GREEN, GROUND])
 
