@@ -34,6 +34,13 @@ def in_page(page, body: str, argument=None):
     return page.evaluate(f"async (given) => {{ {code} {body} }}", argument)
 
 
+def wait_for_frame(page, name) -> None:
+    """Wait until a frame is in the tree and has its place, which another packet tells."""
+    page.wait_for_selector(f"#tree .row:has-text('{name}')")
+    is_known = "frames.known[frames.index(given)]"
+    in_page(page, f"while (!{is_known}) await new Promise(requestAnimationFrame);", name)
+
+
 def on_screen(page, point) -> tuple[float, float]:
     """Where a point of the scene is in the canvas [CSS pixels]."""
     body = """
@@ -57,7 +64,7 @@ def page(fake, open_view):
     fake.names(CHAIN)
     fake.frames(POSES)
     page = open_view(fake.url)
-    page.wait_for_selector("#tree .row:has-text('beacon')")
+    wait_for_frame(page, "beacon")
     in_page(page, "stage.labels.showAll = false; stage.view.grid.object.visible = false;")
     in_page(page, "stage.setSize(0.8); stage.cameras.isTouched = true;")
     # No two axes are seen in one direction from here.
@@ -150,7 +157,7 @@ def test_a_tap_selects_and_a_finger_turns(fake, open_view):
     fake.names(CHAIN)
     fake.frames(POSES)
     page = open_view(fake.url, has_touch=True, viewport={"width": 390, "height": 780})
-    page.wait_for_selector("#tree .row:has-text('arm')")
+    wait_for_frame(page, "arm")
     x, y = on_screen(page, POSES[3][:3])
     box = page.locator("#scene").bounding_box()
     page.touchscreen.tap(box["x"] + x, box["y"] + y)
@@ -192,7 +199,7 @@ def fresh(fake, open_view):
     fake.names(CHAIN)
     fake.frames(POSES)
     page = open_view(fake.url)
-    page.wait_for_selector("#tree .row:has-text('beacon')")
+    wait_for_frame(page, "beacon")
     return page
 
 
@@ -201,7 +208,7 @@ def phone(fake, open_view):
     fake.names(CHAIN)
     fake.frames(POSES)
     page = open_view(fake.url, has_touch=True, viewport={"width": 390, "height": 780})
-    page.wait_for_selector("#tree .row:has-text('arm')")
+    wait_for_frame(page, "arm")
     return page
 
 
@@ -282,7 +289,7 @@ def test_edges_are_smoothed_where_a_card_draws(fake, open_view, script, smooth):
     fake.names(CHAIN)
     fake.frames(POSES)
     page = open_view(fake.url, script)
-    page.wait_for_selector("#tree .row:has-text('beacon')")
+    wait_for_frame(page, "beacon")
     attributes = "stage.view.canvas.getContext('webgl2').getContextAttributes().antialias"
     assert in_page(page, f"return {attributes};") is smooth
     assert in_page(page, "return stage.view.canvas === document.querySelector('#scene');")
@@ -395,7 +402,7 @@ def test_trees_that_are_not_connected_stand_apart_and_are_named(fake, open_view)
     fake.names({"world": "", "base": "world", "map": "", "odom": "map"})
     fake.frames([IDENTITY, pose(2, 0), IDENTITY, pose(1, 1)])
     page = open_view(fake.url)
-    page.wait_for_selector("#tree .row:has-text('odom')")
+    wait_for_frame(page, "odom")
     places = in_page(page, "return frames.names.map((_, k) => frames.position(k))")
     assert places[:2] == [[0, 0, 0], [2, 0, 0]]
     assert places[2][0] > 3
@@ -521,7 +528,7 @@ def test_at_most_fifty_names_and_always_the_selected_one(fake, open_view):
     fake.names(names)
     fake.frames([pose(0.4 * (k % 32), 0.4 * (k // 32)) for k in range(1000)])
     page = open_view(fake.url)
-    page.wait_for_selector("#tree .row:has-text('link5')")
+    wait_for_frame(page, "link5")
     page.fill("#search", "link777")
     page.click("#tree .row:has-text('link777')")
     in_page(page, "stage.view.draw(performance.now())")
