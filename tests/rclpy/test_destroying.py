@@ -8,7 +8,9 @@ import threading
 
 import pytest
 
+from example_interfaces.action import Fibonacci
 from example_interfaces.srv import AddTwoInts
+from rclpy.action import ActionClient, ActionServer, CancelResponse, GoalResponse
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor, SingleThreadedExecutor
@@ -81,6 +83,39 @@ def test_a_service_that_answers(spinning, node, context):
     client.call_async(Trigger.Request())
     assert in_callback.wait(LIMIT_S)
     node.destroy_service(service)
+    destroyed.set()
+    assert spinning.still_runs(node)
+
+
+@pytest.mark.parametrize("asked", ["goal", "cancel"])
+def test_an_action_server_that_answers(spinning, node, context, asked):
+    """A callback waits until the server has been destroyed: its answer goes nowhere."""
+    in_callback, destroyed = threading.Event(), threading.Event()
+
+    def decide(decision):
+        in_callback.set()
+        destroyed.wait(LIMIT_S)
+        return decision
+
+    decisions = {
+        "goal": {"goal_callback": lambda _: decide(GoalResponse.ACCEPT)},
+        "cancel": {
+            "cancel_callback": lambda _: decide(CancelResponse.ACCEPT),
+            "handle_accepted_callback": lambda _: None,  # it stays accepted
+        },
+    }
+    server = ActionServer(node, Fibonacci, "count", lambda _: None, **decisions[asked])
+    caller = Node("caller", context=context)
+    client = ActionClient(caller, Fibonacci, "count")
+    assert client.wait_for_server(LIMIT_S)
+    accepted = client.send_goal_async(Fibonacci.Goal())
+    if asked == "cancel":
+        with SingleThreadedExecutor(context=context) as executor:
+            executor.add_node(caller)
+            executor.spin_until_future_complete(accepted, LIMIT_S)
+        accepted.result().cancel_goal_async()
+    assert in_callback.wait(LIMIT_S)
+    server.destroy()
     destroyed.set()
     assert spinning.still_runs(node)
 

@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from rclpy._node.endpoints import endpoints_of
-from rclpy._rclpy_pybind11 import RCLError
+from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.executors import await_or_execute
 from rclpy.hints import described, with_hint
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from rclpy._execution.entity import Host
     from rclpy.callback_groups import CallbackGroup
     from rclpy.node import Node
+    from rclpy.publisher import Publisher
     from rclpy.task import Future
     from turtlewire.wire.base import RequestId
 
@@ -237,7 +238,7 @@ class ActionServer(Waitable):
         accepted = is_new and await self._is_accepted(request.goal)
         response = self._action_type.Impl.SendGoalService.Response(accepted=accepted)
         if not accepted:
-            self._goal_service.send_response(response, header)
+            self._goal_service._send_unless_destroyed(response, header)
             return
         response.stamp = self._node.get_clock().now().to_msg()
         info = get_message("action_msgs/msg/GoalInfo")(
@@ -246,7 +247,7 @@ class ActionServer(Waitable):
         goal = Goal(info, request.goal)
         goal_handle = ServerGoalHandle(self, goal, self._goals)
         self._goals.add(goal, goal_handle)
-        self._goal_service.send_response(response, header)
+        self._goal_service._send_unless_destroyed(response, header)
         self._goals.publish_statuses()
         await await_or_execute(self._handle_accepted_callback, goal_handle)
 
@@ -326,15 +327,14 @@ class ActionServer(Waitable):
     def _on_result(self, header: RequestId, request: Any) -> None:
         goal = self._goals.find(goal_key(request.goal_id))
         if goal is None:
-            self._result_service.send_response(
+            self._result_service._send_unless_destroyed(
                 self._action_type.Impl.GetResultService.Response(), header
             )
         else:
             goal.result.add_done_callback(partial(self._send_result, header))
 
     def _send_result(self, header: RequestId, result: Future) -> None:
-        if not self._destroyed:
-            self._result_service.send_response(result.result(), header)
+        self._result_service._send_unless_destroyed(result.result(), header)
 
     def _schedule_expiry(self) -> None:
         if self._result_timeout_ns < 0 or self._destroyed:
@@ -369,7 +369,7 @@ class ActionServer(Waitable):
             response.goals_canceling.append(goal.info)
         if wanted and not response.goals_canceling:
             response.return_code = response.ERROR_REJECTED
-        self._cancel_service.send_response(response, header)
+        self._cancel_service._send_unless_destroyed(response, header)
 
     # Publishing
 
@@ -380,14 +380,20 @@ class ActionServer(Waitable):
                 f"{self._action_type.__name__}.Feedback(), not {described(feedback)}"
             )
             raise with_hint(TypeError(), hint)
-        if not self._destroyed:
-            self._feedback_publisher.publish(
-                self._action_type.Impl.FeedbackMessage(goal_id=goal.info.goal_id, feedback=feedback)
-            )
+        message = self._action_type.Impl.FeedbackMessage(
+            goal_id=goal.info.goal_id, feedback=feedback
+        )
+        self._publish_unless_destroyed(self._feedback_publisher, message)
 
     def _publish_statuses(self, cdr: bytes) -> None:
-        if not self._destroyed:
-            self._status_publisher.publish(cdr)
+        self._publish_unless_destroyed(self._status_publisher, cdr)
+
+    def _publish_unless_destroyed(self, publisher: Publisher[Any], message: Any) -> None:
+        try:
+            publisher.publish(message)
+        except (InvalidHandle, RCLError):  # another thread may destroy the server at any moment
+            if not self._destroyed:
+                raise
 
     def _now_ns(self) -> int:
         return self._node.get_clock().now().nanoseconds
