@@ -192,6 +192,8 @@ def page(domains):
 
 
 def test_the_page_in_a_browser(page, student, browser):
+    from playwright.sync_api import expect
+
     ana = student()
     publisher = ana.turtle(ana.node(EVIL))
     publisher.publish(msg.serialize(msg.get_message(POSE)(x=3.0, y=4.0)))
@@ -206,9 +208,7 @@ def test_the_page_in_a_browser(page, student, browser):
         tab.wait_for_function("() => document.querySelector('.nodes').textContent.includes('evil')")
         assert tab.locator("h2").all_text_contents() == ["<b>Ana</b>", "Björn"]
         assert tab.locator("img").count() == 0
-        tab.wait_for_function(
-            "() => document.querySelector('#summary').textContent.includes('1 running')"
-        )
+        expect(tab.locator("#summary")).to_contain_text("1 running", timeout=LIMIT_MS)
         tab.wait_for_function("() => document.querySelector('article.note, article.bad') !== null")
         tab.fill("#filter", "björn")
         tab.wait_for_function("() => document.querySelectorAll('article').length === 1")
