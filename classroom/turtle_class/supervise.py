@@ -1,9 +1,9 @@
 """Runs a command, and ends it and all that it started: a script of its own.
 
 ``python supervise.py SECONDS BYTES COMMAND…`` ends when the command ends, when the time is over, or
-when its stdin ends, which happens when the program that started it ends. On Linux no process
-escapes, not even one that has left the session: this script is the parent of orphans. Elsewhere it
-ends the command's process group, or on Windows its tree.
+when its stdin ends, which happens when the program that started it ends. On Linux it also ends
+processes that have left the session, because it is the parent of orphans. Elsewhere it ends the
+command's process group, or on Windows its tree.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ __all__ = ["TIME_IS_OVER", "supervise"]
 #: Exit status when the command did not end in time, as that of ``timeout``.
 TIME_IS_OVER = 124
 _SET_CHILD_SUBREAPER = 36  # <sys/prctl.h>
-#: A process may start another group between the look and the signal; each round finds fewer.
+#: A process may start another group while /proc is read; each round finds fewer.
 _ROUNDS = 100
 
 
@@ -75,16 +75,17 @@ def _end_all(child: subprocess.Popen[bytes]) -> None:
         _send(-child.pid, signal.SIGKILL)
         return
     for _ in range(_ROUNDS):
-        for group in _groups_below():  # a whole group at once, or one could start another meanwhile
+        # Whole groups, because a process could start another one just before it is killed.
+        for group in _groups_below():
             _send(-group, signal.SIGKILL)
-        # A look may have missed a process that began meanwhile and whose parent has ended. But
-        # orphans are given to this process: when it has no child, no descendant is left.
+        # A process may have begun while /proc was read, and its parent ended. Orphans become
+        # children of this process: without children it has no descendants either.
         if not _reap():
             return
 
 
 def _groups_below() -> set[int]:
-    """The process groups of all processes below this one, of those that have just ended, too."""
+    """The process groups of all descendants, including those of zombies."""
     below: dict[int, list[tuple[int, int]]] = {}
     for name in os.listdir("/proc"):
         if not name.isdigit():
@@ -112,7 +113,7 @@ def _send(process: int, number: signal.Signals) -> None:
 
 
 def _reap() -> bool:
-    """Take the exit statuses of all children that have ended, at least one; whether any is left."""
+    """Wait until a child has ended and reap all that have; returns whether any child is left."""
     if sys.platform == "win32":
         return False
     try:

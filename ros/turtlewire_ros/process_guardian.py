@@ -39,12 +39,12 @@ def guard(family: str) -> None:
 
 def _members(family: str) -> list[int]:
     """The processes of the family that have not ended."""
-    # One look may miss a process that begins during it, or that has no environment while it
-    # executes another program: nobody is left when two looks in a row find nobody.
-    return _look(family) or _look(family)
+    # A process is missed if it begins while /proc is read, or if it has no environment because it
+    # is executing another program. The family has ended when a second search finds none, too.
+    return _search(family) or _search(family)
 
 
-def _look(family: str) -> list[int]:
+def _search(family: str) -> list[int]:
     return [
         int(name) for name in os.listdir("/proc") if name.isdigit() and family in _families(name)
     ]

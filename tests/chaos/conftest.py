@@ -29,7 +29,7 @@ def python(run):
             for name, value in (limits or {}).items()
         )
         source = head + textwrap.dedent(source)
-        # A module that is compiled beyond the limit of a file's size would stay cut off for all.
+        # A limit on files would truncate .pyc files, which later programs could not read.
         environment = {"PYTHONDONTWRITEBYTECODE": "1"} if limits else {}
         return run(
             sys.executable, "-u", "-c", source, *arguments, environment=environment, **options

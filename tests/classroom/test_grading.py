@@ -144,7 +144,7 @@ def test_processes_in_the_background_are_ended(then, seconds, status):
     assert "begun" in told
 
 
-#: Each process starts the next one and ends: no look sees one that is still there.
+#: Each process forks the next one and exits, so the process ids in /proc are out of date.
 RUNAWAY = """
 import os
 os.write(1, b"begun\\n")
@@ -176,22 +176,22 @@ def test_a_process_that_runs_away_is_ended():
         assert child.wait(60) == 0
 
 
-#: The first look sees nobody, as when all of them began during the look.
-LOOK_THAT_MISSES = """
+#: The first search of /proc finds no process, as if all had begun meanwhile.
+SEARCH_THAT_MISSES = """
 import sys
 from turtle_class import supervise
-looks = [supervise._groups_below] * 100 + [set]
-supervise._groups_below = lambda: looks.pop()()
+searches = [supervise._groups_below] * 100 + [set]
+supervise._groups_below = lambda: searches.pop()()
 sys.exit(supervise.supervise(60, 2 << 30, sys.argv[1:]))
 """
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux gives orphans to another process")
-def test_processes_that_began_during_the_look_are_ended():
+def test_processes_that_the_first_search_missed_are_ended():
     then = "import signal; signal.alarm(2); signal.pause()"  # by then all of them have begun
     command = [sys.executable, "-c", BACKGROUND.format(then=then)]
     with subprocess.Popen(
-        [sys.executable, "-c", LOOK_THAT_MISSES, *command],
+        [sys.executable, "-c", SEARCH_THAT_MISSES, *command],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         text=True,

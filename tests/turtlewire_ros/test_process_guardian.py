@@ -11,20 +11,20 @@ import pytest
 
 from turtlewire_ros.process_guardian import FAMILIES
 
-#: The first look sees nobody, as when a process began during it.
-LOOK_THAT_MISSES = """
+#: The first search finds no process, as if it had begun meanwhile.
+SEARCH_THAT_MISSES = """
 from turtlewire_ros import process_guardian
-looks = [process_guardian._look] * 100 + [lambda family: []]
-process_guardian._look = lambda family: looks.pop()(family)
+searches = [process_guardian._search] * 100 + [lambda family: []]
+process_guardian._search = lambda family: searches.pop()(family)
 process_guardian.guard("ours")
 """
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux shows another's environment")
-def test_a_process_that_a_look_missed_is_asked_to_end():
+def test_a_process_that_the_first_search_missed_gets_sigterm():
     environment = {**os.environ, FAMILIES: "outer:ours"}
     with subprocess.Popen(["sleep", "1000"], env=environment) as member:
-        guardian = [sys.executable, "-c", LOOK_THAT_MISSES]
+        guardian = [sys.executable, "-c", SEARCH_THAT_MISSES]
         done = subprocess.run(guardian, stdin=subprocess.DEVNULL, check=False)
         member.kill()
     assert done.returncode == 0
