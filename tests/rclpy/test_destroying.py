@@ -1,4 +1,4 @@
-"""Entities that another thread destroys while an executor serves them: spinning goes on."""
+"""Entities that go, or change their executor, while an executor serves them: spinning goes on."""
 
 from __future__ import annotations
 
@@ -65,6 +65,50 @@ def spinning(request, context, node):
     spinning = Spinning(request.param(context=context), node)
     yield spinning
     spinning.end()
+
+
+class InterruptedGroup(ReentrantCallbackGroup):
+    """Is busy when it is asked first, and then something happens before the answer arrives."""
+
+    def __init__(self, event):
+        super().__init__()
+        self.event = event
+
+    def can_execute(self, _entity):
+        event, self.event = self.event, None
+        if event is not None:
+            event()
+        return event is None
+
+
+@pytest.mark.parametrize("kind", [SingleThreadedExecutor, MultiThreadedExecutor])
+def test_the_executor_itself_is_shut_down(context, node, kind):
+    executor, got = kind(context=context), []
+    executor.add_node(node)
+    group = InterruptedGroup(lambda: executor.shutdown(LIMIT_S))
+    node.create_subscription(Int32, "topic", got.append, 1, callback_group=group)
+    publisher = node.create_publisher(Int32, "topic", 1)
+    publisher.publish(Int32())
+    executor.spin_once(LIMIT_S)
+    assert group.event is None
+    assert got == []
+
+
+def test_the_node_moves_to_another_executor(context, node):
+    ran = []
+    with (
+        SingleThreadedExecutor(context=context) as first,
+        SingleThreadedExecutor(context=context) as second,
+    ):
+        first.add_node(node)
+        group = InterruptedGroup(lambda: second.add_node(node))
+        guard = node.create_guard_condition(lambda: ran.append(1), callback_group=group)
+        guard.trigger()
+        first.spin_once(0)  # the trigger is noted already
+        first.spin_once(0)
+        assert ran == []
+        second.spin_once(LIMIT_S)
+        assert ran == [1]
 
 
 def test_a_service_that_answers(spinning, node, context):

@@ -97,11 +97,11 @@ class Scheduler:
             entity._leave(self)
 
     def _listen_to(self, entity: Entity, attach: Callable[[Host], None]) -> None:
-        """Attach an entity, which another thread or a shutdown may destroy at this moment."""
+        """Attach an entity; another thread may destroy it or shut things down at this moment."""
         try:
             attach(self)
         except WireError:
-            if self.context.ok() and not entity._destroyed:
+            if self.context.ok() and not self.is_shutdown and not entity._destroyed:
                 raise
 
     # Tasks
@@ -231,7 +231,7 @@ class Scheduler:
 
         None if there is none or the group is busy.
         """
-        if entity._host is None:
+        if entity not in self._served:
             return None  # destroyed, or moved to another executor meanwhile
         if not entity._GATED:
             return entity._work()
@@ -254,6 +254,8 @@ class Scheduler:
     def _pause(self, entity: Entity) -> None:
         # With the lock: a thread that ends its callback may resume the entity at any moment.
         with self.lock:
+            if entity not in self._served:  # released since its group was looked at
+                return
             self._paused.add(entity)
             entity._pause(self)
             self._self_waits.held_up(entity, list(self._holders.values()), self._served)
