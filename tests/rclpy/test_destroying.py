@@ -10,6 +10,7 @@ import pytest
 
 from example_interfaces.action import Fibonacci
 from example_interfaces.srv import AddTwoInts
+from rclpy._execution.self_waits import SelfWaits
 from rclpy.action import ActionClient, ActionServer, CancelResponse, GoalResponse
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.context import Context
@@ -109,6 +110,15 @@ def test_the_node_moves_to_another_executor(context, node):
         assert ran == []
         second.spin_once(LIMIT_S)
         assert ran == [1]
+
+
+def test_a_service_that_a_callback_of_its_group_holds_up(node):
+    """The executor may find it held up just as another thread destroys it."""
+    service = node.create_service(Trigger, "serve", lambda _, response: response)
+    service.destroy()
+    waits = SelfWaits()
+    waits.held_up(service, suspended=[service], served=[service])
+    assert waits.bounded(None) is None
 
 
 def test_a_service_that_answers(spinning, node, context):

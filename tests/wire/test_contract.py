@@ -317,6 +317,51 @@ def test_detached_and_closed_entities_are_not_reported(node: Node, other: Node):
     )  # delivered to the other subscription of this process at about the same time
 
 
+def test_what_was_closed_and_never_attached_can_be_detached(node: Node):
+    """As one thread closes an entity which another one takes out of its executor."""
+    wait_set = node.context.create_wait_set()
+    ends = [
+        node.create_subscription("/chatter", STRING, QoS()),
+        node.create_client("/switch", SWITCH, QoS()),
+        node.create_service("/switch", SWITCH, QoS()),
+    ]
+    for end in ends:
+        end.close()
+        wait_set.detach(end)
+    assert wait_set.wait(0) == []
+
+
+@pytest.mark.parametrize("kind", ["publisher", "client"])
+def test_what_one_thread_sends_with_may_be_closed_by_another(node: Node, kind: str):
+    ends: list[str] = []
+
+    def send_until_closed(send, begun: threading.Event) -> None:
+        begun.set()
+        try:
+            while True:
+                send(cdr("x" * 10_000))
+        except Exception as end:
+            ends.append(f"{type(end).__name__}: {end}")
+
+    rounds = 40
+    for _ in range(rounds):
+        if kind == "publisher":
+            publisher = node.create_publisher("/chatter", STRING, QoS())
+            end, send = publisher, publisher.publish
+        else:
+            client = node.create_client("/switch", SWITCH, QoS())
+            end, send = client, client.send_request
+        begun = threading.Event()
+        sending = threading.Thread(target=send_until_closed, args=(send, begun))
+        sending.start()
+        assert begun.wait(60)
+        end.close()
+        sending.join(60)
+        assert not sending.is_alive()
+    assert len(ends) == rounds
+    assert all(end.startswith("WireError") and "closed" in end for end in ends), ends
+
+
 def test_an_entity_can_be_attached_while_a_thread_waits(node: Node, other: Node):
     publisher = other.create_publisher(
         "/chatter", STRING, QoS(durability=Durability.TRANSIENT_LOCAL)

@@ -5,8 +5,10 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from turtlewire.wire.base import RequestId
+from turtlewire.wire import open_context
+from turtlewire.wire.base import RequestId, ServiceTypes, TypeId
 from turtlewire.wire.cyclone.services import format_service_id
+from turtlewire.wire.qos import QoS
 from turtlewire.wire.services import join_header, split_header
 
 CALLS = json.loads(
@@ -36,3 +38,23 @@ def test_a_payload_too_short_for_the_header_is_none():
 def test_service_ids_are_spelled_like_those_of_rmw_cyclonedds():
     participant = bytes.fromhex("0110a83ed762017dd5286bfb000001c1")
     assert format_service_id(participant, 1) == " 1.10.a8.3e.d7.62.1.7d.d5.28.6b.fb.0.0.0.1"
+
+
+def test_replies_that_wait_for_a_client_end_with_their_service_in_silence(monkeypatch, capfd):
+    switch = ServiceTypes(
+        "std_srvs/srv/SetBool",
+        TypeId("std_srvs/srv/SetBool_Request", "RIHS01_" + "1" * 64),
+        TypeId("std_srvs/srv/SetBool_Response", "RIHS01_" + "2" * 64),
+        lambda _: "RIHS01_" + "3" * 64,
+    )
+    context = open_context(middleware="rmw_cyclonedds_cpp")
+    service = context.create_node("server").create_service("/switch", switch, QoS())
+    service._clients[1] = "a client"
+    service.send_response(RequestId(1, 1), b"\x00\x01\x00\x00\x01\x00\x00\x00")
+    assert len(service._waiting) == 1
+    service.close()
+    monkeypatch.setattr(service, "_can_reach", lambda client: True)
+    service.send_waiting()
+    assert service._waiting == []
+    context.close()
+    assert capfd.readouterr().err == ""

@@ -39,7 +39,7 @@ class SelfWaits:
         if isinstance(entity, Service) and any(
             other.callback_group is entity.callback_group for other in suspended
         ):
-            service = entity.service_name
+            service = entity._wire.service  # `service_name` raises when another thread destroys it
             if any(other._awaits(service) for other in list(served)):
                 self._due[entity] = (entity, time.monotonic_ns() + _PATIENCE_NS)
 

@@ -172,7 +172,8 @@ class CycloneService(TopicService):
             try:
                 self.replies.publish(waiting.payload)
             except WireError as error:  # noqa: PERF203 - one client's trouble is not another's
-                warn_once(f"reply {self.service}", str(error))
+                if not self.replies.closed:  # another thread may close the service meanwhile
+                    warn_once(f"reply {self.service}", str(error))
 
 
 def _matched_ids(

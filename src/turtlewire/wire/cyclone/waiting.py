@@ -113,8 +113,9 @@ class CycloneWaitSet(EventWatcher, WaitSet):
             entity.detach(self)
         else:
             subscription = _readable_part(entity)
-            subscription.wait_sets.discard(self)
-            self._conditions.detach(subscription.condition())
+            if self in subscription.wait_sets:  # a closed one has no condition to be asked for
+                subscription.wait_sets.discard(self)
+                self._conditions.detach(subscription.condition())
 
     def wait(self, timeout_ns: int | None = None) -> list[Entity]:
         """See :meth:`WaitSet.wait`."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
@@ -63,6 +64,9 @@ class ZenohEndpoint(Entity):
         self._core = core
         self._node = node
         self._lock = core.lock
+        # Held while something is sent: Zenoh does not take back what another thread uses. A signal
+        # handler or finalizer of the sending thread may send, too.
+        self._sending = threading.RLock()
         self._closed = False
         self._declared: list[Declared] = []
         self._matched_count = 0
@@ -114,7 +118,7 @@ class ZenohEndpoint(Entity):
             self._closed = True
         self._core.graph.unwatch(self)
         if not self._core.closing:  # closing the session takes everything back at once
-            with suppress(WireError), self._core.calls:
+            with suppress(WireError), self._core.calls, self._sending:
                 for declared in reversed(self._declared):
                     declared.undeclare()
         self._core.graph.remove(self.token)

@@ -54,14 +54,15 @@ class ZenohPublisher(ZenohEndpoint, Publisher):
         """See :meth:`Publisher.publish`."""
         cdr = joined(cdr)
         require_message(cdr, self.topic)
-        if self._closed:
-            raise WireError(f"publish on {self.topic}: the publisher is closed")
         attachment = Attachment(next(self._numbers), time.time_ns(), self.gid)
-        try:
-            with self._core.calls:
-                self._publisher.put(cdr, attachment=attachment.pack())
-        except zenoh.ZError as error:
-            raise WireError(f"publish on {self.topic}: {reason_of(error)}") from error
+        with self._sending:
+            if self._closed:
+                raise WireError(f"publish on {self.topic}: the publisher is closed")
+            try:
+                with self._core.calls:
+                    self._publisher.put(cdr, attachment=attachment.pack())
+            except zenoh.ZError as error:
+                raise WireError(f"publish on {self.topic}: {reason_of(error)}") from error
 
     def subscription_count(self) -> int:
         """See :meth:`Publisher.subscription_count`."""

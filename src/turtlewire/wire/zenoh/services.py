@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import zenoh
 from zenoh.handlers import Callback as Handler
 
+from turtlewire.errors import WireError
 from turtlewire.wire.base import Client, RequestId, Service
 from turtlewire.wire.qos import History
 from turtlewire.wire.queue_wait_set import Queued
@@ -102,8 +103,11 @@ class ZenohClient(_QueuedEndpoint, Client):
         """See :meth:`Client.send_request`."""
         number = next(self._numbers)
         attachment = Attachment(number, time.time_ns(), self.gid)
-        with self._core.calls:
-            self._querier.get(self._handler, payload=cdr, attachment=attachment.pack())
+        with self._sending:
+            if self._closed:
+                raise WireError(f"call {self.service}: the client is closed")
+            with self._core.calls:
+                self._querier.get(self._handler, payload=cdr, attachment=attachment.pack())
         return number
 
     def _on_reply(self, reply: zenoh.Reply) -> None:
