@@ -16,6 +16,7 @@ from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.utilities import get_default_context, remove_ros_args, timeout_sec_to_nsec
 from std_msgs.msg import Int32
+from std_srvs.srv import Empty
 
 
 @pytest.fixture(autouse=True)
@@ -220,26 +221,45 @@ def test_destroying_after_shutdown_is_fine():
     node.destroy_node()
 
 
+CREATORS = {
+    "publisher": lambda node: node.create_publisher(Int32, "topic", 1),
+    "subscription": lambda node: node.create_subscription(Int32, "topic", print, 1),
+    "client": lambda node: node.create_client(Empty, "other"),
+    "service": lambda node: node.create_service(Empty, "other", print),
+}
+
+
+@pytest.mark.parametrize("middleware", ["rmw_cyclonedds_cpp", "rmw_zenoh_cpp"])
+@pytest.mark.parametrize("what", CREATORS)
+def test_what_another_thread_shuts_down_meanwhile_creates_nothing(monkeypatch, middleware, what):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", middleware)
+    rclpy.init(args=[])
+    node = Node("hasty")
+    wire = node._rclpy_endpoints._core.wire
+    create = getattr(wire, f"create_{what}")
+
+    def shut_down_and_create(*arguments, **options):
+        rclpy.shutdown()
+        return create(*arguments, **options)
+
+    monkeypatch.setattr(wire, f"create_{what}", shut_down_and_create)
+    with pytest.raises(RCLError, match=f"could not create {what}: rcl node's context is invalid"):
+        CREATORS[what](node)
+    node.destroy_node()
+
+
 @pytest.mark.parametrize("middleware", ["local", "rmw_cyclonedds_cpp"])
 def test_after_shutdown_nothing_more_is_created_or_called(monkeypatch, middleware):
-    from std_srvs.srv import Empty
-
     monkeypatch.setenv("RMW_IMPLEMENTATION", middleware)
     rclpy.init(args=[])
     node = Node("late")
     client = node.create_client(Empty, "service")
     rclpy.shutdown()
-    creators = {
-        "publisher": lambda: node.create_publisher(_int32(), "topic", 1),
-        "subscription": lambda: node.create_subscription(_int32(), "topic", print, 1),
-        "client": lambda: node.create_client(Empty, "other"),
-        "service": lambda: node.create_service(Empty, "other", print),
-    }
-    for what, create in creators.items():
+    for what, create in CREATORS.items():
         with pytest.raises(
             RCLError, match=f"could not create {what}: rcl node's context is invalid"
         ):
-            create()
+            create(node)
     with pytest.raises(RCLError, match="failed to send request"):
         client.call_async(Empty.Request())
     node.destroy_node()

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
 
+from rclpy._rclpy_pybind11 import RCLError
 from rclpy.hints import with_hint
 from rclpy.qos import QoSProfile
+from turtlewire.errors import WireError
 
-__all__ = ["check_callable", "validate_qos"]
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from rclpy.context import Context
+
+__all__ = ["check_callable", "in_open_context", "validate_qos"]
 
 
 def check_callable(callback: Any) -> None:
@@ -17,6 +25,24 @@ def check_callable(callback: Any) -> None:
         raise with_hint(
             error, "Pass the function itself (self.callback), not what it returns (self.callback())"
         )
+
+
+@contextmanager
+def in_open_context(context: Context, what: str) -> Iterator[None]:
+    """Let the block make an endpoint if the context is open.
+
+    Raises:
+        RCLError: The context was shut down before, or by another thread meanwhile.
+    """
+    closed = RCLError(f"could not create {what}: rcl node's context is invalid")
+    if not context.is_open():
+        raise closed
+    try:
+        yield
+    except WireError:
+        if context.is_open():
+            raise
+        raise closed from None
 
 
 def validate_qos(qos_or_depth: QoSProfile | int) -> QoSProfile:

@@ -11,9 +11,8 @@ import weakref
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from rclpy._execution.entity import Entity
-from rclpy._node.checks import check_callable, validate_qos
+from rclpy._node.checks import check_callable, in_open_context, validate_qos
 from rclpy._node.names import NodeNames
-from rclpy._rclpy_pybind11 import RCLError
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.client import Client
 from rclpy.event_handler import EventHandler, PublisherEventCallbacks, SubscriptionEventCallbacks
@@ -131,10 +130,10 @@ class NodeEndpoints:
         check_is_valid_msg_type(msg_type)
         profile = validate_qos(qos_profile)
         name = self.names.resolve_topic(topic)
-        self._require_context("publisher")
-        wire = self._core.wire.create_publisher(
-            name, type_id(type_name(msg_type)), profile.to_wire()
-        )
+        with in_open_context(self._core.context, "publisher"):
+            wire = self._core.wire.create_publisher(
+                name, type_id(type_name(msg_type)), profile.to_wire()
+            )
         return publisher_class(wire, msg_type, profile, self._core)
 
     def create_subscription(
@@ -177,16 +176,12 @@ class NodeEndpoints:
         check_is_valid_msg_type(msg_type)
         profile = validate_qos(qos_profile)
         name = self.names.resolve_topic(topic)
-        self._require_context("subscription")
-        wire = self._core.wire.create_subscription(
-            name, type_id(type_name(msg_type)), profile.to_wire(), sink=sink
-        )
+        with in_open_context(self._core.context, "subscription"):
+            wire = self._core.wire.create_subscription(
+                name, type_id(type_name(msg_type)), profile.to_wire(), sink=sink
+            )
         group = callback_group or self.default_callback_group
         return Subscription(wire, msg_type, callback, group, profile, raw, self._core)
-
-    def _require_context(self, what: str) -> None:
-        if not self._core.context.is_open():
-            raise RCLError(f"could not create {what}: rcl node's context is invalid")
 
     def _own_events(
         self,
@@ -223,10 +218,10 @@ class NodeEndpoints:
         """A client that the caller owns."""
         check_is_valid_srv_type(srv_type)
         name = self.names.resolve_service(srv_name)
-        self._require_context("client")
-        wire = self._core.wire.create_client(
-            name, service_types(type_name(srv_type)), qos_profile.to_wire()
-        )
+        with in_open_context(self._core.context, "client"):
+            wire = self._core.wire.create_client(
+                name, service_types(type_name(srv_type)), qos_profile.to_wire()
+            )
         group = callback_group or self.default_callback_group
         return Client(
             wire,
@@ -263,10 +258,10 @@ class NodeEndpoints:
         check_is_valid_srv_type(srv_type)
         check_callable(callback)
         name = self.names.resolve_service(srv_name)
-        self._require_context("service")
-        wire = self._core.wire.create_service(
-            name, service_types(type_name(srv_type)), qos_profile.to_wire()
-        )
+        with in_open_context(self._core.context, "service"):
+            wire = self._core.wire.create_service(
+                name, service_types(type_name(srv_type)), qos_profile.to_wire()
+            )
         group = callback_group or self.default_callback_group
         return service_class(
             wire,

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import itertools
 import threading
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Protocol
+
+import zenoh
 
 from turtlewire.errors import WireError
 
 from .calls import Calls
+from .library import reason_of
 
 if TYPE_CHECKING:
-    import zenoh
+    from collections.abc import Iterator
 
     from turtlewire.wire.base import Entity
     from turtlewire.wire.reader_thread import ReaderThread
@@ -81,6 +85,19 @@ class ContextCore:
         """
         if self.closing:
             raise WireError(f"{what}: the context is closed")
+
+    @contextmanager
+    def declaring(self, what: str) -> Iterator[None]:
+        """Let the block declare something in Zenoh's session.
+
+        Raises:
+            WireError: The session is closed, or Zenoh refuses it.
+        """
+        self.require_open(what)
+        try:
+            yield
+        except zenoh.ZError as error:
+            raise WireError(f"{what}: {reason_of(error)}") from error
 
     def thread_starts(self) -> None:
         """A subscription is about to get a thread."""

@@ -86,9 +86,9 @@ class ZenohNode(Node):
 
     def create_publisher(self, topic: str, type_id: TypeId, qos: QoS) -> Publisher:
         """See :meth:`Node.create_publisher`."""
-        self._core.require_open(f"create publisher {topic}")
-        qos = with_best_available(qos, topic, "publisher", self.context)
-        return ZenohPublisher(self._core, self, topic, type_id, qos)
+        with self._core.declaring(f"create publisher {topic}"):
+            qos = with_best_available(qos, topic, "publisher", self.context)
+            return ZenohPublisher(self._core, self, topic, type_id, qos)
 
     def create_subscription(
         self,
@@ -99,21 +99,21 @@ class ZenohNode(Node):
         sink: Sink | None = None,
     ) -> Subscription:
         """See :meth:`Node.create_subscription`."""
-        self._core.require_open(f"create subscription {topic}")
-        qos = with_best_available(qos, topic, "subscription", self.context)
-        if sink is None:
-            return ZenohSubscription(self._core, self, topic, type_id, qos, on_message)
-        return ZenohSinkSubscription(self._core, self, topic, type_id, qos, on_message, sink)
+        with self._core.declaring(f"create subscription {topic}"):
+            qos = with_best_available(qos, topic, "subscription", self.context)
+            if sink is None:
+                return ZenohSubscription(self._core, self, topic, type_id, qos, on_message)
+            return ZenohSinkSubscription(self._core, self, topic, type_id, qos, on_message, sink)
 
     def create_client(self, service: str, types: ServiceTypes, qos: QoS) -> Client:
         """See :meth:`Node.create_client`."""
-        self._core.require_open(f"create client {service}")
-        return ZenohClient(self._core, self, service, types.service_id(), qos)
+        with self._core.declaring(f"create client {service}"):
+            return ZenohClient(self._core, self, service, types.service_id(), qos)
 
     def create_service(self, service: str, types: ServiceTypes, qos: QoS) -> Service:
         """See :meth:`Node.create_service`."""
-        self._core.require_open(f"create service {service}")
-        return ZenohService(self._core, self, service, types.service_id(), qos)
+        with self._core.declaring(f"create service {service}"):
+            return ZenohService(self._core, self, service, types.service_id(), qos)
 
     def close(self) -> None:
         """See :meth:`Entity.close`."""
