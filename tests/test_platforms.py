@@ -6,6 +6,7 @@ import importlib.util
 import itertools
 import os
 import queue
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -99,9 +100,24 @@ def test_the_demo_says_which_package_lacks(monkeypatch, capsys):
     assert said.endswith("-m pip install ./ros\n")
 
 
+DEMO_VARIABLES = {"TURTLEWIRE_BROWSER": "0", "TURTLEWIRE_PORT": "0"}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("options", [(), ("--seconds", "1000")])
+@pytest.mark.parametrize("signum", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_to_the_demo_alone_ends_all_its_processes(run, options, signum):
+    demo = run(sys.executable, "-m", "turtlewire.demo", *options, environment=DEMO_VARIABLES)
+    demo.wait_for("Successfully spawned turtle2")
+    demo.process.send_signal(signum)
+    demo.wait()
+    demo.wait_for_survivors()
+    assert "Traceback" not in demo.text
+
+
 @pytest.mark.slow
 def test_the_demo_runs_without_bash(tmp_path):
-    variables = {"TURTLEWIRE_BROWSER": "0", "TURTLEWIRE_PORT": "0", "ROS_LOG_DIR": str(tmp_path)}
+    variables = {**DEMO_VARIABLES, "ROS_LOG_DIR": str(tmp_path)}
     done = subprocess.run(
         [sys.executable, "-m", "turtlewire.demo", "--seconds", "20"],
         env={**os.environ, **variables},

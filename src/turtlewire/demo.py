@@ -11,8 +11,12 @@ import os
 import subprocess
 import sys
 import sysconfig
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from importlib.util import find_spec
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 __all__ = ["main"]
 
@@ -62,14 +66,20 @@ def _ros2() -> str:
 
 def _run(command: list[str], seconds: float | None) -> int:
     path = f"{os.path.dirname(command[0])}{os.pathsep}{os.environ.get('PATH', '')}"
-    # Ctrl-C at the terminal reaches the launch as well, which then stops its nodes.
-    launch = subprocess.Popen(command, env={**os.environ, "PATH": path})  # noqa: S603 -- ours
+    environment = {**os.environ, "PATH": path}
+    if seconds is None and sys.platform != "win32":
+        # In the place of this process, so that whatever ends it ends the launch.
+        os.execve(command[0], command, environment)  # noqa: S606 -- ours
+    # On Windows, Ctrl-C reaches the launch as well; elsewhere, in its session, only from here.
+    launch = subprocess.Popen(command, env=environment, start_new_session=True)  # noqa: S603 -- ours
     try:
-        return launch.wait(seconds)
+        with _signals_as_interrupts():
+            return launch.wait(seconds)
     except subprocess.TimeoutExpired:
         _interrupt(launch)
     except KeyboardInterrupt:
-        pass
+        if sys.platform != "win32":
+            _interrupt(launch)
     with suppress(KeyboardInterrupt):
         try:
             launch.wait(_PATIENCE_S)
@@ -77,6 +87,20 @@ def _run(command: list[str], seconds: float | None) -> int:
             launch.kill()
             launch.wait()
     return 0
+
+
+@contextmanager
+def _signals_as_interrupts() -> Iterator[None]:
+    """Have the signals that end a process raise ``KeyboardInterrupt`` within the block."""
+    import signal
+
+    numbers = [signal.SIGTERM] if sys.platform == "win32" else [signal.SIGTERM, signal.SIGHUP]
+    before = [signal.signal(number, signal.default_int_handler) for number in numbers]
+    try:
+        yield
+    finally:
+        for number, handler in zip(numbers, before, strict=True):
+            signal.signal(number, handler)
 
 
 def _interrupt(launch: subprocess.Popen[bytes]) -> None:
