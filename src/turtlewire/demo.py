@@ -94,7 +94,9 @@ def _signals_as_interrupts() -> Iterator[None]:
     """Have the signals that end a process raise ``KeyboardInterrupt`` within the block."""
     import signal
 
-    numbers = [signal.SIGTERM] if sys.platform == "win32" else [signal.SIGTERM, signal.SIGHUP]
+    numbers = [signal.SIGTERM]
+    if sys.platform != "win32":
+        numbers.append(signal.SIGHUP)
     before = [signal.signal(number, signal.default_int_handler) for number in numbers]
     try:
         yield
