@@ -368,3 +368,16 @@ def test_every_truncation_of_a_message_is_refused(golden):
                 msg.deserialize(cls, data[:size])
             count += 1
     assert count > 3000
+
+
+def test_a_clocks_time_in_a_stamp_is_refused_with_its_conversion():
+    class Time:
+        def to_msg(self):
+            raise AssertionError("only named, never called")
+
+    with pytest.raises(CdrError, match="'stamp': expected builtin_interfaces/msg/Time") as caught:
+        msg.serialize(Header(stamp=Time()))
+    assert caught.value.hint == "A Time is no message; its to_msg() makes one."
+    with pytest.raises(CdrError) as caught:
+        msg.serialize(Header(stamp=1.5))
+    assert caught.value.hint == ""

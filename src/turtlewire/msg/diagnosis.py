@@ -138,7 +138,7 @@ class _ValueWalk:
     def message(self, definition: MessageDefinition, message: Any, path: str) -> None:
         found = getattr(message, "_TYPE_NAME", None)
         if found != definition.full_name:
-            raise self.fault(path, definition.full_name, message)
+            raise self.fault(path, definition.full_name, message).with_hint(_conversion(message))
         for field in definition.fields:
             field_path = f"{path}.{field.name}" if path else field.name
             if not hasattr(message, field.name):
@@ -216,3 +216,10 @@ class _ValueWalk:
         return CdrError(
             f"{self.full_name}: {where}: expected {expected}, got {type(value).__name__} ({shown})"
         )
+
+
+def _conversion(value: Any) -> str:
+    """A hint for what is no message but makes one, such as rclpy's Time and Duration."""
+    if not hasattr(value, "to_msg"):
+        return ""
+    return f"A {type(value).__name__} is no message; its to_msg() makes one."
