@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import sys
+from collections import OrderedDict
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.interface_names import interface_names
@@ -147,7 +149,7 @@ def prototype(kind: str, type_name: str) -> list[str]:
         kind: ``msg``, ``srv`` or ``action``.
         type_name: Name of the interface.
     """
-    from rosidl_runtime_py import message_to_yaml, utilities
+    from rosidl_runtime_py import message_to_ordereddict, utilities
 
     try:
         if kind == "srv":
@@ -158,8 +160,25 @@ def prototype(kind: str, type_name: str) -> list[str]:
             message = utilities.get_message(type_name)()
     except (AttributeError, ModuleNotFoundError, ValueError):
         return []
-    fields = message_to_yaml(message, flow_style=True).splitlines()
-    return [f"{{{', '.join(fields)}}}"]
+    return [_on_one_line(message_to_ordereddict(message))]
+
+
+def _on_one_line(values: OrderedDict[str, Any]) -> str:
+    import yaml
+
+    class Dumper(yaml.SafeDumper):
+        """Writes the fields in their order."""
+
+    Dumper.add_representer(OrderedDict, Dumper.represent_dict)
+    text: str = yaml.dump(
+        values,
+        Dumper=Dumper,
+        default_flow_style=True,
+        sort_keys=False,
+        allow_unicode=True,
+        width=sys.maxsize,
+    )
+    return text.rstrip("\n")
 
 
 def topic_types(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:

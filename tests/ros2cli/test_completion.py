@@ -7,6 +7,11 @@ import subprocess
 import sys
 
 import pytest
+import yaml
+from ros2cli.completion import prototype
+from ros2cli.interface_names import interface_names
+from rosidl_runtime_py import set_message_fields
+from rosidl_runtime_py.utilities import get_message
 
 from turtlewire.wire import open_context
 from turtlewire.wire.base import TypeId
@@ -88,12 +93,26 @@ def test_names_of_parameters(run):
     ("line", "expected"),
     [
         ("ros2 topic pub /x geometry_msgs/msg/Vector3 '", "{x: 0.0, y: 0.0, z: 0.0}"),
+        (
+            "ros2 topic pub /x geometry_msgs/msg/Twist '",
+            "{linear: {x: 0.0, y: 0.0, z: 0.0}, angular: {x: 0.0, y: 0.0, z: 0.0}}",
+        ),
         ("ros2 service call /x std_srvs/srv/SetBool '", "{data: false}"),
         ("ros2 action send_goal /x turtlesim/action/RotateAbsolute '", "{theta: 0.0}"),
     ],
 )
 def test_prototypes_of_values(line, expected):
     assert expected in {word.lstrip("'").rstrip("'") for word in offered(line)}
+
+
+def test_a_prototype_of_any_message_is_its_default_value():
+    names = interface_names("msg")
+    assert len(names) > 200
+    for name in names:
+        [text] = prototype("msg", name)
+        message = get_message(name)()
+        set_message_fields(message, yaml.safe_load(text))
+        assert message == get_message(name)(), text
 
 
 @pytest.mark.parametrize("line", ["ros2 topic pub /x no/such/Type '", "ros2 topic echo /x y z"])
