@@ -43,13 +43,13 @@ class _Parser(argparse.ArgumentParser):
         """Print usage and message as argparse does, and a hint."""
         match = _INVALID_CHOICE.search(message)
         if match:
+            if self.prog == "ros2" and match[1] in _NOT_HERE:
+                self.exit(2, f"ros2 {match[1]}: {_NOT_HERE[match[1]]}\n")
             message += _hint(match[1], re.findall(r"[\w-]+", message[match.end() :]))
         super().error(message)
 
 
 def _hint(word: str, known: list[str]) -> str:
-    if word in _NOT_HERE and "topic" in known:
-        return f"\n{_NOT_HERE[word]}"
     from ros2cli.suggestion import did_you_mean
 
     return did_you_mean(word, known)

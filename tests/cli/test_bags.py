@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import shutil
@@ -65,6 +66,18 @@ def test_the_tree_as_json(capsys, bag):
     assert by_name["odom"] == {"frame": "odom", "parent": None}
     assert by_name["camera"]["static"]
     assert (found["messages"], found["problems"], found["conflicts"]) == (101, [], [])
+
+
+def test_the_tree_where_the_output_has_no_such_characters(monkeypatch, tmp_path):
+    path = tmp_path / "made"
+    with BagWriter(path) as writer:
+        writer.add_topic("/tf", "tf2_msgs/msg/TFMessage")
+        writer.write("/tf", transform(0, "haus", "küche"), START)
+    written = io.BytesIO()
+    monkeypatch.setattr(sys, "stdout", io.TextIOWrapper(written, encoding="ascii"))
+    assert main(["bag", "tf", str(path)]) == 0
+    sys.stdout.flush()
+    assert rb"k\xfcche" in written.getvalue()
 
 
 def test_a_reader_that_has_seen_enough(bag):

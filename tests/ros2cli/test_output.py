@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import sys
 
 import pytest
@@ -61,3 +62,12 @@ def test_topic_info_of_a_hostile_node(monkeypatch, capsys):
     text = capsys.readouterr().out
     assert "Node name: \\x1b]0;owned\\x07\\x1b[2J\n" in text
     assert "\x1b" not in text
+
+
+def test_characters_that_the_output_does_not_have_end_no_verb(monkeypatch):
+    written = io.BytesIO()
+    monkeypatch.setattr(sys, "stdout", io.TextIOWrapper(written, encoding="ascii"))
+    words = "topic pub --once -w 0 /names std_msgs/msg/String".split()
+    assert main([*words, "data: Köln 🐢"]) == 0
+    sys.stdout.flush()
+    assert rb"String(data='K\xf6ln \U0001f422')" in written.getvalue()

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import io
 import os
 import sys
 from typing import TYPE_CHECKING, Any
@@ -48,6 +49,9 @@ def _run(argv: list[str] | None) -> int:
     if args.run is None:
         parser.print_help()
         return 0
+    if isinstance(sys.stdout, io.TextIOWrapper):  # it is None if it was closed at the start
+        # A character that the encoding of a pipe or terminal does not have must not end a command.
+        sys.stdout.reconfigure(errors="backslashreplace")
     status: int = args.run(args)
     return status
 
