@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import io
 import os
 import re
 import signal
@@ -32,7 +33,8 @@ _ALIASES = {"wtf": "doctor"}
 _NOT_HERE = {
     "control": "ros2_control is C++, and not part of this distribution.",
     "plugin": "Plugins of C++ are not part of this distribution.",
-    "security": "Encrypted communication is not part of this distribution.",
+    "security": "Keys for DDS Security are not part of this distribution; Zenoh encrypts with TLS: "
+    "RMW_IMPLEMENTATION=rmw_zenoh_cpp.",
 }
 
 
@@ -90,9 +92,11 @@ def _run(words: list[str]) -> int:
         chosen = getattr(args, "parser", parser)
         hint = _hint(unknown[0], _OPTION.findall(chosen.format_usage()))
         chosen.error(f"unrecognized arguments: {' '.join(unknown)}{hint}")
-    # stdout is None if it was closed at the start.
-    if not args.use_python_default_buffering and sys.stdout is not None:
-        sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
+    if isinstance(sys.stdout, io.TextIOWrapper):  # it is None if it was closed at the start
+        # A character that the encoding of a pipe or terminal does not have must not end a verb.
+        sys.stdout.reconfigure(errors="backslashreplace")
+        if not args.use_python_default_buffering:
+            sys.stdout.reconfigure(line_buffering=True)
     return _status(args)
 
 
