@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import json
 import signal
 import sys
 import threading
@@ -27,8 +28,16 @@ if TYPE_CHECKING:
 __all__ = ["check", "grade", "list_exercises", "show", "start"]
 
 
-def list_exercises() -> None:
-    """Print the exercises."""
+def list_exercises(*, as_json: bool = False) -> None:
+    """Print the exercises.
+
+    Args:
+        as_json: Print one JSON object instead of a table.
+    """
+    if as_json:
+        listed = [{"name": exercise.name, "title": exercise.title} for exercise in exercises()]
+        print(json.dumps({"exercises": listed}))  # noqa: T201
+        return
     width = max(len(exercise.name) for exercise in exercises())
     for exercise in exercises():
         print(f"{exercise.name:{width}}  {exercise.title}")  # noqa: T201

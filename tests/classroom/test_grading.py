@@ -341,3 +341,10 @@ def test_the_list(capsys):
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) == 11
     assert json.dumps(lines[0]).startswith('"static ')
+
+
+def test_the_list_as_json(capsys):
+    assert main(["class", "list", "--json"]) == 0
+    listed = json.loads(capsys.readouterr().out)["exercises"]
+    assert len(listed) == 11
+    assert listed[0] == {"name": "static", "title": "A static frame"}

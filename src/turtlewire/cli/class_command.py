@@ -98,7 +98,8 @@ def _add_start(verbs: Any) -> None:
 
 
 def _add_list(verbs: Any) -> None:
-    _verb(verbs, "list", "List the exercises", _list)
+    parser = _verb(verbs, "list", "List the exercises", _list)
+    parser.add_argument("--json", action="store_true", help="Print one JSON object")
 
 
 def _add_common(parser: argparse.ArgumentParser) -> None:
@@ -164,6 +165,6 @@ def _start(args: argparse.Namespace) -> int | None:
     return None
 
 
-def _list(_: argparse.Namespace) -> int | None:
-    _commands().list_exercises()
+def _list(args: argparse.Namespace) -> int | None:
+    _commands().list_exercises(as_json=args.json)
     return None
