@@ -11,7 +11,6 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
-from ros2cli.values import unsigned_int
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -118,7 +117,10 @@ def _group(text: str) -> str:
 
 
 def _port(text: str) -> int:
-    port = unsigned_int(text)
+    try:
+        port = int(text)
+    except ValueError:
+        port = 0
     if not 0 < port < 1 << 16:
         raise ArgumentTypeError(f"'{text}' is no UDP port; those are 1 to 65535")
     return port

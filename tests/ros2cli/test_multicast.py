@@ -60,6 +60,7 @@ def test_without_a_network_it_arrives_on_the_same_host(run):
         ),
         ("--group", "nope", "'nope' is no IPv4 multicast group"),
         ("--port", "70000", "'70000' is no UDP port; those are 1 to 65535"),
+        ("--port", "nope", "'nope' is no UDP port; those are 1 to 65535"),
     ],
 )
 def test_what_is_no_group_is_refused(capsys, option, value, told):
