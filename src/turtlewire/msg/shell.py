@@ -19,8 +19,7 @@ def lazy_classes(home: str) -> Callable[[str], type]:
     """The ``__getattr__`` of a module of interfaces.
 
     ROS 2's generator has a private module for each interface, ``geometry_msgs.msg._twist``, and
-    some
-    programs import from there; they are put into ``sys.modules``.
+    some programs import from there; they are put into ``sys.modules`` and the module.
 
     Args:
         home: The module's ``__name__``: ``"geometry_msgs.msg"``. Its ``__all__`` lists the
@@ -48,6 +47,7 @@ def lazy_classes(home: str) -> Callable[[str], type]:
     for interface in module.__all__:
         private = _PrivateModule(module_name(f"{folder}/{interface}"), interface, find)
         sys.modules[private.__name__] = private
+        setattr(module, private.__name__.rpartition(".")[2], private)
     return find
 
 
