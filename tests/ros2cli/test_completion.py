@@ -8,11 +8,11 @@ import sys
 
 import pytest
 import yaml
+
 from ros2cli.completion import prototype
 from ros2cli.interface_names import interface_names
 from rosidl_runtime_py import set_message_fields
 from rosidl_runtime_py.utilities import get_message
-
 from turtlewire.wire import open_context
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import QoS

@@ -67,7 +67,7 @@ def test_topic_info_of_a_hostile_node(monkeypatch, capsys):
 def test_characters_that_the_output_does_not_have_end_no_verb(monkeypatch):
     written = io.BytesIO()
     monkeypatch.setattr(sys, "stdout", io.TextIOWrapper(written, encoding="ascii"))
-    words = "topic pub --once -w 0 /names std_msgs/msg/String".split()
+    words = ["topic", "pub", "--once", "-w", "0", "/names", "std_msgs/msg/String"]
     assert main([*words, "data: Köln 🐢"]) == 0
     sys.stdout.flush()
     assert rb"String(data='K\xf6ln \U0001f422')" in written.getvalue()
