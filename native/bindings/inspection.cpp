@@ -26,6 +26,16 @@ nb::str text(std::string_view value) { return nb::str(value.data(), value.size()
   throw nb::python_error();
 }
 
+// The names of two frames; raises if one has no UTF-8.
+Request frames_of(const nb::str& target, const nb::str& source) {
+  Request request;
+  if (!text_of(target.ptr(), request.target, "target_frame") ||
+      !text_of(source.ptr(), request.source, "source_frame")) {
+    throw nb::python_error();
+  }
+  return request;
+}
+
 // Both names as frames; raises if one is none. Call with the lock held.
 bool resolve_both(const Tree& tree, std::string_view target, std::string_view source,
                   FrameId& target_id, FrameId& source_id, Failure& failure) {
@@ -40,6 +50,7 @@ bool resolve_both(const Tree& tree, std::string_view target, std::string_view so
 
 nb::object extrapolate_transform(BufferObject& self, nb::str target, nb::str source,
                                  nb::handle when, Stamp limit) {
+  const Request names = frames_of(target, source);
   const Stamp t = nanoseconds_of(when, "stamp_ns");
   if (limit < 0) throw nb::value_error("limit_ns must not be negative");
   Found found{t, {}};
@@ -48,7 +59,7 @@ nb::object extrapolate_transform(BufferObject& self, nb::str target, nb::str sou
     const SharedBuffer::Access access(self.shared);
     FrameId target_id = 0, source_id = 0;
     const Tree& tree = *access;
-    if (resolve_both(tree, target.c_str(), source.c_str(), target_id, source_id, failure) &&
+    if (resolve_both(tree, names.target, names.source, target_id, source_id, failure) &&
         target_id != source_id) {
       failure.status = tree.lookup(target_id, source_id, Rule{.t = t, .beyond = limit},
                                    found.target_from_source, nullptr, &failure);
@@ -60,6 +71,7 @@ nb::object extrapolate_transform(BufferObject& self, nb::str target, nb::str sou
 
 nb::tuple lookup_latest(BufferObject& self, nb::str target, nb::str source, Stamp max_age,
                         nb::handle present) {
+  const Request names = frames_of(target, source);
   const Stamp now = nanoseconds_of(present, "now_ns");
   if (max_age != 0 && now == 0)
     throw nb::value_error("max_age_ns needs now_ns, the present by the clock of the stamps");
@@ -71,7 +83,7 @@ nb::tuple lookup_latest(BufferObject& self, nb::str target, nb::str source, Stam
     const SharedBuffer::Access access(self.shared);
     FrameId target_id = 0, source_id = 0;
     const Tree& tree = *access;
-    if (resolve_both(tree, target.c_str(), source.c_str(), target_id, source_id, failure) &&
+    if (resolve_both(tree, names.target, names.source, target_id, source_id, failure) &&
         target_id != source_id) {
       const Rule rule{.t = now, .newest = true, .max_age = max_age};
       failure.status =
@@ -85,7 +97,7 @@ nb::tuple lookup_latest(BufferObject& self, nb::str target, nb::str source, Stam
   if (failure.status != Status::ok) raise_failure(self, failure);
   nb::dict by_child;
   for (const auto& [child, stamp] : stamps) {
-    by_child[child.c_str()] = stamp;
+    by_child[text(child)] = stamp;
     found.stamp = found.stamp == 0 ? stamp : std::min(found.stamp, stamp);
   }
   return nb::make_tuple(nb::steal(make_transform(target.ptr(), source.ptr(), found)), by_child);

@@ -183,6 +183,17 @@ def test_extrapolation(buffer: turtlewire.Buffer) -> None:
         buffer.extrapolate_transform("a", "b", 1, -1)
 
 
+@pytest.mark.parametrize("names", [("a\udcff", "b"), ("a", "b\udcff")])
+def test_names_without_utf_8_are_refused(
+    buffer: turtlewire.Buffer, names: tuple[str, str]
+) -> None:
+    buffer.set_transform("a", "b", SECOND, (0, 0, 0), STILL)
+    with pytest.raises(UnicodeEncodeError, match="surrogates"):
+        buffer.lookup_latest(*names)
+    with pytest.raises(UnicodeEncodeError, match="surrogates"):
+        buffer.extrapolate_transform(*names, SECOND, 0)
+
+
 def test_latest_of_each_link(buffer: turtlewire.Buffer) -> None:
     for t in range(1, 11):
         buffer.set_transform("map", "base", t * SECOND, (t, 0, 0), STILL)
