@@ -4,7 +4,6 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/string_view.h>
-#include <nanobind/stl/tuple.h>
 
 #include <algorithm>
 #include <functional>
@@ -333,14 +332,15 @@ nb::object transform_points(BufferObject& self, std::string_view target, std::st
 
 nb::object lookup_velocity(BufferObject& self, std::string_view tracking, std::string_view observer,
                            nb::handle when, Stamp interval, std::optional<std::string_view> axes,
-                           std::tuple<double, double, double> point,
+                           nb::handle where,
                            std::optional<std::string_view> point_frame, nb::object out,
                            nb::object status_object) {
   if (interval <= 0) throw nb::value_error("interval_ns must be positive");
-  const auto [x, y, z] = point;
+  double point[3];
+  if (!numbers_of(where.ptr(), point, 3, "point")) throw nb::python_error();
   const VelocityRequest request{
       tracking,  observer, axes.value_or(observer), point_frame.value_or(tracking),
-      {x, y, z}, interval};
+      {point[0], point[1], point[2]}, interval};
   const std::optional<Stamp> single = single_stamp(when);
   const Stamps many = single ? Stamps() : stamps_of(when);
   const std::span<const Stamp> stamps =
@@ -416,7 +416,7 @@ void add_batch_methods(nb::class_<BufferObject>& cls) {
       .def(
           "lookup_velocity", &lookup_velocity, "tracking_frame"_a, "observation_frame"_a,
           "stamps"_a = 0, nb::kw_only(), "interval_ns"_a = 100'000'000,
-          "reference_frame"_a = nb::none(), "point"_a = std::tuple(0.0, 0.0, 0.0),
+          "reference_frame"_a = nb::none(), "point"_a = nb::make_tuple(0.0, 0.0, 0.0),
           "point_frame"_a = nb::none(), "out"_a = nb::none(), "status"_a = nb::none(),
           "How a body moves: the velocity of a point that is fixed to it, and its angular "
           "velocity.\n\n"

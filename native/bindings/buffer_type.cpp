@@ -66,22 +66,6 @@ PyMethodDef question(const char* doc) {
 
 // ---------------------------------------------------------------- data in
 
-// Works on a tuple: an element's __float__ may change the list that it is in.
-bool numbers_of(PyObject* sequence, double* values, Py_ssize_t count, const char* what) {
-  return taking_gil([=] {
-    PyObject* items = PySequence_Tuple(sequence);
-    if (items == nullptr) return false;
-    bool fits = tuple_size(items) == count;
-    if (!fits) PyErr_Format(PyExc_ValueError, "%s must have %zd numbers", what, count);
-    for (Py_ssize_t i = 0; fits && i < count; ++i) {
-      values[i] = PyFloat_AsDouble(tuple_item(items, i));
-      fits = values[i] != -1.0 || PyErr_Occurred() == nullptr;
-    }
-    Py_DECREF(items);
-    return fits;
-  });
-}
-
 bool flag_of(PyObject* object, bool& flag) {
   const int truth = object == nullptr ? 0 : PyObject_IsTrue(object);
   flag = truth == 1;

@@ -23,9 +23,23 @@ std::span<const unsigned char> span_of(const nb::bytes& bytes) {
   return {reinterpret_cast<const unsigned char*>(bytes.c_str()), bytes.size()};
 }
 
-void make(JointFrames* self, const nb::bytes& message, const Places& stamps, const Places& poses,
-          const Numbers& constants, const Places& sources, const Numbers& factors,
-          const Numbers& offsets) {
+// Works on a tuple: an element's __float__ may change the list that it is in.
+template <typename List>
+List list_of(const nb::object& sequence) {
+  List list;
+  if (!nb::try_cast(nb::tuple(sequence), list))
+    throw nb::type_error("the lists must hold numbers; those of places, integers");
+  return list;
+}
+
+void make(JointFrames* self, const nb::bytes& message, const nb::object& stamp_places,
+          const nb::object& pose_places, const nb::object& all_constants,
+          const nb::object& all_sources, const nb::object& all_factors,
+          const nb::object& all_offsets) {
+  const auto stamps = list_of<Places>(stamp_places), poses = list_of<Places>(pose_places),
+             sources = list_of<Places>(all_sources);
+  const auto constants = list_of<Numbers>(all_constants), factors = list_of<Numbers>(all_factors),
+             offsets = list_of<Numbers>(all_offsets);
   const std::size_t count = sources.size();
   for (const std::size_t size : {stamps.size(), poses.size(), factors.size(), offsets.size()})
     if (size != count) throw std::invalid_argument("the lists differ in length");

@@ -134,6 +134,9 @@ inline bool nanoseconds_of(PyObject* object, Stamp& value, const char* what) {
   return nanoseconds_of_other(object, value, what);
 }
 
+// So many numbers from a sequence. False with a Python error set.
+bool numbers_of(PyObject* sequence, double* values, Py_ssize_t count, const char* what);
+
 // The same for functions of nanobind: throws if there is a Python error.
 Stamp nanoseconds_of(nb::handle object, const char* what);
 

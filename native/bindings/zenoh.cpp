@@ -62,7 +62,9 @@ class Inlet {
 
   Origins origins;
 
-  nb::tuple receive(const nb::list& samples) {
+  // Works on a tuple: an attribute of a sample may change the list that it is in.
+  nb::tuple receive(const nb::list& given) {
+    const nb::tuple samples(given);
     std::vector<Message> messages;
     messages.reserve(nb::len(samples));
     nb::list refused;

@@ -290,6 +290,19 @@ class TestVelocity:
         assert many == pytest.approx(np.array(singles), abs=1e-9)
         assert disc.lookup_velocity("disc", "world") == pytest.approx([3, 0, 0, 0, 0, 2], abs=1e-9)
 
+    def test_a_point_that_changes_while_it_is_read(self, disc: turtlewire.Buffer) -> None:
+        class Vanishing:
+            def __float__(self) -> float:
+                point.clear()
+                return 1.0
+
+        point: list[Any] = [Vanishing(), *(object() for _ in range(2))]
+        with pytest.raises(TypeError):
+            disc.lookup_velocity("disc", "world", point=point)  # type: ignore[arg-type]
+        point[:] = [Vanishing(), 2.0, 3.0]
+        moving = disc.lookup_velocity("disc", "world", point=point)  # type: ignore[arg-type]
+        assert moving == pytest.approx(disc.lookup_velocity("disc", "world", point=(1, 2, 3)))
+
     def test_failures(self, disc: turtlewire.Buffer) -> None:
         with pytest.raises(errors.ExtrapolationException, match="into the future"):
             disc.lookup_velocity("disc", "world", START + 9000 * MS)

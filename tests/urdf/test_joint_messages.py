@@ -203,3 +203,17 @@ def test_a_huge_number_of_names_is_refused():
     at = GOOD.index(b"\x05\x00\x00\x00turn\0") - 4
     with pytest.raises(CdrError, match="within its names"):
         JointMessages(ROBOT).layout_of(GOOD[:at] + b"\xff\xff\xff\xff" + GOOD[at + 4 :])
+
+
+@pytest.mark.parametrize("core", ["native"], indirect=True)
+def test_constants_that_change_while_they_are_read():
+    class Vanishing:
+        def __float__(self):
+            constants.clear()
+            return 1.0
+
+    constants = [Vanishing(), *(object() for _ in range(14))]
+    with pytest.raises(TypeError):
+        frames_writer._native_frames()(
+            bytes(100), [4], [20], constants, [0], [1.0], [0.0]
+        )

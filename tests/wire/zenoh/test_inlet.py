@@ -182,3 +182,18 @@ def test_lost_messages_are_reported(nodes):
     publisher.publish(tf_bytes(2))
     assert wait_set.wait(LONG_NS) == [lost]
     assert lost.take().total_count_change == 3
+
+
+def test_a_batch_that_changes_while_it_is_read_is_read_to_its_end():
+    class Vanishing:
+        payload = SimpleNamespace(to_bytes=lambda: tf_bytes(1))
+
+        @property
+        def attachment(self) -> None:
+            batch.clear()
+
+    taking = Taking()
+    batch = [Vanishing(), *(sample(tf_bytes(stamp), attachment(stamp)) for stamp in (1, 2))]
+    vanishing = batch[0]
+    assert taking.inlet.receive(batch) == (True, 0, [vanishing])
+    assert taking.stamps() == [1, 2]
