@@ -66,6 +66,7 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
         self._context = core.context
         self._lock = threading.Lock()
         self._pending: dict[int, Future] = {}
+        self._blocking: set[Future] = set()
 
     def call_async(
         self: Client[ServiceClass[RequestT, ResponseT]], request: RequestT
@@ -77,6 +78,7 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
 
         Raises:
             TypeError: ``request`` is not a ``srv_type.Request``.
+            InvalidHandle: It was destroyed, perhaps meanwhile and by another thread.
             RCLError: The context was shut down.
         """
         self._check_usable()
@@ -100,6 +102,7 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
         try:
             return self._wire.send_request(cdr)
         except WireError:
+            self._check_usable()  # another thread may have destroyed it meanwhile
             if self._context.is_open():
                 raise
             raise RCLError("failed to send request: client's context is invalid") from None
@@ -131,6 +134,7 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
             TypeError: ``request`` is not a ``srv_type.Request``.
             RuntimeError: The service is in the executor that is blocked by this call: it could
                 never answer.
+            InvalidHandle: Another thread destroyed it meanwhile.
             ExternalShutdownException, ShutdownException: The context or the executor was shut down.
         """
         return self._block_for(self.call_async(request), timeout_sec)
@@ -141,11 +145,16 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
         Returns:
             Its result; None when the time was over before.
         """
+        self._blocking.add(future)
         try:
+            self._check_usable()
             call = Call(self._wire.service, self._context, self._logger, self._serving_host())
             wait_for_response(future, call, timeout_sec)
         finally:
+            self._blocking.discard(future)
             self.remove_pending_request(future)
+        if future.cancelled():
+            self._check_usable()
         return future.result() if future.done() else None
 
     def _awaits(self, service: str) -> bool:
@@ -177,10 +186,18 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
 
         Returns:
             Whether a server is there.
+
+        Raises:
+            InvalidHandle: It was destroyed, perhaps meanwhile and by another thread.
         """
-        self._check_usable()
         timeout_ns = None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1e9)
-        return self._context.wait_for_graph(self._wire.is_ready, timeout_ns)
+        return self._context.wait_for_graph(self.service_is_ready, timeout_ns)
+
+    def _close(self) -> None:
+        super()._close()
+        for future in list(self._blocking):
+            future.cancel()
+        self._context.wake_waits()  # for wait_for_service()
 
     def _take(self) -> Work | None:
         for sequence_number, cdr in self._wire.take(1):

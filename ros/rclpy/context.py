@@ -190,6 +190,13 @@ class Context:
             end = self._invalidate(by_signal=True)
         end()
 
+    def wake_waits(self) -> None:
+        """Have those who wait for the graph, or for a response, look again."""
+        with self._lock:
+            waits = list(self.waits)
+        for wait in waits:
+            wait.set()
+
     def _invalidate(self, *, by_signal: bool) -> Callable[[], None]:
         """Mark it as shut down.
 

@@ -69,6 +69,7 @@ class Publisher(Generic[MsgT]):
         Raises:
             TypeError: It is neither a ``msg_type`` nor ``bytes``.
             CdrError: A field holds what its type cannot.
+            InvalidHandle: It was destroyed, perhaps meanwhile and by another thread.
             RCLError: The context was shut down, or the middleware refused it.
         """
         if self._destroyed:
@@ -85,6 +86,7 @@ class Publisher(Generic[MsgT]):
         try:
             self._wire.publish(cdr)
         except WireError as error:
+            self._check_usable()  # another thread may have destroyed it meanwhile
             self._check_context()
             raise RCLError(f"Failed to publish: {error}") from error
 

@@ -14,6 +14,7 @@ from rclpy._execution.self_waits import SelfWaits
 from rclpy.action import ActionClient, ActionServer, CancelResponse, GoalResponse
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.context import Context
+from rclpy.exceptions import InvalidHandle
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.node import Node
 from std_msgs.msg import Int32
@@ -195,6 +196,90 @@ def test_everything_under_load(spinning, node, context):
         node.destroy_guard_condition(guard)
         assert spinning.failure is None
     assert spinning.still_runs(node)
+
+
+@pytest.mark.parametrize("by", ["client", "node"])
+@pytest.mark.parametrize("kind", ["call", "wait_for_service", "send_goal", "wait_for_server"])
+def test_a_client_that_another_thread_waits_with(spinning, node, context, kind, by):
+    """The wait could never end: it raises, as the next use of the client would."""
+    called = threading.Event()
+    other = Node("other", context=context)
+    other.create_service(AddTwoInts, "add", lambda _, response: response)  # nobody spins it
+    ActionServer(other, Fibonacci, "count", lambda _: None)
+    waiter = Node("waiter", context=context)
+    spinning.executor.add_node(waiter)
+    is_action = kind in ("send_goal", "wait_for_server")
+    there = kind in ("call", "send_goal")
+    if is_action:
+        client = ActionClient(waiter, Fibonacci, "count" if there else "absent")
+        assert not there or client.wait_for_server(LIMIT_S)
+    else:
+        client = waiter.create_client(AddTwoInts, "add" if there else "absent")
+        assert not there or client.wait_for_service(LIMIT_S)
+    arguments = {"call": [AddTwoInts.Request()], "send_goal": [Fibonacci.Goal()]}.get(kind, [])
+    ends = []
+
+    def wait():
+        called.set()
+        with pytest.raises(InvalidHandle, match="destruction was requested") as raised:
+            getattr(client, kind)(*arguments)
+        ends.append(raised)
+
+    thread = threading.Thread(target=wait, daemon=True)
+    thread.start()
+    assert called.wait(LIMIT_S)
+    if by == "node":
+        waiter.destroy_node()
+    elif is_action:
+        client.destroy()
+    else:
+        waiter.destroy_client(client)
+    thread.join(LIMIT_S)
+    assert ends
+    assert spinning.still_runs(node)
+
+
+class DestroysAsItIsRead(Int32):
+    """Destroys its publisher between the publisher's look whether it lives and the sending."""
+
+    destroy = staticmethod(lambda: None)
+
+    @property
+    def data(self):
+        self.destroy()
+        return 1
+
+    @data.setter
+    def data(self, value):
+        pass
+
+
+def test_a_publisher_that_another_thread_destroys_while_it_publishes(node, context):
+    publisher = node.create_publisher(Int32, "numbers", 10)
+    message = DestroysAsItIsRead()
+    Node("other", context=context).create_subscription(
+        Int32, "numbers", lambda _: None, 10
+    )
+    message.destroy = lambda: node.destroy_publisher(publisher)
+    with pytest.raises(InvalidHandle, match="destruction was requested"):
+        publisher.publish(message)
+
+
+def test_a_client_that_another_thread_destroys_while_it_calls(node):
+    class Destroys(AddTwoInts.Request):
+        @property
+        def a(self):
+            node.destroy_client(client)
+            return 1
+
+        @a.setter
+        def a(self, value):
+            pass
+
+    client = node.create_client(AddTwoInts, "add")
+    request = Destroys()
+    with pytest.raises(InvalidHandle, match="destruction was requested"):
+        client.call_async(request)
 
 
 def test_a_future_awaited_in_a_callback_that_an_asyncio_loop_spins(node):
