@@ -537,6 +537,36 @@ def test_no_thread_stays_behind(open_here):
     assert not {*threading.enumerate()} - before
 
 
+@pytest.mark.parametrize("kind", ["publisher", "client"])
+def test_endpoints_close_while_another_thread_uses_them(node: Node, other: Node, kind: str):
+    other.create_subscription("/busy", STRING, QoS(depth=5))
+    other.create_service("/busy", SWITCH, QoS(depth=5))
+    message = cdr("x" * 10_000)
+    for _ in range(20):
+        if kind == "publisher":
+            publisher = node.create_publisher("/busy", STRING, QoS(depth=5))
+            use, close = publisher.publish, publisher.close
+        else:
+            client = node.create_client("/busy", SWITCH, QoS(depth=5))
+            use, close = client.send_request, client.close
+        used = threading.Event()
+
+        def use_until_closed(use=use, used=used) -> None:
+            with pytest.raises(WireError, match="closed"):
+                while True:
+                    use(message)
+                    used.set()
+            ended.append(use)
+
+        ended: list[object] = []
+        thread = threading.Thread(target=use_until_closed)
+        thread.start()
+        assert used.wait(60)
+        close()
+        thread.join(60)
+        assert ended == [use]
+
+
 def test_close_from_the_reader_thread_returns(node: Node, other: Node):
     done = threading.Event()
 

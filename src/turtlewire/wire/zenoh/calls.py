@@ -1,4 +1,4 @@
-"""Calls into Zenoh's library, which must have returned before the interpreter ends."""
+"""Calls into Zenoh's library, which must have returned before something ends."""
 
 from __future__ import annotations
 
@@ -13,12 +13,17 @@ class Calls:
     """Lets threads into the library until it is closed; a context manager. Thread-safe.
 
     At its end, Python ends a daemon thread that comes back from a library by unwinding its stack.
-    Rust aborts the process then. So no thread may be in the library at that time.
+    Rust aborts the process then. So no thread may be in the library at that time. Freeing an object
+    of the library is such a call, too.
+
+    Args:
+        owner: What is closed then, for the error.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, owner: str) -> None:
+        self._owner = owner
         self._condition = threading.Condition()
-        self._running = 0
+        self._running: list[int] = []
         self._closed = False
 
     def __enter__(self) -> None:
@@ -29,13 +34,13 @@ class Calls:
         """
         with self._condition:
             if self._closed:
-                raise WireError("the context is closed")
-            self._running += 1
+                raise WireError(f"{self._owner} is closed")
+            self._running.append(threading.get_ident())
 
     def __exit__(self, *_: object) -> None:
         """End a call."""
         with self._condition:
-            self._running -= 1
+            self._running.remove(threading.get_ident())
             if self._closed:
                 self._condition.notify_all()
 
@@ -45,6 +50,10 @@ class Calls:
             self._closed = True
 
     def join(self) -> None:
-        """Wait for the end of all calls; after closing."""
+        """Wait for the end of the calls of all other threads; after closing.
+
+        A signal handler may close what its own thread is about to use.
+        """
+        own = threading.get_ident()
         with self._condition:
-            self._condition.wait_for(lambda: not self._running)
+            self._condition.wait_for(lambda: all(caller == own for caller in self._running))

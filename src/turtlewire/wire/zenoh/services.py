@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import time
 from collections import deque
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import zenoh
@@ -167,16 +168,16 @@ class ZenohService(_QueuedEndpoint, Service):
 
     def send_response(self, request_id: RequestId, cdr: bytes) -> None:
         """See :meth:`Service.send_response`."""
+        gid = request_id.client_id.to_bytes(16, "little")
+        attachment = Attachment(request_id.sequence_number, time.time_ns(), gid)
+        with self._core.calls:  # when they end, nothing here refers to the query any more
+            self._reply(request_id, cdr, attachment)
+
+    def _reply(self, request_id: RequestId, cdr: bytes, attachment: Attachment) -> None:
         with self._lock:
             query = self._queries.pop(request_id, None)
         if query is None:
             return
-        gid = request_id.client_id.to_bytes(16, "little")
-        attachment = Attachment(request_id.sequence_number, time.time_ns(), gid)
-        with self._core.calls:
-            self._reply(query, cdr, attachment)
-
-    def _reply(self, query: zenoh.Query, cdr: bytes, attachment: Attachment) -> None:
         try:
             query.reply(self.token.data_key, cdr, attachment=attachment.pack())
         except zenoh.ZError as error:
@@ -190,6 +191,10 @@ class ZenohService(_QueuedEndpoint, Service):
     def close(self) -> None:
         """See :meth:`Entity.close`."""
         super().close()
+        with suppress(WireError), self._core.calls:
+            self._drop_queries()
+
+    def _drop_queries(self) -> None:
         with self._lock:
             queries, self._queries = self._queries, {}
         for query in queries.values():

@@ -1,0 +1,64 @@
+"""A context that is closed while threads are about to use the library."""
+
+from __future__ import annotations
+
+import threading
+import traceback
+
+import pytest
+
+from turtlewire.errors import WireError
+from turtlewire.wire import open_context
+from turtlewire.wire.base import RequestId, ServiceTypes, TypeId
+from turtlewire.wire.qos import QoS
+from turtlewire.wire.zenoh.calls import Calls
+
+REQUEST = TypeId("std_srvs/srv/SetBool_Request", "RIHS01_" + "1" * 64)
+RESPONSE = TypeId("std_srvs/srv/SetBool_Response", "RIHS01_" + "2" * 64)
+SWITCH = ServiceTypes("std_srvs/srv/SetBool", REQUEST, RESPONSE, lambda _: "RIHS01_" + "3" * 64)
+
+
+def test_a_response_that_comes_too_late_lets_go_of_no_query():
+    """The interpreter may be about to end: freeing a query then aborts the process."""
+    context = open_context(middleware="rmw_zenoh_cpp")
+    service = context.create_node("server").create_service("/switch", SWITCH, QoS(depth=5))
+    asked, query = RequestId(1, 1), object()
+    service._queries[asked] = query
+    context._core.calls.close()
+    with pytest.raises(WireError, match="the context is closed") as late:
+        service.send_response(asked, bytes(8))
+    seen = [frame.f_locals.values() for frame, _ in traceback.walk_tb(late.value.__traceback__)]
+    assert all(value is not query for values in seen[1:] for value in values)
+    assert service._queries.pop(asked) is query
+    context.close()
+
+
+def test_closing_waits_for_other_threads_alone():
+    """A signal handler may close what its own thread is about to use."""
+    calls = Calls("the context")
+    with calls:
+        calls.close()
+        calls.join()
+    with pytest.raises(WireError, match="the context is closed"), calls:
+        pass
+
+
+def test_closing_waits_for_other_threads():
+    calls, inside, leave = Calls("the context"), threading.Event(), threading.Event()
+
+    def call():
+        with calls:
+            inside.set()
+            leave.wait(60)
+
+    caller = threading.Thread(target=call)
+    caller.start()
+    assert inside.wait(60)
+    calls.close()
+    joined = threading.Thread(target=calls.join)
+    joined.start()
+    assert joined.is_alive()
+    leave.set()
+    joined.join(60)
+    assert not joined.is_alive()
+    caller.join(60)
