@@ -180,6 +180,34 @@ def test_without_an_outcome_a_goal_is_aborted_with_a_warning(serve, client, fini
     )
 
 
+@pytest.mark.parametrize("asks", ["before", "after"])
+@pytest.mark.parametrize(
+    ("wrong", "described"),
+    [(Fibonacci.Result, "the class Fibonacci_Result"), (3, "an object of type int")],
+)
+def test_a_result_of_a_wrong_type_is_logged_and_the_client_has_an_answer(
+    serve, client, finish, capfd, asks, wrong, described
+):
+    gate = Future()
+
+    async def execute(goal_handle):
+        goal_handle.succeed()
+        if asks == "before":
+            await gate
+        return wrong
+
+    serve(execute)
+    handle = send(client, finish)
+    answer = handle.get_result_async()
+    gate.set_result(None)
+    response = finish(answer)
+    assert (response.status, list(response.result.sequence)) == (GoalStatus.STATUS_SUCCEEDED, [])
+    assert (
+        "Error raised in execute callback: The execute callback of action 'fibonacci' has to "
+        f"return a Fibonacci.Result; it returned {described}" in capfd.readouterr().err
+    )
+
+
 def test_an_exception_aborts_and_is_logged(serve, client, finish, capfd):
     serve(lambda goal_handle: 1 / 0)
     response = finish(send(client, finish).get_result_async())

@@ -294,6 +294,7 @@ class ActionServer(Waitable):
         why = "Goal state not set, assuming aborted."
         try:
             result = await await_or_execute(execute_callback, goal_handle)
+            self._check_result(result)
         # The client has to get an answer.
         except Exception as error:  # noqa: BLE001
             result = self._action_type.Result()
@@ -310,6 +311,13 @@ class ActionServer(Waitable):
             status=goal_handle.status, result=result
         )
         goal.result.set_result(response)
+
+    def _check_result(self, result: Any) -> None:
+        if result is not None and not isinstance(result, self._action_type.Result):
+            raise TypeError(
+                f"The execute callback of action '{self._action_name}' has to return a "
+                f"{self._action_type.__name__}.Result; it returned {described(result)}"
+            )
 
     def _report(self, error: Exception) -> None:
         """Log an error of an execute callback with ROS 2's text, and show where it was raised."""
