@@ -99,6 +99,8 @@ class Context:
             )  # discovery begins here, so that the first question about the graph finds it known
             self._valid = True
             _open_contexts.add(self)
+            atexit.unregister(_close_open_contexts)
+            atexit.register(_close_open_contexts)  # anew: it has to run before the middleware's end
             signals.listeners.add(self)
             if (
                 initialize_logging and len(_open_contexts) == 1
@@ -298,6 +300,3 @@ def _close_open_contexts() -> None:
     for context in list(_open_contexts):
         context.ended_at_exit = True
         context.try_shutdown()
-
-
-atexit.register(_close_open_contexts)

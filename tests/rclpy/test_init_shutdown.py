@@ -352,3 +352,30 @@ def test_a_callback_may_shut_down_while_others_wait_for_it(monkeypatch, middlewa
     with pytest.raises(ExternalShutdownException):
         executor.spin_once()
     assert got_there == []
+
+
+@pytest.mark.parametrize("middleware", ["rmw_cyclonedds_cpp", "rmw_zenoh_cpp"])
+def test_shutdown_callbacks_at_the_end_of_the_program_find_the_middleware_open(
+    program, monkeypatch, middleware
+):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", middleware)
+    ended = program(
+        """
+        import rclpy
+        from std_msgs.msg import Int32
+
+        rclpy.init()
+        node = rclpy.create_node("ends")
+        publisher = node.create_publisher(Int32, "words", 1)
+        node.create_subscription(Int32, "words", lambda _: None, 1)
+        is_heard = lambda: publisher.get_subscription_count() == 1
+        assert node.context.wait_for_graph(is_heard, 60_000_000_000)
+
+        def speak():
+            publisher.publish(Int32(data=1))
+            print("said")
+
+        node.context.on_shutdown(speak)
+        """
+    )
+    assert ended.finish() == (0, "said\n", "")
