@@ -257,9 +257,7 @@ class DestroysAsItIsRead(Int32):
 def test_a_publisher_that_another_thread_destroys_while_it_publishes(node, context):
     publisher = node.create_publisher(Int32, "numbers", 10)
     message = DestroysAsItIsRead()
-    Node("other", context=context).create_subscription(
-        Int32, "numbers", lambda _: None, 10
-    )
+    Node("other", context=context).create_subscription(Int32, "numbers", lambda _: None, 10)
     message.destroy = lambda: node.destroy_publisher(publisher)
     with pytest.raises(InvalidHandle, match="destruction was requested"):
         publisher.publish(message)

@@ -184,9 +184,7 @@ def test_extrapolation(buffer: turtlewire.Buffer) -> None:
 
 
 @pytest.mark.parametrize("names", [("a\udcff", "b"), ("a", "b\udcff")])
-def test_names_without_utf_8_are_refused(
-    buffer: turtlewire.Buffer, names: tuple[str, str]
-) -> None:
+def test_names_without_utf_8_are_refused(buffer: turtlewire.Buffer, names: tuple[str, str]) -> None:
     buffer.set_transform("a", "b", SECOND, (0, 0, 0), STILL)
     with pytest.raises(UnicodeEncodeError, match="surrogates"):
         buffer.lookup_latest(*names)

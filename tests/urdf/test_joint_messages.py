@@ -214,6 +214,4 @@ def test_constants_that_change_while_they_are_read():
 
     constants = [Vanishing(), *(object() for _ in range(14))]
     with pytest.raises(TypeError):
-        frames_writer._native_frames()(
-            bytes(100), [4], [20], constants, [0], [1.0], [0.0]
-        )
+        frames_writer._native_frames()(bytes(100), [4], [20], constants, [0], [1.0], [0.0])

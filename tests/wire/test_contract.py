@@ -537,34 +537,37 @@ def test_no_thread_stays_behind(open_here):
     assert not {*threading.enumerate()} - before
 
 
+def close_while_in_use(use, close) -> None:
+    message = cdr("x" * 10_000)
+    used, ended = threading.Event(), threading.Event()
+
+    def use_endlessly() -> None:
+        while True:
+            use(message)
+            used.set()
+
+    def use_until_closed() -> None:
+        with pytest.raises(WireError, match="closed"):
+            use_endlessly()
+        ended.set()
+
+    threading.Thread(target=use_until_closed, daemon=True).start()
+    assert used.wait(60)
+    close()
+    assert ended.wait(60)
+
+
 @pytest.mark.parametrize("kind", ["publisher", "client"])
 def test_endpoints_close_while_another_thread_uses_them(node: Node, other: Node, kind: str):
     other.create_subscription("/busy", STRING, QoS(depth=5))
     other.create_service("/busy", SWITCH, QoS(depth=5))
-    message = cdr("x" * 10_000)
     for _ in range(20):
         if kind == "publisher":
             publisher = node.create_publisher("/busy", STRING, QoS(depth=5))
-            use, close = publisher.publish, publisher.close
+            close_while_in_use(publisher.publish, publisher.close)
         else:
             client = node.create_client("/busy", SWITCH, QoS(depth=5))
-            use, close = client.send_request, client.close
-        used = threading.Event()
-
-        def use_until_closed(use=use, used=used) -> None:
-            with pytest.raises(WireError, match="closed"):
-                while True:
-                    use(message)
-                    used.set()
-            ended.append(use)
-
-        ended: list[object] = []
-        thread = threading.Thread(target=use_until_closed)
-        thread.start()
-        assert used.wait(60)
-        close()
-        thread.join(60)
-        assert ended == [use]
+            close_while_in_use(client.send_request, client.close)
 
 
 def test_close_from_the_reader_thread_returns(node: Node, other: Node):
