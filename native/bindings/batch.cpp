@@ -332,15 +332,17 @@ nb::object transform_points(BufferObject& self, std::string_view target, std::st
 
 nb::object lookup_velocity(BufferObject& self, std::string_view tracking, std::string_view observer,
                            nb::handle when, Stamp interval, std::optional<std::string_view> axes,
-                           nb::handle where,
-                           std::optional<std::string_view> point_frame, nb::object out,
-                           nb::object status_object) {
+                           nb::handle where, std::optional<std::string_view> point_frame,
+                           nb::object out, nb::object status_object) {
   if (interval <= 0) throw nb::value_error("interval_ns must be positive");
   double point[3];
   if (!numbers_of(where.ptr(), point, 3, "point")) throw nb::python_error();
-  const VelocityRequest request{
-      tracking,  observer, axes.value_or(observer), point_frame.value_or(tracking),
-      {point[0], point[1], point[2]}, interval};
+  const VelocityRequest request{tracking,
+                                observer,
+                                axes.value_or(observer),
+                                point_frame.value_or(tracking),
+                                {point[0], point[1], point[2]},
+                                interval};
   const std::optional<Stamp> single = single_stamp(when);
   const Stamps many = single ? Stamps() : stamps_of(when);
   const std::span<const Stamp> stamps =

@@ -70,7 +70,11 @@ def main(argv: list[str] | None = None) -> int:
     with suppress(ValueError):  # only the main thread may set handlers
         signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
-        return _run(words)
+        args = _parse(words)
+        if argv is None and callable(signal.getsignal(signal.SIGINT)):
+            # Until here, the guard's handler has ended the process.
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+        return _status(args)
     except KeyboardInterrupt:
         return _EXIT_INTERRUPTED
     finally:
@@ -79,7 +83,7 @@ def main(argv: list[str] | None = None) -> int:
             signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
-def _run(words: list[str]) -> int:
+def _parse(words: list[str]) -> argparse.Namespace:
     parser = make_parser(_words_to_complete() or words)
     if "_ARGCOMPLETE" in os.environ:
         import argcomplete
@@ -97,7 +101,7 @@ def _run(words: list[str]) -> int:
         sys.stdout.reconfigure(errors="backslashreplace")
         if not args.use_python_default_buffering:
             sys.stdout.reconfigure(line_buffering=True)
-    return _status(args)
+    return args
 
 
 def make_parser(words: list[str]) -> argparse.ArgumentParser:

@@ -9,6 +9,7 @@ package of its name.
 from __future__ import annotations
 
 import os
+import signal
 
 __all__ = ["foreign_package", "main"]
 
@@ -19,6 +20,8 @@ def main() -> int | str:
     Returns:
         What ``sys.exit`` takes: the exit status, or the text of an error.
     """
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, _end)
     try:
         foreign = foreign_package()
         if foreign is not None:
@@ -30,6 +33,15 @@ def main() -> int | str:
         return run()
     except KeyboardInterrupt:  # before the command line was read
         return 2
+
+
+def _end(*_: object) -> None:
+    """Ctrl-C before the verb runs, which restores Python's handler.
+
+    Until then nearly all time goes into imports, and Python drops an exception that comes at the
+    end of one.
+    """
+    os._exit(2)
 
 
 def foreign_package() -> str | None:

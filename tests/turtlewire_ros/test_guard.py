@@ -42,3 +42,30 @@ def test_packages_of_another_ros_are_named_in_one_line(tmp_path, package):
     told = f"ros2: {folder} belongs to another ROS 2 and hides the one of turtlewire. "
     told += "Use a shell in which no other ROS 2 is sourced, or unset PYTHONPATH.\n"
     assert ros2("topic", "list", path=str(tmp_path)) == (1, "", told)
+
+
+INTERRUPTED = """
+import os, signal, sys, weakref
+import ros2cli.main
+from turtlewire_ros import guard
+
+class Module:
+    pass
+
+def run():
+    module = Module()
+    # Python drops what is raised in here, as at the end of an import.
+    end = weakref.ref(module, lambda _: os.kill(os.getpid(), signal.SIGINT))
+    del module
+    return 0
+
+ros2cli.main.main = run
+sys.exit(guard.main())
+"""
+
+
+def test_ctrl_c_at_the_end_of_an_import_ends_ros2():
+    done = subprocess.run(
+        [sys.executable, "-c", INTERRUPTED], capture_output=True, text=True, timeout=60, check=False
+    )
+    assert (done.returncode, done.stderr) == (2, "")
