@@ -12,8 +12,9 @@ from rclpy.logging import get_logger
 from rosbag2_transport.recorder_notices import missing
 from rosbag2_transport.recorder_qos import misses, refusal, subscription_qos
 from rosbag2_transport.topic_filter import TopicFilter
-from turtlewire.errors import InterfaceError, WireError
+from turtlewire.errors import BagError, InterfaceError, WireError
 from turtlewire.msg import type_hash
+from turtlewire.printable import printable
 from turtlewire.wire.base import Subscription, TypeId
 from turtlewire.wire.qos import Durability
 
@@ -202,12 +203,13 @@ class Recorder:
         known_hash = _known_hash(type_name)
         type_id = TypeId(type_name, their_hash or known_hash)
         try:
-            subscription = self._node._rclpy_wire.create_subscription(topic, type_id, qos)
-        except WireError as error:
+            subscription = self._opened(topic, type_id, qos, offered)
+        except (BagError, WireError) as error:
             self._refused.add(topic)
-            self._logger.error(f"Topic '{topic}' cannot be recorded: {error}")  # noqa: TRY400
+            self._logger.error(  # noqa: TRY400
+                printable(f"Topic '{topic}' cannot be recorded: {error}")
+            )
             return
-        self._recording.add_topic(topic, type_name, qos=offered, hash_of_type=type_id.type_hash)
         self._known_publishers.update(publisher.gid for publisher in publishers)
         self._requested[topic] = qos
         self._subscriptions[topic] = subscription
@@ -218,6 +220,18 @@ class Recorder:
                 f"The type {type_name} of topic '{topic}' is not installed: its messages are "
                 "recorded without a definition"
             )
+
+    def _opened(self, topic: str, type_id: TypeId, qos: QoS, offered: list[QoS]) -> Subscription:
+        """Subscribe to a topic that is added to the bag, or neither."""
+        subscription = self._node._rclpy_wire.create_subscription(topic, type_id, qos)
+        try:
+            self._recording.add_topic(
+                topic, type_id.name, qos=offered, hash_of_type=type_id.type_hash
+            )
+        except BagError:
+            subscription.close()
+            raise
+        return subscription
 
     def _qos(self, topic: str, offered: list[QoS]) -> QoS:
         """With which QoS to subscribe; warns of messages that are lost by it."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 import signal
 import sys
 import threading
@@ -278,3 +279,19 @@ def test_a_topic_of_a_type_that_is_not_known_here_is_recorded(peer, bag_verb, tm
         topic = bag.topics["/thing"]
         assert (topic.type, topic.type_hash) == (type_id.name, type_id.type_hash)
         assert [message.data for message in bag.messages("/thing")] == [data]
+
+
+def test_a_topic_whose_type_has_no_name_of_ros_does_not_end_the_search(peer, bag_verb, tmp_path):
+    """Also programs that are no nodes publish on DDS, and may give their types any name."""
+    wire = peer.node._rclpy_wire
+    wire.create_publisher("/odd", TypeId("Reading\x1b[2J", "RIHS01_" + "7" * 64), QoS())
+    recorder = bag_verb("record", "-o", "out", "-a", "--disable-keyboard-controls")
+    text = "Topic '/odd' cannot be recorded: 'Reading\\x1b[2J' is no name of a message type"
+    recorder.wait_for(re.escape(text))
+    publish(peer.heard(peer.publisher("/later")))
+    wait_until_written(tmp_path / "out", "/later", len(NAMES))
+    assert end(recorder) == 0
+    assert recorder.text.count("/odd") == 1
+    assert "Traceback" not in recorder.text
+    with open_bag(tmp_path / "out") as bag:
+        assert "/odd" not in bag.topics
