@@ -11,6 +11,7 @@ from composition_interfaces.srv import ListNodes, LoadNode, UnloadNode
 from rclpy.executors import ExternalShutdownException, ShutdownException, SingleThreadedExecutor
 from rclpy.node import Node, component_arguments
 from rclpy.parameter import parameter_value_to_python
+from turtlewire.printable import printable, printable_lines
 
 if TYPE_CHECKING:
     from rclpy.context import Context
@@ -58,10 +59,14 @@ class ComponentManager(Node):
     def _told(self, error: Exception, request: Any) -> str:
         """Log why a component was not loaded; returns the text of the response."""
         if isinstance(error, ModuleNotFoundError) and "::" in request.plugin_name:
-            self.get_logger().error(f"'{request.plugin_name}' is a component of C++: {error}")
+            self.get_logger().error(
+                printable(f"'{request.plugin_name}' is a component of C++: {error}")
+            )
             return "Could not find requested resource in ament index"
         self.get_logger().error(
-            f"Component constructor threw an exception: {error}\n{traceback.format_exc()}"
+            printable_lines(
+                f"Component constructor threw an exception: {error}\n{traceback.format_exc()}"
+            )
         )
         return f"{type(error).__name__}: {error}"
 

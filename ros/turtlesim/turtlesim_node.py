@@ -24,6 +24,7 @@ from turtlesim.page_actions import PageActions
 from turtlesim.path import PathImage
 from turtlesim.srv import Kill, Spawn
 from turtlesim.turtle_endpoints import TurtleEndpoints, are_finite
+from turtlewire.printable import printable, printable_lines
 
 if TYPE_CHECKING:
     from rclpy.timer import Timer
@@ -262,14 +263,16 @@ class TurtlesimNode(CppNode):
         try:
             self._add(turtle)
         except (InvalidTopicNameException, ValueError) as error:
-            self.get_logger().error(f"Cannot name a turtle [{name}]: {error}")
+            self.get_logger().error(printable_lines(f"Cannot name a turtle [{name}]: {error}"))
             return ""
         return turtle.name
 
     def kill(self, name: str) -> None:
         """Remove a turtle, or log an error if there is none of that name."""
         if self.world.kill(name) is None:
-            self.get_logger().error(f"Tried to kill turtle [{name}], which does not exist")
+            self.get_logger().error(
+                printable(f"Tried to kill turtle [{name}], which does not exist")
+            )
             return
         self._remove(name)
         self._show_scene()

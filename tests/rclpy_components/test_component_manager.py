@@ -180,3 +180,11 @@ def test_what_cannot_be_loaded(call, plugin, message):
     response = call(LoadNode, "load_node", package_name="test", plugin_name=plugin)
     assert (response.success, response.error_message) == (False, message)
     assert load(call).success
+
+
+@pytest.mark.parametrize("plugin", ["no::\x1b[2J", "\x1b[2J", "no\x1b[2J.Talker"])
+def test_a_request_does_not_steer_the_terminal(call, capfd, plugin):
+    assert not call(LoadNode, "load_node", package_name="test", plugin_name=plugin).success
+    errors = capfd.readouterr().err
+    assert r"\x1b[2J" in errors
+    assert "\x1b" not in errors

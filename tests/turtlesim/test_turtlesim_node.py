@@ -225,6 +225,16 @@ def test_start_spawn_kill_and_reset_with_their_texts(make_world, capfd):
     }
 
 
+def test_names_in_requests_do_not_steer_the_terminal(make_world, capfd):
+    world = make_world()
+    for type_, service in ((Spawn, "/spawn"), (Kill, "/kill")):
+        world.call(type_, service, name="turtle\x1b[2J")
+    logged = capfd.readouterr().err
+    assert r"Cannot name a turtle [turtle\x1b[2J]" in logged
+    assert r"Tried to kill turtle [turtle\x1b[2J]" in logged
+    assert "\x1b" not in logged
+
+
 def test_a_crowd_says_why_it_takes_time_to_leave(make_world, monkeypatch, capfd):
     monkeypatch.setattr("turtlesim.turtlesim_node._CROWD", 2)
     world = make_world()
