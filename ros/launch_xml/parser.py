@@ -41,7 +41,8 @@ class Parser(BaseParser):
         """Read a file into its root element.
 
         Raises:
-            SyntaxError: It is not XML, or may declare entities; the text names file and line.
+            SyntaxError: It is not XML, may declare entities or is nested too deeply; the text names
+                the file, and the line if there is one.
         """
         from defusedxml.common import DTDForbidden
         from defusedxml.ElementTree import DefusedXMLParser, parse
@@ -52,13 +53,15 @@ class Parser(BaseParser):
         name = os.path.basename(file if isinstance(file, str) else getattr(file, "name", ""))
         try:
             root: Any = parse(file, parser=parser).getroot()
+            return Entity(root), cls()
         except DTDForbidden:
             text = "a document type declaration, which may hold entities, is not allowed here"
             raise SyntaxError(text, (name, builder.parser.CurrentLineNumber, None, None)) from None
+        except RecursionError:
+            raise SyntaxError("nested too deeply", (name, None, None, None)) from None
         except ET.ParseError as error:
             error.filename, error.lineno = name, error.position[0]
             raise
-        return Entity(root), cls()
 
     @classmethod
     def get_file_extensions(cls) -> set[str]:

@@ -75,13 +75,18 @@ def _loader() -> Any:
 def _tree(file: io.TextIOBase) -> Any:
     import yaml
 
+    name = os.path.basename(str(getattr(file, "name", "")))
     try:
         return yaml.load(file, _loader())  # noqa: S506  a SafeLoader
+    except RecursionError:
+        raise SyntaxError("nested too deeply", (name, None, None, None)) from None
+    except ValueError as error:  # a date that is in no calendar
+        raise SyntaxError(str(error), (name, None, None, None)) from None
     except yaml.MarkedYAMLError as error:
         if error.problem_mark is None:
             raise
         mark = error.problem_mark
-        name = os.path.basename(str(getattr(file, "name", mark.name)))
+        name = name or os.path.basename(mark.name)
         raise SyntaxError(
             str(error.problem), (name, mark.line + 1, mark.column + 1, None)
         ) from error

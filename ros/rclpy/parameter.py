@@ -189,7 +189,7 @@ def get_parameter_value(string_value: str) -> rcl_interfaces.msg.ParameterValue:
 
     try:
         value = yaml.safe_load(string_value)
-    except yaml.YAMLError:
+    except (yaml.YAMLError, ValueError, RecursionError):  # the latter: no date, nested too deeply
         value = string_value
     return _value_from_yaml(value, string_value)
 
@@ -230,11 +230,17 @@ def parameter_dict_from_yaml_file(
     """
     import yaml
 
+    invalid = "YAML file is not a valid ROS parameter file"
     with open(parameter_file, encoding="utf-8") as file:
-        content = yaml.safe_load(file)
+        try:
+            content = yaml.safe_load(file)
+        except RecursionError:
+            raise RuntimeError(f"{invalid}: '{parameter_file}' is nested too deeply") from None
+        except ValueError as error:  # a date that is in no calendar
+            raise RuntimeError(f"{invalid}: '{parameter_file}': {error}") from None
     if not isinstance(content, dict):
         raise RuntimeError(  # noqa: TRY004 - what ROS 2 raises
-            f"YAML file is not a valid ROS parameter file: '{parameter_file}' holds no nodes"
+            f"{invalid}: '{parameter_file}' holds no nodes"
         )
     nodes = (
         [name for name in content if name != "/**"] if target_nodes is None else list(target_nodes)
@@ -254,7 +260,7 @@ def parameter_dict_from_yaml_file(
         section = content[node]
         if not isinstance(section, dict) or not isinstance(section.get("ros__parameters"), dict):
             raise RuntimeError(  # noqa: TRY004 - as above
-                f"YAML file is not a valid ROS parameter file for node {node}"
+                f"{invalid} for node {node}"
             )
         _flatten(section["ros__parameters"], namespace, parameters)
     return parameters

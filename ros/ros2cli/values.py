@@ -24,7 +24,8 @@ def read_values(text: str) -> dict[str, Any]:
     """The mapping that a YAML text is; an empty text is an empty one.
 
     Raises:
-        RuntimeError: It is not a mapping, or aliases or nesting make it too large.
+        RuntimeError: It is not a mapping, holds a date of no calendar, or aliases or nesting make
+            it too large.
         yaml.YAMLError: It is no YAML.
     """
     import yaml
@@ -34,6 +35,8 @@ def read_values(text: str) -> dict[str, Any]:
         size = _size(values, {})
     except RecursionError:
         raise RuntimeError("The passed value is nested too deeply") from None
+    except ValueError as error:
+        raise RuntimeError(f"The passed value holds what looks like a date: {error}") from None
     if size > len(text) + _MOST_COPIES:  # each value that is written out has a character of its own
         raise RuntimeError("The aliases of the passed value stand for too many values")
     if values is None:

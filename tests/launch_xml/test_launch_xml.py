@@ -92,6 +92,13 @@ def test_a_malformed_file_is_named_with_its_line(tmp_path):
     assert str(caught.value) == "duplicate attribute: line 2, column 17 (x.launch.xml, line 2)"
 
 
+def test_a_file_that_is_nested_too_deeply(tmp_path):
+    path = tmp_path / "x.launch.xml"
+    path.write_text("<launch>" + "<group>" * 50_000 + "</group>" * 50_000 + "</launch>")
+    with pytest.raises(SyntaxError, match=r"^nested too deeply \(x\.launch\.xml\)$"):
+        Parser.load(str(path))
+
+
 def test_the_source_reads_only_xml(tmp_path):
     (tmp_path / "x.launch.xml").write_text("<launch><log message='a'/></launch>")
     source = XMLLaunchDescriptionSource(str(tmp_path / "x.launch.xml"))

@@ -100,6 +100,17 @@ def test_aliases_work_but_no_bombs(entity):
         entity("launch: &a [{group: *a}]")
 
 
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [("[" * 50_000, "nested too deeply"), ("launch: 2026-13-01", "month must be in 1..12")],
+)
+def test_what_yaml_cannot_make_of_a_file(tmp_path, text, why):
+    (tmp_path / "x.launch.yaml").write_text(text)
+    with pytest.raises(SyntaxError) as caught:
+        Parser.load(str(tmp_path / "x.launch.yaml"))
+    assert (caught.value.msg, caught.value.filename) == (why, "x.launch.yaml")
+
+
 def test_a_malformed_file_is_named_with_its_line(tmp_path):
     (tmp_path / "x.launch.yaml").write_text("launch:\n- log:\n\tmessage: x")
     with pytest.raises(SyntaxError) as caught:

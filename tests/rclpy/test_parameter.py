@@ -112,6 +112,8 @@ def test_other_errors():
         ("", ""),
         ("2026-01-01", "2026-01-01"),
         ("[unclosed", "[unclosed"),
+        ("2026-13-01", "2026-13-01"),
+        ("[" * 50_000, "[" * 50_000),
     ],
 )
 def test_values_from_yaml(text, value):
@@ -166,6 +168,8 @@ def test_bad_parameter_files(parameter_file, tmp_path):
         ("node: {a: 1}", "YAML file is not a valid ROS parameter file for node node"),
         ("[1]", "YAML file is not a valid ROS parameter file"),
         ("", "YAML file is not a valid ROS parameter file"),
+        ("[" * 50_000, r"YAML file is not a valid ROS parameter file: '.*' is nested too deeply$"),
+        ("a: 2026-13-01", r"YAML file is not a valid ROS .* file: '.*': month must be in 1..12$"),
     ):
         path = tmp_path / "bad.yaml"
         path.write_text(text)

@@ -85,6 +85,11 @@ def test_deep_nesting_is_refused_in_one_line():
         read_values(f"{{data: {'[' * 1500}{']' * 1500}}}")
 
 
+def test_a_date_of_no_calendar_is_refused_in_one_line():
+    with pytest.raises(RuntimeError, match=r"what looks like a date: month must be in 1\.\.12$"):
+        read_values("{data: 2026-13-01}")
+
+
 def test_errors_that_quote_a_value_are_cut():
     assert shortened(ValueError("short")) == "short"
     assert len(shortened(ValueError("x" * 10_000_000))) < 2000

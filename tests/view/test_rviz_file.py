@@ -112,7 +112,7 @@ def test_a_file_of_rviz_is_read():
         ("!!python/object/apply:os.system [echo]", "the file is no YAML"),
         ("\x00", "the file is no YAML"),
         ("x" * 2_000_000, "too many for a .rviz file"),
-        ("[" * 100_000, "the file is no YAML"),
+        ("[" * 100_000, "^the file is no YAML: nested too deeply$"),
     ],
 )
 def test_texts_that_are_no_view(text, why):

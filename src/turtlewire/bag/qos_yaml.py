@@ -37,21 +37,21 @@ def load_yaml(text: str, where: str) -> Any:
     """
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
-        _check_depth(text, loader, where)
+        _check_depth(text, loader)
         return yaml.load(text, loader)  # noqa: S506 - both loaders are safe ones
     except (yaml.YAMLError, ValueError) as error:  # the latter of a date in no calendar
         reason = str(error).replace("\n", " ")
         raise BagError(f"{where}: not readable as YAML: {reason}") from None
 
 
-def _check_depth(text: str, loader: Any, where: str) -> None:
+def _check_depth(text: str, loader: Any) -> None:
     """Refuse nesting that would make libyaml's loader overflow the stack and crash."""
     depth = 0
     for event in yaml.parse(text, loader):
         if isinstance(event, yaml.CollectionStartEvent):
             depth += 1
             if depth > _DEEPEST:
-                raise BagError(f"{where}: not readable as YAML: nested more than {_DEEPEST} deep")
+                raise yaml.YAMLError(f"nested more than {_DEEPEST} deep")
         elif isinstance(event, yaml.CollectionEndEvent):
             depth -= 1
 

@@ -166,7 +166,9 @@ def _parsed(text: str) -> dict[str, Any]:
         raise RvizFileError(f"{len(text)} characters are too many for a .rviz file")
     try:
         content = yaml.safe_load(text)
-    except (yaml.YAMLError, RecursionError, ValueError) as error:
+    except RecursionError:
+        raise RvizFileError("the file is no YAML: nested too deeply") from None
+    except (yaml.YAMLError, ValueError) as error:
         line = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise RvizFileError(f"the file is no YAML: {line}") from None
     if not isinstance(content, dict):
