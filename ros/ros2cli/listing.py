@@ -65,11 +65,17 @@ def print_names_and_types(found: NamesAndTypes, args: argparse.Namespace) -> Non
     print_names(shown, args)
 
 
-def print_types(name: str, known: Mapping[str, list[str]]) -> int:
-    """Print the types of a name; returns the exit status, 1 if the name is not known."""
-    from ros2cli.suggestion import say_what_was_meant
+def print_types(kind: str, name: str, known: Mapping[str, list[str]]) -> int:
+    """Print the types of a topic, service or action.
 
-    for type_name in known.get(name, ()):
+    Returns:
+        The exit status: 1 if the name is not known, and stderr says which are.
+    """
+    from ros2cli.suggestion import say_what_there_is
+
+    if name not in known:
+        say_what_there_is(kind, name, known)
+        return 1
+    for type_name in known[name]:
         print(type_name)
-    say_what_was_meant(name, known)
-    return 0 if known.get(name) else 1
+    return 0

@@ -15,6 +15,7 @@ __all__ = [
     "field_meant",
     "interface_meant",
     "package_meant",
+    "say_what_there_is",
     "say_what_was_meant",
     "say_why_to_wait",
     "warn_of_other_type",
@@ -98,7 +99,18 @@ def say_why_to_wait(
     types = dict(known)
     if name in types:
         warn_of_other_type(kind, name, type_name(interface), types)
-        return
+    else:
+        say_what_there_is(kind, name, types)
+
+
+def say_what_there_is(kind: str, name: str, types: Mapping[str, list[str]]) -> None:
+    """Print the nearest names to stderr; if none is near, all.
+
+    Args:
+        kind: ``topic``, ``service`` or ``action``.
+        name: A name that is not known.
+        types: The types of all that exist, by name.
+    """
     near = did_you_mean(name, types).lstrip("\n")
     tell(near or _all_that_exist(kind, types))
 

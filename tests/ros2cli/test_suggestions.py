@@ -109,6 +109,9 @@ def test_names_of_the_graph(capsys):
         "Could not determine the type for the passed topic",
     ]
     assert errors(capsys, "topic", "type", "/turtel1/pose") == [hint]
+    assert errors(capsys, "topic", "type", "/qqq") == ["Known topics: /turtle1/pose"]
+    assert errors(capsys, "service", "type", "/qqq") == ["No node offers any service now"]
+    assert errors(capsys, "action", "type", "/qqq") == ["No node offers any action now"]
     assert errors(capsys, "topic", "info", "/turtel1/pose") == [
         "Unknown topic '/turtel1/pose'",
         hint,

@@ -29,4 +29,4 @@ def main(args: argparse.Namespace) -> int:
 
     with GraphNode() as graph:
         known = dict(actions(graph))
-    return print_types(args.action_name, known)
+    return print_types("action", args.action_name, known)

@@ -28,4 +28,4 @@ def main(args: argparse.Namespace) -> int:
 
     with GraphNode(args.spin_time) as graph:
         known = dict(services(graph, hidden=True))
-    return print_types(args.service_name, known)
+    return print_types("service", args.service_name, known)

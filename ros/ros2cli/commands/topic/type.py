@@ -26,4 +26,4 @@ def main(args: argparse.Namespace) -> int:
 
     with GraphNode(args.spin_time) as graph:
         known = dict(topics(graph, hidden=True))
-    return print_types(args.topic_name, known)
+    return print_types("topic", args.topic_name, known)
