@@ -146,9 +146,11 @@ class Visitors:
             visit.start()
 
     def _visit(self, number: int, lifetime: float | None) -> None:
-        """Run one to its end, or kill it after its lifetime."""
+        """Run one to its end, or one that stays, and kill it after its lifetime."""
         process = subprocess.Popen(
-            self._command(number), stdout=subprocess.DEVNULL, stderr=self._log
+            self._command(number, stays=lifetime is not None),
+            stdout=subprocess.DEVNULL,
+            stderr=self._log,
         )
         try:
             status = process.wait(START_LIMIT_S if lifetime is None else lifetime)
@@ -164,16 +166,16 @@ class Visitors:
                 self.failures.append(f"visitor {number} ended with status {status}")
         self._seats.release()
 
-    def _command(self, number: int) -> list[str]:
+    def _command(self, number: int, *, stays: bool) -> list[str]:
         kinds = {
             "visiting_listener": str(number),
             "visiting_node": str(number),
             "visiting_page": self._page,
         }
         if number % 10 == 9:
-            return [str(BIN / "ros2"), "topic", "list"]
+            return [str(BIN / "ros2"), "topic", *(("hz", "/tf") if stays else ("list",))]
         kind = list(kinds)[number // KILLED % len(kinds)]
-        return [sys.executable, str(ACTORS), kind, kinds[kind]]
+        return [sys.executable, str(ACTORS), kind, kinds[kind], *(("again",) if stays else ())]
 
 
 def main() -> int:

@@ -184,5 +184,8 @@ if __name__ == "__main__":
     actors = (broadcaster, listener, watcher, server, client, viewer)
     visitors = (visiting_listener, visiting_node, visiting_page)
     names = {actor.__name__: actor for actor in (*actors, *visitors)}
+    name, argument, again = (*sys.argv[1:], "", "")[:3]
     with contextlib.suppress(KeyboardInterrupt):  # how scripts/soak ends those that stay
-        names[sys.argv[1]](sys.argv[2] if len(sys.argv) > 2 else "")
+        names[name](argument)
+        while again:  # until it is killed
+            names[name](argument)
