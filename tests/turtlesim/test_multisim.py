@@ -45,8 +45,9 @@ def test_two_fields_one_mimics_the_other(run):
         square = run(
             ROS2, "run", "turtlesim", "draw_square", "--ros-args", "-r", "__ns:=/turtlesim1"
         )
-        square.wait_for("Reached goal")
-        assert moved.wait(60)
+        square.wait_for("New goal")
+        # On a busy machine draw_square may miss its goal, as ROS 2's does: the goal is 0.2 m wide.
+        assert moved.wait(120)
     finally:
         context.close()
     launch.signal_group(signal.SIGINT)
