@@ -179,10 +179,12 @@ class Program:
     def survivors(self):
         """Processes that it started, directly or not, and that have not ended (zombies have)."""
         found = []
-        for environ in Path("/proc").glob("[0-9]*/environ"):
-            try:
-                if self._mark.encode() in environ.read_bytes():
-                    found.append(int(environ.parent.name))
+        for name in os.listdir("/proc"):
+            if not name.isdigit():
+                continue
+            try:  # pathlib's glob would raise when a process ends meanwhile
+                if self._mark.encode() in Path("/proc", name, "environ").read_bytes():
+                    found.append(int(name))
             except (FileNotFoundError, ProcessLookupError, PermissionError):
                 continue
         return found
