@@ -71,7 +71,9 @@ def _run(command: list[str], seconds: float | None) -> int:
         # In the place of this process, so that whatever ends it ends the launch.
         os.execve(command[0], command, environment)  # noqa: S606 -- ours
     # On Windows, Ctrl-C reaches the launch as well; elsewhere, in its session, only from here.
-    launch = subprocess.Popen(command, env=environment, start_new_session=True)  # noqa: S603 -- ours
+    launch = subprocess.Popen(  # noqa: S603 -- ours
+        command, env=environment, start_new_session=True
+    )
     try:
         with _signals_as_interrupts():
             return launch.wait(seconds)

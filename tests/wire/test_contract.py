@@ -331,37 +331,6 @@ def test_what_was_closed_and_never_attached_can_be_detached(node: Node):
     assert wait_set.wait(0) == []
 
 
-@pytest.mark.parametrize("kind", ["publisher", "client"])
-def test_what_one_thread_sends_with_may_be_closed_by_another(node: Node, kind: str):
-    ends: list[str] = []
-
-    def send_until_closed(send, begun: threading.Event) -> None:
-        begun.set()
-        try:
-            while True:
-                send(cdr("x" * 10_000))
-        except Exception as end:
-            ends.append(f"{type(end).__name__}: {end}")
-
-    rounds = 40
-    for _ in range(rounds):
-        if kind == "publisher":
-            publisher = node.create_publisher("/chatter", STRING, QoS())
-            end, send = publisher, publisher.publish
-        else:
-            client = node.create_client("/switch", SWITCH, QoS())
-            end, send = client, client.send_request
-        begun = threading.Event()
-        sending = threading.Thread(target=send_until_closed, args=(send, begun))
-        sending.start()
-        assert begun.wait(60)
-        end.close()
-        sending.join(60)
-        assert not sending.is_alive()
-    assert len(ends) == rounds
-    assert all(end.startswith("WireError") and "closed" in end for end in ends), ends
-
-
 def test_an_entity_can_be_attached_while_a_thread_waits(node: Node, other: Node):
     publisher = other.create_publisher(
         "/chatter", STRING, QoS(durability=Durability.TRANSIENT_LOCAL)
