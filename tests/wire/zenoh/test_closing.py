@@ -35,7 +35,7 @@ def test_a_response_that_comes_too_late_lets_go_of_no_query():
 
 def test_closing_waits_for_other_threads_alone():
     """A signal handler may close what its own thread is about to use."""
-    calls = Calls("the context")
+    calls = Calls()
     with calls:
         calls.close()
         calls.join()
@@ -44,7 +44,7 @@ def test_closing_waits_for_other_threads_alone():
 
 
 def test_closing_waits_for_other_threads():
-    calls, inside, leave = Calls("the context"), threading.Event(), threading.Event()
+    calls, inside, leave = Calls(), threading.Event(), threading.Event()
 
     def call():
         with calls:

@@ -1,4 +1,4 @@
-"""Calls into Zenoh's library, which must have returned before something ends."""
+"""Calls into Zenoh's library, which must have returned before the interpreter ends."""
 
 from __future__ import annotations
 
@@ -15,13 +15,9 @@ class Calls:
     At its end, Python ends a daemon thread that comes back from a library by unwinding its stack.
     Rust aborts the process then. So no thread may be in the library at that time. Freeing an object
     of the library is such a call, too.
-
-    Args:
-        owner: What is closed then, for the error.
     """
 
-    def __init__(self, owner: str) -> None:
-        self._owner = owner
+    def __init__(self) -> None:
         self._condition = threading.Condition()
         self._running: list[int] = []
         self._closed = False
@@ -34,7 +30,7 @@ class Calls:
         """
         with self._condition:
             if self._closed:
-                raise WireError(f"{self._owner} is closed")
+                raise WireError("the context is closed")
             self._running.append(threading.get_ident())
 
     def __exit__(self, *_: object) -> None:

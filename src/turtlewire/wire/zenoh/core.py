@@ -66,7 +66,7 @@ class ContextCore:
         self.lock: threading.RLock = graph.lock
         self.reader = reader
         self.graph = graph
-        self.calls = Calls("the context")
+        self.calls = Calls()
         self.closing = False
         self._numbers = itertools.count()
         self._threads_ended = threading.Condition(self.lock)
