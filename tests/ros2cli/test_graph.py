@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
 import sys
 
 import pytest
 
 from ros2cli import graph as ask
+from ros2cli.commands.param.list import _serving
 from ros2cli.direct_node import DirectNode
 from ros2cli.discovery import wait_until_discovered
 from ros2cli.main import main
@@ -169,6 +171,24 @@ def test_a_hidden_node_is_shown_only_when_asked_for(capsys):
         assert capsys.readouterr().out.startswith("/_hidden\n  Subscribers:")
     finally:
         other.close()
+
+
+def test_the_services_of_a_node_that_has_just_started_are_waited_for(monkeypatch):
+    """Its name may arrive before its services do."""
+    asked = []
+
+    def services(graph, **_):
+        """Those at a second question alone, before which the graph has changed."""
+        asked.append(graph)
+        if len(asked) == 1:
+            context.create_node("news")
+            return []
+        return [("/late/list_parameters", [])]
+
+    monkeypatch.setattr("ros2cli.graph.services", services)
+    with contextlib.closing(open_context(middleware="local")) as context:
+        direct = argparse.Namespace(graph=context.graph)
+        assert _serving(direct, ["/late"], "list_parameters", 60.0) == {"/late"}
 
 
 @pytest.mark.parametrize("verb", ["hz", "bw", "delay"])

@@ -14,6 +14,7 @@ from ros2cli.values import regular_expression
 
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Collection
 
 __all__ = ["ARGUMENTS", "main"]
 
@@ -75,13 +76,11 @@ def _ask_all(
     Returns:
         The answers; that a node does not answer is printed.
     """
-    from ros2cli.graph import services
-
     service = {"list": "list_parameters", "types": "get_parameter_types"}[what]
-    known = dict(services(direct.graph, hidden=True))
+    serving = _serving(direct, fields, service, args.timeout)
     questions, answers = {}, {}
     for name, request in fields.items():
-        if f"{name}/{service}" in known:
+        if name in serving:
             questions[name] = Question(direct, name, service, args.timeout, **request)
         else:
             _say_that_it_has_none(name)
@@ -98,8 +97,24 @@ def _ask_all(
     return answers
 
 
+def _serving(direct: DirectNode, nodes: Collection[str], service: str, timeout: float) -> set[str]:
+    """Those of the nodes that have a service.
+
+    As ROS 2 does, it waits for those that have none: a node that has just started may be known
+    before its services are.
+    """
+    from ros2cli.graph import services
+
+    def found() -> set[str]:
+        known = {name for name, _ in services(direct.graph, hidden=True)}
+        return {name for name in nodes if f"{name}/{service}" in known}
+
+    direct.graph.wait_for(lambda: len(found()) == len(nodes), int(timeout * 1e9))
+    return found()
+
+
 def _say_that_it_has_none(node_name: str) -> None:
-    """ROS 2's line for a node without parameter services, for which it waits five seconds."""
+    """ROS 2's line for a node without parameter services."""
     namespace, _, name = node_name.rpartition("/")
     shown = f"NodeName(name='{name}', namespace='{namespace or '/'}', full_name='{node_name}')"
     print(f"Wait for service timed out waiting for parameter services for node {shown}")
