@@ -1,5 +1,6 @@
 """Publishes each line of its input to the peer ``echo.py`` and prints what comes back.
 
+It also prints how many peers each of its ends has, at the start and whenever the graph changes.
 Ends with its input.
 """
 
@@ -30,11 +31,14 @@ context = open_context()
 node = context.create_node("asker")
 answers = node.create_subscription("/from_peer", STRING, KEEP, lambda data, _: say(text_of(data)))
 questions = node.create_publisher("/to_peer", STRING, KEEP)
-graph = context.graph
-graph.add_listener(
-    lambda: say(f"peers {questions.subscription_count()} {answers.publisher_count()}")
-)
-say("ready")
+
+
+def say_peers() -> None:
+    say(f"peers {questions.subscription_count()} {answers.publisher_count()}")
+
+
+context.graph.add_listener(say_peers)
+say_peers()  # they may have met before
 for line in sys.stdin:
     body = line.strip().encode() + b"\x00"
     questions.publish(b"\x00\x01\x00\x00" + len(body).to_bytes(4, "little") + body)
