@@ -135,7 +135,8 @@ std::vector<const Kernels*> usable() { return {&plain::all}; }
 }  // namespace
 
 const std::vector<const Kernels*>& all_kernels() {
-  static const std::vector<const Kernels*> found = usable();
+  // Never destroyed: a daemon thread of Python may compute until the process has ended.
+  static const std::vector<const Kernels*>& found = *new std::vector(usable());
   return found;
 }
 
