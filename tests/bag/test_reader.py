@@ -97,7 +97,9 @@ def test_metadata_that_cannot_be_understood(tmp_path):
     folder = write_bag(tmp_path / "made")
     for text, complaint in [
         ("a: [1,", "not readable as YAML"),
-        ("[" * 100_000, "^[^:]+: not readable as YAML: nested more than 50 deep"),
+        ("[" * 500, "^[^:]+: not readable as YAML: nested more than 50 deep"),
+        # Since PyYAML 6.0.4 libyaml itself refuses more than 1,000 levels, before we count them.
+        ("[" * 100_000, "^[^:]+: not readable as YAML: .*nest"),
         ("rosbag2_bagfile_information: 3", "is missing"),
         ("rosbag2_bagfile_information: {version: 9}", "'starting_time' is missing"),
     ]:
