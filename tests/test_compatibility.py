@@ -302,8 +302,9 @@ a verb waits on when the server that it called has ended
   ros2cli/test_unanswered.py test_a_killed_server_ends_the_wait
 names and strings of other nodes reach the terminal as they are
   ros2cli/test_output.py test_every_verb_is_escaped test_topic_info_of_a_hostile_node
-publishers and subscriptions of different types on one topic exchange nothing, in silence
+endpoints of different types on one topic or service exchange nothing, in silence
   rclpy/test_mistakes.py test_one_topic_with_two_types
+  wire/test_contract.py test_a_client_of_another_type_than_the_service_is_warned
 the service of another type, or with a wrong name, is waited for in silence
   ros2cli/test_unanswered.py test_what_is_wrong_is_said_at_once
 YAML aliases may stand for any number of values

@@ -8,9 +8,10 @@ import time
 
 import pytest
 
+from example_interfaces.action import Fibonacci
 from example_interfaces.srv import AddTwoInts
 from rclpy._rclpy_pybind11 import RCLError
-from rclpy.action import ActionClient
+from rclpy.action import ActionClient, ActionServer
 from rclpy.arguments import Arguments
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.context import Context
@@ -134,6 +135,23 @@ def test_one_topic_with_two_types(node, capfd, monkeypatch):
             "Use the topic's type, or another topic name."
         ),
     ]
+
+
+def test_a_client_of_another_type_than_the_service(node, capfd, monkeypatch):
+    monkeypatch.setattr(report, "_said", set())
+    node.create_service(AddTwoInts, "add", print)
+    node.create_client(Trigger, "add")
+    (said,) = (line for line in capfd.readouterr().err.splitlines() if "add" in line)
+    assert "service /add has the type example_interfaces/srv/AddTwoInts, but this" in said
+
+
+def test_a_client_of_another_type_than_the_action(node, capfd, monkeypatch):
+    monkeypatch.setattr(report, "_said", set())
+    ActionServer(node, RotateAbsolute, "turn", print)
+    ActionClient(node, Fibonacci, "turn")
+    said = [line for line in capfd.readouterr().err.splitlines() if "turn" in line]
+    assert len(said) == 2  # what it publishes, and what it subscribes to
+    assert all("topic /turn/_action/feedback has the type" in line for line in said)
 
 
 def test_endpoints_that_have_gone_conflict_with_nothing(node, capfd, monkeypatch):

@@ -8,7 +8,7 @@ import time
 import pytest
 
 from turtlewire.errors import WireError
-from turtlewire.wire import open_context
+from turtlewire.wire import open_context, report
 from turtlewire.wire.base import (
     Context,
     EventKind,
@@ -587,6 +587,29 @@ def test_two_types_on_one_topic_keep_apart(node: Node, other: Node):
     wait_until(
         node.context, lambda: len(node.context.graph.topic_names_and_types().get("/mixed", [])) == 2
     )
+
+
+def test_a_client_of_another_type_than_the_service_is_warned(node, other, capfd, monkeypatch):
+    monkeypatch.setattr(report, "_said", set())
+    other_types = ServiceTypes(
+        "std_srvs/srv/Trigger",
+        TypeId("std_srvs/srv/Trigger_Request", "RIHS01_" + "4" * 64),
+        TypeId("std_srvs/srv/Trigger_Response", "RIHS01_" + "5" * 64),
+        lambda _: "RIHS01_" + "6" * 64,
+    )
+    node.create_client("/_hidden", other_types, QoS())
+    node.create_client("/switch", other_types, QoS())
+    other.create_service("/_hidden", SWITCH, QoS())
+    other.create_service("/switch", SWITCH, QoS())
+    graph = node.context.graph
+    wait_until(node.context, lambda: len(graph.service_names_and_types().get("/switch", [])) == 2)
+    assert [line.partition("]: ")[2] for line in capfd.readouterr().err.splitlines()] == [
+        (
+            "service /switch has the type std_srvs/srv/SetBool, but this process calls "
+            "std_srvs/srv/Trigger: no requests get through. "
+            "Use the service's type, or another service name."
+        )
+    ]
 
 
 def test_topics_without_ros_prefix(node: Node, other: Node, middleware: str):

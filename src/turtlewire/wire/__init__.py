@@ -13,7 +13,7 @@ module            what it holds
 `libddsc`         where the library of Cyclone DDS is, and its binary interface
 `lingering`       whether the end waits for acknowledgements
 `graph`           what the graphs of all middlewares share; ``ros_discovery_info``
-`conflicts`       two types on one topic, two nodes of one name
+`conflicts`       two types on one topic or service, two nodes of one name
 `encapsulation`   the four bytes in front of every serialized message
 `events`          counters of endpoints' events
 `services`        services over two topics

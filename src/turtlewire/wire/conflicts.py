@@ -1,60 +1,96 @@
-"""Mistakes that the graph shows: two types on one topic, and two nodes of one name."""
+"""Mistakes that the graph shows: two types on one topic or service, two nodes of one name."""
 
 from __future__ import annotations
 
 from collections import Counter
 from typing import TYPE_CHECKING
 
+from . import names
 from .report import warn_once
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["NodeNames", "TopicTypes"]
+__all__ = ["EndpointTypes", "NodeNames", "as_compared"]
 
-_OTHER = {"publisher": "subscription", "subscription": "publisher"}
-_VERB = {"publisher": "publishes", "subscription": "subscribes to"}
+_OTHER = {"publisher": "subscription", "subscription": "publisher", "client": "service"}
+#: What has another type, what this process does with it, and what comes of that. A server is not
+#: warned of its clients: the type of a service is what its server says.
+_TELLS = {
+    "publisher": ("topic", "publishes", "messages"),
+    "subscription": ("topic", "subscribes to", "messages"),
+    "client": ("service", "calls", "requests"),
+}
+_OF_REQUESTS = {"publisher": "client", "subscription": "service"}
 
 
-class TopicTypes:
-    """Warns once of a topic where this process and a peer use different types.
+class EndpointTypes:
+    """Warns once of a topic or service where this process and a peer use different types.
 
-    DDS matches endpoints by topic and type, so such a pair is silent.
+    The middleware matches endpoints by name and type, so such a pair is silent.
     """
 
     def __init__(self) -> None:
         self._all: dict[str, Counter[tuple[str, str]]] = {}
         self._own: dict[str, Counter[tuple[str, str]]] = {}
 
-    def add(self, topic: str, kind: str, type_name: str, *, own: bool) -> None:
-        """Count an endpoint; the topic is a full ROS name, kind is publisher or subscription."""
-        known = self._all.setdefault(topic, Counter())
+    def add(self, name: str, kind: str, type_name: str, *, own: bool) -> None:
+        """Count an endpoint.
+
+        Args:
+            name: The full name of its topic or service.
+            kind: ``publisher``, ``subscription``, ``client`` or ``service``.
+            type_name: Its type, for example ``std_srvs/srv/Trigger``.
+            own: Whether it is in this process.
+        """
+        known = self._all.setdefault(name, Counter())
         known[kind, type_name] += 1
         if own:
-            self._own.setdefault(topic, Counter())[kind, type_name] += 1
-        if len(known) > 1 and topic in self._own:
-            self._compare(topic)
+            self._own.setdefault(name, Counter())[kind, type_name] += 1
+        if len(known) > 1 and name in self._own:
+            self._compare(name)
 
-    def _compare(self, topic: str) -> None:
-        for kind, type_name in self._own[topic]:
-            others = {other for kind_, other in self._all[topic] if kind_ == _OTHER[kind]}
-            if others and type_name not in others:
+    def _compare(self, name: str) -> None:
+        for kind, type_name in self._own[name]:
+            other = _OTHER.get(kind)
+            others = {theirs for kind_, theirs in self._all[name] if kind_ == other}
+            if others and type_name not in others and not _is_of_action(name, kind):
+                what, does, lost = _TELLS[kind]
                 warn_once(
-                    f"types {topic} {kind}",
-                    f"topic {topic} has the type {' and '.join(sorted(others))}, but this process "
-                    f"{_VERB[kind]} {type_name}: no messages get through. "
-                    "Use the topic's type, or another topic name.",
+                    f"types {name} {kind}",
+                    f"{what} {name} has the type {' and '.join(sorted(others))}, but this process "
+                    f"{does} {type_name}: no {lost} get through. "
+                    f"Use the {what}'s type, or another {what} name.",
                 )
 
-    def remove(self, topic: str, kind: str, type_name: str, *, own: bool) -> None:
+    def remove(self, name: str, kind: str, type_name: str, *, own: bool) -> None:
         """Undo :meth:`add`."""
         for counters in (self._all, self._own) if own else (self._all,):
-            counter = counters[topic]
+            counter = counters[name]
             counter[kind, type_name] -= 1
             if not counter[kind, type_name]:
                 del counter[kind, type_name]
             if not counter:
-                del counters[topic]
+                del counters[name]
+
+
+def _is_of_action(name: str, kind: str) -> bool:
+    """Whether it is a client of an action, of whose type its subscription to feedback tells."""
+    return kind == "client" and names.is_hidden(name)
+
+
+def as_compared(dds_topic: str, kind: str, type_name: str) -> tuple[str, str, str] | None:
+    """Name, kind and type for :class:`EndpointTypes` of a publisher or subscription of DDS.
+
+    None for a service's replies, whose requests tell all, and for what is not ROS.
+    """
+    topic = names.topic_from_dds(dds_topic)
+    if topic is not None:
+        return topic, kind, type_name
+    service = names.service_from_dds(dds_topic)
+    if service is None or not dds_topic.startswith("rq/"):
+        return None
+    return service, _OF_REQUESTS[kind], names.service_type(type_name)
 
 
 class NodeNames:

@@ -2,10 +2,9 @@
 
 A name travels in three spellings::
 
-    ROS           /turtle1/pose             turtlesim/msg/Pose              service /spawn,
-    turtlesim/srv/Spawn DDS           rt/turtle1/pose           turtlesim::msg::dds_::Pose_
-    rq/spawnRequest and rr/spawnReply as typed      pose, ~/pose, {ns}/pose   (expanded by
-    :func:`expand_topic_name`)
+    as typed   pose, ~/pose or {ns}/pose, which expand_topic_name() expands
+    ROS        /turtle1/pose     turtlesim/msg/Pose            /spawn
+    DDS        rt/turtle1/pose   turtlesim::msg::dds_::Pose_   rq/spawnRequest, rr/spawnReply
 
 The checks answer with the texts and the index of ROS 2's own validators; who raises what on them is
 rclpy's business.

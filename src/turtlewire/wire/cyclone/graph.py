@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 from turtlewire.errors import CdrError
 from turtlewire.wire import names
 from turtlewire.wire.base import EndpointInfo, NodeInfo
-from turtlewire.wire.conflicts import NodeNames, TopicTypes
+from turtlewire.wire.conflicts import EndpointTypes, NodeNames, as_compared
 from turtlewire.wire.graph import (
     DISCOVERY_TOPIC,
     DISCOVERY_TYPE,
@@ -104,7 +104,7 @@ class CycloneGraph(GraphView):
         self._enclaves: dict[bytes, str] = {}
         self._endpoints: dict[bytes, _Endpoint] = {}
         self._announced: dict[bytes, list[NodeEndpoints]] = {}
-        self._topic_types = TopicTypes()
+        self._types = EndpointTypes()
         self._node_names = NodeNames(participant.domain_id)
         self._reader = reader
         self._hurries = False
@@ -218,7 +218,7 @@ class CycloneGraph(GraphView):
                 continue  # Cyclone's own readers of this very information
             former = self._endpoints.pop(gid, None)
             if former is not None:
-                self._compare_types(self._topic_types.remove, gid, former)
+                self._compare_types(self._types.remove, gid, former)
             if alive:
                 user_data = parse_user_data(read_user_data(sample.qos))
                 topic, type_name = (
@@ -228,15 +228,14 @@ class CycloneGraph(GraphView):
                 self._endpoints[gid] = endpoint = _Endpoint(
                     kind, topic, type_name, user_data.get("typehash", ""), read_qos(sample.qos)
                 )
-                self._compare_types(self._topic_types.add, gid, endpoint)
+                self._compare_types(self._types.add, gid, endpoint)
         return news
 
     def _compare_types(self, change: Callable[..., None], gid: bytes, endpoint: _Endpoint) -> None:
-        topic = names.topic_from_dds(endpoint.dds_topic)
-        if topic is not None:
-            type_name = names.type_from_dds(endpoint.dds_type)
-            own = process_of(gid) == process_of(self._participant_gid)
-            change(topic, endpoint.kind, type_name, own=own)
+        type_name = names.type_from_dds(endpoint.dds_type)
+        compared = as_compared(endpoint.dds_topic, endpoint.kind, type_name)
+        if compared is not None:
+            change(*compared, own=process_of(gid) == process_of(self._participant_gid))
 
     def compare_name(self, full_name: str) -> None:
         """Warn if another process has a node of the name that a new one of ours has."""

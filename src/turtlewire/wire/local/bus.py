@@ -5,8 +5,7 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
-from turtlewire.wire import names
-from turtlewire.wire.conflicts import TopicTypes
+from turtlewire.wire.conflicts import EndpointTypes, as_compared
 from turtlewire.wire.qos import Durability, Reliability
 
 if TYPE_CHECKING:
@@ -66,7 +65,7 @@ class Bus:
         self.nodes: list[NodeInfo] = []
         self.listeners: list[Callable[[], None]] = []
         self.tamper: Callable[[Sender, Message], None] | None = None
-        self._types = TopicTypes()
+        self._types = EndpointTypes()
         self._topics: dict[tuple[str, str], _Topic] = {}
 
     def publishers(self) -> list[LocalEndpoint]:
@@ -117,9 +116,9 @@ class Bus:
     def _compare_types(
         self, change: Callable[..., None], endpoint: LocalEndpoint, kind: str
     ) -> None:
-        topic = names.topic_from_dds(endpoint.dds_topic)
-        if topic is not None:
-            change(topic, kind, endpoint.type_id.name, own=True)
+        compared = as_compared(endpoint.dds_topic, kind, endpoint.type_id.name)
+        if compared is not None:
+            change(*compared, own=True)
 
     def _forget_if_empty(self, endpoint: LocalEndpoint) -> None:
         topic = self._topic_of(endpoint)

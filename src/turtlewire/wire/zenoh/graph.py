@@ -10,7 +10,7 @@ from zenoh.handlers import Callback
 
 from turtlewire.wire import names
 from turtlewire.wire.base import EndpointInfo, NodeInfo
-from turtlewire.wire.conflicts import NodeNames, TopicTypes
+from turtlewire.wire.conflicts import EndpointTypes, NodeNames
 from turtlewire.wire.graph import GraphView
 from turtlewire.wire.qos import QoS
 from turtlewire.wire.report import warn_once
@@ -31,6 +31,7 @@ __all__ = ["Matching", "ZenohGraph"]
 _DISCOVERY_NS = 200_000_000
 
 _TOPIC_KINDS = {PUBLISHER: "publisher", SUBSCRIPTION: "subscription"}
+_KINDS = {**_TOPIC_KINDS, SERVICE: "service", CLIENT: "client"}
 _PARTNER = {PUBLISHER: SUBSCRIPTION, SUBSCRIPTION: PUBLISHER, CLIENT: SERVICE, SERVICE: CLIENT}
 
 
@@ -62,7 +63,7 @@ class ZenohGraph(GraphView):
         self._tokens: dict[str, Token] = {}
         self._own: dict[tuple[str, str], dict[Matching, None]] = {}
         self._by_key: dict[tuple[str, str], dict[str, Token]] = {}
-        self._topic_types = TopicTypes()
+        self._types = EndpointTypes()
         self._node_names = NodeNames(domain_id)
         self._is_complete = False
 
@@ -147,11 +148,10 @@ class ZenohGraph(GraphView):
         return list(self._own.get((_PARTNER[token.kind], token.data_key), ()))
 
     def _compare_types(self, token: Token, *, add: bool) -> None:
-        if token.kind in _TOPIC_KINDS:
-            change = self._topic_types.add if add else self._topic_types.remove
-            type_name = names.type_from_dds(token.dds_type)
-            own = token.session == self._session_id
-            change(token.name, _TOPIC_KINDS[token.kind], type_name, own=own)
+        change = self._types.add if add else self._types.remove
+        type_name = names.type_from_dds(token.dds_type)
+        own = token.session == self._session_id
+        change(token.name, _KINDS[token.kind], type_name, own=own)
 
     def _compare_nodes(self, token: Token) -> None:
         """Warn if another session has a node of the name of one of ours."""
