@@ -15,6 +15,7 @@ __all__ = [
     "field_meant",
     "interface_meant",
     "package_meant",
+    "say_interface_meant",
     "say_what_there_is",
     "say_what_was_meant",
     "say_why_to_wait",
@@ -57,6 +58,15 @@ def interface_meant(name: str, kind: str = "") -> str:
     if "/" not in name and name in short.values():
         return f"\nDid you mean: {', '.join(full for full in known if short[full] == name)}"
     return did_you_mean(name, known)
+
+
+def say_interface_meant(name: str, kind: str) -> None:
+    """Print `interface_meant` to stderr, unless there is an interface of that name."""
+    from ros2cli.interface_names import interface_names
+
+    near = "" if name in interface_names(kind) else interface_meant(name, kind)
+    if near:
+        tell(near.lstrip("\n"))
 
 
 def say_what_was_meant(name: str, known: Iterable[str]) -> None:

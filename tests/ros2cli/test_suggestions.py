@@ -126,6 +126,22 @@ def test_names_of_the_graph(capsys):
     ]
 
 
+@pytest.mark.usefixtures("pose_publisher")
+def test_types_to_find(capsys):
+    def told(*words):
+        assert main([*words]) in (None, 0)
+        return capsys.readouterr()
+
+    assert told("topic", "find", "turtlesim/msg/Pose") == ("/turtle1/pose\n", "")
+    assert told("topic", "find", "Pose").err == (
+        "Did you mean: geometry_msgs/msg/Pose, turtlesim/msg/Pose, turtlesim_msgs/msg/Pose\n"
+    )
+    assert told("topic", "find", "turtlesim/msg/Color") == ("", "")  # it exists, but no topic
+    near = told("service", "find", "std_srvs/srv/Emty")
+    assert near.err.startswith("Did you mean: std_srvs/srv/Empty")
+    assert near.out == ""
+
+
 def test_parameters_and_services(run, capsys):
     node = run(sys.executable, "-m", "turtlesim.turtlesim_node", "--headless")
     node.wait_for("Spawning turtle")

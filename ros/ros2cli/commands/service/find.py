@@ -29,7 +29,11 @@ ARGUMENTS = (
 def main(args: argparse.Namespace) -> None:
     """Print the names of the services."""
     from ros2cli.graph import services
+    from ros2cli.suggestion import say_interface_meant
 
     with GraphNode(args.spin_time) as graph:
         found = services(graph, hidden=args.include_hidden_services)
-    print_names(of_type(found, args.service_type), args)
+    of_this_type = of_type(found, args.service_type)
+    print_names(of_this_type, args)
+    if not of_this_type:
+        say_interface_meant(args.service_type, "srv")

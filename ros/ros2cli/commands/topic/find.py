@@ -29,7 +29,11 @@ ARGUMENTS = (
 def main(args: argparse.Namespace) -> None:
     """Print the names of the topics."""
     from ros2cli.graph import topics
+    from ros2cli.suggestion import say_interface_meant
 
     with GraphNode(args.spin_time) as graph:
         found = topics(graph, hidden=args.include_hidden_topics)
-    print_names(of_type(found, args.topic_type), args)
+    of_this_type = of_type(found, args.topic_type)
+    print_names(of_this_type, args)
+    if not of_this_type:
+        say_interface_meant(args.topic_type, "msg")
