@@ -13,13 +13,16 @@ if TYPE_CHECKING:
 
 __all__ = ["EndpointTypes", "NodeNames", "as_compared"]
 
+#: Whose type matters to whom. A server is not warned of its clients: it says what the type is.
 _OTHER = {"publisher": "subscription", "subscription": "publisher", "client": "service"}
-#: What has another type, what this process does with it, and what comes of that. A server is not
-#: warned of its clients: the type of a service is what its server says.
-_TELLS = {
-    "publisher": ("topic", "publishes", "messages"),
-    "subscription": ("topic", "subscribes to", "messages"),
-    "client": ("service", "calls", "requests"),
+_NO_MESSAGES = ": no messages get through. Use the topic's type, or another topic name."
+_NO_REQUESTS = ": no requests get through. Use the service's type, or another service name."
+_TEXTS = {
+    "publisher": "topic {name} has the type {theirs}, but this process publishes {ours}"
+    + _NO_MESSAGES,
+    "subscription": "topic {name} has the type {theirs}, but this process subscribes to {ours}"
+    + _NO_MESSAGES,
+    "client": "service {name} has the type {theirs}, but this process calls {ours}" + _NO_REQUESTS,
 }
 _OF_REQUESTS = {"publisher": "client", "subscription": "service"}
 
@@ -55,13 +58,9 @@ class EndpointTypes:
             other = _OTHER.get(kind)
             others = {theirs for kind_, theirs in self._all[name] if kind_ == other}
             if others and type_name not in others and not _is_of_action(name, kind):
-                what, does, lost = _TELLS[kind]
-                warn_once(
-                    f"types {name} {kind}",
-                    f"{what} {name} has the type {' and '.join(sorted(others))}, but this process "
-                    f"{does} {type_name}: no {lost} get through. "
-                    f"Use the {what}'s type, or another {what} name.",
-                )
+                theirs = " and ".join(sorted(others))
+                text = _TEXTS[kind].format(name=name, theirs=theirs, ours=type_name)
+                warn_once(f"types {name} {kind}", text)
 
     def remove(self, name: str, kind: str, type_name: str, *, own: bool) -> None:
         """Undo :meth:`add`."""
