@@ -23,8 +23,18 @@ def sleep(*_):
     print("called", flush=True)
     threading.Event().wait()
 service = node.create_service(Empty, "/sleep", sleep)
+client = node.create_client(Empty, "/called")
 action = ActionServer(node, Fibonacci, "/count", sleep)
 print("ready", flush=True)
+rclpy.spin(node)
+"""
+
+RIGHT_SERVER = """
+import rclpy
+from std_srvs.srv import SetBool
+rclpy.init()
+node = rclpy.create_node("right")
+service = node.create_service(SetBool, "/sleep", lambda _, response: response)
 rclpy.spin(node)
 """
 
@@ -64,10 +74,10 @@ def test_a_killed_server_ends_the_wait(run):
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        ("service call /sleep std_srvs/srv/SetBool",
-            "The service '/sleep' has the type std_srvs/srv/Empty, not std_srvs/srv/SetBool"),
+        ("service call /called std_srvs/srv/SetBool",
+            "The service '/called' has the type std_srvs/srv/Empty, not std_srvs/srv/SetBool"),
         ("service call /slep std_srvs/srv/Empty", "Did you mean: /sleep"),
-        ("service call /qqqq std_srvs/srv/Empty", "Known services: /sleep"),
+        ("service call /qqqq std_srvs/srv/Empty", "Known services: /called, /sleep"),
         ("action send_goal /qqqq example_interfaces/action/Fibonacci {}", "Known actions: /count"),
         ("action send_goal /count turtlesim/action/RotateAbsolute {}",
             "The action '/count' has the type .*/Fibonacci, not turtlesim/.*"),
@@ -93,6 +103,17 @@ def test_what_is_wrong_is_said_at_once(run, server, words, told):
 def test_messages_that_do_not_get_through_are_told_once(run, server, words, told):
     verb = ros2(run, *words.split())
     verb.wait_for(f": {told} std_msgs/msg/String: no messages get through")
+    assert verb.text.count("has the type") == 1
+
+
+def test_requests_that_do_not_get_through_are_told_once(run, server):
+    verb = ros2(run, "service", "call", "/sleep", "std_srvs/srv/SetBool")
+    verb.wait_for(
+        ": service /sleep has the type std_srvs/srv/Empty, but this process calls "
+        "std_srvs/srv/SetBool: no requests get through"
+    )
+    run(sys.executable, "-c", RIGHT_SERVER)
+    assert verb.wait() == 0
     assert verb.text.count("has the type") == 1
 
 
