@@ -357,3 +357,10 @@ def test_it_goes_on_after_ctrl_z_and_fg(run):
     program.wait_for(r"^ready$", count=4)
     program.type("exit\n")
     program.wait()
+
+
+@pytest.mark.usefixtures("talker")
+def test_a_full_disk_is_one_line(run):
+    program = run("bash", "-c", f"exec '{COMMAND[0]}' frames --period 0.2 >/dev/full")
+    assert program.wait() == 2
+    assert program.text == "turtlewire: [Errno 28] No space left on device"

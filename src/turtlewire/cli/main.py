@@ -30,8 +30,9 @@ def main(argv: list[str] | None = None) -> int:
 
     Returns:
         The exit status: of ``doctor``, 1 if it found a problem; of ``frames``, 1 if there was no
-        transform to print once; 2 if the network cannot be joined, or a file cannot be read; 130
-        after Ctrl-C, and 141 if the reader of the output has closed it.
+        transform to print once; 2 if the network cannot be joined, a file cannot be read, or the
+        output cannot be written; 130 after Ctrl-C, and 141 if the reader of the output has closed
+        it.
     """
     try:
         return _run(argv)
@@ -39,6 +40,9 @@ def main(argv: list[str] | None = None) -> int:
         return 130
     except BrokenPipeError:
         return leave_pipe()
+    except OSError as error:  # for example, the disk is full
+        print(f"turtlewire: {error}", file=sys.stderr)
+        return 2
 
 
 def _run(argv: list[str] | None) -> int:
