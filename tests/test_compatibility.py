@@ -301,7 +301,7 @@ an unknown option shows the usage of `ros2`
 a verb waits on when the server that it called has ended
   ros2cli/test_unanswered.py test_a_killed_server_ends_the_wait
 names and strings of other nodes reach the terminal as they are
-  ros2cli/test_output.py test_every_verb_is_escaped test_topic_info_of_a_hostile_node
+  ros2cli/test_output.py test_every_verb_is_escaped test_topic_info_of_a_hostile_peer
 endpoints of different types on one topic or service exchange nothing, in silence
   rclpy/test_mistakes.py test_one_topic_with_two_types
   wire/test_contract.py test_a_client_of_another_type_than_the_service_is_warned

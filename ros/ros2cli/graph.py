@@ -1,16 +1,19 @@
 """Questions that the verbs ask the graph.
 
-Names and types come as ``(name, [types])`` pairs, sorted by name.
+Names and types come as ``(name, [types])`` pairs, sorted by name. They are made printable here, so
+that a peer whose names hold line feeds cannot forge lines of the output.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from turtlewire.printable import printable
 from turtlewire.wire import names
+from turtlewire.wire.base import NodeInfo
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Iterator
 
     from turtlewire.wire.base import EndpointInfo, Graph
 
@@ -52,12 +55,13 @@ def services(graph: Graph, *, hidden: bool = False) -> NamesAndTypes:
 
 def actions(graph: Graph) -> NamesAndTypes:
     """All actions, by their feedback topics."""
-    return _actions(graph.topic_names_and_types().items())
+    return _actions(topics(graph, hidden=True))
 
 
 def node_names(graph: Graph, *, hidden: bool = False) -> list[str]:
     """Full names of all nodes, sorted; nodes of one name are listed each."""
-    found = [names.fully_qualified_node_name(node.name, node.namespace) for node in graph.nodes()]
+    nodes = map(_printable_node, graph.nodes())
+    found = [names.fully_qualified_node_name(node.name, node.namespace) for node in nodes]
     return sorted(name for name in found if hidden or not is_hidden_node(name))
 
 
@@ -94,7 +98,7 @@ def endpoints_of_topic(graph: Graph, topic: str, kind: str) -> list[EndpointInfo
     """The publishers (``kind`` "publisher") or subscriptions ("subscription") of a topic."""
     return [
         endpoint
-        for endpoint in graph.endpoints()
+        for endpoint in _endpoints(graph)
         if endpoint.topic == topic and endpoint.kind == kind
     ]
 
@@ -151,7 +155,7 @@ def _of_node(
     hidden: bool,
 ) -> NamesAndTypes:
     found: dict[str, set[str]] = {}
-    for endpoint in graph.endpoints():
+    for endpoint in _endpoints(graph):
         node = endpoint.node
         if (
             endpoint.kind != kind
@@ -163,6 +167,19 @@ def _of_node(
         if pair is not None:
             found.setdefault(pair[0], set()).add(pair[1])
     return _visible(((name, sorted(types)) for name, types in found.items()), hidden=hidden)
+
+
+def _endpoints(graph: Graph) -> Iterator[EndpointInfo]:
+    for endpoint in graph.endpoints():
+        yield endpoint._replace(
+            topic=printable(endpoint.topic),
+            type_name=printable(endpoint.type_name),
+            node=None if endpoint.node is None else _printable_node(endpoint.node),
+        )
+
+
+def _printable_node(node: NodeInfo) -> NodeInfo:
+    return NodeInfo(printable(node.name), printable(node.namespace), printable(node.enclave))
 
 
 def _topic(endpoint: EndpointInfo) -> tuple[str, str] | None:
@@ -188,4 +205,8 @@ def _actions(feedback_topics: Iterable[tuple[str, list[str]]]) -> NamesAndTypes:
 
 
 def _visible(pairs: Iterable[tuple[str, list[str]]], *, hidden: bool) -> NamesAndTypes:
-    return sorted((name, types) for name, types in pairs if hidden or not names.is_hidden(name))
+    return sorted(
+        (printable(name), [printable(kind) for kind in types])
+        for name, types in pairs
+        if hidden or not names.is_hidden(name)
+    )

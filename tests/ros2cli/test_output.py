@@ -7,8 +7,11 @@ import sys
 
 import pytest
 
+from ros2cli.discovery import GraphNode
 from ros2cli.main import main
 from ros2cli.output import escaped_output, tell
+from turtlewire.wire.base import EndpointInfo, NodeInfo
+from turtlewire.wire.qos import QoS
 
 EVIL = "\x1b]0;owned\x07\x1b[2J"
 
@@ -48,20 +51,67 @@ def test_every_verb_is_escaped(monkeypatch, capsys, raised):
     assert "\x1b" not in told.out + told.err
 
 
-def test_topic_info_of_a_hostile_node(monkeypatch, capsys):
-    """The wire takes no such name from us; a peer may announce any."""
-    from ros2cli import graph
-    from turtlewire.wire.base import EndpointInfo, NodeInfo
-    from turtlewire.wire.qos import QoS
+class HostileGraph:
+    """The graph beside a peer that announces names and types which ROS 2 would refuse."""
 
-    node = NodeInfo(EVIL, "/", "/")
-    end = EndpointInfo("publisher", "/x", "std_msgs/msg/String", "", node, bytes(16), QoS())
-    monkeypatch.setattr(graph, "topics", lambda *_args, **_kw: [("/x", ["std_msgs/msg/String"])])
-    monkeypatch.setattr(graph, "endpoints_of_topic", lambda *_args: [end])
-    assert main(["topic", "info", "-v", "/x"]) == 0
+    def __init__(self):
+        node = NodeInfo(f"{EVIL}\nnode", "/", "/")
+        ends = {
+            "publisher": ["/x\nPublisher count: 9"],
+            "subscription": ["/x\nPublisher count: 9", "rq/s\nrvRequest"],
+        }
+        self._endpoints = [
+            EndpointInfo(kind, topic, "a/msg/T\n/forged", "", node, bytes(16), QoS())
+            for kind, topics in ends.items()
+            for topic in topics
+        ]
+
+    def nodes(self):
+        return [end.node for end in self._endpoints[:1]]
+
+    def endpoints(self):
+        return self._endpoints
+
+    def topic_names_and_types(self):
+        return {"/x\nPublisher count: 9": ["a/msg/T\n/forged"]}
+
+    def service_names_and_types(self):
+        return {"/s\nrv": ["a/srv/T\n/forged"]}
+
+    def is_complete(self):
+        return True
+
+
+@pytest.mark.parametrize(
+    ("words", "lines"),
+    [
+        (["topic", "list", "-t"], [r"/x\nPublisher count: 9 [a/msg/T\n/forged]"]),
+        (["service", "list", "-t"], [r"/s\nrv [a/srv/T\n/forged]"]),
+        (["service", "type", r"/s\nrv"], [r"a/srv/T\n/forged"]),
+        (["node", "list"], [r"/\x1b]0;owned\x07\x1b[2J\nnode"]),
+    ],
+)
+def test_lists_beside_a_hostile_peer(monkeypatch, capsys, words, lines):
+    monkeypatch.setattr(GraphNode, "__enter__", lambda _self: HostileGraph())
+    assert main(words) in (None, 0)
+    assert capsys.readouterr().out.splitlines() == lines
+
+
+def test_topic_info_of_a_hostile_peer(monkeypatch, capsys):
+    monkeypatch.setattr(GraphNode, "__enter__", lambda _self: HostileGraph())
+    assert main(["topic", "info", "-v", r"/x\nPublisher count: 9"]) == 0
     text = capsys.readouterr().out
-    assert "Node name: \\x1b]0;owned\\x07\\x1b[2J\n" in text
-    assert "\x1b" not in text
+    assert "Node name: \\x1b]0;owned\\x07\\x1b[2J\\nnode\n" in text
+    assert text.count("\nTopic type: a/msg/T\\n/forged\n") == 2
+    assert "\n/forged" not in text
+
+
+def test_node_info_of_a_hostile_peer(monkeypatch, capsys):
+    monkeypatch.setattr(GraphNode, "__enter__", lambda _self: HostileGraph())
+    assert main(["node", "info", r"/\x1b]0;owned\x07\x1b[2J\nnode"]) in (None, 0)
+    text = capsys.readouterr().out
+    assert "    /x\\nPublisher count: 9: a/msg/T\\n/forged\n" in text
+    assert "    /s\\nrv: a/msg/T\\n/forged\n" in text
 
 
 def test_characters_that_the_output_does_not_have_end_no_verb(monkeypatch):

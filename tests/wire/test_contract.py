@@ -597,9 +597,9 @@ def test_a_client_of_another_type_than_the_service_is_warned(node, other, capfd,
         TypeId("std_srvs/srv/Trigger_Response", "RIHS01_" + "5" * 64),
         lambda _: "RIHS01_" + "6" * 64,
     )
-    node.create_client("/_hidden", other_types, QoS())
+    node.create_client("/turn/_action/send_goal", other_types, QoS())
     node.create_client("/switch", other_types, QoS())
-    other.create_service("/_hidden", SWITCH, QoS())
+    other.create_service("/turn/_action/send_goal", SWITCH, QoS())
     other.create_service("/switch", SWITCH, QoS())
     graph = node.context.graph
     wait_until(node.context, lambda: len(graph.service_names_and_types().get("/switch", [])) == 2)

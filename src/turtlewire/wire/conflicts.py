@@ -75,7 +75,7 @@ class EndpointTypes:
 
 def _is_of_action(name: str, kind: str) -> bool:
     """Whether it is a client of an action, of whose type its subscription to feedback tells."""
-    return kind == "client" and names.is_hidden(name)
+    return kind == "client" and "/_action/" in name
 
 
 def as_compared(dds_topic: str, kind: str, type_name: str) -> tuple[str, str, str] | None:

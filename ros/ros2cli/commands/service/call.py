@@ -62,7 +62,6 @@ def main(args: argparse.Namespace) -> str | None:
     from ros2cli.direct_node import DirectNode
     from ros2cli.graph import services
     from ros2cli.suggestion import say_why_to_wait
-    from turtlewire.wire.names import is_hidden
 
     with DirectNode(args) as direct:
         known = services(direct.graph)  # our own client is not among them
@@ -70,8 +69,7 @@ def main(args: argparse.Namespace) -> str | None:
         if not client.service_is_ready():
             print("waiting for service to become available...")
             service = direct.node.resolve_service_name(args.service_name)
-            if is_hidden(service) or not direct.node.count_services(service):
-                # of the type of a server that is there, the client itself warns
+            if not direct.node.count_services(service):  # else the client itself tells why
                 say_why_to_wait("service", service, service_class, known)
             if not client.wait_for_service():
                 raise KeyboardInterrupt
