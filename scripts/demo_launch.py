@@ -11,6 +11,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
+from turtlewire_ros.process_family import ProcessFamily
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -38,6 +40,7 @@ class Launch:
         self.ended = threading.Event()
         self._output = output
         self._stopping = False
+        self._family = ProcessFamily()
         self._process: subprocess.Popen[bytes] | None = None
         self._waiter = threading.Thread(target=self._wait, name="launch-waiter", daemon=True)
 
@@ -45,12 +48,14 @@ class Launch:
         """Start them; call :meth:`stop` afterwards, whatever happens."""
         source, output = _output_pair() if self._output is None else (None, self._output)
         with _held_back():  # an interrupt in here would leave the processes running
+            self._family.start()
             # Without a terminal as its input, the launch sends its processes SIGINT itself.
             self._process = subprocess.Popen(
                 [str(VENV / "bin" / COMMAND[0]), *COMMAND[1:]],
                 stdin=subprocess.DEVNULL,
                 stdout=output,
                 stderr=output,
+                env=self._family.marked(os.environ),
                 start_new_session=True,
             )
             if source is not None:
@@ -80,7 +85,7 @@ class Launch:
         self.ended.set()
 
     def stop(self) -> int:
-        """Send them SIGINT, and kill those that have not ended after ten seconds.
+        """Send them SIGINT, and stop those that have not ended after ten seconds.
 
         Returns:
             0, or the exit status of a launch that had ended before.
@@ -88,16 +93,15 @@ class Launch:
         _ignore_further_signals()
         if self._process is None:
             return 0
-        if self.ended.is_set():
-            self._waiter.join()
-            return self._process.returncode
-        self._stopping = True
-        self._process.send_signal(signal.SIGINT)
-        if not self.ended.wait(_PATIENCE_S):
-            print("[demo] some processes did not end: killing them", file=sys.stderr)
-            os.killpg(self._process.pid, signal.SIGKILL)
+        had_ended = self.ended.is_set()
+        if not had_ended:
+            self._stopping = True
+            self._process.send_signal(signal.SIGINT)
+            if not self.ended.wait(_PATIENCE_S):
+                print("[demo] some processes did not end: killing them", file=sys.stderr)
+        self._family.stop()
         self._waiter.join()
-        return 0
+        return self._process.returncode if had_ended else 0
 
 
 def _output_pair() -> tuple[int, int]:

@@ -126,6 +126,15 @@ def test_ctrl_c_while_it_starts_is_one_line_and_leaves_nothing_behind(run, words
     assert demo.survivors() == []
 
 
+@pytest.mark.parametrize("command", [[DEMO.parent / "interruptible"], []], ids=["shell", "python"])
+def test_not_even_sigkill_leaves_processes_behind(run, command):
+    environment = {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0", "DISPLAY": ""}
+    demo = run(*command, sys.executable, DEMO, environment=environment)
+    demo.wait_for("turtle2 follows turtle1")  # from now on the processes have nothing to print
+    demo.process.kill()
+    demo.wait_for_survivors()
+
+
 def test_a_second_demo_in_the_same_domain_is_warned(run):
     environment = {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0", "DISPLAY": ""}
     first = run(sys.executable, DEMO, environment=environment)
