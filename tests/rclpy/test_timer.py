@@ -140,10 +140,10 @@ def test_a_period_must_not_be_negative(node):
 )
 def test_a_timer_on_a_real_clock_ends_the_wait_of_the_executor(node, executor, clock_type):
     called = []
+    start = time.monotonic()
     node.create_timer(
         0.02, lambda: called.append(time.monotonic()), clock=Clock(clock_type=clock_type)
     )
-    start = time.monotonic()
     while len(called) < 3:
         executor.spin_once(timeout_sec=60)
     assert called[-1] - start >= 0.055
