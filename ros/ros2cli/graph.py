@@ -187,13 +187,8 @@ def _topic(endpoint: EndpointInfo) -> tuple[str, str] | None:
 
 
 def _service(endpoint: EndpointInfo) -> tuple[str, str] | None:
-    service = names.service_from_dds(endpoint.topic)
-    is_request = endpoint.topic.startswith("rq/")
-    return (
-        (service, names.service_type(endpoint.type_name))
-        if service is not None and is_request
-        else None
-    )
+    service = names.service_of_requests(endpoint.topic)
+    return None if service is None else (service, names.service_type(endpoint.type_name))
 
 
 def _actions(feedback_topics: Iterable[tuple[str, list[str]]]) -> NamesAndTypes:

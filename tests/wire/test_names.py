@@ -157,6 +157,8 @@ def test_names_survive_the_way_to_dds_and_back(name: str, package: str, base: st
     assert names.topic_from_dds(names.topic_to_dds(name)) == name
     assert names.service_from_dds(names.request_topic(name)) == name
     assert names.service_from_dds(names.reply_topic(name)) == name
+    assert names.service_of_requests(names.request_topic(name)) == name
+    assert names.service_of_requests(names.reply_topic(name)) is None
     type_name = f"{package}/msg/{base}"
     assert names.type_from_dds(names.type_to_dds(type_name)) == type_name
 

@@ -73,13 +73,8 @@ class NodeGraph:
         """
 
         def name_and_type(endpoint: EndpointInfo) -> tuple[str, str] | None:
-            service = names.service_from_dds(endpoint.topic)
-            is_request = endpoint.topic.startswith("rq/")
-            return (
-                (service, names.service_type(endpoint.type_name))
-                if service is not None and is_request
-                else None
-            )
+            service = names.service_of_requests(endpoint.topic)
+            return None if service is None else (service, names.service_type(endpoint.type_name))
 
         # a server is known by the requests it reads, a client by those it writes
         return self._of_node(

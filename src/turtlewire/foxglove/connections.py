@@ -32,9 +32,9 @@ def connections_of(endpoints: Iterable[EndpointInfo]) -> Connections:
     served: dict[str, set[str]] = {}
     for end in endpoints:
         node = _node_of(end)
-        service = names.service_from_dds(end.topic)
+        service = names.service_of_requests(end.topic)
         if service is not None:
-            if end.kind == "subscription" and end.topic.startswith("rq/"):
+            if end.kind == "subscription":
                 served.setdefault(service, set()).add(node)
         elif end.topic.startswith("/"):
             kind = published if end.kind == "publisher" else subscribed

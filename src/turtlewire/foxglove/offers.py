@@ -177,6 +177,5 @@ def _servers(endpoints: list[EndpointInfo]) -> set[tuple[str, str]]:
         (service, names.service_type(end.type_name))
         for end in endpoints
         if end.kind == "subscription"
-        and end.topic.startswith("rq/")
-        and (service := names.service_from_dds(end.topic)) is not None
+        and (service := names.service_of_requests(end.topic)) is not None
     }

@@ -13,7 +13,8 @@ if TYPE_CHECKING:
 
 __all__ = ["EndpointTypes", "NodeNames", "as_compared"]
 
-#: Whose type matters to whom. A server is not warned of its clients: it says what the type is.
+#: The kind of endpoints whose types are compared with one's own. A server has none: its clients
+#: have to use its type.
 _OTHER = {"publisher": "subscription", "subscription": "publisher", "client": "service"}
 _NO_MESSAGES = ": no messages get through. Use the topic's type, or another topic name."
 _NO_REQUESTS = ": no requests get through. Use the service's type, or another service name."
@@ -74,20 +75,21 @@ class EndpointTypes:
 
 
 def _is_of_action(name: str, kind: str) -> bool:
-    """Whether it is a client of an action, of whose type its subscription to feedback tells."""
+    """Whether it is a client of an action, whose subscription to the feedback is compared."""
     return kind == "client" and "/_action/" in name
 
 
 def as_compared(dds_topic: str, kind: str, type_name: str) -> tuple[str, str, str] | None:
-    """Name, kind and type for :class:`EndpointTypes` of a publisher or subscription of DDS.
+    """How :class:`EndpointTypes` counts a publisher or subscription of DDS: name, kind and type.
 
-    None for a service's replies, whose requests tell all, and for what is not ROS.
+    None for the replies of a service, because its requests are counted, and for topics that are
+    not of ROS.
     """
     topic = names.topic_from_dds(dds_topic)
     if topic is not None:
         return topic, kind, type_name
-    service = names.service_from_dds(dds_topic)
-    if service is None or not dds_topic.startswith("rq/"):
+    service = names.service_of_requests(dds_topic)
+    if service is None:
         return None
     return service, _OF_REQUESTS[kind], names.service_type(type_name)
 

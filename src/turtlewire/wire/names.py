@@ -23,6 +23,7 @@ __all__ = [
     "reply_topic",
     "request_topic",
     "service_from_dds",
+    "service_of_requests",
     "service_type",
     "topic_from_dds",
     "topic_to_dds",
@@ -266,6 +267,14 @@ def service_from_dds(dds_topic: str) -> str | None:
     if dds_topic.startswith("rr/") and dds_topic.endswith("Reply"):
         return dds_topic[2:-5]
     return None
+
+
+def service_of_requests(dds_topic: str) -> str | None:
+    """``rq/spawnRequest`` becomes ``/spawn``; None for other topics, the one of replies as well.
+
+    Its publishers are the clients of the service, its subscriptions the servers.
+    """
+    return service_from_dds(dds_topic) if dds_topic.startswith("rq/") else None
 
 
 def type_to_dds(type_name: str) -> str:
