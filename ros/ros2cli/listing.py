@@ -18,9 +18,9 @@ __all__ = [
     "SHOW_TYPES",
     "count_argument",
     "hidden_argument",
-    "of_type",
     "print_names",
     "print_names_and_types",
+    "print_names_of_type",
     "print_types",
 ]
 
@@ -48,9 +48,19 @@ def hidden_argument(kind: str) -> Argument:
     )
 
 
-def of_type(found: NamesAndTypes, type_name: str) -> list[str]:
-    """The names of those that have a type."""
-    return [name for name, types in found if type_name in types]
+def print_names_of_type(
+    found: NamesAndTypes, type_name: str, kind: str, args: argparse.Namespace
+) -> None:
+    """Print the names of those that have a type, or how many there are.
+
+    If there are none, stderr says which interfaces of the kind (``msg`` or ``srv``) are meant.
+    """
+    from ros2cli.suggestion import say_interface_meant
+
+    of_type = [name for name, types in found if type_name in types]
+    print_names(of_type, args)
+    if not of_type:
+        say_interface_meant(type_name, kind)
 
 
 def print_names(names: list[str], args: argparse.Namespace) -> None:

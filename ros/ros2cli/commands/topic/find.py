@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from ros2cli.arguments import argument
 from ros2cli.completion import interfaces
 from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
-from ros2cli.listing import count_argument, hidden_argument, of_type, print_names
+from ros2cli.listing import count_argument, hidden_argument, print_names_of_type
 
 if TYPE_CHECKING:
     import argparse
@@ -29,11 +29,7 @@ ARGUMENTS = (
 def main(args: argparse.Namespace) -> None:
     """Print the names of the topics."""
     from ros2cli.graph import topics
-    from ros2cli.suggestion import say_interface_meant
 
     with GraphNode(args.spin_time) as graph:
         found = topics(graph, hidden=args.include_hidden_topics)
-    of_this_type = of_type(found, args.topic_type)
-    print_names(of_this_type, args)
-    if not of_this_type:
-        say_interface_meant(args.topic_type, "msg")
+    print_names_of_type(found, args.topic_type, "msg", args)
