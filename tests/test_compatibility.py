@@ -306,7 +306,7 @@ endpoints of different types on one topic or service exchange nothing, in silenc
   rclpy/test_mistakes.py test_one_topic_with_two_types
   wire/test_contract.py test_a_client_of_another_type_than_the_service_is_warned
 the service of another type, or with a wrong name, is waited for in silence
-  ros2cli/test_unanswered.py test_what_is_wrong_is_said_at_once
+  ros2cli/test_unanswered.py test_what_is_wrong_is_said_at_once test_requests_that_do_not_get_through_are_told_once
 YAML aliases may stand for any number of values
   ros2cli/test_values.py test_aliases_that_stand_for_too_much_are_refused
 `interface show` prints upstream's comments

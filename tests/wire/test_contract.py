@@ -589,7 +589,9 @@ def test_two_types_on_one_topic_keep_apart(node: Node, other: Node):
     )
 
 
-def test_a_client_of_another_type_than_the_service_is_warned(node, other, capfd, monkeypatch):
+def test_a_client_of_another_type_than_the_service_is_warned(
+    node: Node, other: Node, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+):
     monkeypatch.setattr(report, "_said", set())
     other_types = ServiceTypes(
         "std_srvs/srv/Trigger",
