@@ -135,9 +135,9 @@ Status Tree::lookup(FrameId target, FrameId source, const Rule& rule, Pose& targ
   return climb(target, source, rule, &target_from_source, used, failure);
 }
 
-// tf2's own order of steps, which decides what happens with links that do not reach: those above
-// the meeting point do not hurt, the target's complaint comes before the source's, and the parents
-// are those of the time asked for.
+// Follows tf2's own order of steps, which decides what happens with links that have no data at the
+// time asked for: those above the meeting point do not hurt, and of two failing legs the one whose
+// link has the newer data is reported (since tf2 0.36.20).
 Status Tree::climb(FrameId target, FrameId source, const Rule& rule, Pose* target_from_source,
                    std::vector<FrameId>* used, Failure* failure) const {
   Reading reading;
@@ -153,7 +153,7 @@ Status Tree::climb(FrameId target, FrameId source, const Rule& rule, Pose* targe
   Climb down{*this, rule, target};
   std::vector<FrameId> down_used;
   for (int depth = 0; down.frame != up.frame && !down.at_root();) {
-    if (!down.read(reading)) return fail_reading(down, target, source, failure);
+    if (!down.read(reading)) return fail_reading(later_failure(up, down), target, source, failure);
     if (down.frame == source) break;
     down.step(reading, used != nullptr ? &down_used : nullptr);
     if (++depth > kMaxGraphDepth) return fail_loop(failure);
@@ -170,6 +170,11 @@ Status Tree::climb(FrameId target, FrameId source, const Rule& rule, Pose* targe
   }
   if (used != nullptr) leave_difference(*used, down_used);
   return Status::ok;
+}
+
+const Tree::Climb& Tree::later_failure(const Climb& up, const Climb& down) {
+  const auto newest = [](const Climb& climb) { return climb.buffer.links_[climb.frame]->newest(); };
+  return up.stopped != ReadStatus::ok && newest(up) >= newest(down) ? up : down;
 }
 
 Status Tree::fail_loop(Failure* failure) const {

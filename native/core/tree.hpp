@@ -114,6 +114,7 @@ class Tree {
               Failure* failure) const;
   Status climb(FrameId target, FrameId source, const Rule& rule, Pose* target_from_source,
                std::vector<FrameId>* used, Failure* failure) const;
+  static const Climb& later_failure(const Climb& up, const Climb& down);
   Status fail_loop(Failure* failure) const;
   Status fail_connection(FrameId first, FrameId second, Failure* failure) const;
   Status fail_reading(const Climb& climb, FrameId target, FrameId source, Failure* failure) const;

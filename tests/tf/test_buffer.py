@@ -121,6 +121,22 @@ class TestLookup:
 
 
 class TestErrors:
+    @pytest.mark.parametrize(
+        ("source_newest", "reported"), [(5, "source"), (6, "source"), (4, "target")]
+    )
+    def test_of_two_failing_legs_the_one_with_newer_data_is_reported(
+        self, buffer: turtlewire.Buffer, source_newest: int, reported: str
+    ) -> None:
+        for stamp in (1, source_newest):
+            buffer.set_transform("root", "source", stamp * SECOND, (1, 0, 0), NO_TURN)
+        for stamp in (2, 5):
+            buffer.set_transform("root", "target", stamp * SECOND, (0, 1, 0), NO_TURN)
+        with pytest.raises(errors.ExtrapolationException) as raised:
+            buffer.lookup_transform("target", "source", 9 * SECOND)
+        newest = source_newest if reported == "source" else 5
+        assert f"the latest data is at time {newest}.000000" in str(raised.value)
+        assert raised.value.child_frame == reported
+
     def test_classes(self, buffer: turtlewire.Buffer) -> None:
         buffer.set_transform("a", "b", SECOND, (0, 0, 0), NO_TURN)
         buffer.set_transform("a", "b", 2 * SECOND, (0, 0, 0), NO_TURN)

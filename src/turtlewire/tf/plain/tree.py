@@ -147,11 +147,12 @@ class Tree:
     def _walk(self, target: str, source: str, stamp: int, read: Reader) -> tuple[Pose, list[str]]:
         """Walk from the source to the root, then from the target up to that walk.
 
-        A link without data ends the first walk and fails the second.
+        A link without data ends the first walk and fails the second. If both walks lack data, the
+        failure of the link with the newer data is raised, as tf2 has done since 0.36.20.
         """
         up: list[str] = []
         down: list[str] = []
-        source_to_top, stopped = IDENTITY, None
+        source_to_top, stopped, reached = IDENTITY, None, 0
         top = source
         for depth in range(MAX_GRAPH_DEPTH + 2):
             link = self.links.get(top)
@@ -161,6 +162,7 @@ class Tree:
             if isinstance(reading, LookupStatus):
                 # Not raised yet: the target's own way up may meet the source's below this link.
                 stopped = time_failure(reading, top, link, stamp, target, source, self.keep)
+                reached = link.newest
                 break
             if top == target:
                 return source_to_top, up
@@ -178,6 +180,8 @@ class Tree:
                 break
             reading = read(link)
             if isinstance(reading, LookupStatus):
+                if stopped is not None and reached >= link.newest:
+                    raise stopped
                 raise time_failure(reading, frame, link, stamp, target, source, self.keep)
             if frame == source:
                 return between(target_to_top, IDENTITY), down
