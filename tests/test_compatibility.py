@@ -130,8 +130,6 @@ messages without a subscription are encoded all the same
   rclpy/test_topics.py test_what_is_not_encoded_while_nobody_listens
 a client drops the feedback that it has not handled when it gets the result
   rclpy/test_actions.py test_no_feedback_that_was_sent_after_the_result
-a cancel request whose goals all refuse is answered `ERROR_NONE`
-  rclpy/test_actions.py test_a_refused_cancelling
 content filters of subscriptions work with `rmw_fastrtps_cpp`
   rclpy/test_surface.py test_a_subscription_says_that_nothing_is_filtered
 

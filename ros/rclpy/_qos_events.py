@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtlewire.wire.base import EventKind, EventStatus
 
-from ._rclpy_pybind11 import UnsupportedEventTypeError, rmw_qos_policy_kind_t
+from ._rclpy_pybind11 import rmw_qos_policy_kind_t
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -172,6 +172,10 @@ _OF_PUBLISHERS: dict[QoSPublisherEventType, Report] = {
         EventKind.INCOMPATIBLE_QOS,
         _policy(QoSOfferedIncompatibleQoSInfo),
     ),
+    QoSPublisherEventType.RCL_PUBLISHER_INCOMPATIBLE_TYPE: (
+        EventKind.INCOMPATIBLE_TYPE,
+        _counts(IncompatibleTypeInfo),
+    ),
     QoSPublisherEventType.RCL_PUBLISHER_MATCHED: (
         EventKind.MATCHED,
         _matches(QoSPublisherMatchedInfo),
@@ -190,6 +194,10 @@ _OF_SUBSCRIPTIONS: dict[QoSSubscriptionEventType, Report] = {
         EventKind.INCOMPATIBLE_QOS,
         _policy(QoSRequestedIncompatibleQoSInfo),
     ),
+    QoSSubscriptionEventType.RCL_SUBSCRIPTION_INCOMPATIBLE_TYPE: (
+        EventKind.INCOMPATIBLE_TYPE,
+        _counts(IncompatibleTypeInfo),
+    ),
     QoSSubscriptionEventType.RCL_SUBSCRIPTION_MESSAGE_LOST: (
         EventKind.MESSAGE_LOST,
         _counts(QoSMessageLostInfo),
@@ -202,16 +210,7 @@ _OF_SUBSCRIPTIONS: dict[QoSSubscriptionEventType, Report] = {
 
 
 def report(event_type: QoSPublisherEventType | QoSSubscriptionEventType) -> Report:
-    """How the middleware calls an event, and what makes its info.
-
-    Raises:
-        UnsupportedEventTypeError: It does not report it.
-    """
-    found = (
-        _OF_PUBLISHERS.get(event_type)
-        if isinstance(event_type, QoSPublisherEventType)
-        else _OF_SUBSCRIPTIONS.get(event_type)
-    )
-    if found is None:
-        raise UnsupportedEventTypeError("the middleware does not report endpoints of another type")
-    return found
+    """Return the middleware's name of an event, and what makes its info."""
+    if isinstance(event_type, QoSPublisherEventType):
+        return _OF_PUBLISHERS[event_type]
+    return _OF_SUBSCRIPTIONS[event_type]

@@ -5,11 +5,11 @@ What a program can be told of, and ROS 2's default warnings about endpoints that
 
 from __future__ import annotations
 
-from contextlib import suppress
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.errors import WireError
+from turtlewire.wire.base import EventKind
 
 from ._execution.entity import Entity, Host
 from ._qos_events import (
@@ -197,12 +197,14 @@ class _EventCallbacks:
             for event_type, callback in self._wanted().items()
             if callback is not None
         ]
-        if self.incompatible_qos is None and self.use_default_callbacks:
-            # Zenoh has no such event, because everything matches.
-            with suppress(UnsupportedEventTypeError):
-                logger = get_logger(endpoint.logger_name)
-                warn = self._warn_of_incompatible_qos(topic_name, logger)
-                handlers.append(handler(self._INCOMPATIBLE, warn))
+        if (
+            self.incompatible_qos is None
+            and self.use_default_callbacks
+            # On Zenoh everything matches, so the handler would cost and never be called.
+            and EventKind.INCOMPATIBLE_QOS in endpoint._core.context.wire.events
+        ):
+            warn = self._warn_of_incompatible_qos(topic_name, get_logger(endpoint.logger_name))
+            handlers.append(handler(self._INCOMPATIBLE, warn))
         return handlers
 
     def _warn_of_incompatible_qos(
@@ -228,7 +230,7 @@ class SubscriptionEventCallbacks(_EventCallbacks):
         incompatible_qos: A publisher does not match (:class:`QoSRequestedIncompatibleQoSInfo`).
         liveliness: A publisher came, went, or fell silent (:class:`QoSLivelinessChangedInfo`).
         message_lost: :class:`QoSMessageLostInfo`.
-        incompatible_type: A publisher has another type; no middleware here reports it.
+        incompatible_type: Accepted, and never called: no middleware here reports it.
         matched: A matching publisher came or went (:class:`QoSSubscriptionMatchedInfo`).
         use_default_callbacks: Whether ROS 2's warning is logged when ``incompatible_qos`` is None.
     """
@@ -289,7 +291,7 @@ class PublisherEventCallbacks(_EventCallbacks):
         deadline: No message was sent in time (:class:`QoSDeadlineOfferedInfo`).
         incompatible_qos: A subscription does not match (:class:`QoSOfferedIncompatibleQoSInfo`).
         liveliness: It did not say in time that it is alive (:class:`QoSLivelinessLostInfo`).
-        incompatible_type: A subscription has another type; no middleware here reports it.
+        incompatible_type: Accepted, and never called: no middleware here reports it.
         matched: A matching subscription came or went (:class:`QoSPublisherMatchedInfo`).
         use_default_callbacks: Whether ROS 2's warning is logged when ``incompatible_qos`` is None.
     """

@@ -54,7 +54,7 @@ def missing(options: RecordOptions, graph: Graph, recorded: Collection[str]) -> 
 
 
 def _is_published(graph: Graph, topic: str) -> bool:
-    return any(each.kind == "publisher" and each.topic == topic for each in graph.endpoints())
+    return bool(graph.endpoints_of(topic, "publisher"))
 
 
 def _why(

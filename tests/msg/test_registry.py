@@ -63,13 +63,13 @@ def test_our_definitions_win_over_those_of_a_prefix(tmp_path, monkeypatch):
 
 def test_all_interfaces_are_listed():
     names = interface_names()
-    assert len(names) == 32
+    assert len(names) == 33
     assert names["turtlesim"] == {
         "msg": ["Color", "Pose"],
         "srv": ["Kill", "SetPen", "Spawn", "TeleportAbsolute", "TeleportRelative"],
         "action": ["RotateAbsolute"],
     }
-    assert sum(len(kind) for kinds in names.values() for kind in kinds.values()) == 363
+    assert sum(len(kind) for kinds in names.values() for kind in kinds.values()) == 364
 
 
 @pytest.mark.parametrize(

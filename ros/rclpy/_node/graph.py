@@ -121,9 +121,7 @@ class NodeGraph:
             ValueError: The name breaks the rules.
         """
         name = self._full_name(topic)
-        return sum(
-            endpoint.kind == kind and endpoint.topic == name for endpoint in self._graph.endpoints()
-        )
+        return len(self._graph.endpoints_of(name, kind))
 
     def count_service(self, kind: str, service: str) -> int:
         """How many servers (``kind`` "service") or clients ("client") a service has.
@@ -132,10 +130,8 @@ class NodeGraph:
             ValueError: The name breaks the rules.
         """
         name = self._full_name(service)
-        wanted = ("subscription" if kind == "service" else "publisher", names.request_topic(name))
-        return sum(
-            (endpoint.kind, endpoint.topic) == wanted for endpoint in self._graph.endpoints()
-        )
+        end = "subscription" if kind == "service" else "publisher"
+        return len(self._graph.endpoints_of(names.request_topic(name), end))
 
     def _full_name(self, name: str) -> str:
         expanded = expand_topic_name(name, self._core.name, self._core.namespace)
@@ -150,17 +146,16 @@ class NodeGraph:
         """
         from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-        name = topic if no_mangle else self._full_name(topic)
-        found = []
-        for endpoint in self._graph.endpoints():
-            spelled = (
-                names.topic_to_dds(endpoint.topic)
-                if no_mangle and endpoint.topic.startswith("/")
-                else endpoint.topic
-            )
-            if endpoint.kind == kind and spelled == name:
-                found.append(TopicEndpointInfo.from_wire(endpoint))
-        return found
+        if no_mangle:
+            name = names.topic_from_dds(topic) or topic
+            if name == topic and topic.startswith("/"):
+                return []  # a ROS name, where the name on the wire is asked for
+        else:
+            name = self._full_name(topic)
+        return [
+            TopicEndpointInfo.from_wire(endpoint)
+            for endpoint in self._graph.endpoints_of(name, kind)
+        ]
 
     def wait_for_node(self, fully_qualified_node_name: str, timeout_sec: float) -> bool:
         """See :meth:`rclpy.node.Node.wait_for_node`."""

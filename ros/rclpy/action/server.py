@@ -375,8 +375,6 @@ class ActionServer(Waitable):
             if not goal_handle.is_cancel_requested:
                 self._goals.advance(goal, GoalEvent.CANCEL_GOAL)
             response.goals_canceling.append(goal.info)
-        if wanted and not response.goals_canceling:
-            response.return_code = response.ERROR_REJECTED
         self._cancel_service._send_unless_destroyed(response, header)
 
     # Publishing

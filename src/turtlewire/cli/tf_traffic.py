@@ -196,9 +196,7 @@ def _time_of(cdr: bytes) -> int | None:
 def tf_publishers(graph: Graph) -> list[EndpointInfo]:
     """The publishers of /tf and /tf_static."""
     return [
-        end
-        for end in graph.endpoints()
-        if end.kind == "publisher" and end.topic in {"/tf", "/tf_static"}
+        end for topic in ("/tf", "/tf_static") for end in graph.endpoints_of(topic, "publisher")
     ]
 
 

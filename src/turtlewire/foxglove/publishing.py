@@ -115,8 +115,7 @@ class Publishing:
         """Reliable; latched as well if a subscription wants that, which would not match else."""
         latched = any(
             end.qos.durability == Durability.TRANSIENT_LOCAL
-            for end in self._graph.endpoints()
-            if end.topic == topic and end.kind == "subscription"
+            for end in self._graph.endpoints_of(topic, "subscription")
         )
         durability = Durability.TRANSIENT_LOCAL if latched else Durability.VOLATILE
         return QoS(depth=10, durability=durability)

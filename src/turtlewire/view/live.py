@@ -132,8 +132,7 @@ class LiveSource:
             while len(self._publishers) > _MOST_PUBLISHERS:
                 self._publishers.pop(next(iter(self._publishers))).close()
         publisher.publish(cdr)
-        endpoints = self._context.graph.endpoints()
-        return sum(each.kind == "subscription" and each.topic == topic for each in endpoints)
+        return len(self._context.graph.endpoints_of(topic, "subscription"))
 
     def on_change(self, call: Callable[[], None]) -> None:
         """Call ``call()`` on the wire's reader thread."""
@@ -258,11 +257,7 @@ class _FittedSubscription:
         )
 
     def _fitting(self) -> QoS:
-        offered = [
-            endpoint.qos
-            for endpoint in self._graph.endpoints()
-            if endpoint.kind == "publisher" and endpoint.topic == self._topic
-        ]
+        offered = [endpoint.qos for endpoint in self._graph.endpoints_of(self._topic, "publisher")]
         wanted = QoS(
             depth=_DEPTH,
             reliability=Reliability.BEST_AVAILABLE,

@@ -144,7 +144,10 @@ class Publisher(Entity):
 
     @abstractmethod
     def create_event(self, kind: EventKind) -> Event:
-        """The event of this kind (one per kind and endpoint); it closes with the endpoint.
+        """Return the event of this kind (one per kind and endpoint); it closes with the endpoint.
+
+        As in ROS 2, a middleware may accept an event that it never reports; `Context.events` has
+        those that it does report.
 
         Raises:
             WireError: The middleware cannot report it.
@@ -316,6 +319,15 @@ class Graph(ABC):
     @abstractmethod
     def endpoints(self) -> list[EndpointInfo]:
         """All known endpoints, also those of services (as ``rq/…`` names unless asked below)."""
+
+    @abstractmethod
+    def endpoints_of(self, topic: str, kind: str) -> list[EndpointInfo]:
+        """Return the endpoints of one topic, named as in :meth:`endpoints`.
+
+        Args:
+            topic: Name of the topic.
+            kind: ``"publisher"`` or ``"subscription"``.
+        """
 
     @abstractmethod
     def topic_names_and_types(self, *, demangle: bool = True) -> dict[str, list[str]]:

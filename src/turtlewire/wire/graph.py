@@ -164,6 +164,14 @@ class GraphView(Graph):
         self._ended = False
         self._listeners: list[Callable[[], None]] = []
 
+    def endpoints_of(self, topic: str, kind: str) -> list[EndpointInfo]:
+        """See :meth:`Graph.endpoints_of`."""
+        return [
+            endpoint
+            for endpoint in self.endpoints()
+            if endpoint.topic == topic and endpoint.kind == kind
+        ]
+
     def topic_names_and_types(self, *, demangle: bool = True) -> dict[str, list[str]]:
         """See :meth:`Graph.topic_names_and_types`."""
         pairs = []
@@ -262,9 +270,6 @@ def with_best_available(qos: QoS, topic: str, kind: str, context: Context) -> Qo
     """
     if not qos.has_best_available:
         return qos
-    others = [
-        endpoint.qos
-        for endpoint in context.graph.endpoints()
-        if endpoint.topic == topic and endpoint.kind != kind
-    ]
+    other_kind = "subscription" if kind == "publisher" else "publisher"
+    others = [endpoint.qos for endpoint in context.graph.endpoints_of(topic, other_kind)]
     return fit_publisher(qos, others) if kind == "publisher" else fit_subscription(qos, others)

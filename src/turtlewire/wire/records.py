@@ -119,6 +119,7 @@ class EventKind(Enum):
     LIVELINESS_LOST = "liveliness lost"  # publishers only
     LIVELINESS_CHANGED = "liveliness changed"  # subscriptions only
     MESSAGE_LOST = "message lost"  # subscriptions only
+    INCOMPATIBLE_TYPE = "incompatible type"  # accepted, and never reported by any middleware
 
 
 class EventStatus(NamedTuple):

@@ -10,7 +10,7 @@ import sys
 import pytest
 
 from turtlewire.errors import WireError
-from turtlewire.wire import open_context
+from turtlewire.wire import open_context, report
 from turtlewire.wire.zenoh.configuration import router_configuration, session_configuration
 
 
@@ -56,6 +56,38 @@ def test_single_values_are_overridden(monkeypatch: pytest.MonkeyPatch, capfd):
     assert value(configuration, "connect/endpoints") == ["tcp/10.0.0.1:7447"]
     [line] = capfd.readouterr().err.splitlines()
     assert "Ignore the invalid configuration key-value pair: (no/such/key, 1)" in line
+
+
+def test_shared_memory_is_sized_where_it_is_enabled(monkeypatch: pytest.MonkeyPatch):
+    sizes = "transport/shared_memory/transport_optimization"
+    monkeypatch.setenv("ZENOH_SHM_ALLOC_SIZE", "1000000")
+    monkeypatch.setenv("ZENOH_SHM_MESSAGE_SIZE_THRESHOLD", "1024")
+    assert value(session_configuration(), sizes)["pool_size"] == 48 * 1024 * 1024
+    monkeypatch.setenv("ZENOH_CONFIG_OVERRIDE", "transport/shared_memory/enabled=true")
+    for configuration in (session_configuration(), router_configuration()):
+        assert value(configuration, sizes)["pool_size"] == 1_000_000
+        assert value(configuration, sizes)["message_size_threshold"] == 1024
+
+
+@pytest.mark.parametrize(
+    ("variable", "text", "wanted"),
+    [
+        ("ZENOH_SHM_ALLOC_SIZE", "0", "a positive number of bytes"),
+        ("ZENOH_SHM_ALLOC_SIZE", "-5", "a positive number of bytes"),
+        ("ZENOH_SHM_MESSAGE_SIZE_THRESHOLD", "1000", "a power of 2"),
+        ("ZENOH_SHM_MESSAGE_SIZE_THRESHOLD", "much", "a power of 2"),
+    ],
+)
+def test_sizes_of_shared_memory_that_cannot_be(
+    monkeypatch: pytest.MonkeyPatch, capfd, variable: str, text: str, wanted: str
+):
+    monkeypatch.setattr(report, "_said", set())
+    monkeypatch.setenv("ZENOH_CONFIG_OVERRIDE", "transport/shared_memory/enabled=true")
+    monkeypatch.setenv(variable, text)
+    sizes = value(session_configuration(), "transport/shared_memory/transport_optimization")
+    assert (sizes["pool_size"], sizes["message_size_threshold"]) == (48 * 1024 * 1024, 512)
+    [line] = capfd.readouterr().err.splitlines()
+    assert f"{variable} must be {wanted}, so it is ignored: {text}" in line
 
 
 def test_a_file_replaces_all(monkeypatch: pytest.MonkeyPatch, tmp_path):

@@ -302,6 +302,8 @@ def test_what_the_router_passes_on_and_what_not():
     warned = head.format("\x1b[33m WARN\x1b[0m") + "something new at /a/b.rs:12."
     assert explain(warned) == "something new"
     assert explain(head.format("DEBUG") + "New transport link accepted") == ""
+    for what in ("interest", "subscriber", "token"):
+        assert explain(head.format("ERROR") + f"Unknown {what}") == ""
     assert explain("thread 'main' panicked") == "thread 'main' panicked"
 
 

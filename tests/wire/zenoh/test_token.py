@@ -6,9 +6,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from turtlewire.wire.qos import INFINITE_NS, Durability, History, Liveliness, QoS, Reliability
+from turtlewire.wire.qos import (
+    BEST_AVAILABLE_NS,
+    INFINITE_NS,
+    Durability,
+    History,
+    Liveliness,
+    QoS,
+    Reliability,
+)
 from turtlewire.wire.zenoh.attachment import Attachment
-from turtlewire.wire.zenoh.qos_text import format_qos, parse_qos
+from turtlewire.wire.zenoh.qos_text import adapted, format_qos, parse_qos
 from turtlewire.wire.zenoh.token import NODE, PUBLISHER, Token
 
 HASH = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
@@ -71,9 +79,18 @@ def test_the_gid_is_the_hash_of_the_text():
 
 
 def test_the_text_of_a_qos():
-    assert format_qos(QoS()) == "::,10:,:,:,,"
-    assert format_qos(QoS(depth=42)) == "::,:,:,:,,"
-    assert format_qos(QoS(depth=0, history=History.SYSTEM_DEFAULT)) == "::,:,:,:,,"
+    assert format_qos(adapted(QoS())) == "::,10:,:,:,,"
+    assert format_qos(adapted(QoS(depth=42))) == "::,:,:,:,,"
+    system_default = QoS(History.SYSTEM_DEFAULT, 0, *[Reliability.SYSTEM_DEFAULT] * 2)
+    assert format_qos(adapted(system_default)) == "::,:,:,:,,"
+    best_available = QoS(
+        reliability=Reliability.BEST_AVAILABLE,
+        durability=Durability.BEST_AVAILABLE,
+        deadline_ns=BEST_AVAILABLE_NS,
+        liveliness=Liveliness.BEST_AVAILABLE,
+        liveliness_lease_ns=BEST_AVAILABLE_NS,
+    )
+    assert format_qos(adapted(best_available)) == "4:4:,10:,854775806:,:5,,854775806"
     special = QoS(
         History.KEEP_ALL,
         5,
@@ -87,7 +104,7 @@ def test_the_text_of_a_qos():
     assert format_qos(special) == "2:1:2,5:1,500000000:0,2:3,3,0"
 
 
-durations = st.integers(1, INFINITE_NS - 2) | st.just(INFINITE_NS)
+durations = st.integers(1, INFINITE_NS)
 
 
 @given(

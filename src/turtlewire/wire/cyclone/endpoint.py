@@ -108,7 +108,7 @@ class Endpoint(Entity):
 
     def create_event(self, kind: EventKind) -> Event:
         """See :meth:`Publisher.create_event`."""
-        if kind not in self._sources:
+        if kind not in self._sources and kind is not EventKind.INCOMPATIBLE_TYPE:
             raise WireError(
                 f"{type(self).__name__} of {self.spec.name} has no event '{kind.value}'"
             )

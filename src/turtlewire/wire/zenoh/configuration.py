@@ -34,6 +34,21 @@ _GOSSIP = {
     "enabled": True,
     "target": {"router": _PEERS_AND_ROUTERS, "peer": ["router"]},
 }
+#: The variables of rmw_zenoh that size shared memory, with their keys.
+_SHARED_MEMORY = {
+    "ZENOH_SHM_ALLOC_SIZE": "pool_size",
+    "ZENOH_SHM_MESSAGE_SIZE_THRESHOLD": "message_size_threshold",
+}
+#: Of sessions and routers, as rmw_zenoh's.
+_SHARED_MEMORY_DEFAULTS = {
+    "enabled": False,
+    "mode": "lazy",
+    "transport_optimization": {
+        "enabled": True,
+        "pool_size": 48 * 1024 * 1024,
+        "message_size_threshold": 512,
+    },
+}
 _UNICAST = {
     "open_timeout": 60_000,
     "accept_timeout": 60_000,
@@ -73,6 +88,7 @@ def _configuration(variable: str, default: Callable[[], dict[str, Any]]) -> zeno
                 f"{variable} names it; Zenoh says: {reason_of(error)}"
             ) from error
     _override(configuration)
+    _size_shared_memory(configuration)
     return configuration
 
 
@@ -89,6 +105,27 @@ def _override(configuration: zenoh.Config) -> None:
                 f"ZENOH_CONFIG_OVERRIDE {pair}",
                 f"Ignore the invalid configuration key-value pair: ({key}, {value})",
             )
+
+
+def _size_shared_memory(configuration: zenoh.Config) -> None:
+    """Apply ``ZENOH_SHM_ALLOC_SIZE`` and ``ZENOH_SHM_MESSAGE_SIZE_THRESHOLD``.
+
+    As in rmw_zenoh, they count only where ``transport/shared_memory/enabled`` is true.
+    """
+    if configuration.get_json("transport/shared_memory/enabled") != "true":
+        return
+    for variable, key in _SHARED_MEMORY.items():
+        text = os.environ.get(variable, "").strip()
+        if not text:
+            continue
+        size = int(text) if text.isdecimal() else 0
+        is_threshold = key == "message_size_threshold"
+        if size == 0 or (is_threshold and size & (size - 1)):
+            wanted = "a power of 2" if is_threshold else "a positive number of bytes"
+            warn_once(variable, f"{variable} must be {wanted}, so it is ignored: {text}")
+            continue
+        path = f"transport/shared_memory/transport_optimization/{key}"
+        configuration.insert_json5(path, str(size))
 
 
 def _session() -> dict[str, Any]:
@@ -135,7 +172,7 @@ def _session() -> dict[str, Any]:
         "transport": {
             "unicast": _UNICAST,
             "link": _link(wait_before_close_us=60_000_000),
-            "shared_memory": {"enabled": False},
+            "shared_memory": _SHARED_MEMORY_DEFAULTS,
         },
         "adminspace": {"enabled": True},
     }
@@ -154,7 +191,7 @@ def _router() -> dict[str, Any]:
         "transport": {
             "unicast": _UNICAST,
             "link": _link(wait_before_close_us=5_000_000),
-            "shared_memory": {"enabled": False},
+            "shared_memory": _SHARED_MEMORY_DEFAULTS,
         },
         "adminspace": {"enabled": True},
     }

@@ -20,6 +20,7 @@ from .core import ContextCore
 from .graph import ZenohGraph
 from .library import reason_of
 from .node import ZenohNode
+from .router_check import wait_for_router
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -135,4 +136,5 @@ def _open() -> zenoh.Session:
         from .diagnosis import warn_of_faults
 
         warn_of_faults(configuration)
+    wait_for_router(session)
     return session

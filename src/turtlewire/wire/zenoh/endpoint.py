@@ -11,7 +11,7 @@ from turtlewire.wire import names
 from turtlewire.wire.base import Entity, EventKind, EventStatus
 from turtlewire.wire.events import StatusEvent
 
-from .qos_text import format_qos
+from .qos_text import adapted, format_qos
 
 if TYPE_CHECKING:
     from typing import Protocol
@@ -38,19 +38,20 @@ class ZenohEndpoint(Entity):
     Attributes:
         token: How the graph shows it.
         gid: 16 bytes, which its messages carry.
-        qos: Its policies.
+        qos: Its policies, without system defaults.
         partners: The endpoints that it matches, by gid.
     """
 
-    #: The kind of its token, and the events that it has.
+    #: The kind of its token, and the events that can be asked for.
     KIND = ""
-    EVENTS = frozenset({EventKind.MATCHED})
+    # As in rmw_zenoh_cpp, the incompatible ones never happen, because everything matches.
+    EVENTS = frozenset({EventKind.MATCHED, EventKind.INCOMPATIBLE_QOS, EventKind.INCOMPATIBLE_TYPE})
 
     def __init__(
         self, core: ContextCore, node: Owner, name: str, type_id: TypeId, qos: QoS
     ) -> None:
         self.topic = name
-        self.qos = qos
+        self.qos = adapted(qos)
         self.partners: dict[str, Token] = {}
         self.token = node.token._replace(
             entity_id=core.next_number(),
@@ -58,7 +59,7 @@ class ZenohEndpoint(Entity):
             name=name,
             dds_type=names.type_to_dds(type_id.name),
             type_hash=type_id.type_hash,
-            qos=format_qos(qos),
+            qos=format_qos(self.qos),
         )
         self.gid: bytes = self.token.gid
         self._core = core

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from zenoh import SampleKind
 from zenoh.handlers import Callback
@@ -61,6 +61,8 @@ class ZenohGraph(GraphView):
         self._reader = reader
         self._session_id = ""
         self._tokens: dict[str, Token] = {}
+        self._by_topic: dict[str, dict[str, Token]] = {}
+        self._infos: dict[str, list[EndpointInfo]] = {}  # by token, made at the first query
         self._own: dict[tuple[str, str], dict[Matching, None]] = {}
         self._by_key: dict[tuple[str, str], dict[str, Token]] = {}
         self._types = EndpointTypes()
@@ -104,6 +106,8 @@ class ZenohGraph(GraphView):
                 self._compare_nodes(token)
             else:
                 self._by_key.setdefault((token.kind, token.data_key), {})[token.text] = token
+                for topic in _topics(token):
+                    self._by_topic.setdefault(topic, {})[token.text] = token
                 self._compare_types(token, add=True)
                 for endpoint in self._partners(token):
                     endpoint.meet(token)
@@ -117,10 +121,10 @@ class ZenohGraph(GraphView):
             if token.kind == NODE:
                 self._compare_nodes(token)
             else:
-                same = self._by_key[token.kind, token.data_key]
-                del same[token.text]
-                if not same:
-                    del self._by_key[token.kind, token.data_key]
+                _remove(self._by_key, (token.kind, token.data_key), token)
+                for topic in _topics(token):
+                    _remove(self._by_topic, topic, token)
+                self._infos.pop(token.text, None)
                 self._compare_types(token, add=False)
                 for endpoint in self._partners(token):
                     endpoint.part(token)
@@ -177,8 +181,47 @@ class ZenohGraph(GraphView):
     def endpoints(self) -> list[EndpointInfo]:
         """See :meth:`Graph.endpoints`."""
         with self.lock:
-            tokens = [token for token in self._tokens.values() if token.kind != NODE]
-        return [info for token in tokens for info in _endpoint_infos(token)]
+            return [
+                info
+                for text, token in self._tokens.items()
+                if token.kind != NODE
+                for info in self._infos_of(text, token)
+            ]
+
+    def endpoints_of(self, topic: str, kind: str) -> list[EndpointInfo]:
+        """See :meth:`Graph.endpoints_of`."""
+        with self.lock:
+            return [
+                info
+                for text, token in self._by_topic.get(topic, {}).items()
+                for info in self._infos_of(text, token)
+                if info.topic == topic and info.kind == kind
+            ]
+
+    def _infos_of(self, text: str, token: Token) -> list[EndpointInfo]:
+        """Return what the graph shows of an endpoint; with the lock held."""
+        infos = self._infos.get(text)
+        if infos is None:
+            infos = self._infos[text] = _endpoint_infos(token)
+        return infos
+
+
+def _topics(token: Token) -> tuple[str, ...]:
+    """Return the topics of an endpoint: of a service, the two that it has on DDS."""
+    if token.kind in _TOPIC_KINDS:
+        return (token.name,)
+    return names.request_topic(token.name), names.reply_topic(token.name)
+
+
+_Key = TypeVar("_Key")
+
+
+def _remove(index: dict[_Key, dict[str, Token]], key: _Key, token: Token) -> None:
+    """Remove a token from an index, and its row with the last one."""
+    same = index[key]
+    del same[token.text]
+    if not same:
+        del index[key]
 
 
 def _full_names(nodes: Iterable[Token]) -> list[str]:
@@ -203,8 +246,9 @@ def _endpoint_infos(token: Token) -> list[EndpointInfo]:
         return [EndpointInfo(kind, token.name, type_name, type_hash, node, gid, qos)]
     kinds = ("subscription", "publisher")
     request, reply = kinds if token.kind == SERVICE else reversed(kinds)
+    request_topic, reply_topic = _topics(token)
     topics = (
-        (request, names.request_topic(token.name), f"{type_name}_Request"),
-        (reply, names.reply_topic(token.name), f"{type_name}_Response"),
+        (request, request_topic, f"{type_name}_Request"),
+        (reply, reply_topic, f"{type_name}_Response"),
     )
     return [EndpointInfo(*topic, type_hash, node, gid, qos) for topic in topics]

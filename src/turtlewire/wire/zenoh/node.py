@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from turtlewire.errors import WireError
 from turtlewire.wire.base import Node, NodeInfo
-from turtlewire.wire.graph import with_best_available
 
 from .inlet import ZenohSinkSubscription
 from .publisher import ZenohPublisher
@@ -87,7 +86,6 @@ class ZenohNode(Node):
     def create_publisher(self, topic: str, type_id: TypeId, qos: QoS) -> Publisher:
         """See :meth:`Node.create_publisher`."""
         with self._core.declaring(f"create publisher {topic}"):
-            qos = with_best_available(qos, topic, "publisher", self.context)
             return ZenohPublisher(self._core, self, topic, type_id, qos)
 
     def create_subscription(
@@ -100,7 +98,6 @@ class ZenohNode(Node):
     ) -> Subscription:
         """See :meth:`Node.create_subscription`."""
         with self._core.declaring(f"create subscription {topic}"):
-            qos = with_best_available(qos, topic, "subscription", self.context)
             if sink is None:
                 return ZenohSubscription(self._core, self, topic, type_id, qos, on_message)
             return ZenohSinkSubscription(self._core, self, topic, type_id, qos, on_message, sink)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import zenoh
 from zenoh import ext
+from zenoh.handlers import Callback
 
 from turtlewire.errors import WireError
 from turtlewire.wire.base import Publisher
@@ -44,11 +45,25 @@ class ZenohPublisher(ZenohEndpoint, Publisher):
     ) -> None:
         super().__init__(core, node, topic, type_id, qos)
         self._numbers = itertools.count(1)
+        self._has_subscriber = False
         with core.calls:
             self._publisher = ext.declare_advanced_publisher(
-                core.session, self.token.data_key, **_options(qos)
+                core.session, self.token.data_key, **_options(self.qos)
             )
+            # Publishes nothing. Bridges and storages are subscribers without a token, and only a
+            # plain publisher can say that one is there.
+            plain = core.session.declare_publisher(self.token.data_key)
+            listener = plain.declare_matching_listener(Callback(self._on_matching, indirect=False))
+            status: Any = plain.matching_status  # zenoh's stub calls it a bool
+            if status.matching:
+                self._has_subscriber = True
+        self._declared += [plain, listener]
         self.announce(self._publisher)
+
+    def _on_matching(self, status: zenoh.MatchingStatus) -> None:
+        """Note on a thread of Zenoh that any subscriber is there, or that the last has gone."""
+        self._has_subscriber = status.matching
+        self._core.reader.submit(self._core.graph.notify_changed)
 
     def publish(self, cdr: Cdr) -> None:
         """See :meth:`Publisher.publish`."""
@@ -64,6 +79,10 @@ class ZenohPublisher(ZenohEndpoint, Publisher):
             except zenoh.ZError as error:
                 raise WireError(f"publish on {self.topic}: {reason_of(error)}") from error
 
+    def is_heard(self) -> bool:
+        """See :meth:`Publisher.is_heard`."""
+        return self._has_subscriber or bool(self.partners)
+
     def subscription_count(self) -> int:
         """See :meth:`Publisher.subscription_count`."""
         return len(self.partners)
@@ -77,17 +96,17 @@ class ZenohPublisher(ZenohEndpoint, Publisher):
 
 
 def _options(qos: QoS) -> dict[str, Any]:
-    best_effort = qos.reliability == Reliability.BEST_EFFORT
-    blocks = not best_effort and qos.history == History.KEEP_ALL
+    reliable = qos.reliability == Reliability.RELIABLE
+    blocks = reliable and qos.history == History.KEEP_ALL
     congestion = zenoh.CongestionControl
     options: dict[str, Any] = {
         "congestion_control": congestion.BLOCK if blocks else congestion.DROP,
-        "reliability": zenoh.Reliability.BEST_EFFORT if best_effort else zenoh.Reliability.RELIABLE,
+        "reliability": zenoh.Reliability.RELIABLE if reliable else zenoh.Reliability.BEST_EFFORT,
     }
     if qos.durability == Durability.TRANSIENT_LOCAL:
-        options["cache"] = ext.CacheConfig(max_samples=max(qos.depth, 1))
+        options["cache"] = ext.CacheConfig(max_samples=qos.depth)
         options["publisher_detection"] = True
-        if not best_effort:
+        if reliable:
             options["sample_miss_detection"] = ext.MissDetectionConfig(
                 heartbeat=None, sporadic_heartbeat=_HEARTBEAT
             )

@@ -7,7 +7,6 @@ numbers of rmw, durations as ``<s>,<ns>``, and nothing where a value is rmw_zeno
 from __future__ import annotations
 
 from turtlewire.wire.qos import (
-    BEST_AVAILABLE_NS,
     INFINITE_NS,
     Durability,
     History,
@@ -16,31 +15,43 @@ from turtlewire.wire.qos import (
     Reliability,
 )
 
-__all__ = ["DEFAULT_DEPTH", "format_qos", "parse_qos"]
+__all__ = ["adapted", "format_qos", "parse_qos"]
 
 #: rmw_zenoh's own default, and what a depth of 0 means there.
-DEFAULT_DEPTH = 42
+_DEFAULT_DEPTH = 42
 
 _SECOND = 1_000_000_000
 _FOREVER = divmod(INFINITE_NS, _SECOND)
 _PARTS = 6
 
 
+def adapted(qos: QoS) -> QoS:
+    """Return a QoS with rmw_zenoh's defaults in place of system defaults and a depth of 0.
+
+    Best-available policies stay, as in rmw_zenoh: every QoS matches there, so there is nothing to
+    choose. They act like best effort and volatile.
+    """
+    return qos._replace(
+        history=qos.history or History.KEEP_LAST,
+        depth=qos.depth or _DEFAULT_DEPTH,
+        reliability=qos.reliability or Reliability.RELIABLE,
+        durability=qos.durability or Durability.VOLATILE,
+        liveliness=qos.liveliness or Liveliness.AUTOMATIC,
+    )
+
+
 def format_qos(qos: QoS) -> str:
-    """The text of a QoS in a token."""
-    history = qos.history or History.KEEP_LAST
+    """Return the text of an adapted QoS in a token."""
+    history = _number(qos.history, History.KEEP_LAST)
+    liveliness = _number(qos.liveliness, Liveliness.AUTOMATIC)
     return ":".join(
         (
-            _number(qos.reliability or Reliability.RELIABLE, Reliability.RELIABLE),
-            _number(qos.durability or Durability.VOLATILE, Durability.VOLATILE),
-            _number(history, History.KEEP_LAST)
-            + ","
-            + _number(qos.depth or DEFAULT_DEPTH, DEFAULT_DEPTH),
+            _number(qos.reliability, Reliability.RELIABLE),
+            _number(qos.durability, Durability.VOLATILE),
+            f"{history},{_number(qos.depth, _DEFAULT_DEPTH)}",
             _duration(qos.deadline_ns),
             _duration(qos.lifespan_ns),
-            _number(qos.liveliness or Liveliness.AUTOMATIC, Liveliness.AUTOMATIC)
-            + ","
-            + _duration(qos.liveliness_lease_ns),
+            f"{liveliness},{_duration(qos.liveliness_lease_ns)}",
         )
     )
 
@@ -50,9 +61,7 @@ def _number(value: int, default: int) -> str:
 
 
 def _duration(nanoseconds: int) -> str:
-    if nanoseconds in {0, BEST_AVAILABLE_NS}:
-        nanoseconds = INFINITE_NS
-    parts = divmod(nanoseconds, _SECOND)
+    parts = divmod(nanoseconds or INFINITE_NS, _SECOND)
     return ",".join(_number(part, default) for part, default in zip(parts, _FOREVER, strict=True))
 
 
@@ -68,7 +77,7 @@ def parse_qos(text: str) -> QoS:
     [reliability], [durability], [history, depth], deadline, lifespan, liveliness = parts[:_PARTS]
     return QoS(
         history=History(_value(history, History.KEEP_LAST)),
-        depth=_value(depth, DEFAULT_DEPTH),
+        depth=_value(depth, _DEFAULT_DEPTH),
         reliability=Reliability(_value(reliability, Reliability.RELIABLE)),
         durability=Durability(_value(durability, Durability.VOLATILE)),
         deadline_ns=_nanoseconds(deadline),

@@ -48,7 +48,7 @@ class _QueuedEndpoint(ZenohEndpoint, Queued):
         super().__init__(core, node, service, type_id, qos)
         self.service = service
         self.watchers: dict[WaitSet, Callable[[], None]] = {}
-        self._limit = None if qos.history == History.KEEP_ALL else max(qos.depth, 1)
+        self._limit = None if qos.history == History.KEEP_ALL else self.qos.depth
         self._queue: deque[Any] = deque()
 
     def _append(self, item: Any) -> Any | None:

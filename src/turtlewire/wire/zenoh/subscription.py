@@ -45,7 +45,12 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
     """
 
     KIND = SUBSCRIPTION
-    EVENTS = frozenset({EventKind.MATCHED, EventKind.MESSAGE_LOST})
+    # The last two never happen, as in rmw_zenoh_cpp.
+    EVENTS = ZenohEndpoint.EVENTS | {
+        EventKind.MESSAGE_LOST,
+        EventKind.DEADLINE_MISSED,
+        EventKind.LIVELINESS_CHANGED,
+    }
 
     def __init__(
         self,
@@ -58,9 +63,9 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
     ) -> None:
         super().__init__(core, node, topic, type_id, qos)
         self.watchers: dict[WaitSet, Callable[[], None]] = {}
-        keep_all = qos.history == History.KEEP_ALL
+        keep_all = self.qos.history == History.KEEP_ALL
         self._queue: deque[tuple[bytes, MessageInfo]] = deque(
-            maxlen=None if keep_all else max(qos.depth, 1)
+            maxlen=None if keep_all else self.qos.depth
         )
         self._on_message = on_message
         self._is_delivering = False
@@ -83,16 +88,14 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
             # threads lose messages. On the wire both are the same.
             return self._core.session.declare_subscriber(self.token.data_key, handler)
         options: dict[str, Any] = {}
-        if self.qos.reliability != Reliability.BEST_EFFORT:
+        if self.qos.reliability == Reliability.RELIABLE:
             options["recovery"] = ext.RecoveryConfig(heartbeat=True, periodic_queries=None)
         return ext.declare_advanced_subscriber(
             self._core.session,
             self.token.data_key,
             handler,
             subscriber_detection=True,
-            history=ext.HistoryConfig(
-                detect_late_publishers=True, max_samples=max(self.qos.depth, 1)
-            ),
+            history=ext.HistoryConfig(detect_late_publishers=True, max_samples=self.qos.depth),
             **options,
         )
 
