@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 
 import pytest
-from tests.bag.conftest import SECOND, START, contents, write_bag
+from tests.bag.conftest import SECOND, START, contents, transform, write_bag
 
-from turtlewire.bag import BagWriter, open_bag
+from turtlewire.bag import BagWriter, load_transforms, open_bag
 from turtlewire.errors import BagError, InterfaceError
 
 
@@ -35,6 +35,33 @@ def test_topics_types_and_times(bag_path):
         window = [m for m in everything if start <= m.log_time_ns <= end]
         assert 20 < len(window) < 40
         assert list(bag.messages(start_ns=start, end_ns=end)) == window
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"chunk_bytes": 60},
+        {"chunk_bytes": 60, "compression": "zstd"},
+        {"storage": "sqlite3"},
+        {"max_file_bytes": 400},
+    ],
+)
+def test_both_ends_of_a_window_belong_to_it(tmp_path, options):
+    """The ends of chunks and files included: each message begins, and ends, some window."""
+    with BagWriter(tmp_path / "made", **options) as writer:
+        writer.add_topic("/tf", "tf2_msgs/msg/TFMessage")
+        for time in range(100, 160, 2):
+            writer.write("/tf", transform(time), time)
+    with open_bag(tmp_path / "made") as bag:
+        for start in range(100, 160, 2):
+            times = [m.log_time_ns for m in bag.messages(start_ns=start, end_ns=start + 10)]
+            assert times == list(range(start, min(start + 11, 160), 2))
+            between = [m.log_time_ns for m in bag.messages(start_ns=start + 1, end_ns=start + 9)]
+            assert between == list(range(start + 2, min(start + 9, 160), 2))
+            for window, count in (((start, start), 1), ((start + 1, start + 1), 0)):
+                ends = {"start_ns": window[0], "end_ns": window[1]}
+                assert len(list(bag.messages(**ends))) == count
+                assert load_transforms(bag.path, **ends)[1].messages == count
 
 
 def test_topic_names_are_whole_names(bag_path):

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import re
+import sys
+from pathlib import Path
+
 import pytest
 from tests.bag.conftest import SECOND, START, transform, write_bag
 
-from turtlewire.bag import BagWriter, load_transforms
+from turtlewire.bag import BagWriter, load_transforms, storage
+from turtlewire.bag.mcap_reader import McapFile
 from turtlewire.errors import BagError, ExtrapolationException
 
 
@@ -31,6 +36,38 @@ def test_history_is_not_limited(tmp_path):
     short, _ = load_transforms(tmp_path / "made", cache_time_ns=SECOND)
     with pytest.raises(ExtrapolationException):
         short.lookup_transform("odom", "base_link", START)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux shows which pages are resident")
+def test_the_pages_of_chunks_that_were_read_are_given_back(tmp_path, monkeypatch):
+    path = tmp_path / "made"
+    with BagWriter(path, chunk_bytes=1_000_000) as writer:
+        writer.add_topic("/tf", "tf2_msgs/msg/TFMessage")
+        for count in range(60_000):
+            writer.write("/tf", transform(count), count)
+    resident = []
+
+    class Watched(McapFile):
+        def close(self):
+            resident.append(resident_bytes(path / "made_0.mcap"))
+            super().close()
+
+    monkeypatch.setattr(storage, "McapFile", Watched)
+    size = (path / "made_0.mcap").stat().st_size
+    _, report = load_transforms(path)
+    assert report.messages == 60_000
+    assert max(resident) < size / 3
+
+
+def resident_bytes(file):
+    """How much of a mapped file is in this process's memory."""
+    total, ours = 0, False
+    for line in Path("/proc/self/smaps").read_text(encoding="utf-8").splitlines():
+        if re.match(r"[0-9a-f]+-[0-9a-f]+ ", line):
+            ours = line.endswith(str(file))
+        elif ours and line.startswith("Rss:"):
+            total += int(line.split()[1]) * 1024
+    return total
 
 
 def test_a_window_has_the_static_transforms_from_before_it(tmp_path):

@@ -350,6 +350,24 @@ def test_integer_ranges(parameters, value, text):
 
 
 @pytest.mark.parametrize(
+    ("value", "is_a_step"), [(2, True), (4, False), (5, True), (9, False), (10, True), (11, True)]
+)
+def test_steps_count_from_the_start_of_a_range_and_its_end_is_always_valid(
+    parameters, value, is_a_step
+):
+    limits = IntegerRange(from_value=2, to_value=10, step=3)
+    parameters.declare_parameter("a", 2, ParameterDescriptor(integer_range=[limits]))
+    text = reason(parameters, "a", value)
+    if value > 10:
+        assert text == "Parameter a out of range. Min: 2, Max: 10, value: 11"
+    else:
+        assert text.startswith("The parameter value for a is not a valid step.") != is_a_step
+    limits = FloatingPointRange(from_value=2.0, to_value=10.0, step=3.0)
+    parameters.declare_parameter("b", 2.0, ParameterDescriptor(floating_point_range=[limits]))
+    assert (reason(parameters, "b", float(value)) == "") == (is_a_step and value <= 10)
+
+
+@pytest.mark.parametrize(
     ("value", "text"),
     [
         (0.3, ""),

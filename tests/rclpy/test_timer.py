@@ -14,6 +14,7 @@ from rclpy.exceptions import InvalidHandle, ROSInterruptException
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.time import Time
 from rclpy.timer import Timer
+from turtlewire.wire.queue_wait_set import QueueWaitSet
 
 MS = 1_000_000
 
@@ -148,6 +149,22 @@ def test_a_timer_on_a_real_clock_ends_the_wait_of_the_executor(node, executor, c
         executor.spin_once(timeout_sec=60)
     assert called[-1] - start >= 0.055
     assert called[-1] - start < 30
+
+
+def test_the_executor_waits_no_longer_than_to_the_next_call(node, executor, monkeypatch):
+    waits = []
+    wait = QueueWaitSet.wait
+    monkeypatch.setattr(
+        QueueWaitSet,
+        "wait",
+        lambda waiting, timeout_ns=None: waits.append(timeout_ns) or wait(waiting, timeout_ns),
+    )
+    called = []
+    timer = node.create_timer(0.02, lambda: called.append(1))
+    while not called:
+        left = timer.time_until_next_call()
+        executor.spin_once(timeout_sec=60)
+        assert waits.pop() <= max(left, 0)
 
 
 def test_a_timer_made_while_the_executor_waits_is_served(node, executor):

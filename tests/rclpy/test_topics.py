@@ -16,6 +16,7 @@ from rclpy.node import Node
 from rclpy.qos import (
     DurabilityPolicy,
     HistoryPolicy,
+    LivelinessPolicy,
     QoSProfile,
     ReliabilityPolicy,
     qos_profile_sensor_data,
@@ -188,15 +189,28 @@ def test_what_is_not_encoded_while_nobody_listens(context, node, monkeypatch):
     volatile = node.create_publisher(Int32, "volatile", 10)
     volatile.publish(Int32(data=1))
     assert encoded == []
-    latched = node.create_publisher(
-        Int32, "latched", QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-    )
-    latched.publish(Int32(data=1))
-    assert len(encoded) == 1
     node.create_subscription(Int32, "volatile", lambda _: None, 10)
     matched(context, volatile)
     volatile.publish(Int32(data=1))
-    assert len(encoded) == 2
+    assert len(encoded) == 1
+
+
+@pytest.mark.parametrize(
+    ("policies", "count"),
+    [
+        ({"durability": DurabilityPolicy.TRANSIENT_LOCAL}, 1),
+        ({"liveliness": LivelinessPolicy.MANUAL_BY_TOPIC}, 1),
+        ({"liveliness": LivelinessPolicy.AUTOMATIC}, 0),
+        ({"deadline": Duration(nanoseconds=1)}, 1),
+        ({"deadline": Duration(nanoseconds=0)}, 0),
+    ],
+)
+def test_what_is_sent_while_nobody_listens(node, monkeypatch, policies, count):
+    publisher = node.create_publisher(Int32, "number", QoSProfile(depth=1, **policies))
+    sent = []
+    monkeypatch.setattr(publisher._wire, "publish", sent.append)
+    publisher.publish(Int32(data=1))
+    assert len(sent) == count
 
 
 def test_what_cannot_be_published(context, node):

@@ -137,6 +137,21 @@ def test_listeners_hear_of_what_was_stored_with_the_name(flow):
         assert buffer.can_transform("world", "robot")
 
 
+def test_the_count_of_messages_never_falls(flow):
+    first, second = Buffer(), Buffer()
+    former = flow.listen(first)
+    with flow.listen(second) as staying:
+        flow.wait_for_match()
+        for _ in range(5):
+            flow.send(second)
+        counted = [channel.total() for channel in staying._seen]
+        assert sum(counted) == 5
+        former.close()  # which owned the subscription: a new one takes its place
+        assert [channel.total() for channel in staying._seen] == counted
+        flow.send_until_short(second)
+        assert sum(channel.total() for channel in staying._seen) > sum(counted)
+
+
 def test_a_publisher_that_nobody_can_name_is_heard_through_python(flow, monkeypatch):
     def failing(feed, publisher, gid_of):
         raise RuntimeError("no graph")

@@ -162,6 +162,31 @@ def test_a_message_waits_no_longer_than_the_timeout(setup, stamped):
     s.spin_until(lambda: s.passed == [3])
 
 
+def test_each_message_has_the_timeout_from_its_own_arrival(setup, node):
+    clock = node.get_clock()
+    clock._set_ros_time_is_active(True)
+
+    def at(milliseconds):
+        time = Time(nanoseconds=milliseconds * 1_000_000, clock_type=ClockType.ROS_TIME)
+        clock.set_ros_time_override(time)
+        s.settle()
+        return [stamp for stamp, _ in s.failed]
+
+    s = setup(timeout=Duration(seconds=1))
+    assert at(1000) == []
+    s.filter.add(point(1))
+    at(1400)
+    s.filter.add(point(2))
+    assert at(1999) == []
+    assert at(2000) == [1]
+    assert at(2399) == [1]
+    assert at(2400) == [1, 2]
+    at(9000)
+    s.filter.add(point(3))  # after a pause in which nothing waited
+    assert at(9999) == [1, 2]
+    assert at(10_000) == [1, 2, 3]
+
+
 def test_what_waits_is_dropped_when_the_clock_jumps_back(setup, node, stamped):
     s = setup(timeout=Duration(seconds=1000))
     clock = node.get_clock()

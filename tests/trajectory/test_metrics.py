@@ -161,6 +161,15 @@ def test_association(swapped, offset_ns):
     assert second.positions[rows[1]] == pytest.approx(b.positions_xyz)
 
 
+@pytest.mark.parametrize(("distance", "pairs"), [(4, 3), (5, 3), (6, 1)])
+def test_the_largest_difference_belongs_to_the_bound(distance, pairs):
+    still = np.tile([0.0, 0, 0, 0, 0, 0, 1], (3, 1))
+    first = Trajectory(np.array([0, 100, 200]), still)
+    second = Trajectory(np.array([0, 100 + distance, 200 - distance]), still)
+    for one, other in ((first, second), (second, first)):
+        assert len(associate(one, other, 5)[0]) == pairs
+
+
 def test_clocks_that_differ_are_told():
     early = random_walk(1)
     late = Trajectory(early.stamps_ns + 3600 * 10**9, early.poses)

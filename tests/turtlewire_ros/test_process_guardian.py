@@ -29,3 +29,25 @@ def test_a_process_that_the_first_search_missed_gets_sigterm():
         member.kill()
     assert done.returncode == 0
     assert member.returncode == -signal.SIGTERM  # it came first
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux shows another's environment")
+def test_a_stopped_process_wakes_up_to_end():
+    environment = {**os.environ, FAMILIES: "outer:ours"}
+    command = 'trap "echo ended; exit 7" TERM; echo ready; while :; do read -r _ || exit 9; done'
+    with subprocess.Popen(
+        ["sh", "-c", command],
+        env=environment,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as member:
+        assert member.stdout.readline() == "ready\n"
+        member.send_signal(signal.SIGSTOP)
+        os.waitid(os.P_PID, member.pid, os.WSTOPPED | os.WNOWAIT)
+        guardian = "from turtlewire_ros.process_guardian import guard; guard('ours')"
+        done = subprocess.run(
+            [sys.executable, "-c", guardian], stdin=subprocess.DEVNULL, check=False
+        )
+        assert member.stdout.read() == "ended\n"
+    assert (done.returncode, member.returncode) == (0, 7)
