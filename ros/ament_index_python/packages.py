@@ -19,7 +19,7 @@ __all__ = [
 class PackageNotFoundError(KeyError):
     """The package is in no prefix."""
 
-    #: A line with the nearest names, for a user who mistyped it; empty if none is near.
+    #: A line that says why: not sourced, not built or misspelt; empty if unknown.
     hint: str = ""
 
 
@@ -37,11 +37,10 @@ def get_package_prefix(package_name: str) -> str:
     paths = get_search_paths()
     prefix = package_prefix(package_name)
     if prefix is None:
-        from turtlewire.suggestion import did_you_mean
-        from turtlewire_ros.prefix import package_names
+        from turtlewire_ros.workspace_hints import package_hint
 
         error = PackageNotFoundError(f"package '{package_name}' not found, searching: {paths}")
-        error.hint = did_you_mean(package_name, package_names())
+        error.hint = package_hint(package_name)
         raise error
     return prefix
 

@@ -16,6 +16,7 @@ from launch.event_handlers import OnIncludeLaunchDescription, OnShutdown
 from launch.events import IncludeLaunchDescription, Shutdown
 from launch.launch_context import LaunchContext
 from launch.utilities.raised_in import raised_in
+from turtlewire_ros.workspace_hints import path_hint
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -177,6 +178,8 @@ class LaunchService:
             "%s", "".join(traceback.format_exception(type(error), error, error.__traceback__))
         )
         hint = getattr(error, "hint", "")
+        if isinstance(error, FileNotFoundError):
+            hint = path_hint(str(error.filename))
         self._logger.error(
             "Caught exception in launch (see debug for traceback): %s%s%s",
             *(error, f"\n{hint}" if hint else "", raised_in(error)),

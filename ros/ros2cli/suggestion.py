@@ -40,10 +40,11 @@ def field_meant(error: BaseException | None) -> str:
 
 
 def package_meant(name: str) -> str:
-    """`did_you_mean` for the name of a package."""
-    from turtlewire_ros.prefix import package_names
+    """A line that says why there is no such package, to append to a message; may be empty."""
+    from turtlewire_ros.workspace_hints import package_hint
 
-    return did_you_mean(name, package_names())
+    line = package_hint(name)
+    return f"\n{line}" if line else ""
 
 
 def interface_meant(name: str, kind: str = "") -> str:

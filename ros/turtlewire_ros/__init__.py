@@ -4,6 +4,8 @@
 module                                what it holds
 ====================================  ====================================================
 `prefix`                              finds packages: colcon workspaces, this prefix, pip
+`workspace_hints`                     says what a colcon workspace has, and is not found
+`rqt`                                 answers with what shows the same as a program of rqt
 `executables`                         what ``ros2 run PACKAGE EXECUTABLE`` runs
 `guard`                               starts ``ros2``, and refuses a mix with a real ROS 2
 `process_family`, `process_guardian`  stop all that a command started

@@ -14,6 +14,7 @@ from launch.launch_description_sources.frontend_launch_file_utilities import (
 from launch.launch_description_sources.python_launch_file_utilities import (
     get_launch_description_from_python_launch_file,
 )
+from turtlewire_ros.workspace_hints import path_hint
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -33,9 +34,11 @@ def get_launch_description_from_any_launch_file(
         ValueError: There is no such file.
     """
     if not os.path.isfile(launch_file_path):
-        raise ValueError(
+        missing = ValueError(
             f"file not found: [Errno 2] No such file or directory: '{launch_file_path}'"
         )
+        vars(missing)["hint"] = path_hint(str(launch_file_path))
+        raise missing
     extension = os.path.splitext(launch_file_path)[1]
     loaders: list[Callable[[str], LaunchDescription]] = [
         partial(get_launch_description_from_frontend_launch_file, parser=parser),

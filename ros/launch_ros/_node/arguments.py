@@ -17,6 +17,7 @@ from launch_ros.utilities.namespace_utils import make_namespace_absolute, prefix
 from launch_ros.utilities.normalize_parameters import normalize_parameters
 from launch_ros.utilities.normalize_remap_rule import normalize_remap_rules
 from launch_ros.utilities.scope import global_parameters, remaps
+from turtlewire_ros.workspace_hints import path_hint
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -145,8 +146,9 @@ class NodeArguments:
         self._parameter_files.append(file)
         path = file.evaluate(context)
         if not path.is_file():
+            hint = path_hint(str(path))
             logging.get_logger("launch_ros.actions.node").warning(
-                "Parameter file path is not a file: %s", path
+                "Parameter file path is not a file: %s%s", path, f"\n{hint}" if hint else ""
             )
             return []
         return ["--params-file", str(path)]

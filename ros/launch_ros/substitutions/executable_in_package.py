@@ -10,8 +10,8 @@ from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
-from turtlewire.suggestion import did_you_mean
 from turtlewire_ros.executables import executable_paths, libexec_directory
+from turtlewire_ros.workspace_hints import executable_hint
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -87,7 +87,7 @@ class ExecutableInPackage(Substitution):
             raise SubstitutionFailure(
                 f"executable '{executable}' not found on the libexec directory "
                 f"'{libexec_directory(prefix, package)}' ",
-                hint=did_you_mean(executable, [os.path.basename(path) for path in paths]),
+                hint=executable_hint(package, executable),
             )
         if len(found) > 1:
             raise SubstitutionFailure(

@@ -274,12 +274,16 @@ def _in_share(package: str, share: str, name: str) -> str:
     found = named(share, name)
     if not found:
         from ros2cli.suggestion import did_you_mean
+        from turtlewire_ros.workspace_hints import file_hint
 
         message = (
             f"file '{name}' was not found in the share directory of package '{package}' "
             f"which is at '{share}'"
         )
-        raise RuntimeError(message + did_you_mean(name, _files_in(share)))
+        hint = file_hint(package, name)
+        raise RuntimeError(
+            f"{message}\n{hint}" if hint else message + did_you_mean(name, _files_in(share))
+        )
     if len(found) > 1:
         raise RuntimeError(
             f"file '{name}' was found more than once in the share directory of package "

@@ -6,14 +6,10 @@ import argparse
 import os
 import shlex
 import signal
-from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
 from ros2cli.child import run
 from ros2cli.completion import arguments_of_executable, executables, packages
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
 __all__ = ["ARGUMENTS", "main", "named", "run_and_tell"]
 
@@ -41,13 +37,17 @@ def main(args: argparse.Namespace) -> int | str:
 
     paths = executable_paths(args.package_name)
     if paths is None:
+        from ros2cli.suggestion import package_meant
+
         raise RuntimeError(
-            f"Package '{args.package_name}' not found{_suggestion(args.package_name, packages())}"
+            f"Package '{args.package_name}' not found{package_meant(args.package_name)}"
         )
     found = named(paths, args.executable_name)
     if not found:
-        known = [os.path.basename(path) for path in paths]
-        return f"No executable found{_suggestion(args.executable_name, known)}"
+        from turtlewire_ros.workspace_hints import executable_hint
+
+        hint = executable_hint(args.package_name, args.executable_name)
+        return f"No executable found\n{hint}".rstrip()
     if len(found) > 1:
         return "Multiple executables found:" + "".join(f"\n- {path}" for path in found)
     prefix = [] if args.prefix is None else shlex.split(args.prefix)
@@ -68,9 +68,3 @@ def run_and_tell(command: list[str]) -> int:
     elif status > 0:
         print(f"[ros2run]: Process exited with failure {status}")
     return status
-
-
-def _suggestion(name: str, known: Iterable[str]) -> str:
-    from ros2cli.suggestion import did_you_mean
-
-    return did_you_mean(name, known)

@@ -1,0 +1,195 @@
+"""Hints about a colcon workspace: what is built and not sourced, or written and not installed."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from turtlewire.suggestion import did_you_mean
+from turtlewire_ros.executables import executable_paths
+from turtlewire_ros.prefix import MARKERS, package_names, package_prefix
+from turtlewire_ros.rqt import equivalent
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["executable_hint", "file_hint", "package_hint", "path_hint"]
+
+#: colcon leaves this file in the folder of what it installs.
+_LAYOUT = ".colcon_install_layout"
+#: How deep below `src` packages are looked for.
+_DEPTH = 4
+
+
+def package_hint(package: str) -> str:
+    """Say why a package is not found: not sourced, not built or misspelt; empty if unknown.
+
+    For rqt it says what shows the same here. Workspaces are looked for in the current folder, its
+    parents and the folders in it.
+    """
+    for workspace in _workspaces():
+        if hint := _not_sourced(workspace, package) or _not_built(workspace, package):
+            return hint
+    return equivalent(package) or did_you_mean(package, package_names())
+
+
+def executable_hint(package: str, executable: str) -> str:
+    """Say why a package has no such executable: not installed or misspelt; empty if unknown."""
+    script = Path(package_prefix(package) or os.devnull, "bin", executable)
+    if script.is_file():
+        return (
+            f"{_shown(script)} is where `ros2 run` does not look. setup.cfg needs, below "
+            f"[install]: install_scripts=$base/lib/{package}"
+        )
+    source = _source_of_installed(package)
+    if source and (hint := _executable_in(source, executable)):
+        return hint
+    known = [os.path.basename(path) for path in executable_paths(package) or []]
+    return did_you_mean(executable, known)
+
+
+def file_hint(package: str, name: str) -> str:
+    """Say that a file of a package is in its source and not installed; empty if it is not."""
+    source = _source_of_installed(package)
+    path = source and source.find({name})
+    if not source or not path:
+        return ""
+    folder = f"share/{package}/{path.parent.as_posix()}".removesuffix("/.")
+    if source.uses_cmake:
+        return source.not_installed(
+            path, f"install(DIRECTORY {path.parent.as_posix()} DESTINATION share/${{PROJECT_NAME}})"
+        )
+    return source.not_installed(path, f"('{folder}', ['{path.as_posix()}']) in data_files")
+
+
+def path_hint(path: str) -> str:
+    """`file_hint` for a path that ends with ``share/PACKAGE/…``; empty for others."""
+    before, share, rest = path.replace(os.sep, "/").rpartition("/share/")
+    package, slash, _ = rest.partition("/")
+    return file_hint(package, os.path.basename(path)) if before and share and slash else ""
+
+
+class _Source(NamedTuple):
+    """The source of a package, in a workspace that colcon has built."""
+
+    package: str
+    folder: Path
+    workspace: Path
+
+    @property
+    def uses_cmake(self) -> bool:
+        return (self.folder / "CMakeLists.txt").is_file()
+
+    def find(self, names: set[str]) -> Path | None:
+        """Return the path of the first file with one of the names, relative to the folder."""
+        found = sorted(path for path in self.folder.rglob("*") if path.name in names)
+        return found[0].relative_to(self.folder) if found else None
+
+    def not_installed(self, path: Path, rule: str) -> str:
+        """Say that a file is not installed, and which rule in the package's set-up installs it."""
+        place = "CMakeLists.txt" if self.uses_cmake else "setup.py"
+        return (
+            f"{_shown(self.folder / path)} exists, but it is not installed. {place} needs {rule}; "
+            f"then type: {_build(self.package, self.workspace)}"
+        )
+
+
+def _workspaces() -> Iterator[Path]:
+    try:
+        here = Path.cwd()
+        below = sorted(folder for folder in here.iterdir() if (folder / "src").is_dir())
+    except OSError:  # the current folder was removed, or may not be read
+        return
+    yield from (here, *here.parents, *below)
+
+
+def _not_sourced(workspace: Path, package: str) -> str:
+    install = workspace / "install"
+    if not (install / _LAYOUT).is_file():
+        return ""
+    for prefix in (install / package, install):
+        if (prefix / MARKERS / package).is_file():
+            return (
+                f"'{package}' is built in {_shown(install)}, but this shell does not know it: "
+                f"source {shlex.quote(_shown(install / 'setup.bash'))}"
+            )
+        if (prefix / "share" / package / "package.xml").is_file():
+            return (
+                f"'{package}' is built in {_shown(install)}, but not registered: data_files of "
+                "setup.py needs "
+                f"('share/ament_index/resource_index/packages', ['resource/{package}'])"
+            )
+    return ""
+
+
+def _not_built(workspace: Path, package: str) -> str:
+    source = _source_below(workspace / "src", package)
+    if source is None:
+        return ""
+    return (
+        f"'{package}' is in {_shown(source)}, but it is not built: {_build(package, workspace)} "
+        "&& source install/setup.bash"
+    )
+
+
+def _executable_in(source: _Source, executable: str) -> str:
+    """Say what keeps an executable that the source has from being found; empty if it has none."""
+    setup = source.folder / "setup.py"
+    text = setup.read_text(encoding="utf-8", errors="replace") if setup.is_file() else ""
+    if re.search(rf"""["']\s*{re.escape(executable)}\s*=""", text):
+        return (
+            f"{_shown(setup)} names '{executable}', but the installed package is older. Type: "
+            f"{_build(source.package, source.workspace)}"
+        )
+    path = source.find({executable, f"{executable}.py"})
+    if path is None:
+        return ""
+    if source.uses_cmake:
+        rule = f"install(PROGRAMS {path.as_posix()} DESTINATION lib/${{PROJECT_NAME}})"
+    else:
+        module = ".".join(path.with_suffix("").parts)
+        rule = f"'{path.stem} = {module}:main' in console_scripts"
+    return source.not_installed(path, rule)
+
+
+def _source_of_installed(package: str) -> _Source | None:
+    """Return the source of a package that colcon installed, or None."""
+    prefix = package_prefix(package)
+    if prefix is None:
+        return None
+    for install in (Path(prefix), Path(prefix).parent):  # with --merge-install, and without
+        if (install / _LAYOUT).is_file():
+            folder = _source_below(install.parent, package)
+            return folder and _Source(package, folder, install.parent)
+    return None
+
+
+def _source_below(top: Path, package: str) -> Path | None:
+    """Return the folder with the source of a package, or None."""
+    for base, folders, files in os.walk(top):
+        if "COLCON_IGNORE" in files:
+            folders.clear()
+        elif "package.xml" in files:
+            folders.clear()  # colcon looks for no package within a package
+            manifest = Path(base, "package.xml").read_text(encoding="utf-8", errors="replace")
+            if re.search(rf"<name>\s*{re.escape(package)}\s*</name>", manifest):
+                return Path(base)
+        elif len(Path(base).relative_to(top).parts) >= _DEPTH:
+            folders.clear()
+        folders[:] = sorted(name for name in folders if not name.startswith("."))
+    return None
+
+
+def _build(package: str, workspace: Path) -> str:
+    """Return the commands that build a package."""
+    enter = "" if workspace == Path.cwd() else f"cd {shlex.quote(_shown(workspace))} && "
+    return f"{enter}colcon build --packages-select {package}"
+
+
+def _shown(path: Path) -> str:
+    """Return the path as a user would type it: relative if it lies below the current folder."""
+    here = Path.cwd()
+    return str(path.relative_to(here)) if path.is_relative_to(here) else str(path)
