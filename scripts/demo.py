@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from turtlewire import Buffer
 
 LEADER, FOLLOWER = "turtle1", "turtle2"
+#: Time between two lines that differ only in the distance [s].
+_SAME_SITUATION_S = 10.0
 
 
 def main() -> int:
@@ -127,17 +129,30 @@ def greet() -> None:
 
 
 def report_each_second(launch: Launch, deadline: float) -> None:
-    """Print who follows whom until the launch or the time ends."""
+    """Print who follows whom, when that is news, until the launch or the time ends."""
     from turtlewire import Buffer
     from turtlewire.tf.listener import TransformListener
 
     buffer = Buffer()
+    shown, shown_at = "", 0.0
     with TransformListener(buffer):
         while (
             not launch.ended.wait(max(0.0, min(1.0, deadline - time.monotonic())))
             and time.monotonic() < deadline
         ):
-            print(f"[demo] {describe(buffer)}", flush=True)
+            text, now = describe(buffer), time.monotonic()
+            if is_news(text, shown, now - shown_at):
+                print(f"[demo] {text}", flush=True)
+                shown, shown_at = text, now
+
+
+def is_news(text: str, shown: str, age_s: float) -> bool:
+    """Tell whether a status is worth a line after the one shown before.
+
+    A new situation is, at once; a new distance is after ten seconds.
+    """
+    situation, before = (status.partition(",")[0] for status in (text, shown))
+    return situation != before or (text != shown and age_s >= _SAME_SITUATION_S)
 
 
 def describe(buffer: Buffer) -> str:

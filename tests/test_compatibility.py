@@ -265,6 +265,12 @@ bad `--ros-args` abort with 250
   ros2cli/test_run_command.py test_a_bad_command_line_of_a_node_is_told_in_one_line
 nothing but the error line follows an unknown name
   ros2cli/test_suggestions.py test_names_that_are_known_without_nodes test_names_of_the_graph
+a package that is not built or sourced, and a file that is not installed, are not found, with no more words
+  turtlewire_ros/test_workspace_hints.py test_a_package_that_is_not_built test_a_package_that_is_built_and_not_sourced test_a_file_that_is_not_installed test_an_executable_that_is_not_installed
+a program that logs each failed lookup fills the console with one line
+  rclpy/test_failed_lookups.py test_the_console_repeats_a_failure_once_a_second test_the_log_file_has_every_line
+teleop publishes into a domain where nothing listens, in silence
+  rclpy/test_unheard.py test_teleop_says_that_nothing_listens test_other_domains_are_named
 an error in a launch file does not say where
   launch/test_launch_files.py test_errors_in_files_are_named_with_their_lines
 colcon builds a package whose `package.xml` cannot be read, as one that ROS does not find

@@ -12,6 +12,7 @@ import rclpy
 from geometry_msgs.msg import Twist, TwistStamped
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.executors import ExternalShutdownException
+from rclpy.hints import warn_if_unheard
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from turtlewire.keyboard import (
@@ -110,9 +111,11 @@ class TeleopTwistKeyboard(Node):
         self.speed: float = self._constant("speed", 0.5)
         self.turn: float = self._constant("turn", 1.0)
         self._changes = 0
-        self._publish: Callable[[Any], None] = self.create_publisher(
+        publisher = self.create_publisher(
             TwistStamped if self._stamped else Twist, "cmd_vel", _DEPTH
-        ).publish
+        )
+        warn_if_unheard(self, publisher)
+        self._publish: Callable[[Any], None] = publisher.publish
 
     def _constant(self, name: str, default: Any) -> Any:
         descriptor = ParameterDescriptor(read_only=True)

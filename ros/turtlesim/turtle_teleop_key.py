@@ -12,6 +12,7 @@ import rclpy
 from geometry_msgs.msg import Twist
 from rclpy.action import ActionClient
 from rclpy.executors import ExternalShutdownException
+from rclpy.hints import warn_if_unheard
 from turtlesim.action import RotateAbsolute
 from turtlesim.cpp_node import CppNode
 from turtlesim.turtle_endpoints import QUEUE_DEPTH
@@ -76,6 +77,7 @@ class TeleopTurtle(CppNode):
         self.declare_parameter("scale_angular", 2.0)
         self.declare_parameter("scale_linear", 2.0)
         self._cmd_vel = self.create_publisher(Twist, "turtle1/cmd_vel", QUEUE_DEPTH)
+        warn_if_unheard(self, self._cmd_vel)
         self._rotate = ActionClient(self, RotateAbsolute, "turtle1/rotate_absolute")
         self._goal: Future | None = None
 

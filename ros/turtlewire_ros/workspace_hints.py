@@ -163,7 +163,7 @@ def _source_of_installed(package: str) -> _Source | None:
     for install in (Path(prefix), Path(prefix).parent):  # with --merge-install, and without
         if (install / _LAYOUT).is_file():
             folder = _source_below(install.parent, package)
-            return folder and _Source(package, folder, install.parent)
+            return None if folder is None else _Source(package, folder, install.parent)
     return None
 
 

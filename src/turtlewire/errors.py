@@ -168,6 +168,7 @@ class LookupException(TransformException):
 
     def _make_hint(self) -> str:
         import difflib
+        from string import digits
 
         if self._buffer is None:
             return ""
@@ -177,7 +178,9 @@ class LookupException(TransformException):
                 "No transform has arrived yet. Is a broadcaster running, and does a "
                 "TransformListener fill this buffer?"
             )
-        near = difflib.get_close_matches(frame, names, 3, 0.5)
+        # 'turtle1' and 'turtle2' are two things, of which one may not have been spawned yet.
+        others = [name for name in names if name.strip(digits) != frame.strip(digits)]
+        near = difflib.get_close_matches(frame, others, 3, 0.5)
         if near:
             return f"Did you mean {' or '.join(map(repr, near))}?"
         some = ", ".join(map(repr, names[:10]))

@@ -30,6 +30,21 @@ def log_of(check):
     return Path(check.wait_for(r"what the processes say goes to (.*)$")[0][1])
 
 
+def test_the_status_is_a_line_only_when_it_is_news(monkeypatch):
+    monkeypatch.syspath_prepend(DEMO.parent)
+    from demo import is_news
+
+    waits, near, far = (
+        "waiting for turtle2",
+        *(f"turtle2 follows turtle1, {distance} m away" for distance in ("0.10", "2.00")),
+    )
+    assert is_news(waits, "", 0.0)
+    assert is_news(far, waits, 1.0)
+    assert not is_news(near, far, 9.9)
+    assert is_news(near, far, 10.0)
+    assert not is_news(near, near, 1000.0)
+
+
 def is_running(pid):
     try:
         return Path("/proc", pid, "stat").read_text().rpartition(")")[2].split()[0] != "Z"
@@ -50,7 +65,7 @@ def test_the_demo_reports_and_ends_at_ctrl_c_with_all_its_processes(run, termina
     demo.wait_for(rf"ROS domain {domain}, discovery range LOCALHOST \(this computer only")
     demo.wait_for("ros2 run turtlesim turtle_teleop_key")
     demo.wait_for(r"The field is shown at http://127\.0\.0\.1:\d+/")
-    demo.wait_for(r"\[demo\] turtle2 follows turtle1, \d+\.\d\d m away", count=2)
+    demo.wait_for(r"\[demo\] turtle2 follows turtle1, \d+\.\d\d m away")
     if terminal:
         demo.type("\x03")
     else:

@@ -14,6 +14,7 @@ import time
 from typing import TYPE_CHECKING, NamedTuple
 
 from . import log_levels
+from .failed_lookups import WHOLE, Shown
 from .log_format import LineFormat
 from .logging_severity import LoggingSeverity
 
@@ -127,14 +128,20 @@ _rosout_enabled = True
 _rosout_sinks: dict[str, Callable[[LogRecord], None]] = {}
 
 
-def emit(record: LogRecord) -> None:
-    """Write one record everywhere, whatever its level."""
+def emit(record: LogRecord, shown: Shown = WHOLE) -> None:
+    """Write one record everywhere, whatever its level.
+
+    Args:
+        record: The record.
+        shown: What the console shows of it.
+    """
     global _console  # noqa: PLW0603 - the console belongs to the process
     if _console is None:
         _console = _Console()
     line = _console.format.line(record)
-    if _console.enabled:
-        _console.write(line, record.severity)
+    if _console.enabled and shown.line:
+        text = f"{line}\n    {shown.help}" if shown.help else line
+        _console.write(text, record.severity)
     if _file is not None:
         _file.write(line)
     if _rosout_enabled and _rosout_sinks:

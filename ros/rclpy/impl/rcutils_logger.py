@@ -9,6 +9,7 @@ from collections import OrderedDict
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from . import log_levels, log_output
+from .failed_lookups import FailedLookups, Shown
 from .logging_severity import LoggingSeverity
 
 if TYPE_CHECKING:
@@ -207,6 +208,7 @@ class _CallSite:
         self._context: dict[str, Any] = {"name": name, "severity": severity}
         for each in self._filters:
             each.initialize_context(self._context, **options)
+        self._failed_lookups = FailedLookups()
         self._lock = threading.Lock()
 
     def check(self, severity: int, name: str, options: dict[str, Any]) -> None:
@@ -226,6 +228,10 @@ class _CallSite:
             return True
         with self._lock:
             return all(each.should_log(self._context) for each in self._filters)
+
+    def shown(self, message: str) -> Shown:
+        with self._lock:
+            return self._failed_lookups.shown(message)
 
 
 class RcutilsLogger:
@@ -322,7 +328,7 @@ class RcutilsLogger:
             caller.function_name,
             caller.line_number,
         )
-        log_output.emit(record)
+        log_output.emit(record, site.shown(record.message))
         return True
 
 
