@@ -7,6 +7,7 @@ import sys
 from itertools import chain
 from typing import TYPE_CHECKING
 
+from rclpy.logging import get_logger
 from rosbag2_py._service_events import is_service_event
 from rosbag2_py._storage import (
     ConverterOptions,
@@ -21,6 +22,7 @@ from rosbag2_py._storage import (
     topic_of,
 )
 from turtlewire.bag import Bag, open_bag
+from turtlewire.bag.encodings import not_in_cdr
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
@@ -67,6 +69,8 @@ class SequentialReader:
             raise RuntimeError(
                 f"No plugin detected that could open file {storage_options.uri}"
             ) from error
+        if foreign := not_in_cdr(self._bag.topics.values()):
+            get_logger("rosbag2_storage").warning(foreign)
         self._start(0)
 
     def open_uri(self, uri: str) -> None:

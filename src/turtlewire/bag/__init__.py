@@ -18,6 +18,7 @@ module              what it holds
 `trajectories`      `load_trajectory`: odometry and poses of a topic
 `progress`          a line that shows how far something is
 `message`           `BagMessage`
+`encodings`         topics whose messages are not in CDR
 `files`             the files of a bag: names, order, and what they hold together
 `playback`          `PlayClock`, `ReadAhead`: the time of a playback and what is due
 `writer`            `BagWriter`

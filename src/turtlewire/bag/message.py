@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from turtlewire.errors import InterfaceError
+
 if TYPE_CHECKING:
     from turtlewire.msg import Message
 
@@ -37,4 +39,9 @@ class BagMessage(NamedTuple):
         """
         from turtlewire.msg import deserialize, get_message
 
+        if self.type and "/" not in self.type:
+            raise InterfaceError(f"{self.topic}: '{self.type}' is not a type of ROS 2").with_hint(
+                "The messages of this topic may be JSON or Protobuf: topics[name]."
+                "serialization_format tells, and `data` has the bytes."
+            )
         return deserialize(get_message(self.type), self.data)

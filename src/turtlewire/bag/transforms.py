@@ -12,6 +12,7 @@ from concurrent.futures import ThreadPoolExecutor
 from itertools import islice
 from typing import TYPE_CHECKING
 
+from turtlewire.bag.encodings import is_cdr, not_in_cdr
 from turtlewire.bag.progress import progress_line
 from turtlewire.bag.reader import Bag, window
 from turtlewire.bag.storage import McapStorage
@@ -138,8 +139,11 @@ def _check_topics(bag: Bag, wanted: set[str], chosen: set[str]) -> None:
     """Refuse a bag without any of the wanted topics, or without one of those chosen by name."""
     missing = sorted(chosen - bag.topics.keys())
     for name in sorted(chosen & bag.topics.keys()):
-        if bag.topics[name].type not in (_TF_TYPE, ""):  # a damaged file may not tell
+        topic = bag.topics[name]
+        if topic.type not in (_TF_TYPE, "") and is_cdr(topic):  # a damaged file may not tell
             raise BagError(f"{name} is of type {bag.topics[name].type}, not {_TF_TYPE}")
+    if foreign := not_in_cdr(bag.topics[name] for name in wanted & bag.topics.keys()):
+        raise BagError(f"{bag.path} has no transforms that can be read").with_hint(foreign)
     if wanted & bag.topics.keys() and not missing:
         return
     similar = [name for name, topic in bag.topics.items() if topic.type == _TF_TYPE]
@@ -149,7 +153,8 @@ def _check_topics(bag: Bag, wanted: set[str], chosen: set[str]) -> None:
         text = f"{bag.path} has no topic {' and no topic '.join(missing)}"
     else:
         text = f"{bag.path} has none of the topics {', '.join(sorted(wanted))}"
-    raise BagError(text).with_hint(" ".join((hint, *damage)))
+    foreign = not_in_cdr(bag.topics.values())
+    raise BagError(text).with_hint(" ".join(filter(None, (hint, foreign, *damage))))
 
 
 class _Reader:

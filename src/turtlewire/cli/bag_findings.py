@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from turtlewire.bag import load_transforms, open_bag
+from turtlewire.bag.encodings import not_in_cdr
 from turtlewire.cli.finding import Finding, note, problem
 from turtlewire.cli.tf_findings import recorded_findings
 from turtlewire.cli.tf_traffic import FASTEST_M_S, JITTER_NS, LEAP_M, TfTraffic
@@ -22,6 +23,7 @@ __all__ = ["examine_bag"]
 
 _REINDEX = "`ros2 bag reindex {}` writes metadata.yaml; what is whole is read without it, too."
 _DAMAGED = "What is whole was read. Copy the file again, or record again."
+_NOT_CDR = "turtlewire.bag reads their bytes; to decode them, use the program that wrote the file."
 _NO_TF = "Record /tf and /tf_static."
 _OTHER_TF = "To examine them: turtlewire doctor {} {}"
 _TF_TYPE = "tf2_msgs/msg/TFMessage"
@@ -59,6 +61,8 @@ def examine_bag(
     with open_bag(path) as bag:
         end_ns = bag.end_ns
         found += _bag_findings(bag, path, fixed)
+        if foreign := not_in_cdr(bag.topics.values()):
+            found.append(note(foreign, _NOT_CDR))
         found += _other_transforms(bag, path, {*moving, *fixed})
         if (topics, static_topics) == ("/tf", "/tf_static") and not _has_tf(bag):
             unread = [text for path in bag.metadata.paths for text in _unreadable(bag, path)]

@@ -102,7 +102,10 @@ def _source(bag: str | None) -> Source:
         raise RvizFileError(f"{bag} is no bag. To show a file of RViz: -d {bag}")
     from turtlewire.view.bag_source import BagSource
 
-    return BagSource(bag)
+    source = BagSource(bag)
+    if source.problem:
+        print(source.problem, flush=True)
+    return source
 
 
 def _port_number(text: str) -> int:

@@ -7,6 +7,7 @@ import threading
 from typing import TYPE_CHECKING
 
 from turtlewire.bag import open_bag
+from turtlewire.bag.encodings import is_cdr, not_in_cdr
 from turtlewire.bag.playback import PlayClock, ReadAhead
 from turtlewire.errors import BagError
 from turtlewire.tf.buffer import Buffer
@@ -40,13 +41,17 @@ class BagSource:
     """
 
     kind = "bag"
-    problem = ""
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self._path = path
         with open_bag(path) as bag:
             self._start_ns, self._end_ns = bag.start_ns, bag.end_ns
-            self._topics = [Topic(name, info.type, 1) for name, info in sorted(bag.topics.items())]
+            self.problem = not_in_cdr(bag.topics.values())
+            self._topics = [
+                Topic(name, info.type, 1)
+                for name, info in sorted(bag.topics.items())
+                if is_cdr(info)
+            ]
         self.name = os.path.basename(os.path.normpath(os.fspath(path)))
         self.buffer = self._read_frames()
         self._stamps = StampsOfLog(path) if self._has_other_stamps() else None

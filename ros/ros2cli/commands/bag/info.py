@@ -34,7 +34,18 @@ def main(args: argparse.Namespace) -> None:
     metadata = Info().read_metadata(args.bag_path, args.storage)
     if not args.topic_name:
         print(metadata)
+        _tell_of_other_encodings(args.bag_path)
         return
     for item in metadata.topics_with_message_count:
         if not is_service_event(item.topic_metadata.name, item.topic_metadata.type):
             print(item.topic_metadata.name)
+
+
+def _tell_of_other_encodings(path: str) -> None:
+    from ros2cli.output import tell
+    from turtlewire.bag import open_bag
+    from turtlewire.bag.encodings import not_in_cdr
+
+    with open_bag(path) as bag:
+        if foreign := not_in_cdr(bag.topics.values()):
+            tell(foreign)

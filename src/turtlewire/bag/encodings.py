@@ -1,0 +1,34 @@
+"""Topics whose messages are not in CDR, the encoding of ROS 2: MCAP files may hold any."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from turtlewire.printable import printable
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from turtlewire.bag.metadata import TopicInfo
+
+__all__ = ["is_cdr", "not_in_cdr"]
+
+_MOST_NAMES = 10
+
+
+def is_cdr(topic: TopicInfo) -> bool:
+    """Tell whether messages of a topic can be decoded; ROS 1's and unnamed encodings count."""
+    return topic.serialization_format in ("cdr", "ros1", "")
+
+
+def not_in_cdr(topics: Iterable[TopicInfo]) -> str:
+    """Name the topics that cannot be decoded, with encoding and type; empty if all can."""
+    others = sorted((topic for topic in topics if not is_cdr(topic)), key=lambda each: each.name)
+    if not others:
+        return ""
+    named = [f"{each.name} ({each.serialization_format} {each.type})" for each in others]
+    rest = f" and {len(named) - _MOST_NAMES} more" if len(named) > _MOST_NAMES else ""
+    return printable(
+        f"Not in ROS 2's encoding, CDR, and therefore neither decoded nor shown: "
+        f"{', '.join(named[:_MOST_NAMES])}{rest}."
+    )
