@@ -14,7 +14,7 @@ from turtlewire.suggestion import did_you_mean
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["Exercise", "chosen", "exercises"]
+__all__ = ["LAUNCH_FILE", "Exercise", "chosen", "exercises"]
 
 _HERE = Path(__file__).resolve().parent
 #: Where the exercises are: in an installation, or in the sources.
@@ -22,6 +22,10 @@ _FOLDERS = (
     (_HERE / "lessons", _HERE.parents[1] / "site" / "lesson" / "lessons"),
     (_HERE / "exercises", _HERE.parent / "exercises"),
 )
+#: The name of the launch file in the folder of each exercise.
+LAUNCH_FILE = "exercise.launch.py"
+#: What holds in the browser tab only.
+_BROWSER = re.compile(r'<(\w+) class="browser">.*?</\1>', re.DOTALL)
 
 
 class Exercise(NamedTuple):
@@ -32,26 +36,63 @@ class Exercise(NamedTuple):
         title: What it is about.
         files: Names of the files that a student hands in.
         folder: Where its text, first files, solution and checks are.
+        target: The frame in which its transform is expressed.
+        source: The frame whose pose it is about.
     """
 
     name: str
     title: str
     files: tuple[str, ...]
     folder: Path
+    target: str
+    source: str
 
     def text(self) -> str:
         """The text and the task, as HTML."""
         return (self.folder / "text.html").read_text(encoding="utf-8")
 
     def plain_text(self) -> str:
-        """The text and the task, as Markdown without links."""
-        text = re.sub(r"</?(?:code)>", "`", self.text())
+        """The text, the task and the commands, as Markdown without links.
+
+        What holds in the browser tab only (`class="browser"`) is left out.
+        """
+        text = _BROWSER.sub("", self.text())
+        text = re.sub(r"</?(?:code)>", "`", text)
         text = re.sub(r"<h2>(.*?)</h2>", lambda found: f"# {found[1]}\n", text)
         text = re.sub(r"</?(?:em)>", "*", re.sub(r"</?strong>", "**", text))
         text = re.sub(r"\s*<li>", "\n- ", text)
-        text = re.sub(r"<pre>(.*?)</pre>", r"\n```\n\1\n```", text, flags=re.DOTALL)
+        text = re.sub(r"<pre[^>]*>(.*?)</pre>", r"\n```\n\1\n```", text, flags=re.DOTALL)
         text = re.sub(r"</p>|</ul>", "\n", text)
-        return html.unescape(re.sub(r"<[^>]*>", "", text)).strip() + "\n"
+        text = html.unescape(re.sub(r"<[^>]*>", "", text)).strip()
+        text = re.sub(r"\n{3,}", "\n\n", text)
+        return f"{text}\n\n{self._commands()}"
+
+    def _commands(self) -> str:
+        """How to run and check the exercise in a terminal, as Markdown."""
+        files = " and ".join(f"`{file}`" for file in self.files)
+        echo = f"ros2 run tf2_ros tf2_echo {self.target} {self.source}"
+        return f"""\
+## In a terminal
+
+Edit {files}, and type in this folder:
+
+```
+ros2 launch {LAUNCH_FILE}
+```
+
+Ctrl-C ends it. In a second terminal, also in this folder:
+
+```
+# drive turtle1 with the arrow keys
+ros2 run turtlesim turtle_teleop_key
+# the tree of frames
+turtlewire frames
+# the transform of this exercise, in numbers
+{echo}
+# the checks, which say what they saw and what helps
+turtlewire class check .. -e {self.name}
+```
+"""
 
     def starter(self) -> dict[str, str]:
         """The files as students find them, by name."""
@@ -93,4 +134,6 @@ def _of(folder: Path) -> list[Exercise]:
 
 def _read(folder: Path) -> Exercise:
     facts = json.loads((folder / "lesson.json").read_text(encoding="utf-8"))
-    return Exercise(folder.name, facts["title"], tuple(facts["files"]), folder)
+    return Exercise(
+        folder.name, facts["title"], tuple(facts["files"]), folder, facts["target"], facts["source"]
+    )

@@ -10,11 +10,11 @@ import threading
 import time
 from typing import TYPE_CHECKING
 
-from turtle_class.catalogue import chosen, exercises
+from turtle_class.catalogue import LAUNCH_FILE, chosen, exercises
 from turtle_class.errors import ClassError
 from turtle_class.grading import grade_all, students_in
 from turtle_class.junit import as_junit
-from turtle_class.launch_file import LAUNCH_FILE, launch_text
+from turtle_class.launch_file import launch_text
 from turtle_class.pages import overview, student_page
 from turtle_class.runner import Limits
 from turtlewire.printable import printable

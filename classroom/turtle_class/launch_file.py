@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING
 
+from turtle_class.catalogue import LAUNCH_FILE
 from turtle_lesson.lesson import load_lesson
 
 if TYPE_CHECKING:
@@ -13,10 +14,7 @@ if TYPE_CHECKING:
     from turtle_class.catalogue import Exercise
     from turtle_lesson.lesson import Lesson, Program
 
-__all__ = ["LAUNCH_FILE", "launch_text"]
-
-#: Its name in the folder of each exercise.
-LAUNCH_FILE = "exercise.launch.py"
+__all__ = ["launch_text"]
 
 _TEXT = '''\
 """{title}.

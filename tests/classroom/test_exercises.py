@@ -10,6 +10,7 @@ from turtle_class.catalogue import chosen, exercises
 from turtle_class.errors import ClassError
 from turtle_lesson.grading import grade
 from turtle_lesson.lesson import load_lesson
+from turtlewire.cli.main import main
 
 from .wrong_answers import WRONG_ANSWERS
 
@@ -49,6 +50,32 @@ def test_a_text_is_readable_as_plain_text():
     assert text.startswith("# 8 · A camera that looks down\n")
     assert "**Task.** Put a static frame `camera` on turtle1" in text
     assert "<" not in text
+
+
+@pytest.mark.parametrize("exercise", exercises(), ids=lambda exercise: exercise.name)
+def test_a_text_is_for_the_terminal(exercise, tmp_path, monkeypatch, capsys):
+    """Texts said "Press Run" and "at the right", which are in the browser tab only."""
+    assert main(["class", "start", str(tmp_path), "-e", exercise.name]) == 0
+    folder = tmp_path / exercise.name
+    text = (folder / "README.md").read_text()
+    assert not re.search(r"\bPress\b|Surprise|at the right|pad\b|sentence below", text)
+    assert f"tf2_echo {exercise.target} {exercise.source}\n" in text
+    assert {word.removesuffix(",") for word in re.findall(r"`(\w+\.py)`", text)} >= set(
+        exercise.files
+    )
+    (launch,) = re.findall(r"^ros2 launch (\S+)$", text, re.MULTILINE)
+    assert (folder / launch).is_file()
+    (check,) = re.findall(r"^turtlewire (class check .*)$", text, re.MULTILINE)
+    monkeypatch.chdir(folder)
+    capsys.readouterr()
+    assert main(check.split()) == 1
+    assert capsys.readouterr().out.startswith(f"{exercise.name}: ")
+
+
+def test_the_browser_tab_hides_what_is_for_the_terminal():
+    for exercise in exercises():
+        for tag in re.findall(r"<[^>]*terminal[^>]*>", exercise.text()):
+            assert tag.endswith(" hidden>"), exercise.name
 
 
 def test_a_wrong_name_gets_a_suggestion():
