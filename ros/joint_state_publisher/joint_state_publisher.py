@@ -31,6 +31,10 @@ class SettingError(ValueError):
     """A parameter or the file on the command line cannot be used."""
 
 
+class LoggedError(SettingError):
+    """A setting is wrong, and the node has logged it."""
+
+
 class JointStatePublisher(Node):
     """Publishes the joints' values at ``rate``; learns them from ``robot_description``.
 
@@ -151,12 +155,14 @@ class JointStatePublisher(Node):
 
         Raises:
             DescriptionError: It cannot be used; the joints stay as they are.
+            LoggedError: Likewise, because joints mimic each other in a circle.
         """
         joints = read_joints(text, self._options, self._warn)
         try:
             joints.state()
         except MimicLoopError as error:
-            raise DescriptionError(str(error)) from error
+            self.get_logger().error(str(error))
+            raise LoggedError(str(error)) from error
         self.joints = joints
         self.joints_changed()
 
@@ -165,7 +171,8 @@ class JointStatePublisher(Node):
 
     def _on_description(self, message: String) -> None:
         try:
-            self._take_description(message.data)
+            with contextlib.suppress(LoggedError):
+                self._take_description(message.data)
         except DescriptionError as error:
             self.get_logger().warning(str(error))
 
@@ -231,6 +238,8 @@ def run(
     with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
         try:
             node = make_node(**vars(options))
+        except LoggedError:
+            return 1
         except SettingError as error:
             print(f"Exception: {error}", file=sys.stderr)  # noqa: T201 - as ROS 2's last line
             return 1

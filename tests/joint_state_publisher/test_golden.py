@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import rclpy
-from joint_state_publisher.joint_state_publisher import JointStatePublisher, SettingError
+from joint_state_publisher.joint_state_publisher import JointStatePublisher, SettingError, main
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -162,7 +162,7 @@ def test_a_rate_is_positive(make_rig, rate):
         make_rig({"urdf": "weaver_sound", "parameters": {"rate": rate}})
 
 
-def test_a_circle_of_mimics_is_refused(make_rig, tmp_path):
+def test_a_circle_of_mimics_is_refused(make_rig, tmp_path, capfd):
     limit = "<limit lower='-1' upper='1'/>"
     text = "".join(
         f"<joint name='{a}' type='revolute'>{limit}<mimic joint='{b}'/></joint>"
@@ -171,8 +171,16 @@ def test_a_circle_of_mimics_is_refused(make_rig, tmp_path):
     file = tmp_path / "circle.urdf"
     file.write_text(f"<robot>{text}</robot>")
     rig = make_rig({"urdf": "weaver_sound"})
+    capfd.readouterr()
     with pytest.raises(SettingError, match=r"infinite recursive mimic chain: \['a', 'b', 'a'\]"):
         JointStatePublisher(str(file), context=rig.node.context)
+    capfd.readouterr()
+    assert main([str(file)]) == 1
+    *_, line = re.sub(r"\[[\d.]+\] ", "", capfd.readouterr().err).splitlines()
+    chain = "['a', 'b', 'a']"
+    assert line == (
+        f"[ERROR] [joint_state_publisher]: Found an infinite recursive mimic chain: {chain}"
+    )
 
 
 @pytest.mark.parametrize(

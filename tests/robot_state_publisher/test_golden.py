@@ -161,6 +161,19 @@ def test_a_description_that_urdfdom_refuses(name, run, tmp_path):
     assert "Traceback" not in program.text
 
 
+def test_a_bad_mesh_keeps_the_node_running(run, tmp_path):
+    """urdfdom logs the fault of a link and goes on, as Debian's does."""
+    mesh = "<visual><geometry><mesh scale='1 1 1'/></geometry></visual>"
+    text = f"<robot name='r'><link name='a'>{mesh}</link></robot>"
+    program = started(run, tmp_path, {"robot_description": text})
+    program.wait_for("Robot initialized")
+    assert log_lines(program.text) == [
+        "Error: Mesh must contain a filename attribute",
+        "Error: Could not parse visual element for Link [a]",
+        "[INFO] [robot_state_publisher]: Robot initialized",
+    ]
+
+
 @pytest.mark.parametrize("name", sorted(STARTUPS))
 def test_a_wrong_start(name, run, tmp_path):
     startup = STARTUPS[name]

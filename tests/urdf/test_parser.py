@@ -129,21 +129,39 @@ def test_joints_that_urdfdom_refuses(joint, text):
     assert error.line in (1, 3, 4)
 
 
-LINK_REFUSALS = [
-    ("<link/>", ["No name given for the link.", "link xml is not initialized correctly"]),
-    ('<link name="a"><inertial/></link>', ["Inertial element must have a mass element", "Could not parse inertial element for Link [a]", "link xml is not initialized correctly"]),
-    ('<link name="a"><inertial><mass value="1"/></inertial></link>', ["Inertial element must have inertia element", "Could not parse inertial element for Link [a]", "link xml is not initialized correctly"]),
-    ('<link name="a"><visual><geometry/></visual></link>', ["Geometry tag contains no child element.", "Could not parse visual element for Link [a]", "link xml is not initialized correctly"]),
-    ('<link name="a"><collision><geometry><cone/></geometry></collision></link>', ["Unknown geometry type 'cone'", "Could not parse collision element for Link [a]", "link xml is not initialized correctly"]),
-    ('<link name="a"><visual><geometry><cylinder radius="1"/></geometry></visual></link>', ["Cylinder shape must have both length and radius attributes", "Could not parse visual element for Link [a]", "link xml is not initialized correctly"]),
+#: Errors that urdfdom logs before it goes on without the rest of the link, tried with Debian's.
+LINK_FAULTS = [
+    ('<link name="a"><inertial/></link>', ["Inertial element must have a mass element", "Could not parse inertial element for Link [a]"]),
+    ('<link name="a"><inertial><mass value="1"/></inertial></link>', ["Inertial element must have inertia element", "Could not parse inertial element for Link [a]"]),
+    ('<link name="a"><visual><geometry/></visual></link>', ["Geometry tag contains no child element.", "Could not parse visual element for Link [a]"]),
+    ('<link name="a"><collision><geometry><cone/></geometry></collision></link>', ["Unknown geometry type 'cone'", "Could not parse collision element for Link [a]"]),
+    ('<link name="a"><visual><geometry><cylinder radius="1"/></geometry></visual></link>', ["Cylinder shape must have both length and radius attributes", "Could not parse visual element for Link [a]"]),
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("link", "texts"), LINK_REFUSALS)
-def test_links_that_urdfdom_refuses(link, texts):
-    error = refusal(robot(link))
-    assert error.reports == texts
+def test_a_link_without_a_name_is_refused():
+    error = refusal(robot("<link/>"))
+    assert error.reports == ["No name given for the link.", "link xml is not initialized correctly"]
     assert error.line == 2
+
+
+@pytest.mark.parametrize(("link", "texts"), LINK_FAULTS)
+def test_a_fault_in_a_link_leaves_the_rest_of_it_out(link, texts):
+    found = parse_urdf(robot(link))
+    (warning,) = found.warnings
+    assert (warning.text, list(warning.errors), warning.line) == (texts[0], texts, 2)
+    first, place, *others = log_lines(warning)
+    assert [first, *others] == [f"Error:   {text}" for text in texts]
+    assert place.startswith("         at line 2 in <")
+    assert found.links["a"].visuals == found.links["a"].collisions == ()
+
+
+def test_what_comes_before_a_faulty_mesh_is_kept():
+    ball, mesh = "<geometry><sphere radius='1'/></geometry>", "<geometry><mesh/></geometry>"
+    parts = f"<visual>{ball}</visual><visual>{mesh}</visual><collision>{ball}</collision>"
+    found = parse_urdf(robot(f'<link name="a">{parts}</link>'))
+    assert len(found.links["a"].visuals) == 1
+    assert found.links["a"].collisions == ()
 
 
 def test_robots_that_urdfdom_refuses():

@@ -28,27 +28,32 @@ _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
 def read_link(element: Element, warnings: list[UrdfWarning]) -> Link:
-    """A ``link`` element.
+    """Read a ``link`` element; as in urdfdom, what follows a faulty part of it is left out.
 
     Args:
         element: The element.
         warnings: Gets what urdfdom complains of and accepts.
 
     Raises:
-        UrdfError: urdfdom refuses the link.
+        UrdfError: The link has no name.
     """
     name = element.get("name")
     if name is None:
         raise element.error("No name given for the link.")
-    inertial = None
-    if (part := element.first("inertial")) is not None:
-        with reported(f"Could not parse inertial element for Link [{name}]"):
-            inertial = _inertial(part)
-    visuals, collisions = [], []
-    with reported(f"Could not parse visual element for Link [{name}]"):
-        visuals = [_visual(part, warnings) for part in element.all("visual")]
-    with reported(f"Could not parse collision element for Link [{name}]"):
-        collisions = [_collision(part) for part in element.all("collision")]
+    inertial: Inertial | None = None
+    visuals: list[Visual] = []
+    collisions: list[Collision] = []
+    try:
+        if (part := element.first("inertial")) is not None:
+            with reported(f"Could not parse inertial element for Link [{name}]"):
+                inertial = _inertial(part)
+        with reported(f"Could not parse visual element for Link [{name}]"):
+            visuals.extend(_visual(part, warnings) for part in element.all("visual"))
+        with reported(f"Could not parse collision element for Link [{name}]"):
+            collisions.extend(_collision(part) for part in element.all("collision"))
+    except UrdfError as error:
+        reports = tuple(error.reports)
+        warnings.append(UrdfWarning(str(error), error.line, error.element, reports))
     return Link(name, inertial, tuple(visuals), tuple(collisions), element.line)
 
 

@@ -58,11 +58,13 @@ class UrdfWarning:
         text: urdfdom's text; ours where urdfdom is silent.
         line: The line of the element.
         element: The element.
+        errors: All texts, if urdfdom logs them as errors and goes on without a part of a link.
     """
 
     text: str
     line: int
     element: str
+    errors: tuple[str, ...] = ()
 
     @property
     def place(self) -> str:
@@ -72,10 +74,11 @@ class UrdfWarning:
 
 def log_lines(fault: UrdfError | UrdfWarning) -> Iterator[str]:
     """What urdfdom prints on stderr; the line number is one of the description, not of C++ code."""
-    if isinstance(fault, UrdfError):
-        first, *others = (f"Error:   {_line(text)}" for text in fault.reports)
-    else:
+    if isinstance(fault, UrdfWarning) and not fault.errors:
         first, others = f"Warning: {_line(fault.text)}", []
+    else:
+        errors = fault.errors if isinstance(fault, UrdfWarning) else fault.reports
+        first, *others = (f"Error:   {_line(text)}" for text in errors)
     yield first
     yield f"         at {_line(fault.place)}"
     yield from others

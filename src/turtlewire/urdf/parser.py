@@ -118,7 +118,7 @@ def _links(
             raise element.error(f"link '{link.name}' is not unique.")
         visuals = tuple(
             _with_material(visual, part, link.name, materials, warnings)
-            for visual, part in zip(link.visuals, element.all("visual"), strict=True)
+            for visual, part in zip(link.visuals, element.all("visual"), strict=False)
         )
         found[link.name] = replace(link, visuals=visuals) if visuals else link
     return found
