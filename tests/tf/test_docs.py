@@ -10,4 +10,10 @@ PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "tf_buffer.md"
 
 def test_the_examples_do_what_the_page_says() -> None:
     failed, tried = doctest.testfile(str(PAGE), module_relative=False)
-    assert (failed, tried) == (0, 29)
+    assert (failed, tried) == (0, 35)
+
+
+def test_the_page_has_both_ways_in() -> None:
+    page = PAGE.read_text()
+    assert "buffer.set_transform(" in page
+    assert "buffer.set_transforms(" in page
