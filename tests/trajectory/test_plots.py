@@ -94,8 +94,9 @@ def test_saving(tmp_path):
     assert isinstance(plot, Plot)
     plot.save(tmp_path / "path.svg")
     assert (tmp_path / "path.svg").read_text().startswith("<svg")
-    with pytest.raises(ValueError, match=r"does not end in \.svg"):
-        plot.save(tmp_path / "path.png")
+    with pytest.raises(ValueError, match=r"does not end in \.svg, \.pdf or \.png"):
+        plot.save(tmp_path / "path.jpg")
+    assert not (tmp_path / "path.jpg").exists()
 
 
 def test_what_cannot_be_drawn():

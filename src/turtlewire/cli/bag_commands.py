@@ -84,7 +84,7 @@ def _add_trajectory(commands: Any) -> None:
         help="Longer pauses are gaps (default: ten times the median pause, at least 0.5)",
     )
     add_tf_topics(parser)
-    plot = parser.add_argument("--plot", metavar="FILE.svg", help="Draw it")
+    plot = parser.add_argument("--plot", metavar="FILE", help="Draw it: .svg, .pdf or .png")
     plot.completer = _complete_any
     parser.add_argument(
         "--kind",
@@ -117,7 +117,7 @@ def _add_compare(commands: Any) -> None:
     )
     _add_pairing(parser)
     add_tf_topics(parser)
-    plot = parser.add_argument("--plot", metavar="FILE.svg", help="Draw it")
+    plot = parser.add_argument("--plot", metavar="FILE", help="Draw it: .svg, .pdf or .png")
     plot.completer = _complete_any
     parser.add_argument(
         "--kind",
@@ -213,7 +213,7 @@ def reporting_errors(
             return run(args)
         except BrokenPipeError:
             raise  # the reader has seen enough
-        except (BagError, TransformException, OSError, ValueError) as error:
+        except (BagError, TransformException, ModuleNotFoundError, OSError, ValueError) as error:
             text = _text_of(error)
             if hint := getattr(error, "hint", ""):
                 text = f"{text}{'' if text.rstrip().endswith('.') else '.'} {hint}"

@@ -31,6 +31,7 @@ module                     what it holds
 `frame_tree`               the frames with the figures of their links, for pictures
 `tidy_tree`                positions of the nodes of a drawn tree
 `tree_drawing`, `drawing`  the picture of the tree; boxes, lines and text as SVG
+`pdf`                      a PDF file of one page
 `notebook`                 how buffers and transforms show themselves in Jupyter
 =========================  =========================================================================
 """

@@ -23,6 +23,7 @@ module         what it holds
 `plots`        paths, positions, angles and speeds as pictures
 `error_plots`  errors as pictures
 `chart`        axes, lines and boxes as SVG
+`pictures`     charts as PDF and PNG
 =============  =========================================================
 """
 

@@ -47,15 +47,23 @@ class Plot:
     svg: str
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write an ``.svg`` file.
+        """Write an ``.svg``, ``.pdf`` or ``.png`` file.
 
         Raises:
+            ModuleNotFoundError: PNG is asked for, and pypdfium2 is not installed.
             ValueError: The name ends otherwise.
         """
-        if os.path.splitext(path)[1].lower() != ".svg":
-            raise ValueError(f"{os.fspath(path)} does not end in .svg: plots are written as SVG")
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(self.svg)
+        from turtlewire.trajectory.pictures import pdf_of, png_of
+
+        writers = {".svg": str.encode, ".pdf": pdf_of, ".png": png_of}
+        writer = writers.get(os.path.splitext(path)[1].lower())
+        if writer is None:
+            raise ValueError(
+                f"{os.fspath(path)} does not end in .svg, .pdf or .png: plots are written as these"
+            )
+        data = writer(self.svg)
+        with open(path, "wb") as file:
+            file.write(data)
 
     def _repr_svg_(self) -> str:
         return self.svg
