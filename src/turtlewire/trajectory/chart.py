@@ -14,7 +14,7 @@ from turtlewire.printable import printable
 from turtlewire.tf.drawing import text_width
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from numpy.typing import NDArray
 
@@ -55,7 +55,11 @@ class Plot:
         """
         from turtlewire.trajectory.pictures import pdf_of, png_of
 
-        writers = {".svg": str.encode, ".pdf": pdf_of, ".png": png_of}
+        writers: dict[str, Callable[[str], bytes]] = {
+            ".svg": str.encode,
+            ".pdf": pdf_of,
+            ".png": png_of,
+        }
         writer = writers.get(os.path.splitext(path)[1].lower())
         if writer is None:
             raise ValueError(

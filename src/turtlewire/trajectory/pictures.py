@@ -100,7 +100,7 @@ def _polyline(element: Element, height: float) -> str:
 
 def _circle(element: Element, height: float) -> str:
     x, y, r = _number(element, "cx"), height - _number(element, "cy"), _number(element, "r")
-    corner = [(1, _ARC, _ARC, 1, 0, 1), (-_ARC, 1, -1, _ARC, -1, 0)]
+    corner: list[tuple[float, ...]] = [(1, _ARC, _ARC, 1, 0, 1), (-_ARC, 1, -1, _ARC, -1, 0)]
     corner += [tuple(-part for part in quarter) for quarter in corner]
     arcs = [
         " ".join(f"{(x, y)[k % 2] + r * part:.2f}" for k, part in enumerate(quarter)) + " c"
