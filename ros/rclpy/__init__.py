@@ -43,6 +43,7 @@ module                                      what it holds
 `type_description_service`                  the service ``~/get_type_description``
 `signals`, `excepthooks`                    Ctrl-C and SIGTERM; tracebacks at the end of a process
 `exceptions`, `hints`                       rclpy's errors; advice for common mistakes
+`unheard`                                   a warning when nothing subscribes to a publisher
 `serialization`, `type_support`             messages as bytes; checks of types
 `wait_for_message`                          `wait_for_message`
 `subscription_content_filter_options`       filters by content

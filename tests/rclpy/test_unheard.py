@@ -10,7 +10,7 @@ import sys
 
 import pytest
 
-from rclpy import hints
+from rclpy import unheard
 from std_msgs.msg import String
 from turtlewire.cli import network
 
@@ -18,13 +18,13 @@ from turtlewire.cli import network
 @pytest.fixture
 def look(monkeypatch, node, spin_until, capfd):
     """Publish with a timer that fires soon, and return what was logged."""
-    monkeypatch.setattr(hints, "_PATIENCE_S", 0.01)
+    monkeypatch.setattr(unheard, "_PATIENCE_S", 0.01)
 
     def look(ports=()):
         monkeypatch.setattr(network, "udp_ports", lambda: set(ports))
         publisher = node.create_publisher(String, "cmd_vel", 1)
         before = len(list(node.timers))
-        hints.warn_if_unheard(node, publisher)
+        unheard.warn_if_unheard(node, publisher)
         spin_until(lambda: len(list(node.timers)) == before)
         return capfd.readouterr().err
 
