@@ -8,9 +8,17 @@ from __future__ import annotations
 import threading
 import weakref
 from abc import ABC, abstractmethod
-from typing import Any
+from typing import Any, Protocol
 
 __all__ = ["CallbackGroup", "MutuallyExclusiveCallbackGroup", "ReentrantCallbackGroup"]
+
+
+class _Scheduler(Protocol):
+    """The part of an executor that pauses entities of busy groups."""
+
+    def resume_paused(self) -> None:
+        """Let the entities go on whose groups have become free."""
+        ...
 
 
 class CallbackGroup(ABC):
@@ -18,6 +26,7 @@ class CallbackGroup(ABC):
 
     def __init__(self) -> None:
         self.entities: set[weakref.ref[Any]] = set()
+        self._rclpy_schedulers: set[weakref.ref[_Scheduler]] = set()
 
     def add_entity(self, entity: object) -> None:
         """Make ``entity`` (a subscription, timer, service, …) a member."""
@@ -26,6 +35,21 @@ class CallbackGroup(ABC):
     def has_entity(self, entity: object) -> bool:
         """Whether ``entity`` is a member."""
         return weakref.ref(entity) in self.entities
+
+    def _rclpy_note_wait(self, scheduler: _Scheduler) -> None:
+        """Have :meth:`_rclpy_wake_schedulers` wake this scheduler from now on."""
+        self._rclpy_schedulers.add(weakref.ref(scheduler, self._rclpy_schedulers.discard))
+
+    def _rclpy_wake_schedulers(self) -> None:
+        """Have all schedulers that found the group busy look at it again.
+
+        A node that moves to another executor leaves a running callback behind: the scheduler that
+        ends it is then not the one that has entities of this group.
+        """
+        for reference in tuple(self._rclpy_schedulers):
+            scheduler = reference()
+            if scheduler is not None:
+                scheduler.resume_paused()
 
     @abstractmethod
     def can_execute(self, entity: object) -> bool:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import threading
 import time
+import weakref
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 
@@ -755,3 +757,76 @@ def test_a_group_that_becomes_free_while_an_entity_is_paused_is_noticed(node, ex
     executor.spin_until_future_complete(ran, timeout_sec=60)
     assert ran.done()
     assert group.looks >= 2
+
+
+KINDS = [SingleThreadedExecutor, partial(MultiThreadedExecutor, 2)]
+
+
+@pytest.mark.parametrize("former_kind", KINDS)
+@pytest.mark.parametrize("latter_kind", KINDS)
+def test_a_callback_that_a_former_executor_ends_frees_its_group_for_the_latter(
+    context, node, spinning, former_kind, latter_kind
+):
+    """The former executor has no entity of the group any more: the latter one has to be woken."""
+    former, latter = former_kind(context=context), latter_kind(context=context)
+    started, may_end = threading.Event(), threading.Event()
+
+    def hold():
+        started.set()
+        assert may_end.wait(60)
+
+    holder = node.create_guard_condition(hold)
+    spinning(former)
+    for _ in range(2):
+        former.add_node(node)
+        started.clear()
+        may_end.clear()
+        holder.trigger()
+        assert started.wait(60)
+        latter.add_node(node)
+        served = Future()
+        node.create_guard_condition(partial(served.set_result, None)).trigger()
+        latter.spin_once(timeout_sec=0)  # it finds the group busy
+        assert not served.done()
+        may_end.set()
+        latter.spin_until_future_complete(served, timeout_sec=60)
+        assert served.done()
+    latter.shutdown()
+
+
+def test_an_async_callback_left_with_a_former_executor_frees_its_group_when_it_is_done(
+    context, node, executor
+):
+    other = SingleThreadedExecutor(context=context)
+    answer, served = Future(), []
+
+    async def wait_for_the_answer():
+        await answer
+
+    node.create_guard_condition(wait_for_the_answer).trigger()
+    executor.spin_once(timeout_sec=0)
+    other.add_node(node)
+    node.create_guard_condition(lambda: served.append(1)).trigger()
+    other.spin_once(timeout_sec=0)
+    assert served == []
+    answer.set_result(None)
+    executor.spin_once(timeout_sec=60)
+    other.spin_once(timeout_sec=60)
+    assert served == [1]
+    other.shutdown()
+
+
+def test_a_group_keeps_no_executor_that_waited_for_it(context, node):
+    group = MutuallyExclusiveCallbackGroup()
+    holder = object()
+    assert group.beginning_execution(holder)
+    other = SingleThreadedExecutor(context=context)
+    other.add_node(node)
+    node.create_guard_condition(lambda: None, callback_group=group).trigger()
+    other.spin_once(timeout_sec=0)
+    scheduler = weakref.ref(other._rclpy_scheduler)
+    other.shutdown()
+    del other
+    gc.collect()
+    assert scheduler() is None
+    group.ending_execution(holder)

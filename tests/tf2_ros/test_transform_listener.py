@@ -6,9 +6,11 @@ import threading
 
 import pytest
 
+import rclpy
 from rclpy.duration import Duration
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import QoSProfile
+from rclpy.task import Future
 from rclpy.time import Time
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
@@ -113,6 +115,26 @@ def test_spin_thread_ends_with_the_context(context, node):
     context.shutdown()
     thread.join(60)
     assert not thread.is_alive()
+
+
+def test_rclpy_spin_takes_over_while_the_listener_s_thread_runs_a_callback(context, node):
+    started, may_end, served = threading.Event(), threading.Event(), Future()
+
+    def hold():
+        started.set()
+        assert may_end.wait(60)
+
+    node.create_guard_condition(hold).trigger()
+    listener = TransformListener(Buffer(), node, spin_thread=True)
+    assert started.wait(60)
+    executor = SingleThreadedExecutor(context=context)
+    node.create_guard_condition(lambda: served.set_result(None)).trigger()
+    rclpy.spin_once(node, executor=executor, timeout_sec=0)  # it finds the callback group busy
+    may_end.set()
+    rclpy.spin_until_future_complete(node, served, executor, timeout_sec=60)
+    assert served.done()
+    executor.shutdown()
+    listener.unregister()
 
 
 def test_a_callback_may_unregister_the_listener_that_spins_it(node):

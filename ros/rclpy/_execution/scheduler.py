@@ -257,17 +257,19 @@ class Scheduler:
             if entity not in self._served:  # released since its group was looked at
                 return
             self._paused.add(entity)
+            entity.callback_group._rclpy_note_wait(self)
             entity._pause(self)
             self._self_waits.held_up(entity, list(self._holders.values()), self._served)
         if self.may_run(entity):  # it became free before it was in the list
             self._resume(entity)
 
     def _release_group(self, entity: Entity) -> None:
-        """Give the group back, and let those go on that waited for it."""
+        """Give the group back, and let the entities go on that waited for it."""
         if not entity._GATED:
             return
         entity.callback_group.ending_execution(entity)
         self.resume_paused()
+        entity.callback_group._rclpy_wake_schedulers()
 
     def resume_paused(self) -> None:
         """Let all entities report themselves again whose groups have become free."""
