@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import random
 import re
 import shutil
@@ -13,12 +14,14 @@ import subprocess
 import sys
 import tracemalloc
 from itertools import pairwise
+from types import SimpleNamespace
 
 import pytest
 from tests.bag.conftest import GOLDEN, START, contents, write_bag
 
 from turtlewire.bag import BagWriter, load_transforms, open_bag, reindex
-from turtlewire.bag.compression import compress, read_zstd_file
+from turtlewire.bag.compression import compress, decompress, most_bytes
+from turtlewire.bag.unpacking import unpack_file
 from turtlewire.errors import BagError
 
 
@@ -119,8 +122,6 @@ def chunk_of(size, compressed):
 
 @pytest.mark.parametrize("size", [1000, 1 << 63])
 def test_a_bomb_needs_no_memory(tmp_path, size):
-    from turtlewire.bag.compression import compress
-
     path = tmp_path / "bomb.mcap"
     path.write_bytes(chunk_of(size, compress("zstd", bytes(1 << 28))))
     tracemalloc.start()
@@ -132,27 +133,131 @@ def test_a_bomb_needs_no_memory(tmp_path, size):
     assert peak < 10_000_000
 
 
-@pytest.mark.parametrize("compression", ["zstd", "lz4"])
-def test_what_grows_too_much_is_refused(compression):
-    from turtlewire.bag.compression import compress, decompress
+@pytest.fixture
+def small_limits(monkeypatch):
+    """Limits of 1 MiB and 4 MiB, so that tests of them need little memory."""
+    from turtlewire.bag import compression
 
-    bomb = compress(compression, bytes(100 << 20))
-    if compression == "zstd":  # lz4 shrinks zeros to a 250th only, which is allowed
-        for size in (None, 100 << 20):
-            with pytest.raises(BagError, match=r"more than 67108864|at most 67108864 are read"):
-                decompress(compression, bomb, size)
-    assert decompress(compression, compress(compression, bytes(1 << 20))) == bytes(1 << 20)
+    monkeypatch.setattr(compression, "_ALWAYS_BYTES", 1 << 20)
+    monkeypatch.setattr(compression, "_MAX_BYTES", 1 << 22)
+
+
+@pytest.mark.parametrize("told", [True, False])
+def test_what_grows_too_much_is_refused(small_limits, told):
+    """Zstandard shrinks zeros to a 20,000th; lz4 to a 250th only, which is always allowed."""
+    largest = compress("zstd", bytes(1 << 20))
+    assert decompress("zstd", largest, 1 << 20 if told else None) == bytes(1 << 20)
+    size = (1 << 20) + 1
+    with pytest.raises(BagError, match=r"more than 1048576|at most 1048576 are read"):
+        decompress("zstd", compress("zstd", bytes(size)), size if told else None)
+    assert decompress("lz4", compress("lz4", bytes(size)), size if told else None) == bytes(size)
+
+
+def test_what_grows_as_usual_is_read_up_to_the_absolute_limit(small_limits):
+    for size in (1 << 22, (1 << 22) + 1):
+        packed = compress("zstd", random.Random(1).randbytes(5000) + bytes(size - 5000))
+        assert most_bytes(len(packed)) == 1 << 22
+        if size == 1 << 22:
+            assert len(decompress("zstd", packed, size)) == size
+        else:
+            with pytest.raises(BagError, match="at most 4194304 are read"):
+                decompress("zstd", packed, size)
+
+
+@pytest.mark.parametrize("size", [1_000_000, 1 << 20, 1 << 22])
+@pytest.mark.parametrize("compression", ["zstd", "lz4"])
+def test_what_the_writer_writes_the_reader_reads(tmp_path, small_limits, compression, size):
+    """A map of one value grows as much as a bomb: beyond the limit its chunk is not compressed."""
+    with BagWriter(tmp_path / "made", compression=compression) as writer:
+        writer.add_topic("/map", "nav_msgs/msg/OccupancyGrid")
+        writer.write("/map", bytes(size), 1)
+    messages, complaint = read_what_there_is(tmp_path / "made")
+    assert [(len(message.data), complaint) for message in messages] == [(size, "")]
+    packed = (tmp_path / "made" / "made_0.mcap").stat().st_size
+    most = {"zstd": 1 << 20, "lz4": 1 << 22}[compression]
+    assert (packed < size) == (size < most)
+
+
+def test_a_large_map_of_one_value_is_read(tmp_path):
+    with BagWriter(tmp_path / "made", compression="zstd") as writer:
+        writer.add_topic("/map", "nav_msgs/msg/OccupancyGrid")
+        writer.write("/map", bytes(9000 * 9000), 1)
+    assert (tmp_path / "made" / "made_0.mcap").stat().st_size < 20_000
+    (message,) = open_bag(tmp_path / "made")
+    assert len(message.data) == 9000 * 9000
+
+
+@pytest.mark.parametrize("mode", ["MESSAGE", "FILE"])
+def test_a_large_map_of_one_value_is_read_from_a_database(tmp_path, mode):
+    with BagWriter(tmp_path / "made", storage="sqlite3", compression_mode=mode) as writer:
+        writer.add_topic("/map", "nav_msgs/msg/OccupancyGrid")
+        writer.write("/map", bytes(9000 * 9000), 1)
+    with open_bag(tmp_path / "made") as bag:
+        (message,) = bag
+        assert (len(message.data), bag.problems) == (9000 * 9000, [])
+
+
+def test_a_message_that_the_reader_would_refuse_is_not_written(tmp_path, small_limits):
+    with BagWriter(tmp_path / "made", storage="sqlite3", compression_mode="MESSAGE") as writer:
+        writer.add_topic("/map", "nav_msgs/msg/OccupancyGrid")
+        writer.write("/map", bytes(1 << 20), 1)
+        with pytest.raises(BagError, match="1048577 bytes, and readers take at most 1048576"):
+            writer.write("/map", bytes((1 << 20) + 1), 2)
+    assert read_what_there_is(tmp_path / "made")[0][0].log_time_ns == 1
+
+
+NO_MEMORY = """
+import resource
+from turtlewire.bag.compression import compress, decompress
+from turtlewire.errors import BagError
+
+packed = compress("zstd", bytes(1 << 28))
+resource.setrlimit(resource.RLIMIT_AS, (1 << 28, 1 << 28))
+try:
+    decompress("zstd", packed, 1 << 28)
+except BagError as error:
+    print(error)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux limits the memory of a process")
+def test_a_chunk_that_does_not_fit_into_the_memory_is_damage():
+    command = [sys.executable, "-c", NO_MEMORY]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert re.fullmatch(r"\d+ bytes decompress to more than the memory .*\n", done.stdout)
+
+
+@pytest.mark.parametrize("topics", [None, "/tf"])
+def test_a_refused_chunk_of_a_file_without_summary_is_an_error(tmp_path, topics):
+    """A reader of the messages alone would take the rest for all of them."""
+    folder = write_bag(tmp_path / "made", compression="zstd", chunk_bytes=1000)
+    (path,) = folder.glob("*.mcap")
+    data = bytearray(path.read_bytes())
+    second = data.index(b"\x04\x00\x00\x00zstd", data.index(b"\x04\x00\x00\x00zstd") + 1)
+    data[second - 12 : second - 4] = struct.pack("<Q", 1 << 62)
+    path.write_bytes(data[:-100])
+    found = []
+    with open_bag(path) as bag:
+        with pytest.raises(BagError, match=rf"chunk at byte \d+: .* holds {1 << 62} bytes"):
+            found.extend(bag.messages(topics))
+        (problem,) = bag.problems
+        assert str(1 << 62) in problem
+    assert 50 < len(found) < 111
+
+
+def test_a_file_with_a_refused_chunk_only_is_an_error(tmp_path):
+    path = tmp_path / "refused.mcap"
+    path.write_bytes(chunk_of(1 << 62, b"x"))
+    with open_bag(path) as bag, pytest.raises(BagError, match=f"holds {1 << 62} bytes"):
+        list(bag)
 
 
 def test_a_copy_that_fills_the_disk(tmp_path, monkeypatch):
-    import shutil
-    from types import SimpleNamespace
-
     folder = write_bag(tmp_path / "made", compression_mode="FILE")
     monkeypatch.setattr(shutil, "disk_usage", lambda _: SimpleNamespace(free=1000))
     messages, complaint = read_what_there_is(folder)
     assert messages == []
-    assert "would fill the disk" in complaint or "is neither an MCAP nor" in complaint
+    assert "of the disk free" in complaint or "is neither an MCAP nor" in complaint
 
 
 @pytest.mark.parametrize("name", ["d_mcap", "real/g_mcap_zstd_fast", "real/g_sqlite3"])
@@ -323,18 +428,21 @@ def test_a_damaged_metadata_file_names_the_remedy(tmp_path, content):
     assert reindex(folder).message_count == 111
 
 
-def test_a_whole_file_that_grows_too_much_is_refused(tmp_path):
-    folder = write_bag(tmp_path / "made", compression_mode="FILE")
-    (path,) = folder.glob("*.zstd")
-    path.write_bytes(compress("zstd", bytes(100 << 20)))
-    blocks = map(len, read_zstd_file(str(path)))
-    sizes = []
-    with pytest.raises(BagError, match="grows more than"):
-        sizes.extend(blocks)
-    assert sum(sizes) <= 64 << 20
-    messages, complaint = read_what_there_is(folder)
-    assert messages == []
-    assert path.name in complaint
+@pytest.mark.parametrize("room_mib", [490, 510])
+def test_a_file_that_grows_too_much_takes_half_of_the_room(tmp_path, monkeypatch, room_mib):
+    free = [1000 << 20]  # when it begins; then what is left of the room
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: SimpleNamespace(free=free.pop(0)))
+    path = tmp_path / "made.mcap.zstd"
+    path.write_bytes(compress("zstd", bytes(3 << 20)))
+    free += [room_mib << 20] * 3
+    problems = []
+    copy = unpack_file(str(path), str(tmp_path), problems.append)
+    if room_mib == 510:
+        assert problems == []
+        assert os.path.getsize(copy) == 3 << 20
+    else:
+        assert "would leave less than" in problems[0]
+        assert os.path.getsize(copy) < 3 << 20
 
 
 def test_a_damaged_message_is_named_and_the_others_are_read(tmp_path):

@@ -248,7 +248,9 @@ def test_every_version_of_the_metadata(tmp_path, version, storage):
         assert [qos.depth for qos in bag.topics["/tf"].qos] == depths
 
 
-@pytest.mark.parametrize("options", [{"compression": "gz"}, {"compression_mode": "FLE"}])
+@pytest.mark.parametrize(
+    "options", [{"compression": "gz"}, {"compression": None}, {"compression_mode": "FLE"}]
+)
 def test_a_wrong_compression_leaves_no_folder(tmp_path, options):
     with pytest.raises(BagError, match="unknown compression"):
         BagWriter(tmp_path / "made", **options)

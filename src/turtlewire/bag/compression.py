@@ -6,7 +6,6 @@ optional extra, because rosbag2 writes it only on request.
 
 from __future__ import annotations
 
-import os
 import sys
 from typing import TYPE_CHECKING, Any
 
@@ -17,10 +16,11 @@ if TYPE_CHECKING:
     from typing import BinaryIO
 
 __all__ = [
-    "MAX_CHUNK_BYTES",
+    "USUAL_GROWTH",
     "ZSTD_MAGIC",
     "compress",
     "decompress",
+    "most_bytes",
     "read_zstd_file",
     "write_zstd_file",
 ]
@@ -28,19 +28,29 @@ __all__ = [
 #: What a frame of zstd begins with.
 ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"
 
-#: A chunk or message larger than this when decompressed is refused, and one that grows more than a
-#: thousandfold beyond 64 MiB: a few damaged bytes must not make a reader ask for the whole memory.
-#: rosbag2 writes chunks of 768 KiB by default.
-MAX_CHUNK_BYTES = 1 << 32
+#: A chunk or message that is larger when decompressed is refused: a few damaged or hostile bytes
+#: must not make a reader ask for all memory. rosbag2 writes chunks of 768 KiB by default.
+_MAX_BYTES = 1 << 32
+
+#: Bytes that any number of compressed bytes may hold. An occupancy grid of one value grows as much
+#: as a bomb does (20,000-fold), so growth alone is no reason to refuse it.
+_ALWAYS_BYTES = 1 << 30
+
+#: Larger chunks, messages and files usually grow less: those of sensors grow tenfold.
+USUAL_GROWTH = 1000
 
 #: Level 1 compresses TF at 1 GB/s to 29 %; level 19 takes 300 times longer for 27 % (measured).
 _ZSTD_LEVEL = 1
 
-#: What a few damaged or hostile bytes may grow to: real chunks compress to a tenth.
-_MOST_RATIO = 1000
-_ALWAYS_BYTES = 64 << 20
-
 _FILE_BLOCK = 1 << 20
+
+
+def most_bytes(packed: int) -> int:
+    """Return how many bytes a chunk or message of ``packed`` compressed bytes may hold.
+
+    `decompress` refuses more, and writers must not write more.
+    """
+    return min(_MAX_BYTES, max(_ALWAYS_BYTES, USUAL_GROWTH * packed))
 
 
 def decompress(
@@ -55,17 +65,23 @@ def decompress(
         cut: Whether the data may end early; what they begin with comes out.
 
     Raises:
-        BagError: The bytes are damaged, do not have that size, or need a package that is missing.
+        BagError: The bytes are damaged, do not have that size, hold more than `most_bytes` or more
+            than the process can allocate, or need a package that is missing.
     """
     if not compression:
         return bytes(data)
-    limit = min(MAX_CHUNK_BYTES, max(_ALWAYS_BYTES, _MOST_RATIO * len(data)))
+    limit = most_bytes(len(data))
     if size is not None and size > limit:
         raise BagError(
             f"a chunk of {len(data)} bytes says that it holds {size} bytes; at most {limit} are "
             "read"
         )
-    out = _decompressor(compression)(data, limit if size is None else size, cut)
+    try:
+        out = _decompressor(compression)(data, limit if size is None else size, cut)
+    except MemoryError:
+        raise BagError(
+            f"{len(data)} bytes decompress to more than the memory that this process can get"
+        ) from None
     if size is None and len(out) > limit:
         raise BagError(f"a message of {len(data)} bytes decompresses to more than {limit} bytes")
     if size is not None and len(out) != size and not (cut and len(out) < size):
@@ -75,26 +91,26 @@ def decompress(
 
 def compress(compression: str, data: bytes, level: int = _ZSTD_LEVEL) -> bytes:
     """Compress one chunk or one message; ``compression`` and errors as in `decompress`."""
-    if not compression:
+    if compression == "":
         return data
     if compression == "zstd":
         packed: bytes = _zstd().compress(data, level)
         return packed
     if compression == "lz4":
         return bytes(_lz4_frame().compress(data))
-    raise BagError(f"unknown compression '{compression}'").with_hint("Known are zstd and lz4.")
+    raise BagError(f"unknown compression '{compression}'").with_hint(
+        "Known are zstd and lz4; an empty text stands for none."
+    )
 
 
 def read_zstd_file(path: str) -> Iterator[bytes]:
     """Yield the decompressed blocks of a ``.zstd`` file, at most a few megabytes at a time.
 
     Raises:
-        BagError: The file is damaged, ends too early, or grows more than a thousandfold beyond
-            64 MiB.
+        BagError: The file is damaged or ends too early.
     """
     zstd = _zstd()
     decompressor = zstd.ZstdDecompressor()
-    limit = max(_ALWAYS_BYTES, _MOST_RATIO * os.path.getsize(path))
     with open(path, "rb") as file:
         while True:
             block = b""
@@ -103,15 +119,9 @@ def read_zstd_file(path: str) -> Iterator[bytes]:
                 if not block:
                     break
             try:
-                out = decompressor.decompress(block, _FILE_BLOCK)
+                yield decompressor.decompress(block, _FILE_BLOCK)
             except zstd.ZstdError as error:
                 raise BagError(f"{path}: damaged before byte {file.tell()}: {error}") from None
-            limit -= len(out)
-            if limit < 0:
-                raise BagError(
-                    f"{path}: grows more than {_MOST_RATIO:,}-fold; what lies before is read"
-                )
-            yield out
             if decompressor.eof:
                 break
     if not decompressor.eof:

@@ -256,7 +256,7 @@ class McapFile:
                     self._read_metadata(content)
                 elif opcode == Op.CHUNK:
                     size = len(content) + OPCODE_AND_LENGTH.size
-                    self._add_chunk(ChunkIndex(0, 0, position, size, None), totals)
+                    self._add_chunk(position, size, totals, is_cut=False)
                 elif opcode == Op.MESSAGE:
                     self._add_bare_message(position, content, totals)
                 elif opcode == Op.DATA_END:
@@ -265,22 +265,30 @@ class McapFile:
             self.problems.append(f"{self.path}: {error}; what lies before it is read")
             if self._bytes[reached : reached + 1] == _CHUNK:  # whole messages may lie in it
                 rest = len(self._bytes) - reached
-                self._add_chunk(ChunkIndex(0, 0, reached, rest, None), totals)
+                self._add_chunk(reached, rest, totals, is_cut=True)
         self.statistics = totals.statistics()
 
-    def _add_chunk(self, chunk: ChunkIndex, totals: _Totals) -> None:
+    def _add_chunk(self, position: int, length: int, totals: _Totals, *, is_cut: bool) -> None:
+        """Add a chunk with the times and channels of its messages.
+
+        Nothing is known of the messages that a damaged one has lost: it counts for all later times
+        and all channels, so that `messages` raises whichever of them are wanted.
+        """
         own = _Totals()
+        is_damaged = False
         try:
-            for log_time, channel, _, _ in self.messages(chunk):
+            for log_time, channel, _, _ in self.messages(ChunkIndex(0, 0, position, length, None)):
                 own.add(channel, log_time)
         except BagError as error:
             self.problems.append(str(error))
-        if own.counts:
+            is_damaged = not is_cut
+        totals.merge(own)
+        start = own.start_ns if own.counts else 0
+        if is_damaged:
+            self.chunks.append(ChunkIndex(start, _NO_TIME, position, length, None))
+        elif own.counts:
             channels = frozenset(own.counts)
-            self.chunks.append(
-                ChunkIndex(own.start_ns, own.end_ns, chunk.offset, chunk.length, channels)
-            )
-            totals.merge(own)
+            self.chunks.append(ChunkIndex(start, own.end_ns, position, length, channels))
 
     def _add_bare_message(self, position: int, content: memoryview, totals: _Totals) -> None:
         """Add a message outside of chunks; messages in a row make up one block."""

@@ -10,7 +10,7 @@ import struct
 import zlib
 from itertools import accumulate
 
-from turtlewire.bag.compression import compress
+from turtlewire.bag.compression import compress, most_bytes
 from turtlewire.bag.mcap_records import (
     MAGIC,
     OPCODE_AND_LENGTH,
@@ -169,10 +169,10 @@ class McapWriter:
         times = [time for entries in index.values() for time in entries[::2]]
         start, end = (min(times), max(times)) if times else (0, 0)
         crc = zlib.crc32(records) if self._checksums else 0
-        packed = compress(self._compression, records, self._level)
+        compression, packed = self._packed(records)
         fields = (
             struct.pack("<QQQI", start, end, len(records), crc)
-            + pack_string(self._compression)
+            + pack_string(compression)
             + struct.pack("<Q", len(packed))
         )
         head = OPCODE_AND_LENGTH.pack(Op.CHUNK, len(fields) + len(packed)) + fields
@@ -182,7 +182,7 @@ class McapWriter:
             struct.pack("<QQQQI", start, end, self.file_bytes, chunk_bytes, len(offsets))
             + offsets
             + struct.pack("<Q", len(indexes))
-            + pack_string(self._compression)
+            + pack_string(compression)
             + struct.pack("<QQ", len(packed), len(records))
         )
         self._put(head, packed, indexes)
@@ -193,6 +193,16 @@ class McapWriter:
             self.start_ns = min(self.start_ns, start)
             self.end_ns = max(self.end_ns, end)
         self.message_count += len(times)
+
+    def _packed(self, records: bytes) -> tuple[str, bytes]:
+        """Compress a chunk; return the compression and the bytes.
+
+        A chunk that readers would take for a bomb is written as it is.
+        """
+        packed = compress(self._compression, records, self._level)
+        if len(records) > most_bytes(len(packed)):
+            return "", records
+        return self._compression, packed
 
     def _put(self, *parts: bytes) -> None:
         """Append to the file, or leave it as it was."""

@@ -6,7 +6,7 @@ import os
 import shutil
 from typing import TYPE_CHECKING
 
-from turtlewire.bag.compression import decompress, read_zstd_file
+from turtlewire.bag.compression import USUAL_GROWTH, decompress, read_zstd_file
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
@@ -23,6 +23,9 @@ _LEAST_FREE_BYTES = 256 << 20
 def unpack_file(path: str, folder: str, damaged: Callable[[str], None]) -> str:
     """Decompress a ``.zstd`` file into a folder, as far as it is whole and fits.
 
+    A copy that is more than a thousand times larger takes half of the free room at most: it may be
+    a file that was made to fill the disk.
+
     Args:
         path: The file.
         folder: Where the copy goes.
@@ -32,20 +35,24 @@ def unpack_file(path: str, folder: str, damaged: Callable[[str], None]) -> str:
         Path of the copy.
     """
     plain = os.path.join(folder, os.path.basename(path).removesuffix(".zstd"))
+    usual_bytes = USUAL_GROWTH * os.path.getsize(path)
+    half = max(_LEAST_FREE_BYTES, shutil.disk_usage(folder).free // 2)
     with open(plain, "wb") as out:
         try:
             for block in read_zstd_file(path):
-                _check_room(folder, path)
+                is_usual = out.tell() + len(block) <= usual_bytes
+                _check_room(folder, path, _LEAST_FREE_BYTES if is_usual else half)
                 out.write(block)
         except BagError as error:
             damaged(str(error))
     return plain
 
 
-def _check_room(folder: str, path: str) -> None:
-    if shutil.disk_usage(folder).free < _LEAST_FREE_BYTES:
+def _check_room(folder: str, path: str, least_free: int) -> None:
+    if shutil.disk_usage(folder).free < least_free:
         raise BagError(
-            f"{path}: its decompressed copy in {folder} would fill the disk; what fitted is read"
+            f"{path}: its decompressed copy in {folder} would leave less than {least_free:,} bytes "
+            "of the disk free; what fitted is read"
         ).with_hint("TMPDIR names a folder with more room.")
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.bag.compression import compress, write_zstd_file
+from turtlewire.bag.compression import write_zstd_file
 from turtlewire.bag.mcap_writer import CHUNK_BYTES, McapWriter
 from turtlewire.bag.metadata import (
     NEWEST_VERSION,
@@ -22,6 +22,7 @@ from turtlewire.bag.writer_checks import (
     as_cdr,
     check_options,
     check_sizes,
+    compressed_message,
     known_definition,
 )
 from turtlewire.errors import BagError, InterfaceError
@@ -213,7 +214,8 @@ class BagWriter:
             publish_time_ns: When it was sent; None if it is not known.
 
         Raises:
-            BagError: The topic was not added, the bag is closed, or the bytes are none.
+            BagError: The topic was not added, the bag is closed, there are no bytes, or a message
+                to compress is larger than readers take.
             TypeError: The data are no bytes, a message of another type, or a time is none.
             ValueError: A time lies before 1970.
             OSError: The disk is full, for example. What was written before stays readable.
@@ -231,7 +233,7 @@ class BagWriter:
         if publish_time_ns and (type(publish_time_ns) is not int or publish_time_ns < 0):
             publish_time_ns = _stamp(publish_time_ns, "publish_time_ns")
         if self._compresses_messages:
-            data = compress("zstd", data)
+            data = compressed_message(topic, data)
         if self._splits:
             self._split_if_due(self._file, log_time_ns)
             number = self._ids[topic]

@@ -6,13 +6,20 @@ import re
 import warnings
 from typing import Any
 
-from turtlewire.bag.compression import compress
+from turtlewire.bag.compression import compress, most_bytes
 from turtlewire.bag.definitions import ENCODING, definition_text
 from turtlewire.bag.metadata import NEWEST_VERSION
 from turtlewire.errors import BagError, InterfaceError
 from turtlewire.msg import Message, serialize
 
-__all__ = ["ENDINGS", "as_cdr", "check_options", "check_sizes", "known_definition"]
+__all__ = [
+    "ENDINGS",
+    "as_cdr",
+    "check_options",
+    "check_sizes",
+    "compressed_message",
+    "known_definition",
+]
 
 #: What the names of files end with, by storage.
 ENDINGS = {"mcap": "mcap", "sqlite3": "db3"}
@@ -106,4 +113,20 @@ def as_cdr(topic: str, type_name: str, data: Any) -> bytes:
         raise BagError(f"{topic} takes a {type_name} or its CDR bytes, not 0 bytes").with_hint(
             "turtlewire.msg.serialize() makes the bytes of a message."
         )
+    return packed
+
+
+def compressed_message(topic: str, data: bytes) -> bytes:
+    """Compress a message with zstd.
+
+    Raises:
+        BagError: Readers would refuse the message.
+    """
+    packed = compress("zstd", data)
+    limit = most_bytes(len(packed))
+    if len(data) > limit:
+        raise BagError(
+            f"a message of {topic} has {len(data)} bytes, and readers take at most {limit} for "
+            f"{len(packed)} compressed bytes"
+        ).with_hint("Write it without compression_mode='MESSAGE'.")
     return packed
