@@ -84,9 +84,13 @@ class _MadeByConstructor:
     """Stands for an attribute until the constructor sets it.
 
     For programs whose ``__init__`` forgets that of its base.
+
+    Args:
+        name: The attribute. Not from ``__set_name__``: up to Python 3.11, a Ctrl-C in it becomes a
+            ``RuntimeError``.
     """
 
-    def __set_name__(self, owner: type, name: str) -> None:
+    def __init__(self, name: str) -> None:
         self._name = name
 
     def __get__(self, node: object, owner: type | None = None) -> Any:
@@ -121,7 +125,10 @@ class Node:
     PARAM_REL_TOL = 1e-6
 
     if not TYPE_CHECKING:
-        _clock, _logger, _parameters, _rclpy_endpoints = (_MadeByConstructor() for _ in range(4))
+        _clock = _MadeByConstructor("_clock")
+        _logger = _MadeByConstructor("_logger")
+        _parameters = _MadeByConstructor("_parameters")
+        _rclpy_endpoints = _MadeByConstructor("_rclpy_endpoints")
 
     def __init__(
         self,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import re
 import signal
 import subprocess
 import sys
@@ -296,6 +298,69 @@ def test_ctrl_c_while_a_program_still_imports_ends_without_a_traceback(start):
     program = start("import threading, rclpy\nprint('up')\nthreading.Event().wait()")
     program.send_signal(signal.SIGINT)
     assert program.finish() == (-signal.SIGINT, "", "")
+
+
+INTERRUPTED_IMPORTS = """
+import importlib, os, sys
+from importlib.util import find_spec
+
+OURS = ("rclpy", "turtlewire")
+folders = tuple(os.path.dirname(find_spec(name).origin) for name in OURS)
+called = {}
+
+def place_of(frame):
+    code = frame.f_code
+    return code.co_filename, code.co_name, code.co_firstlineno
+
+def note(frame, event, _):
+    if event == "call" and frame.f_code.co_filename.startswith(folders):
+        called.setdefault(place_of(frame))
+
+def interrupt(place):
+    def profile(frame, event, _):
+        if event == "call" and place_of(frame) == place:
+            raise KeyboardInterrupt
+    return profile
+
+def import_in_a_child(profile):
+    reading, writing = os.pipe()
+    if os.fork() == 0:
+        outcome = "no exception"
+        sys.setprofile(profile)
+        try:
+            import rclpy.node
+        except BaseException as error:
+            outcome = repr(error)
+        sys.setprofile(None)
+        others = [name for name in sys.modules if not name.startswith((*OURS, "_"))]
+        os.write(writing, repr((list(called), others, outcome)).encode())
+        os._exit(0)
+    os.close(writing)
+    with open(reading) as answer:
+        text = answer.read()
+    os.wait()
+    return eval(text)
+
+places, others, _ = import_in_a_child(note)
+for name in others:  # so that the children need not import them again
+    importlib.import_module(name)
+functions = [place for place in places if place[1] != "<module>"]
+for place in functions:
+    *_, outcome = import_in_a_child(interrupt(place))
+    if outcome != "KeyboardInterrupt()":
+        print(place, outcome)
+print(len(functions), "functions")
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system cannot fork processes")
+def test_ctrl_c_in_any_function_that_an_import_calls_is_a_keyboard_interrupt():
+    command = [sys.executable, "-c", INTERRUPTED_IMPORTS]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=600)
+    (count,) = re.fullmatch(r"(\d+) functions\n", done.stdout).groups()
+    assert int(count) > 100
+    assert done.stderr == ""
 
 
 def test_other_errors_keep_their_traceback(program):

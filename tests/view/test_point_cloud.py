@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from array import array
 
 import numpy as np
 import pytest
@@ -174,6 +175,21 @@ def test_a_scan_hits_along_its_beams():
     assert content.arrays["points"] == pytest.approx(np.array([[1, 0, 0], [0, 2, 0]]), abs=1e-6)
     assert status.level == "ok"
     assert content.arrays["rgba"].tolist() == [[255, 60, 40, 255]] * 2
+
+
+#: A float of 32 bits that traps where it is converted; Python's own floats cannot hold it.
+SIGNALLING_NAN = np.array([0x7FA00000], "u4").view("f4")
+
+
+def test_signalling_nans_are_no_hits_and_no_warnings():
+    message = scan([1.0, 2.0], [3.0, 4.0])
+    message.ranges = array("f", np.append(np.float32(1.0), SIGNALLING_NAN).tobytes())
+    message.intensities = array("f", SIGNALLING_NAN.tobytes() * 2)
+    content, _ = LaserScanDisplay().content(message)
+    assert content.arrays["points"].tolist() == [[1.0, 0.0, 0.0]]
+    x, same = np.append(np.float32([1, 2]), SIGNALLING_NAN), np.zeros(3, "f4")
+    content, _ = PointCloudDisplay().content(cloud({"x": x, "y": same, "z": same}))
+    assert content.arrays["points"].tolist() == [[1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]
 
 
 def test_intensities_color_a_scan():

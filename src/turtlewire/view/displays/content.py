@@ -6,13 +6,14 @@ import time
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeAlias
 
+import numpy as np
+
 from turtlewire.printable import printable
 from turtlewire.view.displays.options import Options
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    import numpy as np
     from numpy.typing import NDArray
 
 __all__ = [
@@ -177,10 +178,15 @@ class Display:
         return self._answer(lambda: self._outputs(message))
 
     def _answer(self, make: Callable[[], list[Output]]) -> list[Output]:
-        """What ``make`` gives, and the status."""
+        """What ``make`` gives, and the status.
+
+        NumPy is silent meanwhile: displays look for numbers that are not finite, and already the
+        conversion of a signalling NaN would be warned of on the console.
+        """
         self._warnings = []
         try:
-            outputs = make()
+            with np.errstate(over="ignore", invalid="ignore"):
+                outputs = make()
         except UnusableMessageError as error:
             return [Status.of("error", str(error))]
         if self._warnings:
