@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -155,6 +156,76 @@ def test_nobody_from_outside_gets_in_by_default():
         assert (
             probe_here(ROS_AUTOMATIC_DISCOVERY_RANGE="SUBNET", ROS_STATIC_PEERS=HOSTS["there"]) == 1
         )
+
+
+#: Sends datagrams to each port, and says which are closed: their host answers that by ICMP, but not
+#: always, for Linux limits such answers.
+KNOCK = """
+import socket, sys
+
+for port in map(int, sys.argv[2:]):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as knocking:
+        knocking.settimeout(1)
+        knocking.connect((sys.argv[1], port))
+        for _ in range(60):
+            try:
+                knocking.send(b"RTPS")
+                knocking.recv(1)
+            except TimeoutError:
+                continue
+            except ConnectionRefusedError:
+                print("closed")
+                break
+"""
+
+
+def sockets_there() -> str:
+    """What receives datagrams at the host ``there``."""
+    listing = ["ip", "netns", "exec", namespace("there"), "ss", "-Hlun"]
+    return subprocess.run(listing, capture_output=True, text=True, check=True).stdout
+
+
+@pytest.mark.usefixtures("hosts")
+@pytest.mark.parametrize("library", ["the wheel's", "Debian's"])
+@pytest.mark.parametrize("chosen", ["", "LOCALHOST", "OFF"])
+def test_datagrams_from_outside_reach_no_socket_by_default(library: str, chosen: str):
+    if library == "Debian's" and not list(Path("/usr/lib").glob("*/libddsc.so.0*")):
+        pytest.skip("no libddsc of the system (Debian: apt install libddsc0debian)")
+    environment = {
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": chosen,
+        "CYCLONEDDS_HOME": "/usr" if library == "Debian's" else "",
+    }
+    with echo_there(**environment):
+        sockets = sockets_there()
+        ports = re.findall(r" 0\.0\.0\.0%lo:(\d+) ", sockets)
+        assert len(ports) == (1 if chosen == "OFF" else 2), sockets
+        assert not re.search(r" 0\.0\.0\.0:\d+ ", sockets), sockets
+        knock = ["ip", "netns", "exec", namespace("here"), sys.executable, "-c", KNOCK]
+        done = subprocess.run(
+            [*knock, HOSTS["there"], *ports], capture_output=True, text=True, check=True
+        )
+        assert done.stdout == "closed\n" * len(ports)
+
+
+@pytest.mark.usefixtures("hosts")
+@pytest.mark.parametrize(
+    "environment",
+    [
+        {"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"},
+        {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", "ROS_STATIC_PEERS": HOSTS["here"]},
+        {
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+            "CYCLONEDDS_URI": "<General><Interfaces><NetworkInterface name='tw-there'/>"
+            "</Interfaces></General>",
+        },
+    ],
+    ids=["subnet", "static peers", "CYCLONEDDS_URI"],
+)
+def test_the_sockets_of_wider_ranges_hear_all_interfaces(environment: dict[str, str]):
+    with echo_there(**environment):
+        sockets = sockets_there()
+        assert re.search(r" 0\.0\.0\.0:\d+ ", sockets)
+        assert "%lo" not in sockets
 
 
 class Asker:

@@ -13,7 +13,7 @@ from turtlewire.wire.report import warn_once
 from . import library as dds
 from .ports import max_processes
 
-__all__ = ["domain_configuration"]
+__all__ = ["domain_configuration", "stays_on_loopback"]
 
 #: Receive buffers above Cyclone's 1 MB, as far as the system lets it: a message of some megabytes,
 #: or the heartbeats of a crowd, arrive in one burst. (Heartbeats are left alone: rarer ones would
@@ -60,13 +60,19 @@ def domain_configuration(domain_id: int, discovery: Discovery) -> str:
     return f"{ours},{users}" if users else ours
 
 
+def stays_on_loopback(discovery: Discovery) -> bool:
+    """Whether the loopback interface is the only one that the configuration uses."""
+    is_wide = discovery.range in {Range.SUBNET, Range.SYSTEM_DEFAULT}
+    return not is_wide and not discovery.static_peers
+
+
 def _general(discovery: Discovery) -> str:
     if discovery.range in {Range.SUBNET, Range.SYSTEM_DEFAULT}:
         return ""
     # Without the loopback interface Cyclone 11 drops what processes with a configuration of
-    # rmw_cyclonedds send to localhost; and with it alone, no other host gets in.
+    # rmw_cyclonedds send to localhost; and with it alone, nothing is sent to another host.
     loopback = '<Interfaces><NetworkInterface address="127.0.0.1"/></Interfaces>'
-    interfaces = "" if discovery.static_peers else loopback + _LOOPBACK_DATAGRAM
+    interfaces = loopback + _LOOPBACK_DATAGRAM if stays_on_loopback(discovery) else ""
     return f"<General><AllowMulticast>false</AllowMulticast>{interfaces}</General>"
 
 

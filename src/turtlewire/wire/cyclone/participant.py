@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING
 
 from turtlewire.errors import TurtlewireError, WireError
 from turtlewire.wire import names
-from turtlewire.wire.environment import discovery
+from turtlewire.wire.environment import Range, discovery
 from turtlewire.wire.graph import format_user_data
 
 from . import library as dds
-from .configuration import domain_configuration
+from .configuration import domain_configuration, stays_on_loopback
 from .log import CycloneLog
-from .ports import max_processes, processes_on_host
+from .loopback import bind_to_loopback, open_sockets
+from .ports import max_processes, ports_of, processes_on_host
 from .sertype import sertype_of
 
 if TYPE_CHECKING:
@@ -34,6 +35,7 @@ _XCDR1 = 1 << 0
 #: Files that must be free before a domain is made: it takes 6 and one or two for each network
 #: interface, the log takes 2, and some are for the program.
 _FILES = 24
+_ANY_PORT = range(1 << 16)
 
 
 class _Domains:
@@ -78,15 +80,18 @@ class _Domains:
         _require_files(domain_id)
         if self._log is None:
             self._log = CycloneLog()
+        chosen, former = discovery(), open_sockets()
         with self._log.capturing():
-            handle = dds.create_domain(
-                domain_id, domain_configuration(domain_id, discovery()).encode()
-            )
+            handle = dds.create_domain(domain_id, domain_configuration(domain_id, chosen).encode())
         if handle == dds.RETCODE_PRECONDITION_NOT_MET:
             return  # other code of this process made the domain, and ends it
         if handle < 0:
             raise _failure(handle, domain_id, self._log.unread())
         self._handles[domain_id] = handle
+        if stays_on_loopback(chosen):
+            # Without discovery Cyclone takes any ports.
+            is_off = chosen.range == Range.OFF
+            bind_to_loopback(former, _ANY_PORT if is_off else ports_of(domain_id))
         self._log.start()
 
     def _keep_library(self) -> None:

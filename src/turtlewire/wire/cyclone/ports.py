@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 
-__all__ = ["is_cyclone", "max_processes", "process_of", "processes_on_host"]
+__all__ = ["is_cyclone", "max_processes", "ports_of", "process_of", "processes_on_host"]
 
 _BASE = 7400
 _PER_DOMAIN = 250
@@ -31,6 +31,12 @@ def max_processes(domain_id: int) -> int:
 
 def _first_port(domain_id: int) -> int:
     return _BASE + _PER_DOMAIN * domain_id + _METATRAFFIC_UNICAST
+
+
+def ports_of(domain_id: int) -> range:
+    """Return the UDP ports of a domain."""
+    first = _BASE + _PER_DOMAIN * domain_id
+    return range(first, first + _PER_DOMAIN)
 
 
 def processes_on_host(domain_id: int) -> int | None:

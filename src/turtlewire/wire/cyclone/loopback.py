@@ -1,0 +1,96 @@
+"""Keeps the datagrams of other computers out where Cyclone uses the loopback interface alone.
+
+Cyclone binds the sockets that it receives with to all addresses, has no setting for that, and takes
+whatever arrives there. A computer of the same network could so announce publishers without ever
+getting an answer. Linux can bind a socket to an interface afterwards.
+"""
+
+from __future__ import annotations
+
+import os
+import socket
+import sys
+from contextlib import suppress
+from typing import TYPE_CHECKING
+
+from turtlewire.wire.report import warn_once
+
+if TYPE_CHECKING:
+    from collections.abc import Container, Iterable
+
+__all__ = ["bind_to_loopback", "open_sockets"]
+
+_FILES = "/proc/self/fd"
+_ANY = "0.0.0.0"  # noqa: S104 - nothing is bound to it
+
+
+def open_sockets() -> dict[str, int]:
+    """Return the sockets of this process, by the names that Linux gives them, and their numbers.
+
+    Empty on other systems.
+    """
+    found: dict[str, int] = {}
+    if sys.platform != "linux":
+        return found
+    with suppress(FileNotFoundError):  # no /proc
+        for number in os.listdir(_FILES):
+            with suppress(FileNotFoundError):  # closed meanwhile, as the listing itself is
+                name = os.readlink(os.path.join(_FILES, number))
+                if name.startswith("socket:"):
+                    found[name] = int(number)
+    return found
+
+
+def bind_to_loopback(former: Iterable[str], ports: Container[int]) -> None:
+    """Bind the sockets at which a new domain receives to the loopback interface, on Linux.
+
+    Nothing happens if Cyclone sends from another interface as well, which ``CYCLONEDDS_URI`` may
+    say.
+
+    Args:
+        former: Names of the sockets that were open before.
+        ports: Where the domain may receive: another thread may open sockets at the same time.
+    """
+    receiving = []
+    sockets = open_sockets()
+    for name in sockets.keys() - set(former):
+        address = _udp_address(sockets[name])
+        if address is None:
+            continue
+        host, port = address
+        if host != _ANY and not host.startswith("127."):
+            return
+        if host == _ANY and port in ports:
+            receiving.append(sockets[name])
+    for number in receiving:
+        _bind(number)
+
+
+def _udp_address(number: int) -> tuple[str, int] | None:
+    """Return host and port of a UDP socket; None for any other socket."""
+    if sys.platform != "linux":
+        return None
+    try:
+        with socket.fromfd(number, socket.AF_INET, socket.SOCK_DGRAM) as copy:
+            kind = copy.getsockopt(socket.SOL_SOCKET, socket.SO_TYPE)
+            family = copy.getsockopt(socket.SOL_SOCKET, socket.SO_DOMAIN)
+            if (family, kind) != (socket.AF_INET, socket.SOCK_DGRAM):
+                return None
+            host, port = copy.getsockname()
+            return host, port
+    except OSError:  # another thread has closed it
+        return None
+
+
+def _bind(number: int) -> None:
+    if sys.platform != "linux":
+        return
+    with socket.fromfd(number, socket.AF_INET, socket.SOCK_DGRAM) as copy:
+        try:
+            copy.setsockopt(socket.SOL_SOCKET, socket.SO_BINDTODEVICE, b"lo\0")
+        except OSError as error:  # kernels before 5.7 let only root do that
+            warn_once(
+                "datagrams from other computers",
+                "datagrams from other computers reach this process, although it speaks to this "
+                f"computer only: its sockets cannot be bound to the loopback interface ({error})",
+            )

@@ -1,0 +1,62 @@
+"""The sockets at which Cyclone receives are bound to the loopback interface."""
+
+from __future__ import annotations
+
+import socket
+import sys
+
+import pytest
+
+from turtlewire.wire.cyclone.loopback import bind_to_loopback, open_sockets
+
+pytestmark = pytest.mark.skipif(
+    sys.platform != "linux", reason="only Linux binds sockets to interfaces"
+)
+ANY_PORT = range(1 << 16)
+
+
+@pytest.fixture
+def udp():
+    """Opens UDP sockets at addresses."""
+    opened = []
+
+    def bind(host):
+        opened.append(socket.socket(socket.AF_INET, socket.SOCK_DGRAM))
+        opened[-1].bind((host, 0))
+        return opened[-1]
+
+    yield bind
+    for each in opened:
+        each.close()
+
+
+def interface_of(each):
+    return each.getsockopt(socket.SOL_SOCKET, socket.SO_BINDTODEVICE, 16).rstrip(b"\0")
+
+
+def test_new_sockets_at_the_domain_s_ports_are_bound(udp):
+    older = udp("0.0.0.0")
+    former = open_sockets()
+    received, sent, other = udp("0.0.0.0"), udp("127.0.0.1"), udp("0.0.0.0")
+    bind_to_loopback(former, [received.getsockname()[1], older.getsockname()[1]])
+    assert interface_of(received) == b"lo"
+    assert interface_of(older) == interface_of(sent) == interface_of(other) == b""
+
+
+def test_nothing_is_bound_if_cyclone_sends_from_another_interface(udp):
+    former = open_sockets()
+    received, sent = udp("0.0.0.0"), udp("0.0.0.0")
+    try:
+        sent.connect(("192.0.2.1", 9))  # takes the address of the interface that leads there
+    except OSError:
+        pytest.skip("this host has no interface that leads anywhere but to itself")
+    bind_to_loopback(former, ANY_PORT)
+    assert interface_of(received) == b""
+
+
+def test_a_kernel_that_refuses_is_warned_of(udp, capfd, monkeypatch):
+    former = open_sockets()
+    udp("0.0.0.0")
+    monkeypatch.setattr(socket, "SO_BINDTODEVICE", 9999)
+    bind_to_loopback(former, ANY_PORT)
+    assert "datagrams from other computers reach this process" in capfd.readouterr().err
