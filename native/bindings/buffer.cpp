@@ -18,9 +18,11 @@ Status ask(SharedBuffer& shared, const FullRequest& request, Found* found, Failu
 
 }  // namespace
 
-BufferObject::BufferObject(std::optional<Stamp> cache_time_ns)
-    : shared(cache_time_ns.value_or(kForever)) {
+BufferObject::BufferObject(std::optional<Stamp> cache_time_ns,
+                           std::optional<std::int64_t> max_frames)
+    : shared(cache_time_ns.value_or(kForever), static_cast<std::size_t>(max_frames.value_or(0))) {
   if (shared.keep() < 0) throw nb::value_error("cache_time_ns must not be negative");
+  if (max_frames && *max_frames < 2) throw nb::value_error("max_frames must be at least 2");
 }
 
 BufferObject::~BufferObject() {

@@ -17,7 +17,7 @@ namespace turtlewire::python {
 
 class BufferObject {
  public:
-  explicit BufferObject(std::optional<Stamp> cache_time_ns);
+  BufferObject(std::optional<Stamp> cache_time_ns, std::optional<std::int64_t> max_frames);
   BufferObject(const BufferObject&) = delete;
   BufferObject& operator=(const BufferObject&) = delete;
   ~BufferObject();

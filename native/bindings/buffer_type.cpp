@@ -292,8 +292,11 @@ void add_buffer_type(nb::module_& module) {
       "The transforms of a tree of frames over time. Safe for use from many threads.\n\n"
       "Args:\n"
       "    cache_time_ns: How long samples are kept, counted back from the newest of their link; "
-      "None: forever.");
-  cls.def(nb::init<std::optional<Stamp>>(), "cache_time_ns"_a.none() = 10'000'000'000)
+      "None: forever.\n"
+      "    max_frames: How many frames it takes; transforms of further ones are refused. None: no "
+      "limit.");
+  cls.def(nb::init<std::optional<Stamp>, std::optional<std::int64_t>>(),
+          "cache_time_ns"_a.none() = 10'000'000'000, "max_frames"_a.none() = nb::none())
       .def_prop_ro(
           "cache_time_ns",
           [](BufferObject& self) -> std::optional<Stamp> {
@@ -301,6 +304,21 @@ void add_buffer_type(nb::module_& module) {
             return self.shared.keep();
           },
           "How long samples are kept; None: forever.")
+      .def_prop_ro(
+          "max_frames",
+          [](BufferObject& self) -> std::optional<std::size_t> {
+            const SharedBuffer::Access access(self.shared);
+            if (access->max_frames() == 0) return std::nullopt;
+            return access->max_frames();
+          },
+          "How many frames it takes; None: no limit.")
+      .def_prop_ro(
+          "is_full",
+          [](BufferObject& self) {
+            const SharedBuffer::Access access(self.shared);
+            return access->is_full();
+          },
+          "Whether a frame was refused because of max_frames, since frames were last removed.")
       .def("latest_common_time", &latest_common_time, "target_frame"_a, "source_frame"_a,
            "The newest time in nanoseconds that all dynamic links between the frames have reached; "
            "0 if all are static.")

@@ -138,6 +138,10 @@ std::string explain(const Refusal& r) {
     case Verdict::bad_name:
       return "Ignoring transform from authority \"" + authority +
              "\": a frame id must be UTF-8 text without NUL, of at most 4096 bytes";
+    case Verdict::too_many_frames:
+      return "Ignoring transform from authority \"" + authority + "\": frame \"" + child +
+             "\" or its parent \"" + parent +
+             "\" is new, and the buffer holds as many frames as max_frames allows";
   }
   return "";
 }

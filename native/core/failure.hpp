@@ -53,8 +53,9 @@ enum class Verdict : std::uint8_t {
   old_data,
   reserved_name,
   bad_name,
+  too_many_frames,
 };
-inline constexpr std::size_t kVerdicts = 8;
+inline constexpr std::size_t kVerdicts = 9;
 
 struct Refusal {
   Verdict verdict = Verdict::accepted;

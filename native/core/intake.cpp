@@ -28,6 +28,7 @@ bool Intake::store(std::uint64_t publisher, std::span<const unsigned char> bytes
   for (SharedBuffer* buffer : buffers_) {
     const Added added = buffer->add(message_.transforms(), *name, is_static_);
     news_ = news_ || (added.accepted > 0 && added.listened_to);
+    if (added.is_full) expected_came_ = !std::exchange(full_, true) || expected_came_;
   }
   ++stored_;
   expected_came_ = std::exchange(expecting_, false) || expected_came_;

@@ -59,7 +59,7 @@ class Intake final : public ForkAware {
   std::uint64_t stored();
   // The next message that is stored wakes the reader thread.
   void expect();
-  // Whether an expected message came since the last time.
+  // Whether an expected message came since the last time, or the first that filled a buffer.
   bool take_expected();
 
  private:
@@ -86,6 +86,7 @@ class Intake final : public ForkAware {
   std::uint64_t stored_ = 0;  // messages, without those that were kept back for good
   bool expecting_ = false;    // the next message is expected
   bool expected_came_ = false;
+  bool full_ = false;  // a buffer is; that counts as an expected message once
   const ForkRegistration registration_{*this, Order::outer};
 };
 

@@ -6,11 +6,12 @@ Added SharedBuffer::add(std::span<const ReceivedTransform> transforms, std::stri
                         bool is_static) {
   const std::scoped_lock lock(mutex_);
   const SourceId sender = tree_.sender(authority);
-  Added added{0, listeners_ > 0};
+  Added added{0, listeners_ > 0, false};
   for (const ReceivedTransform& r : transforms) {
     added.accepted +=
         tree_.set(r.parent, r.child, r.stamp, r.pose(), sender, is_static) == Verdict::accepted;
   }
+  added.is_full = tree_.is_full();
   if (added.accepted > 0) wake_waiters();
   return added;
 }

@@ -49,12 +49,13 @@ struct Found {
 struct Added {
   long accepted = 0;         // so many transforms
   bool listened_to = false;  // somebody is to be told of it
+  bool is_full = false;      // see Tree
 };
 
 // Each method takes the lock for itself; Access is for several steps at once.
 class SharedBuffer final : public ForkAware {
  public:
-  explicit SharedBuffer(Stamp keep) : tree_(keep) {}
+  explicit SharedBuffer(Stamp keep, std::size_t max_frames = 0) : tree_(keep, max_frames) {}
 
   // The tree, locked for as long as this lives.
   class Access {

@@ -26,7 +26,7 @@ std::string_view without_slash(std::string_view name) {
 
 // ---------------------------------------------------------------- in
 
-Tree::Tree(Stamp keep) : keep_(keep) {
+Tree::Tree(Stamp keep, std::size_t max_frames) : keep_(keep), max_frames_(max_frames) {
   links_.push_back(std::make_unique<Link>(arena_));
   last_link_ = links_.front().get();
 }
@@ -40,6 +40,16 @@ FrameId Tree::frame(std::string_view name) {
   if (!is_known_[id]) known_frames_.push_back(id);
   is_known_[id] = true;
   return id;
+}
+
+bool Tree::has_room(std::string_view parent, std::string_view child) const {
+  if (max_frames_ == 0) return true;
+  std::size_t count = known_frames_.size();
+  for (const std::string_view name : {parent, child}) {
+    const auto id = frames_.find(name);
+    count += !id || !is_known_[*id];
+  }
+  return count <= max_frames_ || count == known_frames_.size();
 }
 
 SourceId Tree::sender(std::string_view name) {
@@ -70,6 +80,10 @@ Verdict Tree::set(std::string_view parent, std::string_view child, Stamp stamp, 
     return refuse(Verdict::nan_value, parent, child, stamp, pose, source);
   }
   if (parent_id == 0) [[unlikely]] {
+    if (!has_room(parent, child)) {
+      is_full_ = true;
+      return refuse(Verdict::too_many_frames, parent, child, stamp, pose, source);
+    }
     child_id = frame(child);
     parent_id = sample.parent = frame(parent);
     last_link_->follower = child_id;
@@ -130,6 +144,7 @@ void Tree::forget(std::vector<FrameId> frames) {
       is_known_[frame] = false;
   }
   std::erase_if(known_frames_, [&](FrameId frame) { return !is_known_[frame]; });
+  is_full_ = false;
   for (FrameId frame = 1; frame < links_.size(); ++frame) {
     if (!is_known_[frame] && !is_shown[frame] && !frames_[frame].empty()) frames_.free(frame);
   }

@@ -1,6 +1,7 @@
 // The tree of frames and the questions that tf2 answers about it. Not locked: see SharedBuffer.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -34,9 +35,13 @@ struct Rule {
 
 class Tree {
  public:
-  explicit Tree(Stamp keep);
+  // With `max_frames`, samples of further frames are refused; 0: no limit.
+  explicit Tree(Stamp keep, std::size_t max_frames = 0);
 
   Stamp keep() const { return keep_; }
+  std::size_t max_frames() const { return max_frames_; }
+  // Whether a frame was refused because of max_frames, since frames were last removed.
+  bool is_full() const { return is_full_; }
 
   // -- in
   // Adds one sample. `pose` is as received; a leading '/' of the names is dropped.
@@ -101,6 +106,7 @@ class Tree {
   struct Climb;
 
   FrameId frame(std::string_view name);
+  bool has_room(std::string_view parent, std::string_view child) const;
   FrameId predicted(FrameId id, std::string_view name) const;
   void forget(std::vector<FrameId> frames);
   void drop_paths();
@@ -123,6 +129,8 @@ class Tree {
   std::string sender_of(FrameId child) const;
 
   Stamp keep_;
+  std::size_t max_frames_;
+  bool is_full_ = false;
   Names frames_{kNoParent};
   Names senders_{"no recorded authority"};
   std::string last_sender_name_ = "no recorded authority";  // saves hashing it

@@ -27,6 +27,8 @@ class BufferCore:
     Args:
         cache_time: How long samples are kept (``rclpy.duration.Duration`` or a duration message);
             by default 10 s.
+        max_frames: How many frames it takes; transforms of further ones are refused. None: no
+            limit. Not in ROS 2.
 
     Attributes:
         engine: The ``turtlewire.Buffer`` underneath, with integer nanoseconds, bytes and batches.
@@ -34,9 +36,12 @@ class BufferCore:
 
     engine: turtlewire.Buffer
 
-    def __init__(self, cache_time: Duration | Any | None = None) -> None:
+    def __init__(
+        self, cache_time: Duration | Any | None = None, *, max_frames: int | None = None
+    ) -> None:
         self.engine = turtlewire.Buffer(
-            _DEFAULT_CACHE_NS if cache_time is None else to_nanoseconds(cache_time, "duration")
+            _DEFAULT_CACHE_NS if cache_time is None else to_nanoseconds(cache_time, "duration"),
+            max_frames,
         )
         self._messages = message_lookup(self.engine)
 

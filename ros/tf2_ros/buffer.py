@@ -45,10 +45,18 @@ class Buffer(BufferCore, BufferInterface):
         cache_time: How long samples are kept; the default is 10 s.
         node: The node that offers the service ``tf2_frames`` (``tf2_msgs/srv/FrameGraph``), and
             whose clock counts.
+        max_frames: How many frames it takes; transforms of further ones are refused, with one
+            warning. None: no limit. Not in ROS 2.
     """
 
-    def __init__(self, cache_time: Duration | None = None, node: Node | None = None) -> None:
-        BufferCore.__init__(self, cache_time)
+    def __init__(
+        self,
+        cache_time: Duration | None = None,
+        node: Node | None = None,
+        *,
+        max_frames: int | None = None,
+    ) -> None:
+        BufferCore.__init__(self, cache_time, max_frames=max_frames)
         BufferInterface.__init__(self)
         self._futures = TransformFutures(self.engine)
         self.node = node

@@ -703,3 +703,64 @@ class TestChoiceOfCore:
             "(0, 0, 0, 1)); print('numpy' in sys.modules)"
         )
         assert self.run(code).stdout == "False\n"
+
+
+# ---------------------------------------------------------------- a limit of frames
+
+
+def put(buffer, parent, child, stamp_ns=1):
+    return buffer.set_transform(parent, child, stamp_ns, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+
+
+def test_frames_beyond_the_limit_are_refused_and_known_ones_go_on(core):
+    buffer = core.Buffer(max_frames=3)
+    assert (buffer.max_frames, core.Buffer().max_frames) == (3, None)
+    assert put(buffer, "map", "a") == put(buffer, "map", "b") == ""
+    assert not buffer.is_full
+    assert put(buffer, "map", "c") == (
+        'Ignoring transform from authority "default_authority": frame "c" or its parent "map" is '
+        "new, and the buffer holds as many frames as max_frames allows"
+    )
+    assert buffer.is_full
+    assert buffer.frame_strings() == ["a", "map", "b"]
+    assert put(buffer, "a", "b", 2) == put(buffer, "map", "a", 2) == ""  # moves and a new parent
+    assert buffer.lookup_transform("map", "b", 2).translation == (2.0, 0.0, 0.0)
+    assert "too_many_frames" in buffer._describe_refusals()["c"][0]
+
+
+def test_both_frames_of_a_transform_count(core):
+    buffer = core.Buffer(max_frames=3)
+    put(buffer, "map", "a")
+    assert "max_frames" in put(buffer, "other", "frame")
+    assert buffer.frame_strings() == ["a", "map"]
+    assert put(buffer, "other", "a") == ""
+    assert "max_frames" in put(buffer, "one_more", "a")
+
+
+def test_removed_frames_make_room_once_more(core):
+    buffer = core.Buffer(max_frames=2)
+    put(buffer, "map", "a")
+    put(buffer, "map", "b")
+    assert not buffer.remove_frame("no such frame")
+    assert buffer.is_full
+    buffer.remove_frame("a")
+    assert not buffer.is_full
+    assert put(buffer, "map", "b") == ""
+    assert "max_frames" in put(buffer, "map", "c")
+    assert buffer.is_full
+    buffer.clear()
+    assert "max_frames" in put(buffer, "map", "c")
+
+
+def test_without_a_limit_all_frames_are_taken(core):
+    buffer = core.Buffer(max_frames=None)
+    assert all(put(buffer, "map", f"frame{i}") == "" for i in range(1000))
+    assert not buffer.is_full
+
+
+@pytest.mark.parametrize("limit", [1, 0, -1])
+def test_a_limit_that_takes_no_transform(core, limit):
+    with pytest.raises(ValueError, match="max_frames must be at least 2"):
+        core.Buffer(max_frames=limit)
+    with pytest.raises(TypeError):
+        core.Buffer(max_frames="many")

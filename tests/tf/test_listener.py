@@ -14,7 +14,9 @@ import pytest
 
 from turtlewire import Buffer, errors, msg, wire
 from turtlewire.tf import inspection
+from turtlewire.tf import listener as listener_module
 from turtlewire.tf.listener import QOS, STATIC_QOS, TYPE_NAME, TransformListener
+from turtlewire.wire import report
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import QoS
 
@@ -216,6 +218,33 @@ def test_malformed_bytes_are_reported_once_and_the_rest_goes_on(domain, capfd):
     assert capfd.readouterr().err.count(f"a message on {topic} was lost") == 1
     assert inspection.malformed(buffer).messages == 3
     assert inspection.malformed(buffer).last.startswith("4294967295 transforms are announced")
+
+
+@pytest.mark.parametrize("static", [False, True])
+def test_a_buffer_that_is_full_is_warned_of_once(domain, capfd, monkeypatch, static):
+    topic = f"/full_{static}_{type(domain.sender).__name__}"
+    publisher = domain.talker.create_publisher(topic, TYPE, QOS)
+    warned = threading.Event()
+
+    def warn_once(key, text):
+        report.warn_once(key, text)
+        if topic in text:
+            warned.set()
+
+    monkeypatch.setattr(listener_module, "warn_once", warn_once)
+    buffer = Buffer(max_frames=2)
+    topics = {"topic": None, "static_topic": topic} if static else {"topic": topic}
+    with TransformListener(buffer, domain.node, context=domain.receiver, static_qos=QOS, **topics):
+        domain.wait_for_subscriptions(publisher)
+        for number in range(5):
+            publisher.publish(tf_bytes("world", "robot", stamp_s=number + 1))
+            publisher.publish(tf_bytes("world", f"invented{number}"))
+        assert warned.wait(60)
+        publisher.publish(tf_bytes("world", "robot", x=9.0, stamp_s=9))
+        buffer.lookup_transform("world", "robot", 0 if static else 9 * 10**9, LONG_NS)
+    assert buffer.frame_strings() == ["robot", "world"]
+    errors_shown = capfd.readouterr().err
+    assert errors_shown.count(f"a buffer that {topic} fills has max_frames=2 frames") == 1
 
 
 def test_the_buffer_knows_who_publishes(domain):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 
 import pytest
@@ -173,3 +174,24 @@ def test_a_display_subscribes_as_its_publishers_offer(robot, page, qos):
 
 def test_a_source_without_anything_closes_at_once():
     Viewer(LiveSource(), port=0).close()
+
+
+def test_a_page_says_that_there_are_more_frames_than_it_shows(robot, open_view_page):
+    assert LiveSource.__init__.__kwdefaults__["max_frames"] == 10_000
+    viewer = Viewer(LiveSource(max_frames=3), port=0)
+    with contextlib.closing(viewer):
+        page = open_view_page(viewer)
+        robot.send("map", "base", (1, 0, 0), NOW_S)
+        robot.send("map", "tip", (0, 1, 0), NOW_S)
+        page.wait_for_places({"map": (0, 0, 0), "base": (1, 0, 0), "tip": (0, 1, 0)})
+        assert page.wait_for("status")["text"] == ""
+        robot.send("map", "invented", (0, 0, 1), NOW_S)
+        page.wait_for(
+            "status",
+            lambda packet: (
+                packet["text"] == "There are more than 3 frames; further ones are not "
+                "shown. (turtlewire view --max-frames N)"
+            ),
+        )
+        robot.send("map", "base", (2, 0, 0), NOW_S + 1)
+        page.wait_for_places({"map": (0, 0, 0), "base": (2, 0, 0), "tip": (0, 1, 0)})

@@ -38,6 +38,12 @@ def add_view_command(commands: Any) -> None:
         metavar="FILE",
         help="Show what this .rviz file says; the page saves and loads such files, too",
     )
+    parser.add_argument(
+        "--max-frames",
+        type=_frame_count,
+        metavar="N",
+        help="Show at most this many frames of the network (default: 10000)",
+    )
     add_page_options(parser)
     parser.set_defaults(run=reporting_errors("view", _view), parser=parser)
 
@@ -69,7 +75,7 @@ def _view(args: argparse.Namespace) -> int:
     lan = args.lan or wanted_lan()
     try:
         saved = None if args.display_config is None else load_rviz(args.display_config)
-        source = _source(args.bag)
+        source = _source(args.bag, args.max_frames)
     except RvizFileError as error:
         print(f"turtlewire view: {error}", file=sys.stderr)
         return 2
@@ -91,11 +97,11 @@ def _view(args: argparse.Namespace) -> int:
     return 0
 
 
-def _source(bag: str | None) -> Source:
+def _source(bag: str | None, max_frames: int | None) -> Source:
     if bag is None:
         from turtlewire.view.live import LiveSource
 
-        return LiveSource()
+        return LiveSource() if max_frames is None else LiveSource(max_frames=max_frames)
     if bag.endswith(".rviz"):
         from turtlewire.view.rviz_file import RvizFileError
 
@@ -106,6 +112,15 @@ def _source(bag: str | None) -> Source:
     if source.problem:
         print(source.problem, flush=True)
     return source
+
+
+def _frame_count(text: str) -> int:
+    """A number of frames on the command line."""
+    import argparse
+
+    if not (text.isdecimal() and int(text) > 1):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number of frames, at least 2")
+    return int(text)
 
 
 def _port_number(text: str) -> int:

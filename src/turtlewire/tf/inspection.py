@@ -48,7 +48,7 @@ class Refused(NamedTuple):
     """Counts by reason.
 
     The reasons are self_transform, no_child_frame, no_parent_frame, nan_value, old_data,
-    reserved_name and bad_name.
+    reserved_name, bad_name and too_many_frames.
     """
     last: str
     """The reason of the last one in tf2's words."""

@@ -157,7 +157,13 @@ class _Feed:
         self._arrivals.count()
 
     def _make_intake(self, qos: QoS) -> Intake:
-        return Intake(self._static, _most_kept(qos), self._identify, self._arrivals.tell)
+        return Intake(self._static, _most_kept(qos), self._identify, self._tell)
+
+    def _tell(self) -> None:
+        """Tell of an expected message, or of the first one that did not fit into a buffer."""
+        for member in self._members:
+            self._warn_if_full(member.store)
+        self._arrivals.tell()
 
     def _identify(self, publisher: int, gid_of: Callable[[int], bytes]) -> tuple[bytes, str]:
         """Gid and name of a publisher that the intake does not know; the gid may be empty."""
@@ -167,10 +173,20 @@ class _Feed:
     def _store(self, store: Store, cdr: bytes, publisher: str) -> None:
         try:
             store.ingest(cdr, static=self._static, authority=publisher)
+            self._warn_if_full(store)
         except CdrError as error:  # the store has counted it
             warn_once(
                 f"malformed {self._topic}",
                 f"a message on {self._topic} was lost: {error} (publisher: {publisher})",
+            )
+
+    def _warn_if_full(self, store: Store) -> None:
+        """Say once that a buffer takes no more frames."""
+        if isinstance(store, Buffer) and store.is_full:
+            warn_once(
+                f"full {self._topic}",
+                f"a buffer that {self._topic} fills has max_frames={store.max_frames} frames and "
+                "ignores further ones; `turtlewire doctor` shows who publishes so many",
             )
 
     def _rename(self, gid: str, name: str) -> None:

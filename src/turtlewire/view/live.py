@@ -29,6 +29,8 @@ __all__ = ["LiveSource", "LiveTimeline", "newest_stamp_ns", "stamp_range_ns"]
 #: How much history the page can go back to: longer than the ten seconds of tf2, for a lesson
 #: explains what happened before.
 _HISTORY_NS = 60 * 10**9
+#: Robots have some hundreds. With this number the page's server takes half of a core.
+_MAX_FRAMES = 10_000
 #: Stamps below are of a simulation, and no system time [ns].
 _WALL_TIME_FROM_NS = 10**18
 _NODE_NAME = "turtlewire_view_{}"
@@ -43,22 +45,26 @@ class LiveSource:
     Args:
         context: The participant to use; None joins the domain of the environment.
         history_ns: How long samples of frames are kept.
+        max_frames: How many frames are shown; the page says when there are more. None: no limit.
 
     Raises:
         WireError: The network cannot be joined.
     """
 
     kind = "live"
-    problem = ""
 
     def __init__(
-        self, context: base.Context | None = None, *, history_ns: int = _HISTORY_NS
+        self,
+        context: base.Context | None = None,
+        *,
+        history_ns: int = _HISTORY_NS,
+        max_frames: int | None = _MAX_FRAMES,
     ) -> None:
         self._own_context = wire.open_context() if context is None else None
         self._context = context or cast("base.Context", self._own_context)
         self.name = f"ROS_DOMAIN_ID {self._context.domain_id}"
         self.history_ns = history_ns
-        self.buffer = Buffer(history_ns)
+        self.buffer = Buffer(history_ns, max_frames)
         self._restarts = RestartWatch(self.buffer)
         self._changed: Callable[[], None] = _nothing
         self._lock = threading.Lock()
@@ -70,6 +76,16 @@ class LiveSource:
             self.buffer.add_change_listener(self._tell),
             self._context.graph.add_listener(self._take_graph),
         ]
+
+    @property
+    def problem(self) -> str:
+        """Says that there are more frames than are shown; empty if all are."""
+        if not self.buffer.is_full:
+            return ""
+        return (
+            f"There are more than {self.buffer.max_frames} frames; further ones are not shown. "
+            "(turtlewire view --max-frames N)"
+        )
 
     def now_ns(self) -> int:
         """System time; of a simulation, the newest stamp."""

@@ -88,12 +88,15 @@ class Source(Protocol):
     Attributes:
         kind: ``live`` or ``bag``.
         name: What the page calls it.
-        problem: What is wrong with it, in one line; mostly empty.
     """
 
     kind: str
     name: str
-    problem: str
+
+    @property
+    def problem(self) -> str:
+        """What is wrong with it, in one line; mostly empty."""
+        ...
 
     @property
     def buffer(self) -> Buffer:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 _Answer = TypeVar("_Answer")
 
 FOREVER = 2**63 - 1
+_FEWEST_FRAMES = 2  # of one transform
 
 
 class Buffer(SharedTree):
@@ -31,20 +33,38 @@ class Buffer(SharedTree):
     Args:
         cache_time_ns: How long samples are kept, counted back from the newest of their link; None:
             forever.
+        max_frames: How many frames it takes; transforms of further ones are refused. None: no
+            limit.
     """
 
     __module__ = "turtlewire"
 
-    def __init__(self, cache_time_ns: int | None = 10_000_000_000) -> None:
+    def __init__(
+        self, cache_time_ns: int | None = 10_000_000_000, max_frames: int | None = None
+    ) -> None:
         (keep,) = nanoseconds(cache_time_ns=FOREVER if cache_time_ns is None else cache_time_ns)
         if keep < 0:
             raise ValueError("cache_time_ns must not be negative")
-        super().__init__(keep)
+        if max_frames is not None:
+            max_frames = operator.index(max_frames)
+            if max_frames < _FEWEST_FRAMES:
+                raise ValueError("max_frames must be at least 2")
+        super().__init__(keep, max_frames)
 
     @property
     def cache_time_ns(self) -> int | None:
         """How long samples are kept; None: forever."""
         return None if self._tree.keep == FOREVER else self._tree.keep
+
+    @property
+    def max_frames(self) -> int | None:
+        """How many frames it takes; None: no limit."""
+        return self._tree.max_frames
+
+    @property
+    def is_full(self) -> bool:
+        """Whether a frame was refused because of max_frames, since frames were last removed."""
+        return self._tree.is_full
 
     lookup_batch = batch.lookup_batch
     lookup_all = batch.lookup_all
@@ -92,7 +112,7 @@ class Buffer(SharedTree):
             if verdict is Verdict.ACCEPTED:
                 self._changed.notify_all()
         if verdict is not Verdict.ACCEPTED:
-            return Refusal(verdict, child_frame, stamp_ns, pose, authority).explain()
+            return Refusal(verdict, parent_frame, child_frame, stamp_ns, pose, authority).explain()
         self._call_listeners()
         return ""
 
@@ -121,8 +141,10 @@ class Buffer(SharedTree):
                     names = parent.decode(), child.decode()
                 except UnicodeDecodeError:
                     verdict = judge_names(_escaped(parent), _escaped(child))
-                    shown = child.removeprefix(b"/").decode(errors="replace")
-                    self._tree.refusals.add(Refusal(verdict, shown, stamp, pose, authority))
+                    shown = [
+                        name.removeprefix(b"/").decode(errors="replace") for name in (parent, child)
+                    ]
+                    self._tree.refusals.add(Refusal(verdict, *shown, stamp, pose, authority))
                     continue
                 verdict = self._tree.set(*names, stamp, pose, authority, static=static)
                 accepted += verdict is Verdict.ACCEPTED

@@ -166,12 +166,14 @@ class Verdict(Enum):
     OLD_DATA = "old_data"
     RESERVED_NAME = "reserved_name"
     BAD_NAME = "bad_name"
+    TOO_MANY_FRAMES = "too_many_frames"
 
 
 class Refusal(NamedTuple):
     """A transform that was not taken."""
 
     verdict: Verdict
+    parent: str
     child: str
     stamp: int
     pose: Pose
@@ -200,4 +202,6 @@ class Refusal(NamedTuple):
             "for the absence of a parent",
             Verdict.BAD_NAME: f"{ignoring}: a frame id must be UTF-8 text without NUL, "
             "of at most 4096 bytes",
+            Verdict.TOO_MANY_FRAMES: f'{ignoring}: frame "{child}" or its parent "{self.parent}" '
+            "is new, and the buffer holds as many frames as max_frames allows",
         }[self.verdict]

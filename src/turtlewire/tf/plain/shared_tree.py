@@ -28,10 +28,11 @@ class SharedTree:
 
     Args:
         keep: How long samples are kept, in nanoseconds.
+        max_frames: How many frames are taken; None: no limit.
     """
 
-    def __init__(self, keep: int) -> None:
-        self._tree = Tree(keep)
+    def __init__(self, keep: int, max_frames: int | None = None) -> None:
+        self._tree = Tree(keep, max_frames)
         self._changed = threading.Condition()
         self._listeners: list[Callable[[], object]] = []
         fork.guard(self._changed)

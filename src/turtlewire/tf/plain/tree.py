@@ -33,10 +33,17 @@ _LONGEST_NAME = 4096
 
 
 class Tree:
-    """All links by their child frame. Not locked."""
+    """All links by their child frame. Not locked.
 
-    def __init__(self, keep: int) -> None:
+    Args:
+        keep: How long samples are kept, in nanoseconds.
+        max_frames: Samples of further frames are refused; None: no limit.
+    """
+
+    def __init__(self, keep: int, max_frames: int | None = None) -> None:
         self.keep = keep
+        self.max_frames = max_frames
+        self.is_full = False
         self.frames: dict[str, None] = {}  # a set in order of arrival
         self.links: dict[str, Link] = {}
         self.refusals = Refusals()
@@ -52,7 +59,7 @@ class Tree:
         if verdict is Verdict.ACCEPTED:
             self.links[child].count_sender(authority, parent, stamp)
         else:
-            self.refusals.add(Refusal(verdict, child, stamp, pose, authority))
+            self.refusals.add(Refusal(verdict, parent, child, stamp, pose, authority))
         return verdict
 
     def _insert(self, parent: str, child: str, stamp: int, pose: Pose, *, static: bool) -> Verdict:
@@ -62,6 +69,10 @@ class Tree:
         stored = (*pose[:3], *through_matrix(pose[3:]))
         if is_nan(stored):
             return Verdict.NAN_VALUE
+        new = {child, parent} - self.frames.keys()
+        if self.max_frames is not None and new and len(self.frames) + len(new) > self.max_frames:
+            self.is_full = True
+            return Verdict.TOO_MANY_FRAMES
         self.frames.setdefault(child)
         self.frames.setdefault(parent)
         link = self.links.get(child)
@@ -84,6 +95,8 @@ class Tree:
     def remove(self, children: Iterable[str]) -> list[str]:
         """Forget links, and the names that then stand for nothing; the children that had a link."""
         removed = {child: link for child in children if (link := self.links.pop(child, None))}
+        if removed:
+            self.is_full = False
         in_use = {parent for link in self.links.values() for parent in link.parents}
         for child, link in removed.items():
             for frame in (child, *link.parents):
