@@ -177,7 +177,7 @@ def test_a_source_without_anything_closes_at_once():
 
 
 def test_a_page_says_that_there_are_more_frames_than_it_shows(robot, open_view_page):
-    assert LiveSource.__init__.__kwdefaults__["max_frames"] == 10_000
+    assert LiveSource.__init__.__kwdefaults__["max_frames"] == 5_000
     viewer = Viewer(LiveSource(max_frames=3), port=0)
     with contextlib.closing(viewer):
         page = open_view_page(viewer)

@@ -42,7 +42,7 @@ def add_view_command(commands: Any) -> None:
         "--max-frames",
         type=_frame_count,
         metavar="N",
-        help="Show at most this many frames of the network (default: 10000)",
+        help="Show at most this many frames of the network (default: 5000)",
     )
     add_page_options(parser)
     parser.set_defaults(run=reporting_errors("view", _view), parser=parser)

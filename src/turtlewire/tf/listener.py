@@ -186,7 +186,7 @@ class _Feed:
             warn_once(
                 f"full {self._topic}",
                 f"a buffer that {self._topic} fills has max_frames={store.max_frames} frames and "
-                "ignores further ones; `turtlewire doctor` shows who publishes so many",
+                f"ignores further ones; `ros2 topic info -v {self._topic}` shows who publishes",
             )
 
     def _rename(self, gid: str, name: str) -> None:

@@ -29,8 +29,8 @@ __all__ = ["LiveSource", "LiveTimeline", "newest_stamp_ns", "stamp_range_ns"]
 #: How much history the page can go back to: longer than the ten seconds of tf2, for a lesson
 #: explains what happened before.
 _HISTORY_NS = 60 * 10**9
-#: Robots have some hundreds. With this number the page's server takes half of a core.
-_MAX_FRAMES = 10_000
+#: Robots have some hundreds. With so many, the server takes a fifth of a core for each page.
+_MAX_FRAMES = 5_000
 #: Stamps below are of a simulation, and no system time [ns].
 _WALL_TIME_FROM_NS = 10**18
 _NODE_NAME = "turtlewire_view_{}"

@@ -69,8 +69,7 @@ class Tree:
         stored = (*pose[:3], *through_matrix(pose[3:]))
         if is_nan(stored):
             return Verdict.NAN_VALUE
-        new = {child, parent} - self.frames.keys()
-        if self.max_frames is not None and new and len(self.frames) + len(new) > self.max_frames:
+        if not self._has_room(child, parent):
             self.is_full = True
             return Verdict.TOO_MANY_FRAMES
         self.frames.setdefault(child)
@@ -84,6 +83,12 @@ class Tree:
             self.links[child] = link
         fits = link.insert(stamp, Sample(parent, stored), self.keep)
         return Verdict.ACCEPTED if fits else Verdict.OLD_DATA
+
+    def _has_room(self, *names: str) -> bool:
+        if self.max_frames is None:
+            return True
+        new = sum(name not in self.frames for name in names)
+        return not new or len(self.frames) + new <= self.max_frames
 
     def rename_sender(self, name: str, shown: str) -> None:
         """Show another name for a sender, now and later."""
