@@ -179,9 +179,8 @@ nb::list describe_links(BufferObject& self, std::size_t most) {
 // By child frame: the counts by kind of refusal, and the text of the last one.
 nb::dict describe_refusals(BufferObject& self) {
   static constexpr const char* kinds[kVerdicts] = {
-      "accepted",  "self_transform", "no_child_frame", "no_parent_frame",
-      "nan_value", "old_data",       "reserved_name",  "bad_name",
-      "too_many_frames"};
+      "accepted", "self_transform", "no_child_frame", "no_parent_frame", "nan_value",
+      "old_data", "reserved_name",  "bad_name",       "too_many_frames"};
   std::map<std::string, RefusalRecord, std::less<>> records;
   {
     const SharedBuffer::Access access(self.shared);

@@ -141,9 +141,7 @@ class Buffer(SharedTree):
                     names = parent.decode(), child.decode()
                 except UnicodeDecodeError:
                     verdict = judge_names(_escaped(parent), _escaped(child))
-                    shown = [
-                        name.removeprefix(b"/").decode(errors="replace") for name in (parent, child)
-                    ]
+                    shown = (_shown(parent), _shown(child))
                     self._tree.refusals.add(Refusal(verdict, *shown, stamp, pose, authority))
                     continue
                 verdict = self._tree.set(*names, stamp, pose, authority, static=static)
@@ -343,3 +341,7 @@ class Buffer(SharedTree):
 def _escaped(name: bytes) -> str:
     """A name as the tree judges it: bytes that are no UTF-8 become surrogates."""
     return name.removeprefix(b"/").decode(errors="surrogateescape")
+
+
+def _shown(name: bytes) -> str:
+    return name.removeprefix(b"/").decode(errors="replace")
