@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["Seat", "read_roster", "seats_of_domains"]
 
 _RANGE = re.compile(r"(\d{1,4})(?:-(\d{1,4}))?", re.ASCII)
+_NUMBER = re.compile(r"\d{1,4}", re.ASCII)
 _DOMAINS = f"a domain is a number from 0 to {MAX_DOMAIN_ID}"
 _HOW = "write a line `name,domain` for each student, or in a .yaml file `name: domain`"
 
@@ -77,7 +78,7 @@ def read_roster(path: Path) -> list[Seat]:
 
 def _csv_rows(text: str, file: str) -> Iterator[tuple[int, str, str]]:
     reader = csv.reader(text.splitlines())
-    for row in reader:
+    for row in _readable_rows(reader, file):
         cells = [cell.strip() for cell in row]
         if (
             not any(cells)
@@ -90,6 +91,13 @@ def _csv_rows(text: str, file: str) -> Iterator[tuple[int, str, str]]:
         yield reader.line_num, cells[0], cells[1]
 
 
+def _readable_rows(rows: Iterable[list[str]], file: str) -> Iterator[list[str]]:
+    try:
+        yield from rows
+    except csv.Error as error:
+        raise ClassError(f"{file} is no CSV: {error}") from None
+
+
 def _yaml_rows(text: str, file: str) -> Iterator[tuple[int, str, str]]:
     import yaml
 
@@ -97,6 +105,8 @@ def _yaml_rows(text: str, file: str) -> Iterator[tuple[int, str, str]]:
         root: Any = yaml.compose(text, yaml.SafeLoader)
     except yaml.YAMLError as error:
         raise ClassError(f"{file} is no YAML: {printable(str(error))}") from None
+    except RecursionError:
+        raise ClassError(f"{file} is nested too deeply: {_HOW}") from None
     if root is None:
         return
     if not isinstance(root, yaml.MappingNode):
@@ -111,7 +121,7 @@ def _yaml_rows(text: str, file: str) -> Iterator[tuple[int, str, str]]:
 def _seat(name: str, domain: str, place: str) -> Seat:
     if not name:
         raise ClassError(f"{place}: the name is missing: {_HOW}")
-    if not (domain.isascii() and domain.isdigit() and int(domain) <= MAX_DOMAIN_ID):
+    if not _NUMBER.fullmatch(domain) or int(domain) > MAX_DOMAIN_ID:
         raise ClassError(f"{place}: {domain!r} is no domain of {printable(name)}: {_DOMAINS}")
     return Seat(printable(name), int(domain))
 

@@ -55,6 +55,9 @@ def test_a_roster(tmp_path, name, text):
         ("a.yaml", "Ana: 1\nBjörn: [2]\n", r"a\.yaml, line 2: write a line"),
         ("a.yaml", "- Ana\n", r"a\.yaml, line 1: write a line"),
         ("a.yaml", "Ana: {", r"a\.yaml is no YAML"),
+        ("a.yaml", "[" * 30_000, r"a\.yaml is nested too deeply"),
+        ("a.csv", f"Ana,{'1' * 9_000}\n", r"line 1: '1{9000}' is no domain of Ana"),
+        ("a.csv", f'Ana,"{"x" * 200_000}"\n', r"a\.csv is no CSV: field larger"),
         ("a.csv", "\x1b[2J,x\n", r"no domain of \\x1b\[2J"),
     ],
 )
