@@ -10,7 +10,8 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtle_class.errors import ClassError
-from turtle_class.runner import Runner
+from turtle_class.runner import CheckResult, Outcome, Runner
+from turtle_class.seclusion import hidden
 from turtlewire.printable import printable
 from turtlewire.signal_watch import watched
 
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from turtle_class.catalogue import Exercise
-    from turtle_class.runner import Limits, Outcome
+    from turtle_class.runner import Limits
 
 __all__ = ["Report", "grade_all", "students_in"]
 
@@ -73,7 +74,9 @@ def grade_all(
     *,
     jobs: int | None = None,
 ) -> list[Report]:
-    """Grade, each exercise of each student in a process of its own.
+    """Grade, each exercise of each student in processes of its own.
+
+    On Linux, other processes of this user cannot read this one's memory meanwhile.
 
     Args:
         students: Their folders.
@@ -95,6 +98,8 @@ def grade_all(
         domain = domains.get()
         try:
             return runner.run(exercise, student / exercise.name, domain)
+        except Exception as error:  # noqa: BLE001 - the others get their results all the same
+            return _ungraded(exercise, error)
         finally:
             domains.put(domain)
 
@@ -105,7 +110,7 @@ def grade_all(
         runner.stop()
 
     pool = ThreadPoolExecutor(jobs)
-    with watched([signal.SIGINT], interrupt):
+    with hidden(), watched([signal.SIGINT], interrupt):
         try:
             work = {
                 (student, exercise.name): pool.submit(run, student, exercise)
@@ -128,6 +133,13 @@ def grade_all(
         )
         for student in students
     ]
+
+
+def _ungraded(exercise: Exercise, error: Exception) -> Outcome:
+    """Return the outcome of an exercise whose grading failed."""
+    text, hint = f"It could not be graded: {error!r}", "Grade it alone, and report the error."
+    result = CheckResult("It can be graded", "failed", text, hint)
+    return Outcome(exercise, True, (result,), "", 0.0, {})
 
 
 def _slugs(students: Sequence[Path]) -> dict[Path, str]:

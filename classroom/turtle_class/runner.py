@@ -10,9 +10,10 @@ import sys
 import tempfile
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from importlib.util import find_spec
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any, NamedTuple
+from typing import IO, TYPE_CHECKING, NamedTuple
 
 from turtle_class import supervise
 
@@ -22,12 +23,10 @@ if TYPE_CHECKING:
 __all__ = ["CheckResult", "Limits", "Outcome", "Runner"]
 
 _LARGEST_FILE = 1_000_000
+_LONGEST_RESULTS = 10_000_000
 _PASSED_ON = ("PATH", "LANG", "LC_ALL", "SYSTEMROOT", "TEMP", "TMP", "TURTLEWIRE_CORE")
 _NOT_REACHED = "Not reached: mend what is above first."
-_CRASH = (
-    "Something ended the whole Python process: sys.exit(), os._exit(), or a library that crashed. "
-    "A node's program ends only after rclpy.spin."
-)
+_NO_GRADER = "The process of the checks has ended: something ended it, or the memory was too small."
 _TOO_LONG = "A callback must return: use a timer instead of a loop or time.sleep(), and no input()."
 
 
@@ -129,9 +128,8 @@ class Runner:
             (place / "work").mkdir()
             for file, text in files.items():
                 (place / "work" / file).write_text(text, encoding="utf-8")
-            status, log = self._run(exercise, place, domain)
-            facts = _facts(place / "results")
-        results = _results(facts, status, self._limits)
+            status, told, log = self._run(exercise, place, domain)
+        results = _results(_facts(told), status, self._limits)
         return Outcome(exercise, True, results, log, time.monotonic() - started, files)
 
     def stop(self) -> None:
@@ -141,21 +139,21 @@ class Runner:
             for child in self._children:
                 _close(child.stdin)
 
-    def _run(self, exercise: Exercise, place: Path, domain: int) -> tuple[int, str]:
-        """Run the child; its exit status and what it printed."""
-        work, limits = place / "work", self._limits
+    def _run(self, exercise: Exercise, place: Path, domain: int) -> tuple[int, str, str]:
+        """Run the child; its exit status, its results and what the program printed."""
+        limits = self._limits
         command = [
             *(sys.executable, "-I", supervise.__file__, str(limits.seconds), str(limits.memory)),
             *(sys.executable, "-m", "turtle_class.child"),
-            *map(str, (place / "results", exercise.folder, work)),
+            *map(str, (exercise.folder, place / "work")),
         ]
         child = subprocess.Popen(  # noqa: S603 - ours
             command,
-            cwd=work,
+            cwd=os.sep,  # no folder of the student: Python imports from where it starts
             env=_environment(place, domain),
             stdin=subprocess.PIPE,  # supervise ends when it is closed
             stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
+            stderr=subprocess.PIPE,
             start_new_session=True,  # Ctrl-C is for the grader
         )
         with self._lock:
@@ -163,12 +161,15 @@ class Runner:
             if self._stopped:
                 _close(child.stdin)
         assert child.stdout is not None
-        log = _beginning(child.stdout, limits.log)
+        assert child.stderr is not None
+        with ThreadPoolExecutor(1) as reader:
+            told = reader.submit(_beginning, child.stdout, _LONGEST_RESULTS)
+            log = _beginning(child.stderr, limits.log)
         status = child.wait()
         with self._lock:
             self._children.discard(child)
         _close(child.stdin)
-        return status, log
+        return status, told.result(), log
 
 
 def _close(stream: IO[bytes] | None) -> None:
@@ -234,33 +235,53 @@ def _beginning(stream: IO[bytes], most: int) -> str:
     return b"".join(kept).decode(errors="replace") + more
 
 
-def _facts(path: Path) -> dict[str, Any]:
-    """What the child wrote."""
-    facts: dict[str, Any] = {"checks": [], "results": [], "end": False}
-    try:
-        lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
-    except OSError:
-        return facts
-    for line in lines:
-        try:
-            fact = json.loads(line)
-        except ValueError:  # the child was killed while it wrote
-            continue
-        if "result" in fact:
-            facts["results"].append(fact["result"])
-        else:
-            facts.update(fact)
+class _Facts(NamedTuple):
+    """What the child wrote.
+
+    Attributes:
+        checks: The names of all checks.
+        results: Those of the checks that ran.
+        end: Whether it came to its end.
+    """
+
+    checks: list[str]
+    results: list[CheckResult]
+    end: bool
+
+
+def _facts(told: str) -> _Facts:
+    """Read the lines of the child; those that are no facts are left out."""
+    facts = _Facts([], [], False)
+    for line in told.splitlines():
+        facts = _with_fact(facts, line)
     return facts
 
 
-def _results(facts: dict[str, Any], status: int, limits: Limits) -> tuple[CheckResult, ...]:
-    results = [
-        CheckResult(state="passed" if told.pop("passed") else "failed", **told)
-        for told in facts["results"]
-    ]
-    names = facts["checks"] or ["The exercise begins"]
-    if not facts["end"]:
-        text, hint = f"The program ended with status {status}.", _CRASH
+def _with_fact(facts: _Facts, line: str) -> _Facts:
+    try:
+        [(kind, fact)] = json.loads(line).items()
+        if kind == "checks":
+            return facts._replace(checks=[str(name) for name in fact])
+        if kind == "result":
+            return facts._replace(results=[*facts.results, _result(**fact)])
+    # The child was killed while it wrote, or somebody else has written.
+    except (ValueError, TypeError, AttributeError, RecursionError):
+        return facts
+    return facts._replace(end=facts.end or kind == "end")
+
+
+def _result(check: str, passed: bool, text: str, hint: str, file: str, line: int) -> CheckResult:
+    if not isinstance(passed, bool):
+        raise TypeError("passed is no truth value")
+    state = "passed" if passed else "failed"
+    return CheckResult(str(check), state, str(text), str(hint), str(file), int(line))
+
+
+def _results(facts: _Facts, status: int, limits: Limits) -> tuple[CheckResult, ...]:
+    results = facts.results
+    names = facts.checks or ["The exercise begins"]
+    if not facts.end:
+        text, hint = f"The checks ended with status {status}.", _NO_GRADER
         if status == supervise.TIME_IS_OVER:
             text, hint = f"It did not end within {limits.seconds:g} s.", _TOO_LONG
         if len(results) < len(names):

@@ -19,7 +19,7 @@ __all__ = ["TIME_IS_OVER", "supervise"]
 
 #: Exit status when the command did not end in time, as that of ``timeout``.
 TIME_IS_OVER = 124
-_SET_CHILD_SUBREAPER = 36  # <sys/prctl.h>
+_SET_DUMPABLE, _SET_CHILD_SUBREAPER = 4, 36  # <sys/prctl.h>
 #: A process may start another group while /proc is read; each round finds fewer.
 _ROUNDS = 100
 
@@ -36,7 +36,9 @@ def supervise(seconds: float, memory: int, command: list[str]) -> int:
         Its exit status (minus the signal's number if a signal ended it), or :data:`TIME_IS_OVER`.
     """
     if sys.platform == "linux":
-        ctypes.CDLL(None).prctl(_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+        libc = ctypes.CDLL(None)
+        libc.prctl(_SET_DUMPABLE, 0, 0, 0, 0)  # the command opens none of its files in /proc
+        libc.prctl(_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
         _limit(memory)
     child = subprocess.Popen(  # noqa: S603 - what the caller wants
         command, stdin=subprocess.DEVNULL, start_new_session=True

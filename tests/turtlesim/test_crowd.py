@@ -142,15 +142,15 @@ def test_what_has_no_subscription_is_not_made(monkeypatch, crowd_from):
         listener = simulation._driver.create_subscription(
             Color, "/turtle2/color_sensor", lambda _: None, 1
         )
-        simulation._come_to_rest()
+        simulation.come_to_rest()
         simulation.step()
         assert done == ["look", "make", "/turtle2/color_sensor"]
         simulation._driver.destroy_subscription(listener)
-        simulation._come_to_rest()
+        simulation.come_to_rest()
         simulation.step(3)
         assert len(done) == 3
         simulation._driver.create_subscription(Pose, "/turtle1/pose", lambda _: None, 1)
-        simulation._come_to_rest()
+        simulation.come_to_rest()
         simulation.step()
         assert done[3:] == ["/turtle1/pose"]
 

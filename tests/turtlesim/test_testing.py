@@ -113,7 +113,7 @@ def test_mistakes_are_named(simulation):
 
 
 def test_a_node_that_never_rests_is_reported(simulation, monkeypatch):
-    monkeypatch.setattr("turtlesim.testing.simulation._MOST_CALLBACKS_IN_A_TICK", 200)
+    monkeypatch.setattr("turtlesim.testing.stage._MOST_CALLBACKS", 200)
 
     class Restless(Node):
         def __init__(self):
@@ -123,7 +123,7 @@ def test_a_node_that_never_rests_is_reported(simulation, monkeypatch):
             self.to_itself.publish(Twist())
 
     simulation.add(Restless())
-    with pytest.raises(RuntimeError, match=r"200 callbacks at t=0\.016 s and did not come to rest"):
+    with pytest.raises(RuntimeError, match="200 callbacks and did not come to rest"):
         simulation.step()
 
 

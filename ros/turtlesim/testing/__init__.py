@@ -16,6 +16,7 @@ For pytest, ``pytest_plugins = ["turtlesim.testing.fixtures"]`` in ``conftest.py
 module        what it holds
 ============  ===================================================================
 `simulation`  the simulator and the nodes of a test, in lock-step
+`stage`       nodes of one process, in lock-step
 `programs`    runs the ``main`` of a node's file up to where it spins
 `faults`      delay, loss, wrong frames and times …, to practise on
 `fixtures`    the fixture for pytest

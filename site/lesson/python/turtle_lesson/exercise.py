@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 from importlib import import_module
-from typing import TYPE_CHECKING, NamedTuple, NoReturn
+from typing import TYPE_CHECKING, NamedTuple
 
 from rclpy.node import Node
 from rclpy.time import Time
@@ -16,11 +16,13 @@ from turtlesim.testing.programs import ProgramError, rclpy_in_step
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
+    from contextlib import AbstractContextManager
     from types import ModuleType
 
     from turtle_lesson.lesson import Lesson, Program
+    from turtlesim.testing.stage import Stage
 
-__all__ = ["Exercise", "NotYet", "Place", "exercise_of"]
+__all__ = ["Exercise", "NotYet", "Place", "exercise_of", "programs_here", "start_program"]
 
 #: Simulated time at the start [s]: what is asked about the past of a moment ago has an answer.
 _BEGIN = 100.0
@@ -112,11 +114,49 @@ class Exercise:
             raise NotYet(text, hint)
 
 
+def start_program(stage: Stage, program: Program, modules: Mapping[str, ModuleType]) -> None:
+    """Start a program of a lesson.
+
+    Args:
+        stage: Where its nodes take part.
+        program: The program.
+        modules: The student's files; other programs are imported.
+
+    Raises:
+        BaseException: Whatever its code raises at its start.
+    """
+    module = modules.get(program.source)
+    if module is None:
+        with rclpy_in_step():
+            module = import_module(program.source)
+    main = getattr(module, "main", None)
+    if not callable(main):
+        raise ProgramError(f"{program.source} has no function main()", _NO_MAIN)
+    name = {"name": program.name} if program.name else {}
+    stage.start_program(main, *program.arguments, **name, **program.parameters)
+
+
+@contextlib.contextmanager
+def programs_here(stage: Stage, files: Mapping[str, str]) -> Iterator[Callable[[Program], None]]:
+    """Import the student's files; yields what starts a program in this process.
+
+    Raises:
+        BaseException: Whatever the student's code raises when it is imported.
+    """
+    with contextlib.ExitStack() as stack:
+        with rclpy_in_step():
+            modules = stack.enter_context(imported(files))
+        yield lambda program: start_program(stage, program, modules)
+
+
 @contextlib.contextmanager
 def exercise_of(
     lesson: Lesson,
     files: Mapping[str, str],
     prepare: Callable[[Simulation], None] = lambda _: None,
+    programs: Callable[
+        [Simulation, Mapping[str, str]], AbstractContextManager[Callable[[Program], None]]
+    ] = programs_here,
 ) -> Iterator[Exercise]:
     """Open a simulation and start the programs of a lesson in it.
 
@@ -124,6 +164,7 @@ def exercise_of(
         lesson: The lesson.
         files: The student's files.
         prepare: Called with the simulation before anything else is in it.
+        programs: Where the programs run: :func:`programs_here`, or in another process.
 
     Raises:
         BaseException: Whatever the student's code raises at its start.
@@ -133,25 +174,7 @@ def exercise_of(
         for turtle in lesson.turtles:
             simulation.spawn(turtle.name, x=turtle.x, y=turtle.y, theta=turtle.theta)
         exercise = Exercise(simulation, files)
-        with contextlib.ExitStack() as stack:
-            with rclpy_in_step():
-                modules = stack.enter_context(imported(files))
+        with programs(simulation, files) as start:
             for program in lesson.programs:
-                _start(simulation, program, modules)
+                start(program)
             yield exercise
-
-
-def _start(simulation: Simulation, program: Program, modules: Mapping[str, ModuleType]) -> None:
-    module = modules.get(program.source)
-    if module is None:
-        with rclpy_in_step():
-            module = import_module(program.source)
-    main = getattr(module, "main", None)
-    if not callable(main):
-        _refuse(f"{program.source} has no function main()", _NO_MAIN)
-    name = {"name": program.name} if program.name else {}
-    simulation.start_program(main, *program.arguments, **name, **program.parameters)
-
-
-def _refuse(text: str, hint: str) -> NoReturn:
-    raise ProgramError(text, hint)

@@ -5,14 +5,16 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, NamedTuple
 
-from turtle_lesson.exercise import NotYet, exercise_of
+from turtle_lesson.exercise import NotYet, exercise_of, programs_here
 from turtle_lesson.mistakes import mistake_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
+    from contextlib import AbstractContextManager
 
     from turtle_lesson.exercise import Exercise
-    from turtle_lesson.lesson import Lesson
+    from turtle_lesson.lesson import Lesson, Program
+    from turtlesim.testing import Simulation
 
 __all__ = ["Result", "check_name", "grade", "grade_as_json"]
 
@@ -43,7 +45,12 @@ def check_name(check: Callable[[Exercise], None]) -> str:
 
 
 def grade(
-    lesson: Lesson, files: Mapping[str, str], alive: Callable[[], object] = lambda: None
+    lesson: Lesson,
+    files: Mapping[str, str],
+    alive: Callable[[], object] = lambda: None,
+    programs: Callable[
+        [Simulation, Mapping[str, str]], AbstractContextManager[Callable[[Program], None]]
+    ] = programs_here,
 ) -> Iterator[Result]:
     """Run the checks in their order; ends after the first that is not passed.
 
@@ -53,9 +60,14 @@ def grade(
         lesson: The lesson.
         files: The student's files.
         alive: Called twice in a simulated second.
+        programs: Where the student's programs run, as in :func:`.exercise_of`.
     """
+
+    def opened() -> AbstractContextManager[Exercise]:
+        return exercise_of(lesson, files, programs=programs)
+
     for check in lesson.checks():
-        result = _run(check, lesson, files, alive)
+        result = _run(check, opened, files, alive)
         yield result
         if not result.passed:
             return
@@ -74,13 +86,13 @@ def grade_as_json(
 
 def _run(
     check: Callable[[Exercise], None],
-    lesson: Lesson,
+    opened: Callable[[], AbstractContextManager[Exercise]],
     files: Mapping[str, str],
     alive: Callable[[], object],
 ) -> Result:
     name = check_name(check)
     try:
-        with exercise_of(lesson, files) as exercise:
+        with opened() as exercise:
             exercise.call_regularly(alive)
             check(exercise)
     except NotYet as seen:

@@ -11,7 +11,7 @@ from turtlewire.errors import TransformException
 if TYPE_CHECKING:
     from collections.abc import Collection
 
-__all__ = ["Mistake", "mistake_of"]
+__all__ = ["Mistake", "ReportedMistake", "mistake_of"]
 
 _ENDLESS = (
     "A callback must return, and main() must reach rclpy.spin: use a timer instead of a loop that "
@@ -70,8 +70,22 @@ class Mistake(NamedTuple):
     hint: str
 
 
+class ReportedMistake(Exception):
+    """A mistake that another process, in which the student's code runs, has described.
+
+    Attributes:
+        mistake: The description.
+    """
+
+    def __init__(self, mistake: Mistake) -> None:
+        super().__init__(mistake.text)
+        self.mistake = mistake
+
+
 def mistake_of(error: BaseException, files: Collection[str]) -> Mistake:
     """Describe an error that came out of the student's files, or of what they called."""
+    if isinstance(error, ReportedMistake):
+        return error.mistake
     if isinstance(error, KeyboardInterrupt):
         file, line = _place(error, files)
         return Mistake(file, line, "The code was stopped: it did not come to an end.", _ENDLESS)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import os
 from collections import deque
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -29,8 +30,11 @@ _gids = itertools.count(1)
 
 
 def new_gid() -> bytes:
-    """16 bytes, unique in this process."""
-    return b"local" + next(_gids).to_bytes(11, "big")
+    """Return 16 bytes, unique on this computer: two processes may link their buses.
+
+    The last eight identify a client, too.
+    """
+    return b"local\0\0\0" + os.getpid().to_bytes(4, "big") + next(_gids).to_bytes(4, "big")
 
 
 class EndpointSpec(NamedTuple):
