@@ -9,6 +9,13 @@ from turtlewire.cli.finding import Finding, note, problem
 from turtlewire.cli.network import multicast_works
 from turtlewire.wire.environment import Range, discovery
 from turtlewire.wire.libddsc import find_libddsc
+from turtlewire.wire.security import (
+    IN_THE_CLEAR,
+    REMEDY,
+    asks_for_security,
+    enforces_security,
+    misspelt_enable,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -48,6 +55,7 @@ def setup_findings(environment: Mapping[str, str], path: Iterable[str]) -> list[
         text = f"ROS_DISTRO is '{distro}', but the names and texts here are those of jazzy."
         found.append(note(text, _OTHER_DISTRO))
     found += _library_findings()
+    found += _security_findings(environment)
     homes = {
         os.path.realpath(folder)
         for folder in path
@@ -57,6 +65,16 @@ def setup_findings(environment: Mapping[str, str], path: Iterable[str]) -> list[
         places = " and in ".join(sorted(homes))
         found.append(problem(f"Two ROS installations are mixed: rclpy is in {places}.", _MIXED))
     return found
+
+
+def _security_findings(environment: Mapping[str, str]) -> list[Finding]:
+    """Which settings of SROS 2 have no effect; if they are enforced, nothing starts at all."""
+    if value := misspelt_enable(environment):
+        text = f"ROS_SECURITY_ENABLE is {value!r}, which ROS 2 takes for off."
+        return [note(text, "ROS 2 compares it with 'true'. turtlewire does not support SROS 2.")]
+    if asks_for_security(environment) and not enforces_security(environment):
+        return [problem(f"{IN_THE_CLEAR}.", REMEDY)]
+    return []
 
 
 def _library_findings() -> list[Finding]:

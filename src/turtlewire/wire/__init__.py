@@ -11,6 +11,7 @@ module            what it holds
 `names`           rules and expansion of ROS names, and their spelling on the wire
 `environment`     the environment variables that decide whom a process talks to
 `libddsc`         where the library of Cyclone DDS is, and its binary interface
+`security`        the environment variables of SROS 2
 `lingering`       whether the end waits for acknowledgements
 `graph`           what the graphs of all middlewares share; ``ros_discovery_info``
 `conflicts`       two types on one topic or service, two nodes of one name
@@ -34,6 +35,7 @@ from typing import TYPE_CHECKING
 from turtlewire.errors import WireError
 
 from . import environment
+from .security import check_security
 
 if TYPE_CHECKING:
     from .base import Context
@@ -50,8 +52,8 @@ def open_context(domain_id: int | None = None, *, middleware: str | None = None)
             (inside this process); None takes :func:`.environment.middleware_name`.
 
     Raises:
-        WireError: No such middleware, it is not available on this platform, or the domain cannot be
-            joined.
+        WireError: No such middleware, it is not available on this platform, the domain cannot be
+            joined, or the environment demands SROS 2.
     """
     if domain_id is None:
         domain_id = environment.domain_id()
@@ -61,14 +63,15 @@ def open_context(domain_id: int | None = None, *, middleware: str | None = None)
             f"domains have numbers from 0 to {environment.MAX_DOMAIN_ID}"
         )
     name = middleware or environment.middleware_name()
-    if name == "rmw_cyclonedds_cpp":
-        from .cyclone.context import CycloneContext
-
-        return CycloneContext(domain_id)
     if name == "local":
         from .local.context import LocalContext
 
         return LocalContext(domain_id)
+    check_security()
+    if name == "rmw_cyclonedds_cpp":
+        from .cyclone.context import CycloneContext
+
+        return CycloneContext(domain_id)
     if name == "rmw_zenoh_cpp":
         from .zenoh.library import require_zenoh
 
