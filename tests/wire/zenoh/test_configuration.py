@@ -90,6 +90,20 @@ def test_sizes_of_shared_memory_that_cannot_be(
     assert f"{variable} must be {wanted}, so it is ignored: {text}" in line
 
 
+@pytest.mark.parametrize("make", [session_configuration, router_configuration])
+@pytest.mark.parametrize("line_break", ["\n", "\r\n", "\u2028"])
+def test_a_line_break_is_refused_because_rmw_zenoh_ignores_what_follows(
+    monkeypatch: pytest.MonkeyPatch, make, line_break: str
+):
+    setting = f"access_control={{{line_break} enabled: true, default_permission: 'deny' }}"
+    monkeypatch.setenv("ZENOH_CONFIG_OVERRIDE", f"\n{setting.replace(line_break, '')}\n")
+    assert value(make(), "access_control/enabled") is True
+    monkeypatch.setenv("ZENOH_CONFIG_OVERRIDE", setting)
+    with pytest.raises(WireError, match="ZENOH_CONFIG_OVERRIDE has more than one line") as caught:
+        make()
+    assert "backslash" in caught.value.hint
+
+
 def test_a_file_replaces_all(monkeypatch: pytest.MonkeyPatch, tmp_path):
     file = tmp_path / "session.json5"
     file.write_text('{ mode: "client", connect: { endpoints: ["tcp/10.0.0.1:7447"] } }')

@@ -125,6 +125,14 @@ def ended(folder):
     return run_it
 
 
+@pytest.mark.parametrize("side", ["router", "client"])
+def test_the_settings_are_one_line_each(ended, side):
+    show = 'for setting in "${SETTINGS[@]}"; do printf "%s" "$setting" | wc -l; done'
+    counted = ended(f"{commands(side)}\n{show}").stdout.split()
+    assert counted == ["0"] * len(counted)
+    assert len(counted) == {"router": 9, "client": 8}[side]
+
+
 @pytest.mark.parametrize("level", LEVELS)
 def test_the_commands_of_each_section_work(level, router, client, run, ended, folder):
     router(level)

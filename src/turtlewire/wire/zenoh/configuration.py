@@ -61,7 +61,8 @@ def session_configuration() -> zenoh.Config:
     """What a context opens its session with.
 
     Raises:
-        WireError: ``ZENOH_SESSION_CONFIG_URI`` names no configuration.
+        WireError: ``ZENOH_SESSION_CONFIG_URI`` names no configuration, or
+            ``ZENOH_CONFIG_OVERRIDE`` has more than one line.
     """
     return _configuration("ZENOH_SESSION_CONFIG_URI", _session)
 
@@ -70,7 +71,8 @@ def router_configuration() -> zenoh.Config:
     """What ``rmw_zenohd`` opens its session with.
 
     Raises:
-        WireError: ``ZENOH_ROUTER_CONFIG_URI`` names no configuration.
+        WireError: ``ZENOH_ROUTER_CONFIG_URI`` names no configuration, or
+            ``ZENOH_CONFIG_OVERRIDE`` has more than one line.
     """
     return _configuration("ZENOH_ROUTER_CONFIG_URI", _router)
 
@@ -93,8 +95,20 @@ def _configuration(variable: str, default: Callable[[], dict[str, Any]]) -> zeno
 
 
 def _override(configuration: zenoh.Config) -> None:
-    """Apply ``ZENOH_CONFIG_OVERRIDE``: ``key/path=value;key2=value2``, values in JSON5."""
-    for pair in os.environ.get("ZENOH_CONFIG_OVERRIDE", "").split(";"):
+    """Apply ``ZENOH_CONFIG_OVERRIDE``: ``key/path=value;key2=value2``, values in JSON5.
+
+    Raises:
+        WireError: It has a line break. rmw_zenoh_cpp cuts a value there and goes on without it,
+            which would switch access control off.
+    """
+    text = os.environ.get("ZENOH_CONFIG_OVERRIDE", "").strip()
+    if len(text.splitlines()) > 1:
+        failed = WireError("ZENOH_CONFIG_OVERRIDE has more than one line")
+        raise failed.with_hint(
+            "rmw_zenoh_cpp ignores what follows a line break: write it in one line, or end each "
+            "line with a backslash inside the double quotes of bash."
+        )
+    for pair in text.split(";"):
         if not pair.strip():
             continue
         key, _, value = (part.strip() for part in pair.partition("="))
