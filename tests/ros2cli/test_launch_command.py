@@ -148,3 +148,45 @@ def test_names_in_a_launch_file_that_are_nearly_right(launch, package, executabl
 
     outcome = launch(Node(package=package, executable=executable))
     assert outcome.lines[-1] == f"Did you mean: {meant}"
+
+
+RUNS = {
+    "launch.xml": """<launch>
+  <arg name="a" default="$(eval '__import__(&quot;pathlib&quot;).Path(&quot;ran&quot;).touch()')"/>
+  <arg name="b" default="x $(command 'touch ran')"/>
+  <arg name="c" default="turtle1"/>
+  <arg name="d" default="$(env HOME)" description="$(eval 1)"/>
+  <let name="e" value="$(command 'touch ran')"/>
+  <include file="$(command 'touch ran')"/>
+  <group if="$(eval '__import__(&quot;pathlib&quot;).Path(&quot;ran&quot;).touch()')">
+    <node pkg="p" exec="$(command 'touch ran')" name="$(command 'touch ran')"/>
+  </group>
+</launch>""",
+    "launch.yaml": """launch:
+- arg:
+    name: a
+    default: "$(eval '__import__(\\"pathlib\\").Path(\\"ran\\").touch()')"
+- arg: {name: b, default: "x $(command 'touch ran')"}
+- arg: {name: c, default: turtle1}
+- arg: {name: d, default: $(env HOME)}
+- let: {name: e, value: "$(command 'touch ran')"}
+- include: {file: "$(command 'touch ran')"}
+""",
+}
+
+
+@pytest.mark.parametrize("suffix", RUNS)
+def test_arguments_are_shown_without_running_code(tmp_path, monkeypatch, capsys, suffix):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / f"x.{suffix}").write_text(RUNS[suffix], encoding="utf-8")
+    for option in ("--print", "--show-args"):
+        assert main(["launch", f"x.{suffix}", option]) == 0
+        shown = capsys.readouterr().out
+    assert not (tmp_path / "ran").exists()
+    defaults = [line.strip() for line in shown.splitlines() if "(default: " in line]
+    assert defaults[1:] == [
+        "(default: 'x ' + Command('touch ran'))",
+        "(default: 'turtle1')",
+        "(default: EnvVar('HOME'))",
+    ]
+    assert defaults[0].startswith("(default: PythonExpr('__import__(")

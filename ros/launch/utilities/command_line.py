@@ -4,14 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from launch.launch_context import LaunchContext
-from launch.utilities.perform_substitutions_impl import perform_substitutions
-
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from launch.launch_argument import LaunchArgument
-    from launch.substitution import Substitution
 
 __all__ = ["describe_arguments", "parse_arguments"]
 
@@ -46,16 +42,11 @@ def describe_arguments(arguments: Iterable[LaunchArgument]) -> str:
             *(f"        {line}" for line in declared.description.splitlines()),
         ]
         if declared.default_value is not None:
-            lines.append(f"        (default: {_default(declared.default_value)})")
+            # As in ROS 2, unevaluated: $(eval) and $(command) would run code from the file.
+            default = " + ".join(part.describe() for part in declared.default_value)
+            lines.append(f"        (default: {default})")
     if len(lines) == 1:
         lines += ["", "  No arguments."]
     if conditional:
         lines += ["", "* argument(s) which are only used if specific conditions occur"]
     return "\n".join(lines)
-
-
-def _default(value: list[Substitution]) -> str:
-    try:
-        return f"'{perform_substitutions(LaunchContext(), value)}'"
-    except Exception:  # noqa: BLE001  it depends on what happens during the launch
-        return " + ".join(part.describe() for part in value)
