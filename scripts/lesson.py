@@ -10,7 +10,6 @@ import argparse
 import base64
 import gzip
 import hashlib
-import http.server
 import importlib.metadata
 import json
 import shutil
@@ -19,9 +18,10 @@ import sys
 import tarfile
 import tempfile
 import zipfile
-from functools import partial
 from pathlib import Path
 from typing import Any
+
+from static_server import static_server
 
 ROOT = Path(__file__).resolve().parent.parent
 SOURCE = ROOT / "site" / "lesson"
@@ -263,9 +263,8 @@ def _pack_for_files(page: Path) -> None:
 
 def serve(folder: Path, port: int) -> None:
     """Serve the folder to this machine until Ctrl-C."""
-    handler = partial(http.server.SimpleHTTPRequestHandler, directory=folder)
     try:
-        listening = http.server.ThreadingHTTPServer(("127.0.0.1", port), handler)
+        listening = static_server(folder, port)
     except OSError as error:
         raise BuildError(
             f"port {port} cannot be used ({error.strerror}); --port names another"

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import http.server
+import importlib.util
 import subprocess
 import sys
 import threading
-from functools import partial
 from pathlib import Path
 
 import pytest
@@ -16,20 +15,21 @@ ROOT = Path(__file__).parents[2]
 LONG_MS = 100_000
 
 
-class Quiet(http.server.SimpleHTTPRequestHandler):
-    """Serves files without a line for each."""
-
-    def log_message(self, *_):
-        """Nothing."""
+def static_server(folder):
+    """The server of `scripts/docs --serve` and `scripts/lesson --serve`."""
+    path = ROOT / "scripts" / "static_server.py"
+    spec = importlib.util.spec_from_file_location("static_server", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    module.StaticPages.log_message = lambda *_: None
+    return module.static_server(folder, 0)
 
 
 class Host:
     """A static host, which can be switched off."""
 
     def __init__(self, folder):
-        self._server = http.server.ThreadingHTTPServer(
-            ("127.0.0.1", 0), partial(Quiet, directory=folder)
-        )
+        self._server = static_server(folder)
         self.url = f"http://localhost:{self._server.server_address[1]}/"
         self._thread = threading.Thread(target=self._server.serve_forever)
         self._thread.start()

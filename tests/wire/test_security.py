@@ -1,4 +1,4 @@
-"""The variables of SROS 2: what must be secure does not start, and nothing ignores them silently."""
+"""The variables of SROS 2: what must be secure does not start, the rest is warned of."""
 
 from __future__ import annotations
 
@@ -12,14 +12,15 @@ from turtlewire.cli.setup_findings import setup_findings
 from turtlewire.errors import WireError
 from turtlewire.wire import open_context, report
 
+LISTEN = """
+from turtlewire import Buffer
+from turtlewire.tf.listener import TransformListener
+TransformListener(Buffer())
+"""
 #: What publishes or subscribes, as a user starts it.
 PROGRAMS = {
     "rclpy": [sys.executable, "-c", "import rclpy; rclpy.init(); rclpy.create_node('n')"],
-    "the engine's listener": [
-        *(sys.executable, "-c"),
-        "from turtlewire.tf.listener import TransformListener as L; from turtlewire import Buffer; "
-        "L(Buffer())",
-    ],
+    "the engine's listener": [sys.executable, "-c", LISTEN],
     "topic pub": ["ros2", "topic", "pub", "-1", "-w", "0", "/a", "std_msgs/msg/Empty"],
     "topic list": ["ros2", "topic", "list"],
     "run": ["ros2", "run", "turtlesim", "turtlesim_node", "--headless"],
