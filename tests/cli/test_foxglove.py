@@ -35,7 +35,7 @@ def test_sigterm_ends_it_cleanly_although_a_client_does_not_answer(foxglove):
     port = int(program.wait_for(r"ws://127\.0\.0\.1:(\d+) ")[0][1])
     with socket.create_connection(("127.0.0.1", port)) as silent:
         silent.sendall(
-            b"GET / HTTP/1.1\r\nHost: x\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+            b"GET / HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
             b"Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Version: 13\r\n"
             b"Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n\r\n"
         )

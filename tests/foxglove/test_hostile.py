@@ -127,6 +127,41 @@ def test_two_origins_are_none():
     assert refusal(["https://X.y"], ["https://x.Y/"]) is None
 
 
+def handshake(server, *hosts):
+    """The status of a handshake without Origin, under these names."""
+    port = int(server.url.rpartition(":")[2])
+    lines = [
+        "GET / HTTP/1.1",
+        *(f"Host: {host}" for host in hosts),
+        *("Connection: Upgrade", "Upgrade: websocket", "Sec-WebSocket-Version: 13"),
+        *("Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==", "Sec-WebSocket-Protocol: foxglove.sdk.v1"),
+    ]
+    with socket.create_connection(("127.0.0.1", port), timeout=60) as connection:
+        connection.sendall("\r\n".join([*lines, "", ""]).encode())
+        return int(connection.makefile("rb").readline().split()[1])
+
+
+@pytest.mark.parametrize("host", ["localhost:8765", "127.0.0.1:1", "127.0.0.9", "[::1]:8765"])
+def test_this_machine_has_several_names(serve, host):
+    assert handshake(serve(), host) == 101
+
+
+@pytest.mark.parametrize(
+    "hosts", [["evil.example"], ["127.0.0.1.evil.example"], ["10.0.0.1"], ["localhost", "evil"], []]
+)
+def test_a_foreign_name_is_refused_with_one_line(serve, log, hosts):
+    server = serve()
+    assert handshake(server, *hosts) == handshake(server, *hosts) == 403
+    [line] = log.warnings()
+    assert line.startswith("warning: refused a connection: Host is ")
+    assert line.endswith("localhost and 127.0.0.1; --address 0.0.0.0 serves the network")
+
+
+def test_all_names_are_served_to_the_network_and_to_all_pages(serve):
+    assert handshake(serve(origins=("*",)), "robot.example") == 101
+    assert handshake(serve(address="0.0.0.0"), "robot.example") == 101
+
+
 @pytest.mark.parametrize("offered", [None, ["foxglove.other"], ["mqtt", "soap"]])
 def test_clients_of_other_protocols_are_refused(client, offered):
     with pytest.raises(InvalidStatus) as refused:

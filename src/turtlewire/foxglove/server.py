@@ -22,12 +22,14 @@ from turtlewire.foxglove.outbox import Outbox
 from turtlewire.foxglove.protocol import SUBPROTOCOLS
 from turtlewire.foxglove.session import Session
 from turtlewire.printable import printable
+from turtlewire.web import origin as web_origin
 from turtlewire.web.connections import Connections
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from websockets.asyncio.server import ServerConnection
+    from websockets.datastructures import Headers
     from websockets.http11 import Request, Response
 
     from turtlewire.foxglove.bridge import Log
@@ -46,7 +48,7 @@ _PING_TIMEOUT = 120
 _TURN = 64
 #: What comes closer together than this is sent together: a wake-up costs more than a frame [s].
 _REST = 0.004
-#: Origins that are warned of; further ones are refused in silence.
+#: Origins and hosts that are warned of; further ones are refused in silence.
 _MOST_WARNINGS = 20
 
 _NO_PROTOCOL = "Missing expected sec-websocket-protocol header\n"
@@ -144,10 +146,8 @@ class FoxgloveServer:
         """Refuse foreign pages and other protocols; None lets the WebSocket begin."""
         from http import HTTPStatus
 
-        pages = request.headers.get_all("Origin")
-        reason = origins.refusal(pages, self._options.origins)
+        reason = self._refusal(request.headers)
         if reason is not None:
-            self._warn_of(pages, reason)
             return connection.respond(HTTPStatus.FORBIDDEN, f"Refused: {reason}.\n")
         if not request.headers.get_all("Upgrade"):
             return connection.respond(
@@ -159,11 +159,28 @@ class FoxgloveServer:
             return connection.respond(HTTPStatus.BAD_REQUEST, _NO_PROTOCOL)
         return None
 
-    def _warn_of(self, pages: list[str], reason: str) -> None:
-        key = ",".join(pages)
+    def _refusal(self, headers: Headers) -> str | None:
+        """Why a request is refused, which is also warned of; None if it is allowed.
+
+        Other computers' names are checked on loopback only: elsewhere, everybody who reaches the
+        server is served, and under whatever name it has there.
+        """
+        pages, hosts = headers.get_all("Origin"), headers.get_all("Host")
+        allowed = self._options.origins
+        reason = origins.refusal(pages, allowed)
+        if reason is not None:
+            key = ",".join(pages)
+            self._warn_of(key, reason, f"--origin {key} (parameter origins) lets them")
+        elif self._options.is_local and "*" not in allowed:
+            foreign = web_origin.refusal(hosts, [])
+            if foreign is not None:
+                reason = foreign.rstrip(".")
+                self._warn_of(",".join(hosts), reason, "--address 0.0.0.0 serves the network")
+        return reason
+
+    def _warn_of(self, key: str, reason: str, way: str) -> None:
         if key not in self._warned and len(self._warned) < _MOST_WARNINGS:
             self._warned.add(key)
-            way = f"--origin {key} (parameter origins) lets them"
             self._log.warning(printable(f"refused a connection: {reason}; {way}"))
 
     async def _handle(self, connection: ServerConnection, bridge: Bridge, calls: LoopCalls) -> None:

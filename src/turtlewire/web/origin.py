@@ -14,7 +14,7 @@ import socket
 
 __all__ = ["refusal"]
 
-_LOOPBACK_NAMES = frozenset({"127.0.0.1", "localhost", "[::1]"})
+_LOOPBACK_NAMES = frozenset({"localhost", "[::1]"})
 
 
 def refusal(hosts: list[str], origins: list[str], *, lan: bool = False) -> str | None:
@@ -26,7 +26,7 @@ def refusal(hosts: list[str], origins: list[str], *, lan: bool = False) -> str |
         lan: Whether other devices of the network are served, too.
     """
     name = _name(hosts[0]) if len(hosts) == 1 else ""
-    if name not in _LOOPBACK_NAMES and not (lan and _is_of_this_computer(name)):
+    if not _is_loopback(name) and not (lan and _is_of_this_computer(name)):
         known = "its addresses and its name" if lan else "localhost and 127.0.0.1"
         return f"Host is {_shown(hosts)}, this server answers only to {known}."
     if len(origins) > 1 or (origins and origins[0].lower() != f"http://{hosts[0].lower()}"):
@@ -39,6 +39,10 @@ def _name(host: str) -> str:
     end = host.find("]") + 1 if host.startswith("[") else host.find(":")
     name, port = (host[:end], host[end:]) if end > 0 else (host, "")
     return name.lower() if not port or port[1:].isdecimal() else ""
+
+
+def _is_loopback(name: str) -> bool:
+    return name in _LOOPBACK_NAMES or (name.startswith("127.") and _is_ipv4(name))
 
 
 def _is_of_this_computer(name: str) -> bool:
