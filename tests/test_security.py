@@ -1,0 +1,195 @@
+"""`SECURITY.md` is true: each of its points has tests, which the table below names."""
+
+from __future__ import annotations
+
+import io
+import os
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+from tests.test_compatibility import functions_of
+
+from turtlewire import msg
+from turtlewire.bag.definitions import learn_types
+from turtlewire.errors import InterfaceError, TurtlewireError
+from turtlewire.tf import inspection
+
+ROOT = Path(__file__).parent.parent
+PAGE = ROOT / "SECURITY.md"
+
+# Beginning of a point, and below it its tests.
+TESTED = """
+Nodes look for others on this computer only
+  wire/test_environment.py test_the_range_is_localhost_unless_said_otherwise
+  wire/test_two_hosts.py test_nobody_from_outside_gets_in_by_default test_static_peers_find_the_other_host_without_multicast
+The web servers of turtlesim, the 3D view and the class listen on loopback only
+  web/test_lan.py test_without_the_option_only_loopback_is_bound_and_no_token_needed
+  web/test_lan.py test_every_route_demands_the_token test_with_it_every_address_answers_to_the_token
+  web/test_server.py test_foreign_names_and_pages_are_refused
+The Foxglove server listens on loopback only
+  foxglove/test_hostile.py test_a_foreign_name_is_refused_with_one_line
+  foxglove/test_hostile.py test_other_pages_are_refused_with_one_line
+  foxglove/test_hostile.py test_pages_of_foxglove_and_of_this_machine_connect
+`scripts/docs --serve` and `scripts/lesson --serve`
+  site/test_static_server.py test_foreign_names_and_pages_are_refused
+  site/test_static_server.py test_nothing_outside_the_folder_is_served test_folders_are_not_listed
+Bytes from the wire are checked
+  wire/test_bad_input.py test_a_malformed_message_is_named_once_and_the_next_good_one_arrives
+  test_printable.py test_no_character_leaves_a_control_behind
+Parameter files, bags, saved buffers, URDF and `.rviz` files are data
+  test_security.py test_no_python_objects_come_out_of_yaml test_a_buffer_of_pickled_objects_is_refused
+  test_security.py test_a_definition_in_a_bag_cannot_hold_code
+  urdf/test_parser.py test_entities_are_refused
+The code of a student who is graded reaches neither the checks nor their results
+  classroom/test_forging.py test_an_attack_gives_no_points test_the_processes_of_the_graders_are_closed
+DDS traffic is neither encrypted nor authenticated
+  wire/zenoh/test_security.py test_the_commands_of_each_section_work
+  wire/zenoh/test_security.py test_a_peer_without_a_certificate_sees_nothing test_no_user_and_password
+  wire/zenoh/test_security.py test_the_student_hears_and_does_not_speak
+SROS 2 is not supported
+  wire/test_security.py test_permissive_security_is_warned_of_once test_no_program_starts_in_the_clear
+A page that `--lan` opens is not encrypted
+  web/test_lan.py test_with_it_every_address_answers_to_the_token
+  cli/test_foxglove.py test_an_address_for_others_is_said_plainly
+Launch files are programs
+  ros2cli/test_launch_command.py test_arguments_are_shown_without_running_code
+  test_security.py test_launching_a_file_runs_its_substitutions
+Grading is no sandbox
+  test_security.py test_grading_runs_as_this_user
+"""
+
+
+def points() -> list[str]:
+    """The points of the page, each in one line."""
+    text = PAGE.read_text(encoding="utf-8").partition("## Supported")[0]
+    return [" ".join(point.split()) for point in re.split(r"^- ", text, flags=re.MULTILINE)[1:]]
+
+
+def table() -> dict[str, list[tuple[str, str]]]:
+    """The tests of each point."""
+    found: dict[str, list[tuple[str, str]]] = {}
+    point = ""
+    for line in TESTED.strip().splitlines():
+        if line.startswith("  "):
+            file, *names = line.split()
+            found[point] += [(file, name) for name in names]
+        else:
+            point = line
+            found[point] = []
+    return found
+
+
+def test_every_point_has_its_tests():
+    for point in points():
+        assert sum(point.startswith(beginning) for beginning in table()) == 1, point
+    assert len(points()) == len(table())
+
+
+@pytest.mark.parametrize(
+    ("file", "name"), sorted({pair for pairs in table().values() for pair in pairs})
+)
+def test_the_tests_are_there(file, name):
+    assert name in functions_of(file)
+
+
+# What no other room tests
+
+
+@pytest.fixture
+def ran(tmp_path, monkeypatch):
+    """A file that hostile content would make, in the working folder."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path / "ran"
+
+
+def test_no_python_objects_come_out_of_yaml(ran, tmp_path):
+    from rclpy.parameter import parameter_dict_from_yaml_file
+    from turtlewire.bag.reader import open_bag
+    from turtlewire.view.rviz_file import RvizFileError, read_rviz
+
+    hostile = "!!python/object/apply:pathlib.Path.touch [!!python/object/apply:pathlib.Path [ran]]"
+    file = tmp_path / "metadata.yaml"
+    file.write_text(f"/**: {{ros__parameters: {{a: {hostile}}}}}")
+    with pytest.raises((RuntimeError, yaml.YAMLError)):
+        parameter_dict_from_yaml_file(str(file))
+    file.write_text(f"rosbag2_bagfile_information: {hostile}")
+    with pytest.raises(TurtlewireError):
+        open_bag(tmp_path)
+    with pytest.raises(RvizFileError):
+        read_rviz(f"Panels: {hostile}")
+    assert not ran.exists()
+
+
+class Touch:
+    def __reduce__(self):
+        return Path.touch, (Path("ran"),)
+
+
+def test_a_buffer_of_pickled_objects_is_refused(ran, tmp_path):
+    data = io.BytesIO()
+    np.savez(data, header=np.array([Touch()], dtype=object))
+    (tmp_path / "buffer.npz").write_bytes(data.getvalue())
+    with pytest.raises(ValueError, match="is no saved buffer"):
+        inspection.load(tmp_path / "buffer.npz")
+    assert not ran.exists()
+
+
+TOUCH = "__import__('pathlib').Path('ran').touch()"
+
+
+@pytest.mark.parametrize(
+    ("text", "is_refused"),
+    [
+        (f"int32 x={TOUCH}", True),
+        (f"int32 {TOUCH}", True),
+        (f"int32 x {TOUCH}", True),
+        (f"int32[{TOUCH}] x", True),
+        (f"string<={TOUCH} x", True),
+        (f"int32[] x [{TOUCH}]", True),
+        (f"string x \"'+{TOUCH}+'\"", False),
+        (f'string x "\\\\"+{TOUCH}#"', False),
+        (f"string X='+{TOUCH}+'", False),
+        (f'string x \'"""+{TOUCH}+"""\'', False),
+    ],
+)
+def test_a_definition_in_a_bag_cannot_hold_code(ran, request, text, is_refused):
+    name = f"hostile_msgs/msg/T{abs(hash(request.node.name))}"
+    if is_refused:
+        with pytest.raises(InterfaceError):
+            learn_types(name, text)
+    else:
+        learn_types(name, text)
+        kind = msg.get_message(name)
+        assert msg.deserialize(kind, msg.serialize(kind())) == kind()
+    assert not ran.exists()
+
+
+def test_launching_a_file_runs_its_substitutions(ran, tmp_path):
+    from launch import LaunchService
+    from launch.actions import IncludeLaunchDescription
+    from launch.launch_description_sources import AnyLaunchDescriptionSource
+
+    file = tmp_path / "a.launch.xml"
+    file.write_text("<launch><let name='a' value=\"$(command 'touch ran')\"/></launch>")
+    service = LaunchService(noninteractive=True)
+    service.include_launch_description(
+        IncludeLaunchDescription(AnyLaunchDescriptionSource(str(file)))
+    )
+    assert service.run() == 0
+    assert ran.exists()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows knows no numbers of users")
+def test_grading_runs_as_this_user(tmp_path):
+    from turtle_class.catalogue import chosen
+    from turtle_class.runner import Limits, Runner
+
+    (static,) = chosen(["static"])
+    (name,) = static.files
+    (tmp_path / name).write_text("import os\nprint('user', os.getuid())\n", encoding="utf-8")
+    outcome = Runner(Limits(seconds=250.0)).run(static, tmp_path, 99)
+    assert f"user {os.getuid()}\n" in outcome.log
