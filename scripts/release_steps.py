@@ -44,6 +44,16 @@ def run(
     return done.stdout
 
 
+def install_locked(python: Path, lock: str, *, what: str) -> None:
+    """Install the releases of a file of ``scripts/locks``, checked by their hashes.
+
+    Raises:
+        ReleaseError: It failed; what pip printed has been shown.
+    """
+    file = ROOT / "scripts" / "locks" / f"{lock}.txt"
+    run(python, "-m", "pip", "install", "-q", "--require-hashes", "-r", file, what=what)
+
+
 def output(*command: str) -> str:
     """What a command prints."""
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)

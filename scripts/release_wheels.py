@@ -17,7 +17,7 @@ import sys
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from release_steps import WORK, ReleaseError, run, say
+from release_steps import WORK, ReleaseError, install_locked, run, say
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 VERSIONS = ("3.10", "3.11", "3.12", "3.13", "3.14", "3.13t", "3.14t")
 MACHINES = ("x86_64", "aarch64")
 OWN = ("3.10", "3.11")  # older than nanobind's stable ABI
-#: CMake 3.26 is the first to find what a module of the stable ABI links with.
+#: CMake 3.26 is the first to find what a module of the stable ABI links with. `scripts/lock` writes
+#: which releases these are.
 BACKEND = ("build", "scikit-build-core>=1.0", "nanobind>=2.2", "cmake>=3.26", "ninja", "hatchling")
 CROSS = "aarch64-linux-gnu-g++"
 TOOLCHAIN = f"""set(CMAKE_SYSTEM_NAME Linux)
@@ -132,8 +133,7 @@ def make_builder(python: str) -> Path:
     venv = WORK.parent / "release-tools" / version
     if not (venv / "bin" / "python").exists():
         run(python, "-m", "venv", "--clear", venv, what=f"a venv for Python {version}")
-    command = [venv / "bin" / "python", "-m", "pip", "install", "-q", "-U", *BACKEND]
-    run(*command, what=f"what builds with Python {version}")
+    install_locked(venv / "bin" / "python", "build", what=f"what builds with Python {version}")
     return venv / "bin" / "python"
 
 

@@ -27,6 +27,8 @@ PYTHON = VENV / "bin" / "python"
 STAMP = VENV / "turtlewire-stamp.json"
 LEARNING = ROOT / "ros2_ws" / "src" / "learning_tf2_py"
 CLASSROOM = ROOT / "classroom"
+#: The releases that CI installs, with their hashes.
+LOCK = ROOT / "scripts" / "locks" / "ci.txt"
 
 #: The signals that end the set-up.
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
@@ -259,6 +261,8 @@ def install(extras: Sequence[str], *, only_extras: bool) -> None:
         if name != "workspace"
         for argument in ("--group", f"{ROOT / 'pyproject.toml'}:{name}")
     ]
+    if os.environ.get("CI") == "true":  # what follows finds all but our own packages installed
+        pip("install", "--require-hashes", "-r", str(LOCK))
     if only_extras:  # compiling takes most of the time
         pip("install", f"turtlewire-ros{workspace}", *groups)
     else:

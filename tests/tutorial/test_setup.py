@@ -19,6 +19,7 @@ def setup(monkeypatch, tmp_path):
     spec = importlib.util.spec_from_file_location("setup_script", SETUP)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
+    monkeypatch.delenv("CI", raising=False)
     module.calls = []
     monkeypatch.setattr(module, "pip", lambda *words: module.calls.append(words))
     monkeypatch.setattr(module, "ensure_pip", lambda: None)
@@ -36,6 +37,14 @@ def test_nothing_is_done_twice(setup):
     setup.main(["workspace"])
     setup.main([])
     assert len(setup.calls) == 1
+
+
+def test_ci_installs_what_is_locked_first(setup, monkeypatch):
+    monkeypatch.setenv("CI", "true")
+    setup.main(["test"])
+    locked, (_install, *words) = setup.calls
+    assert locked == ("install", "--require-hashes", "-r", str(SCRIPTS / "locks" / "ci.txt"))
+    assert words.count("-e") == 4
 
 
 def test_extras_alone_compile_nothing(setup):

@@ -1,0 +1,74 @@
+"""`scripts/locks` names a release, with hashes, of all that CI and a release install."""
+
+from __future__ import annotations
+
+import ast
+import re
+import sys
+from pathlib import Path
+
+import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+if sys.version_info < (3, 11):
+    pytest.skip("tomllib comes with Python 3.11", allow_module_level=True)
+import tomllib
+
+ROOT = Path(__file__).parents[1]
+OWN = {"turtlewire", "turtlewire-ros", "turtlewire-class", "learning-tf2-py"}
+
+
+def locked(name):
+    """The releases in a file: name and versions; each has a hash."""
+    text = (ROOT / "scripts" / "locks" / f"{name}.txt").read_text(encoding="utf-8")
+    assert "://" not in text
+    assert "index" not in text
+    releases = {}
+    for entry in re.split(r"\n(?! )", text.strip()):
+        first, *hashes = entry.replace("\\\n", "\n").split("\n")
+        assert hashes, entry
+        assert all(re.fullmatch(r" +--hash=sha256:[0-9a-f]{64} *", line) for line in hashes), entry
+        requirement = Requirement(first)
+        [version] = requirement.specifier
+        assert version.operator == "=="
+        releases.setdefault(canonicalize_name(requirement.name), []).append(version.version)
+    return releases
+
+
+def assert_covered(lock, wanted):
+    releases = locked(lock)
+    for requirement in map(Requirement, wanted):
+        name = canonicalize_name(requirement.name)
+        if name not in OWN:
+            assert any(requirement.specifier.contains(each) for each in releases[name]), name
+
+
+def project(folder):
+    return tomllib.loads((ROOT / folder / "pyproject.toml").read_text(encoding="utf-8"))
+
+
+def names(module, variable):
+    """A tuple of a script."""
+    tree = ast.parse((ROOT / "scripts" / f"{module}.py").read_text(encoding="utf-8"))
+    [value] = [
+        node.value
+        for node in tree.body
+        if isinstance(node, ast.Assign) and getattr(node.targets[0], "id", "") == variable
+    ]
+    return ast.literal_eval(value)
+
+
+def test_ci():
+    engine, ros, classroom = project("."), project("ros"), project("classroom")
+    wanted = [*engine["project"]["dependencies"], *ros["project"]["dependencies"]]
+    wanted += classroom["project"]["dependencies"]
+    wanted += ros["project"]["optional-dependencies"]["workspace"]
+    wanted += engine["dependency-groups"]["test"] + engine["dependency-groups"]["lint"]
+    assert_covered("ci", wanted)
+
+
+def test_a_release():
+    assert_covered("build", names("release_wheels", "BACKEND"))
+    assert_covered("release", names("release_checks", "TOOLS"))
+    assert_covered("wheels", ["cibuildwheel>=3,<4"])
