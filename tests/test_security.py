@@ -25,7 +25,8 @@ PAGE = ROOT / "SECURITY.md"
 TESTED = """
 Nodes look for others on this computer only
   wire/test_environment.py test_the_range_is_localhost_unless_said_otherwise
-  wire/test_two_hosts.py test_nobody_from_outside_gets_in_by_default test_static_peers_find_the_other_host_without_multicast
+  wire/test_two_hosts.py test_nobody_from_outside_gets_in_by_default
+  wire/test_two_hosts.py test_static_peers_find_the_other_host_without_multicast
 The web servers of turtlesim, the 3D view and the class listen on loopback only
   web/test_lan.py test_without_the_option_only_loopback_is_bound_and_no_token_needed
   web/test_lan.py test_every_route_demands_the_token test_with_it_every_address_answers_to_the_token
@@ -41,17 +42,21 @@ Bytes from the wire are checked
   wire/test_bad_input.py test_a_malformed_message_is_named_once_and_the_next_good_one_arrives
   test_printable.py test_no_character_leaves_a_control_behind
 Parameter files, bags, saved buffers, URDF and `.rviz` files are data
-  test_security.py test_no_python_objects_come_out_of_yaml test_a_buffer_of_pickled_objects_is_refused
+  test_security.py test_no_python_objects_come_out_of_yaml
+  test_security.py test_a_buffer_of_pickled_objects_is_refused
   test_security.py test_a_definition_in_a_bag_cannot_hold_code
   urdf/test_parser.py test_entities_are_refused
 The code of a student who is graded reaches neither the checks nor their results
-  classroom/test_forging.py test_an_attack_gives_no_points test_the_processes_of_the_graders_are_closed
+  classroom/test_forging.py test_an_attack_gives_no_points
+  classroom/test_forging.py test_the_processes_of_the_graders_are_closed
 DDS traffic is neither encrypted nor authenticated
   wire/zenoh/test_security.py test_the_commands_of_each_section_work
-  wire/zenoh/test_security.py test_a_peer_without_a_certificate_sees_nothing test_no_user_and_password
+  wire/zenoh/test_security.py test_a_peer_without_a_certificate_sees_nothing
+  wire/zenoh/test_security.py test_no_user_and_password
   wire/zenoh/test_security.py test_the_student_hears_and_does_not_speak
 SROS 2 is not supported
-  wire/test_security.py test_permissive_security_is_warned_of_once test_no_program_starts_in_the_clear
+  wire/test_security.py test_permissive_security_is_warned_of_once
+  wire/test_security.py test_no_program_starts_in_the_clear
 A page that `--lan` opens is not encrypted
   web/test_lan.py test_with_it_every_address_answers_to_the_token
   cli/test_foxglove.py test_an_address_for_others_is_said_plainly
