@@ -6,6 +6,7 @@ module         what it holds
 `server`       `Server`: one thread for the pages and WebSockets of all browsers
 `connections`  the sockets of a server, and its end
 `files`        what a page consists of: files, media types, headers
+`encoding`     files as they are sent: compressed, or status 304
 `desktop`      where a page is shown: browser and port
 `origin`       which requests are answered
 `lan`          a page for other devices: token, addresses, QR code

@@ -101,11 +101,9 @@ def _hash(script: bytes) -> str:
     return f"'sha256-{base64.b64encode(hashlib.sha256(script).digest()).decode()}'"
 
 
-def headers(content: Content, policy: str, *, immutable: bool) -> dict[str, str]:
-    """The headers of an answer; an ``immutable`` one is never asked for again."""
+def headers(policy: str, *, immutable: bool) -> dict[str, str]:
+    """The headers of every answer; an ``immutable`` one is never asked for again."""
     return {
-        "Content-Type": content.media_type,
-        "Content-Length": str(len(content.body)),
         "Content-Security-Policy": policy,
         "X-Content-Type-Options": "nosniff",
         "Referrer-Policy": "no-referrer",

@@ -9,6 +9,7 @@ import threading
 from typing import TYPE_CHECKING, Any, Protocol
 
 from turtlewire.web.connections import Connections
+from turtlewire.web.encoding import Encoder, has_tag, takes_gzip
 from turtlewire.web.files import Content, find_files, headers, policy
 from turtlewire.web.lan import new_token, path_below
 from turtlewire.web.origin import refusal
@@ -98,6 +99,7 @@ class Server:
             OSError: No socket can be opened, or the port may not be used.
         """
         self._files = find_files(root)
+        self._encoder = Encoder()
         self._policy = policy(self._files, sources or {})
         self._immutable = immutable
         self._connect = connect
@@ -194,23 +196,39 @@ class Server:
             response = connection.respond(HTTPStatus.PERMANENT_REDIRECT, "The page is at a /.\n")
             response.headers["Location"] = self._home
             return response
-        content = await self._content(path)
-        if content is None:
-            return connection.respond(HTTPStatus.NOT_FOUND, f"There is no {path} here.\n")
-        return self._response(path, content, hosts[0])
+        found = await self._found(path, request, hosts[0])
+        return found or connection.respond(HTTPStatus.NOT_FOUND, f"There is no {path} here.\n")
 
     def _asked(self, path: str) -> str | None:
         """The path that is asked for, without the token; None if a token is needed and missing."""
         return path if self._token is None else path_below(self._token, path)
 
-    async def _content(self, path: str) -> Content | None:
+    async def _found(self, path: str, request: Request, host: str) -> Response | None:
         """What is at a path; None if nothing is."""
+        if path in self._files:
+            return await self._respond_with_file(path, request, host)
+        content = await self._compute(path)
+        return None if content is None else _response(200, "OK", self._headers(path, host), content)
+
+    async def _respond_with_file(self, path: str, request: Request, host: str) -> Response:
+        """Answer with a file of the page, or with status 304 if the browser has it already."""
+        import asyncio
+
+        file = self._files[path]
+        gzipped = takes_gzip(request.headers.get_all("Accept-Encoding"))
+        # In another thread: compressing takes its time, and the streams go on.
+        encoded = await asyncio.to_thread(self._encoder.read, file, gzipped=gzipped)
+        fields = {**self._headers(path, host), **encoded.caching}
+        if has_tag(request.headers.get_all("If-None-Match"), encoded.caching["ETag"]):
+            return _response(304, "Not Modified", fields)
+        content = Content(encoded.body, file.media_type)
+        return _response(200, "OK", {**fields, **encoded.coding}, content)
+
+    async def _compute(self, path: str) -> Content | None:
+        """What ``answer`` has at a path; None if it has nothing."""
         import asyncio
         from urllib.parse import unquote
 
-        if path in self._files:
-            file = self._files[path]
-            return Content(file.path.read_bytes(), file.media_type)
         if self._computed is None:
             return None
         try:  # in another thread: it may read long files, and the streams go on
@@ -219,13 +237,9 @@ class Server:
             _logger().exception("A defect kept the page from getting %s", path)
             raise  # the browser gets status 500
 
-    def _response(self, path: str, content: Content, host: str) -> Response:
-        from websockets.datastructures import Headers
-        from websockets.http11 import Response
-
+    def _headers(self, path: str, host: str) -> dict[str, str]:
         immutable = self._immutable is not None and path.startswith(self._immutable)
-        fields = headers(content, self._policy.format(host=host), immutable=immutable)
-        return Response(200, "OK", Headers(fields), content.body)
+        return headers(self._policy.format(host=host), immutable=immutable)
 
     async def _handle(self, connection: ServerConnection) -> None:
         """Serve one WebSocket until either side ends it."""
@@ -252,6 +266,18 @@ class Server:
         for result in results:
             if isinstance(result, Exception) and not isinstance(result, ConnectionClosed):
                 raise result
+
+
+def _response(
+    status: int, reason: str, fields: Mapping[str, str], content: Content | None = None
+) -> Response:
+    from websockets.datastructures import Headers
+    from websockets.http11 import Response
+
+    if content is None:
+        return Response(status, reason, Headers(fields), b"")
+    described = {"Content-Type": content.media_type, "Content-Length": str(len(content.body))}
+    return Response(status, reason, Headers({**described, **fields}), content.body)
 
 
 async def _send(connection: ServerConnection, session: Session, wake_up: asyncio.Event) -> None:
