@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
+import struct
 
 import pytest
 from tests.view.looking_down import get, stamped, wait_until
 from tests.view.still_source import StillSource
 
+from turtlewire.tf.buffer import Buffer
 from turtlewire.view import Viewer
 
 ADD = """async (topic) => {
@@ -73,3 +76,85 @@ def test_what_is_far_away_and_a_camera_that_was_moved_change_nothing(source, ope
     page.keyboard.press("+")
     shown(page, source, "/map", grid(40, 1.0, (-20.0, -20.0)))
     assert not page.evaluate(SEEN, middle)
+
+
+TALL = """<robot name="tall">
+  <link name="base"><visual><origin xyz="0 0 1"/><geometry><box size="0.3 0.4 2"/></geometry>
+    </visual></link>
+  <link name="tip"><visual>{visual}</visual></link>
+  <joint name="j" type="fixed"><parent link="base"/><child link="tip"/></joint>
+</robot>"""
+SMALL = '<geometry><sphere radius="0.05"/></geometry>'
+#: Whether places are within the picture, and no row of buttons lies above them.
+IN_FULL_VIEW = f"""async (places) => {{
+    if (!(await ({SEEN})(places))) return false;
+    const {{ stage }} = await import("./js/main.js");
+    const {{ Vector3 }} = await import("three");
+    const picture = document.querySelector("#scene").getBoundingClientRect();
+    const bars = [...document.querySelectorAll(".bar")].map((bar) => bar.getBoundingClientRect());
+    return places.every((place) => {{
+        const at = stage.view.project(new Vector3(...place));
+        const [x, y] = [at.x + picture.left, at.y + picture.top];
+        return bars.every((bar) => x < bar.left || x > bar.right || y > bar.bottom);
+    }});
+}}"""
+SIZES = {"desktop": (1280, 800), "phone": (390, 844), "small": (320, 640), "landscape": (844, 390)}
+
+
+def corners(low, high):
+    """The corners of a box."""
+    return [list(corner) for corner in itertools.product(*zip(low, high, strict=True))]
+
+
+def describe(source, text):
+    source.offer("/robot_description", get("std_msgs/msg/String")(data=text))
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_a_tall_robot_is_seen_whole(source, open_view, size):
+    describe(source, TALL.format(visual=SMALL))
+    width, height = SIZES[size]
+    page = open_view(source.url, viewport={"width": width, "height": height})
+    body = corners((0.85, -0.2, 0), (1.15, 0.2, 2))  # base is at (1, 0, 0)
+    assert wait_until(page, IN_FULL_VIEW, body)
+
+
+def test_a_robot_is_seen_whole_when_its_frames_come_after_its_description(open_view):
+    source = StillSource()
+    source.buffer = Buffer()
+    describe(source, TALL.format(visual=SMALL))
+    with contextlib.closing(Viewer(source, "map", port=0)) as viewer:
+        page = open_view(viewer.url)
+        page.wait_for_selector(".display .status:has-text('No transform')")
+        source.put_frame("map", "base", (0, 0, 0))
+        source.put_frame("base", "tip", (0, 0, 0.1))
+        assert wait_until(page, IN_FULL_VIEW, corners((-0.15, -0.2, 0), (0.15, 0.2, 2)))
+
+
+def test_a_robot_is_seen_whole_when_the_picture_gets_another_size(source, open_view):
+    describe(source, TALL.format(visual=SMALL))
+    page = open_view(source.url, viewport={"width": 844, "height": 390})
+    body = corners((0.85, -0.2, 0), (1.15, 0.2, 2))
+    assert wait_until(page, IN_FULL_VIEW, body)
+    page.set_viewport_size({"width": 390, "height": 844})
+    assert wait_until(page, IN_FULL_VIEW, body)
+
+
+def stl_of_a_pole(height):
+    """A triangle that stands upright, as a binary STL file."""
+    places = [(0, 0, 0), (0.1, 0, 0), (0, 0, height)]
+    numbers = [0.0, 1.0, 0.0, *(float(value) for place in places for value in place)]
+    return bytes(80) + struct.pack("<I12fH", 1, *numbers, 0)
+
+
+def test_a_robot_is_seen_whole_when_its_mesh_comes_late(source, open_view, tmp_path, monkeypatch):
+    markers = tmp_path / "share/ament_index/resource_index/packages"
+    markers.mkdir(parents=True)
+    (markers / "pole").touch()
+    (tmp_path / "share/pole").mkdir()
+    (tmp_path / "share/pole/pole.stl").write_bytes(stl_of_a_pole(6.0))
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    mesh = '<geometry><mesh filename="package://pole/pole.stl"/></geometry>'
+    describe(source, TALL.format(visual=mesh))
+    page = open_view(source.url)
+    assert wait_until(page, IN_FULL_VIEW, [[1, 1, 0], [1, 1, 6]])  # tip is at (1, 1, 0)

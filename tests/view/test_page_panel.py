@@ -109,7 +109,9 @@ def active(page) -> str:
     """The frame that the keyboard is at, as a screen reader is told."""
     return page.evaluate("""() => {
         const id = document.getElementById("tree").getAttribute("aria-activedescendant");
-        return document.getElementById(id).getAttribute("aria-label");
+        const row = document.getElementById(id);
+        const name = row.querySelector(".name").textContent;
+        return `${name}, ${row.getAttribute("aria-description")}`;
     }""")
 
 

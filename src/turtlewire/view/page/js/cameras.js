@@ -1,12 +1,15 @@
 // Ways to look: around a point, from above, or after a frame.
 
-import { MOUSE, OrthographicCamera, PerspectiveCamera, TOUCH, Vector3 } from "three";
+import { Box3, MOUSE, OrthographicCamera, PerspectiveCamera, TOUCH, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
 const FIELD_OF_VIEW = 50; // [degrees]
 const START = new Vector3(-0.3, -0.85, 0.6); // where the eye is from the middle, to be scaled
 const TURN = Math.PI / 24;
 const ZOOM = 0.85;
+const MARGIN = 0.94; // of the picture is filled at most
+const DRAG = 5; // [CSS pixels] a press that moves less is a click
+const LEAST_FREE = 0.4; // of its upper half is used in any case
 
 export class Cameras {
   /** "orbit" or "top". */
@@ -22,6 +25,7 @@ export class Cameras {
   #height = 10; // of what the camera from above sees [m]
   #former = null;
   #focus = new Vector3(); // what is looked at, from the followed frame
+  #presses = new Map(); // pointer to where it was pressed
 
   /** `onChange()`: the user chose another frame or kind. */
   constructor(view, onChange = () => {}) {
@@ -36,6 +40,7 @@ export class Cameras {
     top.screenSpacePanning = true;
     view.resized.push(() => this.#shape());
     view.canvas.addEventListener("keydown", (event) => this.#key(event));
+    this.#listenForTouch(view.canvas);
     this.look(new Vector3(), 4);
     this.choose("orbit");
   }
@@ -51,10 +56,15 @@ export class Cameras {
     this.#onChange();
   }
 
-  /** See everything within `radius` [m] of `middle`. */
-  look(middle, radius) {
+  /**
+   * See everything within `radius` [m] of `middle`. The whole `box` is in the picture, and below
+   * its upper `covered` pixels.
+   */
+  look(middle, radius, box = new Box3(), covered = 0) {
     const { orbit, top } = this.#cameras;
-    const away = (0.92 * radius) / Math.sin((FIELD_OF_VIEW * Math.PI) / 360) / this.#narrow();
+    const round = (0.92 * radius) / Math.sin((FIELD_OF_VIEW * Math.PI) / 360) / this.#narrow();
+    const corners = cornersOf(box).map((corner) => corner.sub(middle));
+    const away = Math.max(round, this.#distanceFor(corners, covered));
     for (const controls of Object.values(this.#controls)) controls.target.copy(middle);
     orbit.position.copy(START).normalize().multiplyScalar(away).add(middle);
     orbit.near = Math.max(0.001, away / 500);
@@ -142,12 +152,23 @@ export class Cameras {
     if (name === "top") camera.up.set(0, 1, 0);
     camera.position.set(0, name === "top" ? 0 : -1, 1);
     const controls = new OrbitControls(camera, this.#view.canvas);
-    controls.addEventListener("start", () => { this.isTouched = true; });
     controls.addEventListener("change", () => this.#view.requestDraw());
     controls.maxPolarAngle = Math.PI * 0.98;
     controls.zoomToCursor = true;
     this.#cameras[name] = camera;
     this.#controls[name] = controls;
+  }
+
+  /** The user has moved a camera by the wheel or by dragging; a click moves none. */
+  #listenForTouch(canvas) {
+    canvas.addEventListener("wheel", () => { this.isTouched = true; }, { passive: true });
+    canvas.addEventListener("pointerdown", ({ pointerId, clientX, clientY }) => {
+      this.#presses.set(pointerId, [clientX, clientY]);
+    });
+    canvas.addEventListener("pointermove", ({ buttons, pointerId, clientX, clientY }) => {
+      const start = buttons && this.#presses.get(pointerId);
+      if (start && Math.hypot(clientX - start[0], clientY - start[1]) > DRAG) this.isTouched = true;
+    });
   }
 
   #shift(by) {
@@ -156,6 +177,21 @@ export class Cameras {
     this.#cameras[this.kind].position.add(by);
     controls.update();
     this.#view.requestDraw();
+  }
+
+  /** How far the eye must be from the middle to see `corners`, given from there [m]. */
+  #distanceFor(corners, covered) {
+    const { width, height } = this.#view.viewport;
+    const toEye = START.clone().normalize();
+    const right = new Vector3(0, 0, 1).cross(toEye).normalize();
+    const upwards = toEye.clone().cross(right);
+    const half = MARGIN * Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
+    const above = half * Math.max(LEAST_FREE, 1 - (2 * covered) / height);
+    return Math.max(0, ...corners.map((corner) => {
+      const [x, y] = [corner.dot(right), corner.dot(upwards)];
+      const across = (Math.abs(x) * height) / (half * width);
+      return corner.dot(toEye) + Math.max(across, y > 0 ? y / above : -y / half);
+    }));
   }
 
   #shape() {
@@ -193,4 +229,13 @@ export class Cameras {
     event.preventDefault();
     acts[event.key]();
   }
+}
+
+/** None for an empty box. */
+function cornersOf(box) {
+  if (box.isEmpty()) return [];
+  const { min, max } = box;
+  return [min.x, max.x].flatMap((x) => [min.y, max.y].flatMap((y) => {
+    return [min.z, max.z].map((z) => new Vector3(x, y, z));
+  }));
 }

@@ -6,8 +6,8 @@ import { optionsOf } from "./display_options.js";
 import { DisplayParts } from "./display_parts.js";
 
 export class Displays {
-  /** Called when a display has its first content. */
-  onFirst = () => {};
+  /** Called when a display has its first content, or more to look at. */
+  onGrowth = () => {};
   #view;
   #frames;
   #send;
@@ -134,7 +134,7 @@ export class Displays {
       if (packet.frame) entry.parts.follow(this.#frames);
       if (packet.type === "display" && !entry.isSeen) {
         entry.isSeen = true;
-        this.onFirst();
+        this.onGrowth();
       }
     }
   }
@@ -172,6 +172,8 @@ export class Displays {
       get topic() { return entry.topic; },
       hide: () => this.setVisible(entry.id, false),
       requestDraw: () => view.requestDraw(),
+      /** Say that there is more to look at, as a mesh that has been loaded. */
+      grown: () => this.onGrowth(),
       now: () => this.#frames.stamp,
       poseOf: (name) => this.#frames.poseOf(name),
       send: (command) => this.#send(command),

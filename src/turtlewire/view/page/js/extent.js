@@ -6,7 +6,7 @@ const APART = 30; // times as far from the middle as most frames are: not looked
 const FARTHEST = 1e7; // [m]
 const SURROUNDINGS = 100; // so far away a display belongs to even the smallest robot [m]
 
-/** Middle and radius [m] of all shown frames, and of what is visible below `displays`; or null. */
+/** Box, middle and radius [m] of all shown frames and what is visible below `displays`; or null. */
 export function extentOf(frames, displays = null) {
   const box = new Box3().setFromPoints(placesOf(frames));
   if (displays) addObjects(displays, box);
@@ -43,7 +43,7 @@ function placesOf(frames) {
 
 function roundOf(box) {
   const middle = box.getCenter(new Vector3());
-  return { middle, radius: Math.max(0.1, middle.distanceTo(box.max)) };
+  return { box, middle, radius: Math.max(0.1, middle.distanceTo(box.max)) };
 }
 
 function median(values) {

@@ -8,15 +8,19 @@ import { COLUMNS, LabelAtlas, ROWS, SLOT_HEIGHT, SLOT_WIDTH } from "./label_atla
 const MOST = 50;
 const CHOOSE_MS = 250;
 const RANKS = { selected: -4, hovered: -3, target: -2, root: -1, path: 0 };
-const ALWAYS = new Set(["selected", "hovered"]); // also where there is no room
+const ALWAYS = new Set(["selected", "hovered"]); // on another side where there is no room
 const STAYING = 0.8; // who has a name keeps it rather than one that is a little nearer
-const BELOW = 12; // [CSS pixels] from the origin to the middle of the text
+/** Sides of its origin where a name may stand, by preference: [to the right, below]. */
+const SIDES = [[true, true], [false, true], [true, false], [false, false]];
+const [BESIDE, BELOW] = [4, 12]; // [CSS pixels] from the origin to the text's edge and middle
+const HALF_HEIGHT = 9; // [CSS pixels]
 const CORNERS = [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0];
 const TRIANGLES = [0, 1, 2, 0, 2, 3];
 const ROOM = MOST + 14;
 const VERTEX = `
 attribute vec3 place;
 attribute vec3 slot;
+attribute vec2 aside;
 uniform vec2 viewport;
 varying vec2 vAt;
 varying float vAlpha;
@@ -24,7 +28,7 @@ const vec2 SIZE = vec2(${SLOT_WIDTH}.0, ${SLOT_HEIGHT}.0);
 const vec2 GRID = vec2(${COLUMNS}.0, ${ROWS}.0);
 void main() {
   vec4 at = projectionMatrix * modelViewMatrix * vec4(place, 1.0);
-  vec2 anchor = floor((at.xy / at.w * 0.5 + 0.5) * viewport) + vec2(4.0, -${BELOW}.0);
+  vec2 anchor = floor((at.xy / at.w * 0.5 + 0.5) * viewport) + aside;
   vec2 corner = vec2(position.x * slot.y, position.y * SIZE.y) - vec2(0.0, 0.5 * SIZE.y);
   at.xy = ((anchor + corner) / viewport * 2.0 - 1.0) * at.w;
   gl_Position = at;
@@ -42,12 +46,15 @@ void main() {
 
 export class Labels {
   object;
+  /** The names in the last picture, and where: { text, box: [left, right, top, bottom] }. */
+  shown = [];
   /** Whether names stand at frames other than those selected or under the pointer. */
   showAll = true;
   #atlas;
   #geometry = new BufferGeometry();
   #places = attribute(3);
   #slots = attribute(3);
+  #asides = attribute(2);
   #view;
   #chosen = []; // { k, width, alpha … }
   #chosenAt = -Infinity;
@@ -61,6 +68,7 @@ export class Labels {
     this.#geometry.setAttribute("position", new BufferAttribute(corners, 3));
     this.#geometry.setAttribute("place", this.#places);
     this.#geometry.setAttribute("slot", this.#slots);
+    this.#geometry.setAttribute("aside", this.#asides);
     const uniforms = { atlas: { value: this.#atlas.texture }, viewport: { value: new Vector2() } };
     const material = new ShaderMaterial({
       vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms, transparent: true,
@@ -96,26 +104,49 @@ export class Labels {
       this.#chosen = this.#choose(frames, important);
       this.#chosenAt = now;
     }
+    this.shown = [];
     const at = [0, 0, 0];
-    let count = 0;
-    for (const { k, slot, width } of this.#chosen) {
-      if (k >= frames.count || !frames.isShown(k)) continue;
-      frames.position(k, at);
-      const { alpha } = frames.ages.fading(k);
-      for (let corner = 4 * count; corner < 4 * count + 4; corner += 1) {
-        this.#places.setXYZ(corner, ...at);
-        this.#slots.setXYZ(corner, slot, width, alpha);
-      }
-      count += 1;
+    for (const label of this.#chosen) {
+      if (label.k >= frames.count || !frames.isShown(label.k)) continue;
+      const seen = this.#view.project(new Vector3(...frames.position(label.k, at)));
+      const spot = seen && this.#spotFor(label, seen, this.shown);
+      if (spot) this.#put(label, at, spot, frames.ages.fading(label.k).alpha);
     }
-    this.#places.needsUpdate = this.#slots.needsUpdate = true;
-    this.#geometry.setDrawRange(0, 6 * count);
-    this.object.visible = count > 0;
+    for (const each of [this.#places, this.#slots, this.#asides]) each.needsUpdate = true;
+    this.#geometry.setDrawRange(0, 6 * this.shown.length);
+    this.object.visible = this.shown.length > 0;
   }
 
   /** Names in the picture, for the tests. */
   get texts() {
     return this.#chosen.map(({ text }) => text);
+  }
+
+  #put({ text, slot, width }, at, { box, aside }, alpha) {
+    const first = 4 * this.shown.length;
+    for (let corner = first; corner < first + 4; corner += 1) {
+      this.#places.setXYZ(corner, ...at);
+      this.#slots.setXYZ(corner, slot, width, alpha);
+      this.#asides.setXY(corner, ...aside);
+    }
+    this.shown.push({ text, box });
+  }
+
+  /**
+   * Where a name stands beside its origin at { x, y }, without touching those in `taken`: its
+   * `box`, and what it is `aside` of the origin, with y upwards; null without room.
+   */
+  #spotFor({ style, width }, { x, y }, taken) {
+    const spots = SIDES.map(([isRight, isBelow]) => {
+      const aside = [isRight ? BESIDE : -BESIDE - width, isBelow ? -BELOW : BELOW];
+      const [left, middle] = [x + aside[0], y - aside[1]];
+      return { aside, box: [left, left + width, middle - HALF_HEIGHT, middle + HALF_HEIGHT] };
+    });
+    const inside = ({ box: [left, right] }) => left >= 0 && right <= this.#view.viewport.width;
+    const isFree = ({ box }) => !taken.some((other) => overlaps(box, other.box));
+    if (ALWAYS.has(style)) return spots.find((spot) => inside(spot) && isFree(spot)) ?? spots[0];
+    const usual = inside(spots[0]) ? spots[0] : spots[1];
+    return isFree(usual) ? usual : null;
   }
 
   #choose(frames, important) {
@@ -127,10 +158,10 @@ export class Labels {
       if (chosen.length >= MOST) break;
       label.text = frames.names[label.k];
       Object.assign(label, this.#look(label.style, frames.isConnected(label.k)));
-      const width = this.#atlas.widthOf(label.text, label.bold);
-      const box = [label.x, label.x + width, label.y + BELOW - 9, label.y + BELOW + 9];
-      if (!ALWAYS.has(label.style) && taken.some((other) => overlaps(box, other))) continue;
-      taken.push(box);
+      label.width = this.#atlas.widthOf(label.text, label.bold);
+      const spot = this.#spotFor(label, label, taken);
+      if (!spot) continue;
+      taken.push(spot);
       chosen.push(label);
     }
     const slots = this.#atlas.slotsFor(chosen, this.#view.colors.halo);

@@ -7,8 +7,11 @@ import { DisplaysPanel } from "./displays_panel.js";
 import { byId, naturalOrder, offer, setText } from "./dom.js";
 import { Frames } from "./frames.js";
 import { Hiding } from "./hiding.js";
+import { switchLetterKeys } from "./letter_keys.js";
 import { listenForLooks } from "./looks.js";
+import { closeFirst } from "./menu.js";
 import { RelationPanel } from "./relation_panel.js";
+import { Robots } from "./robots.js";
 import { Stage } from "./stage.js";
 import { TimeBar } from "./time_bar.js";
 import { Tools } from "./tools.js";
@@ -40,8 +43,9 @@ const tree = new TreeView(frames, {
   follow: (name) => stage?.cameras.follow(name),
 });
 const displays = new Displays(stage?.view ?? null, frames, send, () => displaysPanel.show());
-displays.onFirst = () => stage?.takeDisplay();
+displays.onGrowth = () => stage?.takeDisplay();
 const displaysPanel = new DisplaysPanel(displays);
+const robots = new Robots(displays);
 const time = new TimeBar(send);
 const tools = stage && new Tools(stage, frames, send, (text, passes = false) => {
   notice(text, "ok", passes);
@@ -54,7 +58,7 @@ const TAKERS = {
   frames: takePoses,
   tree: takeTree,
   relation: (packet) => relation.show(packet),
-  topics: ({ topics }) => displaysPanel.showTopics(topics),
+  topics: takeTopics,
   display: (packet) => displays.take(packet),
   pose: (packet) => displays.take(packet),
   removed: (packet) => displays.take(packet),
@@ -123,8 +127,8 @@ function takeNames(packet) {
 
 function takePoses(packet) {
   if (!frames.takePoses(packet)) return;
+  displays.follow(); // before the camera looks where all is
   stage?.takePoses();
-  displays.follow();
 }
 
 /** In a bag nothing is old or late; while live time stands still, ages do, too. */
@@ -132,6 +136,11 @@ function takeTree({ rows }) {
   if (time.isBag) tree.showReadings(rows.map((row) => ({ ...row, age: null, delay: null })));
   else if (!time.isPaused || !tree.hasReadings) tree.showReadings(rows);
   relation.showFacts(tree.readingOf(relation.source) ?? {});
+}
+
+function takeTopics({ topics }) {
+  displaysPanel.showTopics(topics);
+  robots.take(topics);
 }
 
 function takeTime(packet) {
@@ -147,6 +156,7 @@ function takeStatus(packet) {
 async function takeView(packet) {
   if (packet.first && hasView) return; // a new connection; the user may have changed much
   hasView = true;
+  robots.isOn = false; // the file says what is shown
   loadedDocument = packet.document ?? null;
   notice(packet.text, "warn"); // without a text it ends what was said of the file before
   applySwitches(packet.show);
@@ -206,6 +216,8 @@ function chooseFixed(name) {
   send({ type: "fixed", frame: name });
 }
 
+closeFirst(byId("looks"));
+const mayAct = switchLetterKeys(byId("letter-keys"));
 byId("fixed").onchange = ({ target }) => chooseFixed(target.value);
 byId("use-fixed").onclick = () => chooseFixed(relation.source);
 byId("hide-one").onclick = () => {
@@ -220,7 +232,7 @@ addEventListener("keydown", (event) => {
   if (event.key === "Escape" && tools?.active) return tools.choose("");
   if (event.target.matches(TYPED_IN)) return;
   if (event.key === " " && event.target.matches(PRESSED)) return;
-  if (event.ctrlKey || event.altKey || event.metaKey) return;
+  if (event.ctrlKey || event.altKey || event.metaKey || !mayAct(event)) return;
   const acts = {
     " ": () => time.toggle(),
     n: () => time.now(),

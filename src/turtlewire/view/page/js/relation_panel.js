@@ -4,6 +4,7 @@ import { byId, make, naturalOrder, offer, setFacts, setLine, setText } from "./d
 import { ageInWords, delayInWords, fixed, isNumber, numbersInWords, rateInWords } from "./words.js";
 
 const FIXED = ""; // the target that is always the fixed frame
+const MATRIX_ROWS = ["x", "y", "z", "last row"];
 const ASK = "Press a frame in the picture or in the tree.";
 
 export class RelationPanel {
@@ -115,6 +116,7 @@ export class RelationPanel {
       return cells.forEach((cell, n) => setText(cell, values[n]));
     }
     byId("matrix").tBodies[0].replaceChildren(...matrix.map((row, r) => make("tr", {},
+      make("th", { scope: "row", className: "unseen", textContent: MATRIX_ROWS[r] }),
       ...row.map((_, c) => make("td", { textContent: values[4 * r + c] })))));
   }
 }

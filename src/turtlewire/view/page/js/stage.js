@@ -46,6 +46,7 @@ export class Stage {
         this.hover(k);
       },
     });
+    view.resized.push(() => this.takeDisplay());
     view.scene.add(this.drawing.object, this.trails.object, this.labels.object);
     view.beforeDraw((now) => this.#prepare(now));
     view.recolored.push((colors) => {
@@ -111,7 +112,7 @@ export class Stage {
     this.change();
   }
 
-  /** After the first content of a display. */
+  /** When a display has its first content or more of it, or the picture another size. */
   takeDisplay() {
     if (!this.cameras.isTouched && !this.cameras.followed) this.#keepInView(true);
   }
@@ -138,9 +139,20 @@ export class Stage {
     if (!extent) return;
     if (!this.#sizeIsChosen) this.drawing.size = sizeFor(this.#frames, extent.radius);
     this.view.grid.setCell(cellFor(extent.radius));
-    this.cameras.look(extent.middle, extent.radius + this.drawing.size);
+    const { size } = this.drawing;
+    const box = extent.box.clone().expandByScalar(size); // axes stand out of it
+    this.cameras.look(extent.middle, extent.radius + size, box, this.#covered());
     this.change();
     this.#onLook();
+  }
+
+  /** How much of the picture's upper side lies below rows of buttons [CSS pixels]. */
+  #covered() {
+    const picture = this.view.canvas.getBoundingClientRect();
+    const rows = [...this.view.canvas.parentElement.querySelectorAll(".bar")]
+      .map((bar) => bar.getBoundingClientRect())
+      .filter(({ width, height }) => width > height);
+    return Math.max(0, ...rows.map(({ bottom }) => bottom - picture.top));
   }
 
   #prepare(now) {

@@ -54,8 +54,9 @@ export class TreeModel {
   }
 
   /**
-   * Rows from the top: { k, depth, fold: "none", "open" or "closed", found }. While searching they
-   * are those that match, without what is above them: `found` is where in the name, or -1.
+   * Rows from the top: { k, depth, place, count, fold: "none", "open" or "closed", found }; `place`
+   * is that among `count` siblings, from 1. While searching they are the rows that match, without
+   * what is above them: `found` is where in the name, or -1.
    */
   rows() {
     return this.isSearching ? this.#matches() : this.#unfolded();
@@ -65,11 +66,12 @@ export class TreeModel {
     const rows = [];
     const stack = this.#below(-1, 0);
     while (stack.length) {
-      const { k, depth } = stack.pop();
-      const below = this.#below(k, depth + 1);
+      const row = stack.pop();
+      const { k } = row;
+      const below = this.#below(k, row.depth + 1);
       const closed = this.#folded.has(this.#frames.names[k]);
       const fold = below.length === 0 ? "none" : closed ? "closed" : "open";
-      rows.push({ k, depth, fold, found: null });
+      rows.push({ ...row, fold, found: null });
       if (!closed) stack.push(...below);
     }
     return rows;
@@ -77,18 +79,21 @@ export class TreeModel {
 
   /** Children in reverse: the stack takes the first one first. */
   #below(k, depth) {
-    return (this.#children.get(k) ?? []).map((child) => ({ k: child, depth })).reverse();
+    const children = this.#children.get(k) ?? [];
+    const count = children.length;
+    return children.map((child, n) => ({ k: child, depth, place: n + 1, count })).reverse();
   }
 
   /** Frames whose name or publisher holds what is searched for. */
   #matches() {
-    return this.#order.flatMap((k) => {
+    const rows = this.#order.flatMap((k) => {
       const name = this.#frames.names[k];
       const found = name.toLowerCase().indexOf(this.#query);
       const publisher = this.readings.get(name)?.publisher ?? "";
       const isMatch = found >= 0 || publisher.toLowerCase().includes(this.#query);
       return isMatch ? [{ k, depth: 0, fold: "none", found }] : [];
     });
+    return rows.map((row, n) => ({ ...row, place: n + 1, count: rows.length }));
   }
 
   /** Length of what is searched for, to mark it. */

@@ -10,6 +10,12 @@ const EYE = '<svg viewBox="0 0 24 24" aria-hidden="true"><path class="lid" '
   + 'd="M2 12s4-6 10-6 10 6 10 6-4 6-10 6S2 12 2 12zM12 9a3 3 0 1 0 .01 0"/>'
   + '<path class="slash" d="M3 12c4 5 14 5 18 0M6 16l-2 3M12 17v3M18 16l2 3"/></svg>';
 
+/**
+ * The name of a row is that of its frame: the reading, which changes each second, is its
+ * description, and keys fold it.
+ */
+const HIDDEN = { "aria-hidden": "true" };
+
 export class TreeView {
   #frames;
   #actions;
@@ -127,6 +133,8 @@ export class TreeView {
     element.style.top = `${at * ROW_REM}rem`;
     element.style.setProperty("--depth", Math.min(row.depth, 12));
     element.setAttribute("aria-level", row.depth + 1);
+    element.setAttribute("aria-posinset", row.place); // not all rows are elements
+    element.setAttribute("aria-setsize", row.count);
     element.setAttribute("aria-selected", String(name === this.#selected));
     element.dataset.kind = this.#frames.parents[row.k] < 0 ? "root" : kindOf(reading);
     element.toggleAttribute("data-path", this.#path.has(row.k));
@@ -138,7 +146,7 @@ export class TreeView {
     const text = this.#readingText(row.k, reading);
     setText(element.querySelector("small"), text);
     element.title = name;
-    element.setAttribute("aria-label", `${name}, ${text}`);
+    element.setAttribute("aria-description", text);
   }
 
   #readingText(k, reading) {
@@ -175,14 +183,16 @@ export class TreeView {
   }
 
   #makeRow(k, name) {
-    const fold = make("button", { type: "button", className: "fold", tabIndex: -1 });
-    const eye = make("button", { type: "button", className: "eye", tabIndex: -1, title: "Hide" });
+    const [fold, eye] = ["fold", "eye"].map((className) => {
+      return make("button", { type: "button", className, tabIndex: -1, ...HIDDEN });
+    });
+    eye.title = "Hide";
     eye.setAttribute("aria-label", `Hide ${name}`);
     eye.innerHTML = EYE;
     const row = make(
       "div", { className: "row", id: `frame-${k}`, role: "treeitem" },
       fold, make("i", { className: "dot" }), make("span", { className: "name" }),
-      make("small"), eye,
+      make("small", HIDDEN), eye,
     );
     row.onclick = (event) => this.#actions.select(name, event);
     row.ondblclick = () => this.#actions.follow(name);

@@ -125,6 +125,7 @@ export default class RobotModel {
       holder.add(makePlaceholder());
       this.#fail(error.message);
     }
+    this.#view.grown?.();
     this.#view.requestDraw();
   }
 
