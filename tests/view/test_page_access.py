@@ -25,7 +25,13 @@ RELATION = {
     "matrix": [[1, 0, 0, 3], [0, 1, 0, 2], [0, 0, 1, 1], [0, 0, 0, 1]],
     "sentence": "arm is there.",
 }
-SIZES = {"desktop": (1280, 800), "phone": (390, 844), "small": (320, 640), "landscape": (844, 390)}
+SIZES = {
+    "desktop": (1280, 800),
+    "phone": (390, 844),
+    "small": (320, 640),
+    "landscape": (844, 390),
+    "zoomed": (320, 256),  # 1280 x 1024 at 400 %
+}
 #: Left, top, right and bottom of elements in the window [px].
 BOXES = """(selector) => [...document.querySelectorAll(selector)]
     .filter((each) => each.checkVisibility())
@@ -289,6 +295,16 @@ def test_a_camera_that_was_moved_stays(told, open_view, how):
     touched = "async () => (await import('./js/main.js')).stage.cameras.isTouched"
     assert wait_until(page, touched)
     assert camera_of(page) != before
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_the_open_menu_lies_within_the_picture(told, open_view, size):
+    page = opened(told, open_view, size)
+    page.click("#looks summary")
+    (left, top, right, bottom), picture = page.evaluate(BOXES, "#looks > div, #viewport")[::-1]
+    assert picture[0] <= left < right <= picture[2]
+    assert picture[1] <= top < bottom <= picture[3]
+    page.click("#load-view", trial=True)  # it can be scrolled to
 
 
 @pytest.mark.parametrize("size", SIZES)

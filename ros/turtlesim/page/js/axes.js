@@ -100,7 +100,7 @@ function dot(ctx, [x, y], radius) {
  * inside of the canvas; the box that it takes.
  */
 function number(ctx, [x0, y0], [x1, y1], { text, colour, scale, taken }) {
-  const font = Math.max(10 * devicePixelRatio, 0.24 * scale);
+  const font = Math.max(12 * devicePixelRatio, 0.24 * scale);
   ctx.font = `600 ${font}px system-ui, sans-serif`;
   const [width, height] = [ctx.measureText(text).width + 0.9 * font, 1.45 * font];
   const size = ctx.canvas.width;
@@ -114,7 +114,7 @@ function number(ctx, [x0, y0], [x1, y1], { text, colour, scale, taken }) {
   const isFree = (box) => !taken.some((other) => overlap(box, other));
   const box = boxes.find(isFree) ?? boxes[0];
   const { left, top } = box;
-  ctx.fillStyle = "rgb(12 17 60 / 80%)";
+  ctx.fillStyle = "rgb(12 17 60 / 90%)";
   ctx.beginPath();
   ctx.roundRect(left, top, width, height, height / 2);
   ctx.fill();

@@ -9,8 +9,11 @@ const KEYS = [
   ["c", -2.3562], ["v", -1.5708], ["b", -0.7854],
 ];
 
-/** Fill `compass` with buttons that call `rotate(theta)` [rad]; the middle one calls `cancel()`. */
-export function listenForRotating(compass, { rotate, cancel }) {
+/**
+ * Fill `compass` with buttons that call `rotate(theta)` [rad]; the middle one calls `cancel()`.
+ * `mayPress(event)` says whether a key presses its button.
+ */
+export function listenForRotating(compass, { rotate, cancel, mayPress }) {
   const press = (theta) => (theta === null ? cancel() : rotate(theta));
   const buttons = new Map(
     KEYS.map(([key, theta]) => [key, makeButton(key, theta, () => press(theta))]),
@@ -18,7 +21,7 @@ export function listenForRotating(compass, { rotate, cancel }) {
   compass.append(...buttons.values());
   addEventListener("keydown", (event) => {
     const button = buttons.get(event.key.toLowerCase());
-    if (!button || event.repeat || !isForTurtles(event)) return;
+    if (!button || event.repeat || !isForTurtles(event) || !mayPress(event)) return;
     button.classList.add("pressed");
     button.click();
   });

@@ -11,10 +11,14 @@ const DRIVES = {
 };
 const KEYS = { ArrowUp: "up", ArrowDown: "down", ArrowLeft: "left", ArrowRight: "right" };
 
-/** Whether a key press is for the turtles, not for the browser or for a list. */
+const TAKES_KEYS = "select, input:not([type=checkbox])";
+
+/** Whether a key press is for the turtles, not for the browser or for a list that scrolls. */
 export function isForTurtles(event) {
-  const forBrowser = event.ctrlKey || event.altKey || event.metaKey;
-  return !(forBrowser || event.target.closest?.("select, input"));
+  const { target } = event;
+  if (event.ctrlKey || event.altKey || event.metaKey || target.matches?.(TAKES_KEYS)) return false;
+  const isOfDriven = target.matches?.("[aria-pressed=true]"); // who chose a turtle drives it
+  return isOfDriven || !target.closest?.(".scroll");
 }
 
 /** Call `drive({linear, angular})` for each press of an arrow key or of the pad. */

@@ -6,6 +6,7 @@ import { listenForDriving } from "./controls.js";
 import { Field } from "./field.js";
 import { FIELD_METRES, Playback, decodeFrame, poseOf } from "./frames.js";
 import { FramesPanel } from "./frames_panel.js";
+import { switchLetterKeys } from "./letter_keys.js";
 import { Panel } from "./panel.js";
 import { Pointer } from "./pointer.js";
 import { paceInWords } from "./words.js";
@@ -113,6 +114,7 @@ listenForDriving(byId("pad"), ({ linear, angular }) => {
 });
 
 listenForRotating(byId("compass"), {
+  mayPress: switchLetterKeys(byId("letter-keys")),
   rotate: (theta) => driven !== null && connection.send({ type: "rotate", turtle: driven, theta }),
   cancel: () => driven !== null && connection.send({ type: "cancel", turtle: driven }),
 });

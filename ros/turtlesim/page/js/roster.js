@@ -73,7 +73,10 @@ export class Roster {
     label.textContent = name;
     button.append(document.createElement("i"), label);
     button.onclick = () => this.#onChoose(name);
-    row.insertCell().append(button);
+    const head = document.createElement("th");
+    head.scope = "row";
+    head.append(button);
+    row.append(head);
     return { row, button, cells: Array.from({ length: 5 }, () => row.insertCell()) };
   }
 }

@@ -120,7 +120,7 @@ function shortened(name) {
  */
 function boxOf(ctx, name, [x, y], scale) {
   const size = ctx.canvas.width;
-  const font = Math.max(11 * devicePixelRatio, size / 45);
+  const font = Math.max(12 * devicePixelRatio, size / 45);
   ctx.font = `600 ${font}px system-ui, sans-serif`;
   const width = ctx.measureText(shortened(name)).width + 1.1 * font;
   const left = Math.min(Math.max(x - width / 2, 4), size - width - 4);
@@ -131,7 +131,7 @@ function boxOf(ctx, name, [x, y], scale) {
 }
 
 /** Write a name; the box that it takes. */
-function label(ctx, name, at, scale, fill = "rgb(12 17 60 / 55%)") {
+function label(ctx, name, at, scale, fill = "rgb(12 17 60 / 64%)") {
   const box = boxOf(ctx, name, at, scale);
   const { left, top, width, height } = box;
   ctx.fillStyle = fill;
