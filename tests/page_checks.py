@@ -76,6 +76,11 @@ WEAK_TEXTS = f"""() => {{
     return found;
 }}"""
 
+#: Elements whose name a screen reader does not read: those without a role may have none.
+UNREAD_NAMES = """() => [...document.querySelectorAll("[aria-label]:not([role])")]
+    .filter((each) => each.matches("b, code, div, i, p, small, span"))
+    .map((each) => each.getAttribute("aria-label"))"""
+
 
 def focus_rings(page, most: int = 200) -> dict[str, tuple[float, float]]:
     """Go through the page with Tab: the width [px] and the contrast of each element's ring."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from tests.page_checks import (
     COLORS,
+    UNREAD_NAMES,
     root_size_with,
     small_texts,
     weak_borders,
@@ -99,6 +100,10 @@ def test_no_text_is_smaller_than_12_px(simulator, open_page, size):
     page.wait_for_selector("#hint:visible")
     assert small_texts(page) == []
     assert page.evaluate("document.documentElement.scrollWidth") <= SIZES[size][0]
+
+
+def test_names_are_where_a_screen_reader_reads_them(simulator, open_page):
+    assert opened(simulator, open_page).evaluate(UNREAD_NAMES) == []
 
 
 def test_the_size_of_texts_in_the_browser_counts(simulator, open_page):

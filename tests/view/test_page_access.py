@@ -3,7 +3,14 @@
 from __future__ import annotations
 
 import pytest
-from tests.page_checks import root_size_with, small_texts, weak_borders, weak_rings, weak_texts
+from tests.page_checks import (
+    UNREAD_NAMES,
+    root_size_with,
+    small_texts,
+    weak_borders,
+    weak_rings,
+    weak_texts,
+)
 from tests.view.fake_view import IDENTITY, pose
 from tests.view.looking_down import wait_until
 from tests.view.test_page import camera_of, in_page, on_screen, press
@@ -93,6 +100,10 @@ def test_no_text_is_smaller_than_12_px(told, open_view, size):
     page.click("#add-display")
     page.wait_for_selector(".display details")
     assert small_texts(page) == []
+
+
+def test_names_are_where_a_screen_reader_reads_them(told, open_view):
+    assert opened(told, open_view).evaluate(UNREAD_NAMES) == []
 
 
 def test_the_size_of_texts_in_the_browser_counts(told, open_view):
