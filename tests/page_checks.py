@@ -83,7 +83,7 @@ UNREAD_NAMES = """() => [...document.querySelectorAll("[aria-label]:not([role])"
 
 
 def focus_rings(page, most: int = 200) -> dict[str, tuple[float, float]]:
-    """Go through the page with Tab: the width [px] and the contrast of each element's ring."""
+    """Return the width [px] and the contrast of each ring that is met on the way with Tab."""
     rings: dict[str, tuple[float, float]] = {}
     page.evaluate("document.activeElement.blur()")
     for _ in range(most):
@@ -96,31 +96,31 @@ def focus_rings(page, most: int = 200) -> dict[str, tuple[float, float]]:
 
 
 def weak_rings(page) -> dict[str, tuple[float, float]]:
-    """Rings that WCAG 2.2 would not have: thinner than 2 px or of less contrast than 3:1."""
+    """Return the rings that WCAG 2.2 refuses: below 2 px or a contrast of 3:1."""
     rings = focus_rings(page)
     assert len(rings) > 5, rings
     return {name: ring for name, ring in rings.items() if ring[0] < 2 or ring[1] < 3}
 
 
 def weak_borders(page) -> dict[str, float]:
-    """Borders of what is typed into or chosen from, of less contrast than 3:1."""
+    """Return the borders of inputs and lists that have less contrast than 3:1."""
     borders = dict(page.evaluate(BORDERS))
     assert len(borders) > 2, borders
     return {name: contrast for name, contrast in borders.items() if contrast < 3}
 
 
 def weak_texts(page) -> list[list[str | float]]:
-    """Visible texts of less contrast than 4.5:1, without those of disabled controls."""
+    """Return the visible texts of less contrast than 4.5:1, but no disabled ones."""
     return page.evaluate(WEAK_TEXTS)
 
 
 def small_texts(page) -> list[list[str | float]]:
-    """Visible texts below 12 px, with their size."""
+    """Return the visible texts below 12 px, with their size."""
     return page.evaluate(SMALL_TEXTS)
 
 
 def root_size_with(page, standard: int) -> float:
-    """Size of the page's root [px] when the user's browser has ``standard`` px for texts."""
+    """Return the root's font size [px] in a browser whose setting is ``standard`` px."""
     session = page.context.new_cdp_session(page)
     session.send("Page.setFontSizes", {"fontSizes": {"standard": standard, "fixed": standard}})
     size = page.evaluate("parseFloat(getComputedStyle(document.documentElement).fontSize)")

@@ -364,8 +364,12 @@ def test_the_selected_and_the_hovered_name_are_both_read(told, open_view):
     assert overlaps == []
 
 
-def test_names_stay_in_the_picture(told, open_view):
-    page = opened(told, open_view, "phone")
+@pytest.mark.parametrize("name", ["beacon", "a_link_whose_name_is_too_long_for_either_side"])
+def test_names_stay_in_the_picture(fake, open_view, name):
+    fake.names(dict(zip([*PARENTS][:4] + [name], PARENTS.values(), strict=True)))
+    fake.frames(POSES)
+    page = open_view(fake.url, viewport={"width": 320, "height": 640})
+    in_page(page, "while (!frames.known[4]) await new Promise(requestAnimationFrame);")
     right = """
         const { Vector3 } = await import("three");
         stage.cameras.isTouched = true;
@@ -375,8 +379,8 @@ def test_names_stay_in_the_picture(told, open_view):
         frames.poses.set([x, y, z], 7 * 4);
         stage.labels.refresh();
         stage.view.draw(1e6);
-        const label = stage.labels.shown.find(({ text }) => text === "beacon");
+        const label = stage.labels.shown.find(({ text }) => text === frames.names[4]);
         return [...label.box.slice(0, 2), width];
     """
     left, end, width = in_page(page, right)
-    assert 0 < left < end <= width
+    assert 0 <= left < end <= width

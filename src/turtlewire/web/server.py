@@ -204,7 +204,7 @@ class Server:
         return path if self._token is None else path_below(self._token, path)
 
     async def _found(self, path: str, request: Request, host: str) -> Response | None:
-        """What is at a path; None if nothing is."""
+        """Return the answer with what is at a path, or None if nothing is."""
         if path in self._files:
             return await self._respond_with_file(path, request, host)
         content = await self._compute(path)
@@ -225,7 +225,7 @@ class Server:
         return _response(200, "OK", {**fields, **encoded.coding}, content)
 
     async def _compute(self, path: str) -> Content | None:
-        """What ``answer`` has at a path; None if it has nothing."""
+        """Return what ``answer`` has at a path, or None if it has nothing."""
         import asyncio
         from urllib.parse import unquote
 

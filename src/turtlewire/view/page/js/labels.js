@@ -137,16 +137,16 @@ export class Labels {
    * `box`, and what it is `aside` of the origin, with y upwards; null without room.
    */
   #spotFor({ style, width }, { x, y }, taken) {
+    const last = Math.max(0, this.#view.viewport.width - width); // in the picture
     const spots = SIDES.map(([isRight, isBelow]) => {
-      const aside = [isRight ? BESIDE : -BESIDE - width, isBelow ? -BELOW : BELOW];
-      const [left, middle] = [x + aside[0], y - aside[1]];
-      return { aside, box: [left, left + width, middle - HALF_HEIGHT, middle + HALF_HEIGHT] };
+      const left = Math.min(last, Math.max(0, isRight ? x + BESIDE : x - BESIDE - width));
+      const middle = isBelow ? y + BELOW : y - BELOW;
+      const box = [left, left + width, middle - HALF_HEIGHT, middle + HALF_HEIGHT];
+      return { box, aside: [left - x, y - middle].map(Math.round) }; // texts stand on pixels
     });
-    const inside = ({ box: [left, right] }) => left >= 0 && right <= this.#view.viewport.width;
     const isFree = ({ box }) => !taken.some((other) => overlaps(box, other.box));
-    if (ALWAYS.has(style)) return spots.find((spot) => inside(spot) && isFree(spot)) ?? spots[0];
-    const usual = inside(spots[0]) ? spots[0] : spots[1];
-    return isFree(usual) ? usual : null;
+    if (ALWAYS.has(style)) return spots.find(isFree) ?? spots[0];
+    return isFree(spots[0]) ? spots[0] : null;
   }
 
   #choose(frames, important) {
