@@ -366,7 +366,7 @@ def test_the_selected_and_the_hovered_name_are_both_read(told, open_view):
 
 @pytest.mark.parametrize("name", ["beacon", "a_link_whose_name_is_too_long_for_either_side"])
 def test_names_stay_in_the_picture(fake, open_view, name):
-    fake.names(dict(zip([*PARENTS][:4] + [name], PARENTS.values(), strict=True)))
+    fake.names(dict(zip([*[*PARENTS][:4], name], PARENTS.values(), strict=True)))
     fake.frames(POSES)
     page = open_view(fake.url, viewport={"width": 320, "height": 640})
     in_page(page, "while (!frames.known[4]) await new Promise(requestAnimationFrame);")
