@@ -1,4 +1,4 @@
-// Shortcuts of one letter can be switched off: speech input and a slip of the hand type letters, too.
+// Shortcuts of one letter can be switched off: speech input, or a slip of the hand, types letters.
 
 const NAME = "turtlewire-letter-keys";
 
