@@ -13,6 +13,9 @@ import {
 } from "@codemirror/view";
 import { tags } from "@lezer/highlight";
 
+// How long Tab leaves the editor after Escape; CodeMirror's own two seconds are short for some.
+const LEAVE_MS = 10_000;
+
 const colours = HighlightStyle.define([
   { tag: [tags.keyword, tags.operatorKeyword, tags.self], color: "var(--code-keyword)" },
   { tag: [tags.string, tags.special(tags.string)], color: "var(--code-string)" },
@@ -116,15 +119,18 @@ export class Editors {
 
   #extensions(name) {
     const run = { key: "Mod-Enter", run: () => (this.#onRun(), true) };
+    const leave = { key: "Escape", run: (view) => (view.setTabFocusMode(LEAVE_MS), false) };
     return [
       lineNumbers(), foldGutter(), lintGutter(), history(), drawSelection(), bracketMatching(),
       indentOnInput(), highlightActiveLine(), autocompletion(), python(),
       indentUnit.of("    "), syntaxHighlighting(colours),
-      EditorView.contentAttributes.of({ "aria-label": `Source of ${name}` }),
+      EditorView.contentAttributes.of({
+        "aria-label": `Source of ${name}`, "aria-describedby": "leave-editor", tabindex: "0",
+      }),
       EditorView.updateListener.of((update) => {
         if (update.docChanged) this.#onChange(name, update.state.doc.toString());
       }),
-      keymap.of([run, indentWithTab, ...defaultKeymap, ...historyKeymap]),
+      keymap.of([run, leave, indentWithTab, ...defaultKeymap, ...historyKeymap]),
     ];
   }
 }

@@ -1,10 +1,25 @@
-// The first load: the service worker, the weight, and a progress bar while the files come.
+// The first load: the service worker, the files, and the stages that Run waits for.
 
 import { fetchFile } from "./files.js";
 
 // A browser that refuses service workers may do so by never answering.
 const PATIENCE_MS = 20_000;
 const ISOLATION_TRIED = "lesson-isolation-tried";
+
+const byId = (id) => document.getElementById(id);
+
+/** Show which stage is under way; `text` says so in short. Nothing once all is loaded, or lost. */
+export function showStage(name, text) {
+  if (byId("loading").hidden || byId("stages").hidden) return;
+  const stages = [...byId("stages").children];
+  const current = stages.findIndex(({ dataset }) => dataset.stage === name);
+  stages.forEach((stage, k) => {
+    stage.dataset.state = k < current ? "done" : k === current ? "current" : "waiting";
+  });
+  if (name !== "fetch") byId("loading-bar").removeAttribute("value");
+  byId("status").dataset.state = "loading";
+  byId("status").textContent = text;
+}
 
 /** Install the service worker; the page is loaded once more if that isolates it. */
 export async function prepareOffline() {

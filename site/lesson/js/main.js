@@ -4,7 +4,7 @@ import { listenForDriving } from "../turtlesim/controls.js";
 import { Editors } from "./editors.js";
 import { fetchFile, filesForWorker, isFromFolder } from "./files.js";
 import { Grading } from "./grading.js";
-import { fetchAll, prepareOffline } from "./loader.js";
+import { fetchAll, prepareOffline, showStage } from "./loader.js";
 import { Runtime } from "./runtime.js";
 import { store } from "./store.js";
 import { Watch } from "./watch.js";
@@ -96,6 +96,7 @@ class Page {
     this.#watch.open(this.#lesson);
     this.#listLessons();
     byId("mistake").hidden = true;
+    document.querySelector("main").dataset.state = "shown";
   }
 
   /** Python is loaded: enable the buttons and run. */
@@ -233,27 +234,26 @@ class Page {
 }
 
 async function loadFiles(manifest) {
-  const megabytes = (bytes) => (bytes / 1e6).toFixed(1);
-  const weight = `${megabytes(manifest.compressed)} MB compressed`;
+  const weight = `${(manifest.compressed / 1e6).toFixed(1)} MB compressed`;
   byId("loading-text").textContent = isFromFolder
-    ? `Loading Python and the lesson from this folder: ${weight}. No network is needed.`
-    : `Loading Python and the lesson: ${weight}, once. Then it also works without a network.`;
+    ? `Run waits for Python and the lesson, ${weight}, from this folder. No network is needed.`
+    : `Run waits for Python and the lesson: ${weight}, once. Then it also works without a network.`;
   await fetchAll(manifest.files, (done, total) => {
     byId("loading-bar").value = done / total;
-    status("loading", `loading, ${Math.round((100 * done) / total)} %`);
+    showStage("fetch", `loading, ${Math.round((100 * done) / total)} %`);
   });
-  byId("loading-text").textContent = "Starting Python …";
-  byId("loading-bar").removeAttribute("value");
 }
 
 async function main() {
   const isLoading = performance.now();
+  showStage("prepare", "preparing …");
   await prepareOffline();
   const [lessons, manifest] = await Promise.all(
     ["lessons.json", "manifest.json"].map(async (path) => (await fetchFile(path)).json()),
   );
   let page = null;
   const runtime = new Runtime(filesForWorker(manifest.files), {
+    onStage: showStage,
     onLog: (line) => page.handlers.onLog(line),
     onResult: (result) => page.handlers.onResult(result),
     onRestarted: () => page.handlers.onRestarted(),
@@ -263,13 +263,19 @@ async function main() {
   page.show();
   await loadFiles(manifest);
   await runtime.load();
-  byId("loading").hidden = true;
+  showStage("run", "starting the lesson …");
   await page.begin();
+  byId("loading").hidden = true;
   document.body.dataset.loadedMs = Math.round(performance.now() - isLoading);
 }
 
+/** Show that it cannot go on, above everything: on a phone the field is far below. */
 function showLost(error) {
+  const main = document.querySelector("main");
+  main.dataset.state = "shown";
+  main.before(byId("loading"));
   byId("loading").hidden = false;
+  byId("loading-bar").hidden = byId("stages").hidden = true;
   byId("loading-text").textContent =
     `The lesson could not be loaded: ${error.message}. Check the network and load the page again.`;
   status("stopped", "not loaded");

@@ -23,7 +23,7 @@ export class Runtime {
 
   /**
    * `files`: the address, or the blob, of each file of the page by its path; `handlers`:
-   * onLog({ lines }), onResult(result), onRestarted() after Python was loaded anew, onLost(error)
+   * onStage(name, text) while Python is loaded, onLog({ lines }), onResult(result), onRestarted() after Python was loaded anew, onLost(error)
    * if that failed.
    */
   constructor(files, handlers) {
@@ -70,6 +70,7 @@ export class Runtime {
 
   #take({ type, ...rest }) {
     if (type === "log") this.#handlers.onLog(rest);
+    else if (type === "stage") this.#handlers.onStage(rest.name, rest.text);
     else if (!this.#pending) return;
     else if (type === "alive") this.#expectLife();
     else if (type === "result") {

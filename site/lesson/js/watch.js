@@ -124,7 +124,9 @@ export class Watch {
     this.#isLogDue = false;
     const box = byId("log");
     const isAtEnd = box.scrollHeight - box.scrollTop - box.clientHeight < 30;
-    box.textContent = this.#lines.slice(-MOST_LINES).join("\n");
+    // A screen reader reads what is added to a log, and would read all of it if it were replaced.
+    box.append(...this.#lines.splice(0).slice(-MOST_LINES).map((line) => `${line}\n`));
+    while (box.childNodes.length > MOST_LINES) box.firstChild.remove();
     if (isAtEnd) box.scrollTop = box.scrollHeight;
   }
 

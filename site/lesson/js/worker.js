@@ -33,6 +33,7 @@ async function load({ files, interruptBuffer }) {
   const addressOf = (path) =>
     files[path] instanceof Blob ? URL.createObjectURL(files[path]) : files[path];
   const pyodide = (name) => addressOf(`vendor/pyodide/${name}`);
+  tell({ type: "stage", name: "python", text: "starting Python …" });
   const { loadPyodide } = await import(pyodide("pyodide.mjs"));
   python = await loadPyodide({
     createPyodideModule: (await import(pyodide("pyodide.asm.mjs"))).default,
@@ -44,6 +45,7 @@ async function load({ files, interruptBuffer }) {
   python.setStdout({ batched: log });
   python.setStderr({ batched: log });
   python.setStdin({ stdin: () => null }); // nobody can type: the end of the input
+  tell({ type: "stage", name: "turtlewire", text: "importing turtlewire …" });
   for (const path of Object.keys(files)) {
     const format = ARCHIVES.exec(path)?.[1];
     if (!format) continue;
