@@ -24,7 +24,7 @@ _STYLE = """
   --card: #f5f7fa; --good: #0b6b3a; --bad: #b3261e; --hint: #fff4d6; }
 @media (prefers-color-scheme: dark) { :root { --text: #e6e9ef; --back: #14171d; --soft: #a0a9b8;
   --line: #343b47; --card: #1d222b; --good: #6fd39b; --bad: #ff8a80; --hint: #3a3217; } }
-body { font: 16px/1.5 system-ui, sans-serif; color: var(--text); background: var(--back);
+body { font: 100%/1.5 system-ui, sans-serif; color: var(--text); background: var(--back);
   max-width: 75rem; margin: 0 auto; padding: 1rem; }
 a { color: inherit; } h1 { margin: 0.3rem 0; } h2 { margin: 0 0 0.3rem; font-size: 1.15rem; }
 .soft { color: var(--soft); } .good { color: var(--good); } .bad { color: var(--bad); }
