@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
 #: The plain-Python twin of the compiled core has its docstrings in Python, with types.
 os.environ["TURTLEWIRE_CORE"] = "python"
-sys.path[:0] = [str(ROOT / folder) for folder in ("src", "ros", "ros/interfaces")]
+sys.path[:0] = [str(ROOT / folder) for folder in ("src", "ros", "ros/interfaces", "site/docs")]
 
 project = "turtlewire"
 author = "The turtlewire authors"
@@ -32,6 +32,7 @@ extensions = [
     "sphinx.ext.napoleon",
     "sphinx_copybutton",
     "sphinx_design",
+    "accessible_pages",
 ]
 exclude_patterns = ["style.md"]
 default_role = "py:obj"  # `name` in a docstring is code, and a link where the site has that name
@@ -57,6 +58,7 @@ html_title = "turtlewire"
 html_favicon = "../lesson/icon.svg"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
+html_js_files = [("site.js", {"defer": "defer"})]
 html_copy_source = False
 html_show_sphinx = False
 html_sidebars = {
