@@ -12,19 +12,15 @@ import math
 import os
 import re
 import shutil
-import signal
-import subprocess
 import sys
-import tempfile
-import threading
-from functools import partial
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+import served_pages
 from picture import CHROMIUM_FLAGS
 from playwright.sync_api import sync_playwright
+from served_pages import LESSON, address_of, program, running
 
 from turtlewire import Buffer
 from turtlewire.trajectory import Trajectory, compare, plot_path
@@ -37,9 +33,7 @@ if TYPE_CHECKING:
 ROOT = Path(__file__).resolve().parent.parent
 IMAGES = ROOT / "docs" / "images"
 GALLERY = IMAGES / "gallery"
-LESSON = ROOT / "build" / "lesson"
 LESSONS = ROOT / "site" / "lesson" / "lessons"
-URDF_TUTORIAL = ROOT / "tests" / "robots" / "urdf_ws" / "src" / "urdf_tutorial"
 #: WebGL without a graphics card.
 FLAGS_3D = [
     *(flag for flag in CHROMIUM_FLAGS if flag != "--disable-gpu"),
@@ -55,6 +49,7 @@ PATIENCE_MS = 180_000
 
 def main() -> None:
     """Make all pictures."""
+    os.environ["ROS_DOMAIN_ID"] = str(FIRST_DOMAIN)
     GALLERY.mkdir(parents=True, exist_ok=True)
     for name, svg in drawings():
         (GALLERY / name).write_text(svg, encoding="utf-8")
@@ -126,95 +121,38 @@ def picture_lesson(browser: Browser) -> None:
     """The listener's lesson, some seconds after its start."""
     if not (LESSON / "manifest.json").exists():
         sys.exit("scripts/lesson builds the lesson, whose picture is wanted")
-    handler = partial(_Quiet, directory=LESSON)
     solution = LESSONS / "listener" / "solution"
     files = {path.name: path.read_text(encoding="utf-8") for path in solution.glob("*.py")}
-    with ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
-        threading.Thread(target=server.serve_forever, daemon=True).start()
+    with served_pages.static(LESSON, "#listener") as address:
         page = browser.new_page(viewport={"width": 1280, "height": 860})
         kept = json.dumps(json.dumps({"files": {"listener": files}}))
         page.add_init_script(f"localStorage.setItem('turtlewire-lesson', {kept})")
-        page.goto(f"http://localhost:{server.server_address[1]}/#listener")
+        page.goto(address)
         page.locator("#relation-words", has_text="ahead").wait_for(timeout=PATIENCE_MS)
         page.wait_for_timeout(2000)
         page.screenshot(path=GALLERY / "lesson.png")
         page.close()
-        server.shutdown()
-
-
-class _Quiet(SimpleHTTPRequestHandler):
-    def log_message(self, *_words: object) -> None:
-        """Print nothing."""
 
 
 def picture_sliders(browser: Browser) -> None:
     """The sliders of a robot's joints."""
-    with tempfile.NamedTemporaryFile("w", suffix=".urdf") as robot:
-        xacro = [_program("xacro"), str(ROOT / "examples" / "robots" / "walker.urdf.xacro")]
-        subprocess.run(xacro, stdout=robot, check=True)
-        gui = "joint_state_publisher_gui"
-        with running(_program("ros2"), "run", gui, gui, robot.name) as sliders:
-            page = browser.new_page(viewport={"width": 720, "height": 520})
-            page.goto(address_of(sliders))
-            page.locator("input[type=range]").first.wait_for(timeout=PATIENCE_MS)
-            page.screenshot(path=GALLERY / "sliders.png")
-            page.close()
-
-
-def picture_view(browser: Browser) -> None:
-    """The robot of the URDF tutorial in ``turtlewire view``."""
-    with tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as programs:
-        share = Path(folder) / "share"
-        index = share / "ament_index" / "resource_index" / "packages"
-        index.mkdir(parents=True)
-        (index / "urdf_tutorial").touch()
-        (share / "urdf_tutorial").symlink_to(URDF_TUTORIAL)
-        robot = str(URDF_TUTORIAL / "urdf" / "06-flexible.urdf")
-        for name in ("robot_state_publisher", "joint_state_publisher"):
-            programs.enter_context(running(_program("ros2"), "run", name, name, robot))
-        view = programs.enter_context(running(_program("turtlewire"), "view", prefix=folder))
-        page = browser.new_page(viewport={"width": 1400, "height": 900})
-        page.goto(address_of(view))
-        page.locator("#topic option", has_text="/robot_description").wait_for(
-            state="attached", timeout=PATIENCE_MS
-        )
-        page.select_option("#topic", label="/robot_description (robot model)")
-        page.click("#add-display")
-        page.wait_for_timeout(3000)
-        page.screenshot(path=IMAGES / "view.png")
+    with served_pages.sliders() as address:
+        page = browser.new_page(viewport={"width": 720, "height": 520})
+        page.goto(address)
+        page.locator("input[type=range]").first.wait_for(timeout=PATIENCE_MS)
+        page.screenshot(path=GALLERY / "sliders.png")
         page.close()
 
 
-def _program(name: str) -> str:
-    return str(Path(sys.executable).parent / name)
-
-
-@contextlib.contextmanager
-def running(
-    *command: str, prefix: str = "", domain: int = FIRST_DOMAIN
-) -> Iterator[subprocess.Popen[str]]:
-    """Run a program until the block ends; ``prefix``: a folder with installed packages."""
-    environment = dict(
-        os.environ,
-        ROS_DOMAIN_ID=str(domain),
-        TURTLEWIRE_BROWSER="0",
-        AMENT_PREFIX_PATH=prefix,
-    )
-    with subprocess.Popen(
-        command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
-    ) as program:
-        try:
-            yield program
-        finally:
-            program.send_signal(signal.SIGINT)
-
-
-def address_of(program: subprocess.Popen[str]) -> str:
-    """Where its page is, as soon as it says so."""
-    for line in program.stdout or ():
-        if found := re.search(r"http://\S+", line):
-            return found[0]
-    raise RuntimeError(f"{program.args} ended before its page was there")
+def picture_view(browser: Browser) -> None:
+    """The robot of the URDF tutorial in ``turtlewire view``, which shows it by itself."""
+    with served_pages.view() as address:
+        page = browser.new_page(viewport={"width": 1400, "height": 900})
+        page.goto(address)
+        page.locator(".display", has_text="/robot_description").wait_for(timeout=PATIENCE_MS)
+        page.wait_for_timeout(3000)
+        page.screenshot(path=IMAGES / "view.png")
+        page.close()
 
 
 def picture_class(browser: Browser) -> None:
@@ -223,9 +161,9 @@ def picture_class(browser: Browser) -> None:
     demo = ("launch", "learning_tf2_py", "turtle_tf2_demo.launch.py")
     with contextlib.ExitStack() as programs:
         for domain in domains:
-            programs.enter_context(running(_program("ros2"), *demo, domain=domain))
+            programs.enter_context(running(program("ros2"), *demo, domain=domain))
         shown = programs.enter_context(
-            running(_program("turtlewire"), "class", "--domains", f"{domains[0]}-{domains[-1]}")
+            running(program("turtlewire"), "class", "--domains", f"{domains[0]}-{domains[-1]}")
         )
         page = browser.new_page(viewport={"width": 860, "height": 480})
         page.goto(address_of(shown))

@@ -15,10 +15,10 @@ from turtlewire import msg
 from turtlewire.wire.qos import Durability
 
 ROOT = Path(__file__).parents[2]
-CLIENT = ROOT / "build" / "foxglove-client"
+CLIENT = ROOT / "build" / "npm-tools" / "foxglove"
 pytestmark = pytest.mark.skipif(
     shutil.which("node") is None or not (CLIENT / "node_modules").is_dir(),
-    reason="Foxglove's client is missing: scripts/foxglove-client fetches it (needs node, npm)",
+    reason="Foxglove's client is missing: scripts/npm-tools fetches it (needs node, npm)",
 )
 
 
