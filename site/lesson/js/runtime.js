@@ -23,8 +23,8 @@ export class Runtime {
 
   /**
    * `files`: the address, or the blob, of each file of the page by its path; `handlers`:
-   * onStage(name, text) while Python is loaded, onLog({ lines }), onResult(result), onRestarted() after Python was loaded anew, onLost(error)
-   * if that failed.
+   * onStage(name, text) while Python is loaded, onLog({ lines }), onResult(result),
+   * onRestarted() after Python was loaded anew, onLost(error) if that failed.
    */
   constructor(files, handlers) {
     this.#load = { type: "load", files };
