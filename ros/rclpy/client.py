@@ -5,8 +5,9 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING, Any, Generic, overload
 
-from turtlewire.errors import CdrError, WireError
+from turtlewire.errors import CdrError, UncallableServiceError, WireError
 from turtlewire.msg import deserialize, serialize
+from turtlewire.wire.services import not_callable
 
 from ._execution.blocking import Call, wait_for_response
 from ._execution.futures import call_when_done, run_callbacks_on
@@ -67,6 +68,7 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
         self._lock = threading.Lock()
         self._pending: dict[int, Future] = {}
         self._blocking: set[Future] = set()
+        self._said_why_not_called = False
 
     def call_async(
         self: Client[ServiceClass[RequestT, ResponseT]], request: RequestT
@@ -74,7 +76,8 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
         """Send a request.
 
         Returns:
-            A future of the response; spinning the node finishes it.
+            A future of the response; spinning the node finishes it. It has an exception at once if
+            a server of the service runs on a middleware that would misread the request.
 
         Raises:
             TypeError: ``request`` is not a ``srv_type.Request``.
@@ -88,9 +91,14 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
                 f"{self.srv_type.__name__}.Request(), not {described(request)}"
             )
         future = Future()
-        with self._lock:  # the response may be faster than we are: it has to find the future
-            sequence_number = self._send(serialize(request))
-            self._pending[sequence_number] = future
+        try:
+            with self._lock:  # the response may be faster than we are: it has to find the future
+                sequence_number = self._send(serialize(request))
+                self._pending[sequence_number] = future
+        except UncallableServiceError as error:
+            self._say_why_not_called(error)
+            future.set_exception(error)
+            return future
         if self._events is not None:
             self._events.publish(
                 EventType.REQUEST_SENT, self._wire.client_id, sequence_number, request=request
@@ -178,8 +186,26 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
         self._check_usable()
         return self._wire.is_ready()
 
+    def _look_for_server(self) -> bool:
+        """Whether a server is there; logs once why one that is there is not called."""
+        if self.service_is_ready():
+            return True
+        service = self._wire.service
+        middleware = self._context.wire.graph.uncallable_services().get(service)
+        if middleware is not None:
+            self._say_why_not_called(not_callable(service, middleware))
+        return False
+
+    def _say_why_not_called(self, error: UncallableServiceError) -> None:
+        if not self._said_why_not_called:
+            self._said_why_not_called = True
+            self._logger.warning(error.in_one_line())
+
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
         """Block until a server is there (no polling).
+
+        A server on a middleware that would misread requests does not count; a warning in the log
+        says so.
 
         Args:
             timeout_sec: None or negative waits until the context is shut down.
@@ -191,7 +217,7 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
             InvalidHandle: It was destroyed, perhaps meanwhile and by another thread.
         """
         timeout_ns = None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1e9)
-        return self._context.wait_for_graph(self.service_is_ready, timeout_ns)
+        return self._context.wait_for_graph(self._look_for_server, timeout_ns)
 
     def _close(self) -> None:
         super()._close()

@@ -7,6 +7,7 @@
     ├── CdrError                      malformed CDR bytes, or a value that its field cannot hold
     ├── InterfaceError                an unknown or unreadable .msg/.srv/.action definition
     ├── WireError                     the middleware refused something, or is missing
+    │   └── UncallableServiceError    a server would misread a request, so none was sent
     └── TransformException            (the tree of ROS 2's tf2; also in tf2_py and tf2_ros)
         ├── ConnectivityException     the two frames are not in one tree
         ├── LookupException           a frame does not exist
@@ -34,6 +35,7 @@ __all__ = [
     "TimeoutException",
     "TransformException",
     "TurtlewireError",
+    "UncallableServiceError",
     "WireError",
 ]
 
@@ -80,6 +82,10 @@ class InterfaceError(TurtlewireError, LookupError):
 
 class WireError(TurtlewireError, RuntimeError):
     """The middleware refused an operation, or cannot be loaded on this platform."""
+
+
+class UncallableServiceError(WireError):
+    """A server of the service would misread a request, so none was sent."""
 
 
 class TransformException(TurtlewireError):

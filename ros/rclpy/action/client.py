@@ -220,7 +220,11 @@ class ActionClient(Waitable, Generic[ActionT_co]):
         timeout_ns = (
             None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1_000_000_000)
         )
-        return self._node.context.wait_for_graph(self.server_is_ready, timeout_ns)
+        return self._node.context.wait_for_graph(self._look_for_server, timeout_ns)
+
+    def _look_for_server(self) -> bool:
+        """Whether a server is there; logs once why one that is there is not called."""
+        return self._goal_client._look_for_server() and self.server_is_ready()
 
     def send_goal_async(
         self: ActionClient[Action[GoalT, ResultT, FeedbackT]],

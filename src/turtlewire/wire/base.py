@@ -203,7 +203,13 @@ class Client(Entity):
 
     @abstractmethod
     def send_request(self, cdr: bytes) -> int:
-        """Send a request; its sequence number comes back with the response."""
+        """Send a request; its sequence number comes back with the response.
+
+        Raises:
+            UncallableServiceError: A server would misread the request, so none is sent (see
+                :meth:`Graph.uncallable_services`).
+            WireError: The middleware refused it.
+        """
 
     @abstractmethod
     def take(self, limit: int = 32) -> list[tuple[int, bytes]]:
@@ -339,6 +345,14 @@ class Graph(ABC):
     @abstractmethod
     def service_names_and_types(self) -> dict[str, list[str]]:
         """Service name to sorted type names (``turtlesim/srv/Spawn``)."""
+
+    def uncallable_services(self) -> dict[str, str]:
+        """Services that no client of this process may call, with the middleware of the server.
+
+        The server would misread a request, which can make it fail. It does not matter whether
+        another server of that service understands it: a request reaches all servers.
+        """
+        return {}
 
     @abstractmethod
     def wait_for(self, predicate: Callable[[], bool], timeout_ns: int | None = None) -> bool:

@@ -12,13 +12,15 @@ import itertools
 from struct import Struct
 from typing import TYPE_CHECKING
 
+from turtlewire.errors import UncallableServiceError
+
 from .base import Client, RequestId, Service
 from .report import warn_once
 
 if TYPE_CHECKING:
     from .base import Publisher, Subscription
 
-__all__ = ["TopicClient", "TopicService", "join_header", "split_header"]
+__all__ = ["TopicClient", "TopicService", "advice", "join_header", "not_callable", "split_header"]
 
 _ENCAPSULATION = 4
 _HEADER = Struct("<Qq")
@@ -43,6 +45,33 @@ def split_header(payload: bytes) -> tuple[RequestId, bytes] | None:
     return RequestId(*_HEADER.unpack_from(payload, _ENCAPSULATION)), payload[
         :_ENCAPSULATION
     ] + payload[_BODY:]
+
+
+def not_callable(service: str, middleware: str) -> UncallableServiceError:
+    """The error that says why a service is not called.
+
+    Args:
+        service: Name of the service.
+        middleware: Name of the middleware on which its server runs.
+    """
+    error = UncallableServiceError(
+        f"service {service} is not called: its server runs on {middleware}, which would misread "
+        "our requests"
+    )
+    error.with_hint(advice("server"))
+    return error
+
+
+def advice(other: str) -> str:
+    """What makes the two ends of a service understand each other.
+
+    Args:
+        other: The end on another middleware, ``client`` or ``server``.
+    """
+    return (
+        f"Start the {other} with RMW_IMPLEMENTATION=rmw_cyclonedds_cpp, or both ends with "
+        "RMW_IMPLEMENTATION=rmw_zenoh_cpp."
+    )
 
 
 class TopicClient(Client):

@@ -26,6 +26,7 @@ module                    what it holds
 `inlet`                   messages that Cyclone's thread hands to a native sink
 `native`                  the compiled half of this package, or None
 `services`                services as rmw_cyclonedds spells them
+`servers`                 which servers get requests, and why others get none
 `waiting`                 wait sets
 `reader`                  the one Python thread of a context
 `graph`                   the graph as this participant sees it

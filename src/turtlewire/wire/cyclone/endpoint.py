@@ -44,6 +44,7 @@ class EndpointSpec(NamedTuple):
         type_id: Type on the wire.
         qos: What is offered or requested.
         identity: ``clientid`` or ``serviceid`` of one half of a service; empty for topics.
+        partition: The DDS partition; empty for the default one.
     """
 
     name: str
@@ -51,6 +52,7 @@ class EndpointSpec(NamedTuple):
     type_id: TypeId
     qos: QoS
     identity: dict[str, str] = {}  # noqa: RUF012 - never changed
+    partition: str = ""
 
     @property
     def user_data(self) -> bytes:

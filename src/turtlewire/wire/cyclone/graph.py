@@ -29,6 +29,7 @@ from . import library as dds
 from .endpoint import EndpointSpec
 from .ports import process_of, processes_on_host
 from .qos import read_qos, read_user_data
+from .servers import foreign_middleware
 from .silent_peers import PATIENCE_NS, Questions, SilentPeers
 from .subscription import CycloneSubscription
 
@@ -50,7 +51,7 @@ class _Endpoint(NamedTuple):
     kind: str
     dds_topic: str
     dds_type: str
-    type_hash: str
+    user_data: dict[str, str]
     qos: QoS
 
 
@@ -226,7 +227,7 @@ class CycloneGraph(GraphView):
                     sample.type_name.decode("utf-8", "replace"),
                 )
                 self._endpoints[gid] = endpoint = _Endpoint(
-                    kind, topic, type_name, user_data.get("typehash", ""), read_qos(sample.qos)
+                    kind, topic, type_name, user_data, read_qos(sample.qos)
                 )
                 self._compare_types(self._types.add, gid, endpoint)
         return news
@@ -303,6 +304,18 @@ class CycloneGraph(GraphView):
                 for gid, endpoint in self._endpoints.items()
             ]
 
+    def uncallable_services(self) -> dict[str, str]:
+        """See :meth:`Graph.uncallable_services`."""
+        self._look_first()
+        with self._lock:
+            return {
+                service: middleware
+                for gid, endpoint in self._endpoints.items()
+                if endpoint.kind == "subscription"
+                and (service := names.service_of_requests(endpoint.dds_topic)) is not None
+                and (middleware := foreign_middleware(gid, endpoint.user_data))
+            }
+
     def end_waits(self) -> None:
         """End all waits, and take back what was asked."""
         super().end_waits()
@@ -316,6 +329,7 @@ def _full_names(nodes: Iterable[NodeEndpoints]) -> list[str]:
 def _endpoint_info(gid: bytes, endpoint: _Endpoint, owner: NodeInfo | None) -> EndpointInfo:
     topic = names.topic_from_dds(endpoint.dds_topic)
     type_name = names.type_from_dds(endpoint.dds_type)
+    type_hash = endpoint.user_data.get("typehash", "")
     # a lifespan is the writer's alone; ROS 2 shows readers with an infinite one
     qos = (
         endpoint.qos
@@ -325,4 +339,4 @@ def _endpoint_info(gid: bytes, endpoint: _Endpoint, owner: NodeInfo | None) -> E
     if topic is None:
         topic = endpoint.dds_topic
         qos = qos._replace(avoid_ros_namespace_conventions=names.service_from_dds(topic) is None)
-    return EndpointInfo(endpoint.kind, topic, type_name, endpoint.type_hash, owner, gid, qos)
+    return EndpointInfo(endpoint.kind, topic, type_name, type_hash, owner, gid, qos)

@@ -340,6 +340,7 @@ qset_deadline = _short("dds_qset_deadline", None, c_void_p, c_int64)
 qset_lifespan = _short("dds_qset_lifespan", None, c_void_p, c_int64)
 qset_liveliness = _short("dds_qset_liveliness", None, c_void_p, c_int, c_int64)
 qset_user_data = _short("dds_qset_userdata", None, c_void_p, c_char_p, c_size_t)
+qset_partition = _short("dds_qset_partition", None, c_void_p, c_uint32, POINTER(c_char_p))
 qset_ignore_local = _short("dds_qset_ignorelocal", None, c_void_p, c_int)
 qset_writer_data_lifecycle = _short("dds_qset_writer_data_lifecycle", None, c_void_p, c_bool)
 

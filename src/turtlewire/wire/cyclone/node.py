@@ -12,6 +12,7 @@ from turtlewire.wire.graph import with_best_available
 from .announcer import NodeRecord
 from .endpoint import Endpoint, EndpointSpec
 from .publisher import CyclonePublisher
+from .servers import ONLY_CYCLONE
 from .services import CycloneClient, CycloneService, format_service_id
 from .subscription import CycloneSubscription, deliver_rest_to, deliver_to
 
@@ -92,8 +93,9 @@ class CycloneNode(Node):
     def create_client(self, service: str, types: ServiceTypes, qos: QoS) -> Client:
         """See :meth:`Node.create_client`."""
         identity = {"clientid": self._service_id()}
+        topic = names.request_topic(service)
         requests = self._publisher(
-            EndpointSpec(service, names.request_topic(service), types.request, qos, identity)
+            EndpointSpec(service, topic, types.request, qos, identity, ONLY_CYCLONE)
         )
         replies = self._subscription(
             EndpointSpec(service, names.reply_topic(service), types.response, qos, identity)

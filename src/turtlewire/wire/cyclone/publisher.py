@@ -55,7 +55,7 @@ class CyclonePublisher(Endpoint, Publisher):
         self.topic = spec.name
         with (
             participant.topic(spec.dds_topic, spec.type_id.name) as topic,
-            dds_qos(spec.qos, spec.user_data, writer=True) as qos,
+            dds_qos(spec.qos, spec.user_data, writer=True, partition=spec.partition) as qos,
         ):
             self._created(dds.create_writer(participant.handle, topic, qos, None))
         self._writer = make_writer(self.handle)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
-from ctypes import c_int, c_int32, c_int64, c_size_t, c_void_p, string_at
+from ctypes import c_char_p, c_int, c_int32, c_int64, c_size_t, c_void_p, string_at
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.wire.qos import INFINITE_NS, Durability, History, Liveliness, QoS, Reliability
@@ -34,7 +34,7 @@ _LIVELINESS = {_AUTOMATIC: Liveliness.AUTOMATIC, _MANUAL_BY_TOPIC: Liveliness.MA
 
 @contextmanager
 def dds_qos(
-    qos: QoS, user_data: bytes, *, writer: bool, ignore_local: bool = False
+    qos: QoS, user_data: bytes, *, writer: bool, ignore_local: bool = False, partition: str = ""
 ) -> Iterator[int]:
     """A ``dds_qos_t`` for one endpoint, with the policies that rmw_cyclonedds sets."""
     pointer = dds.create_qos()
@@ -60,6 +60,8 @@ def dds_qos(
         )
         if ignore_local:
             dds.qset_ignore_local(pointer, _IGNORE_LOCAL_PARTICIPANT)
+        if partition:
+            dds.qset_partition(pointer, 1, (c_char_p * 1)(partition.encode()))
         dds.qset_user_data(pointer, user_data, len(user_data))
         yield pointer
     finally:

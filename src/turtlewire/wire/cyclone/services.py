@@ -13,15 +13,20 @@ from typing import TYPE_CHECKING, NamedTuple
 from turtlewire.errors import WireError
 from turtlewire.wire.graph import parse_user_data
 from turtlewire.wire.report import warn_once
-from turtlewire.wire.services import TopicClient, TopicService, join_header, split_header
+from turtlewire.wire.services import (
+    TopicClient,
+    TopicService,
+    advice,
+    join_header,
+    not_callable,
+    split_header,
+)
 
 from . import library as dds
-from .endpoint import matched_handles
-from .qos import read_user_data
+from .ports import is_cyclone
+from .servers import Servers, foreign_middleware, matched_endpoints
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.wire.base import RequestId
 
     from .publisher import CyclonePublisher
@@ -53,22 +58,27 @@ class CycloneClient(TopicClient):
         handle = ctypes.c_uint64()
         dds.check(dds.get_instance_handle(requests.handle, handle), f"create a client of {service}")
         super().__init__(service, handle.value, requests, replies)
+        self._servers = Servers(requests.handle)
+
+    def send_request(self, cdr: bytes) -> int:
+        """See :meth:`Client.send_request`."""
+        middleware = self._servers.foreign()
+        if middleware:
+            raise not_callable(self.service, middleware)
+        return super().send_request(cdr)
 
     def is_ready(self) -> bool:
         """See :meth:`Client.is_ready`.
 
         One and the same server reads our requests and writes replies to us.
         """
-        readers = _matched_ids(
-            self.requests.handle,
-            dds.matched_subscriptions,
-            dds.matched_subscription_data,
-            "serviceid",
+        if self._servers.foreign():
+            return False
+        writers = matched_endpoints(
+            self.replies.handle, dds.matched_publications, dds.matched_publication_data
         )
-        writers = _matched_ids(
-            self.replies.handle, dds.matched_publications, dds.matched_publication_data, "serviceid"
-        )
-        return not readers.isdisjoint(writers)
+        replying = {writer.ids.get("serviceid") for writer in writers}
+        return any(server.ids["serviceid"] in replying for server in self._servers.now())
 
 
 class _Waiting(NamedTuple):
@@ -102,18 +112,30 @@ class CycloneService(TopicService):
         #: The clients that could be reached after so many changes.
         self._reachable: tuple[int, set[str | None]] = (-1, set())
         self._waiting: list[_Waiting] = []
+        requests.on_matched.append(requests.learn_publishers)
 
     def take(self, limit: int = 32) -> list[tuple[RequestId, bytes]]:
         """See :meth:`Service.take`."""
         requests = []
         for payload, info in self.requests.take(limit):
             split = split_header(payload)
-            if split is None:
+            if not is_cyclone(info.publisher_gid):
+                self._warn_foreign(info.publisher_gid)
+            elif split is None:
                 self.warn_short("request")
-                continue
-            self._remember(split[0].client_id, info.publisher_gid)
-            requests.append(split)
+            else:
+                self._remember(split[0].client_id, info.publisher_gid)
+                requests.append(split)
         return requests
+
+    def _warn_foreign(self, client: bytes) -> None:
+        """Say that a request had another layout: ours would be read out of 16 wrong bytes."""
+        middleware = foreign_middleware(client, {})
+        warn_once(
+            f"{self.service} request {middleware}",
+            f"dropped a request of service {self.service}: its client runs on {middleware}, whose "
+            f"requests have another layout. {advice('client')}",
+        )
 
     def _remember(self, client_id: int, writer_gid: bytes) -> None:
         client = parse_user_data(self.requests.user_data_of(writer_gid)).get("clientid")
@@ -140,13 +162,10 @@ class CycloneService(TopicService):
     def _can_reach(self, client: str) -> bool:
         matches = self._matches  # read first: a change while we look must not be missed
         if self._reachable[0] != matches:
-            ids = _matched_ids(
-                self.replies.handle,
-                dds.matched_subscriptions,
-                dds.matched_subscription_data,
-                "clientid",
+            clients = matched_endpoints(
+                self.replies.handle, dds.matched_subscriptions, dds.matched_subscription_data
             )
-            self._reachable = (matches, ids)
+            self._reachable = (matches, {client.ids.get("clientid") for client in clients})
         return client in self._reachable[1]
 
     def matched(self) -> None:
@@ -174,24 +193,3 @@ class CycloneService(TopicService):
             except WireError as error:  # noqa: PERF203 - one client's trouble is not another's
                 if not self.replies.closed:  # another thread may close the service meanwhile
                     warn_once(f"reply {self.service}", str(error))
-
-
-def _matched_ids(
-    handle: int,
-    list_matched: Callable[..., int],
-    read_matched: Callable[..., ctypes._Pointer[dds.BuiltinEndpoint]],
-    key: str,
-) -> set[str | None]:
-    """The ``clientid`` or ``serviceid`` of all endpoints that match.
-
-    None stands for those that say none.
-    """
-    ids: set[str | None] = set()
-    for instance in matched_handles(handle, list_matched):
-        endpoint = read_matched(handle, instance)
-        if endpoint:
-            try:
-                ids.add(parse_user_data(read_user_data(endpoint.contents.qos)).get(key))
-            finally:
-                dds.free_endpoint(endpoint)
-    return ids

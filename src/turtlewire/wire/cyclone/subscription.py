@@ -154,6 +154,13 @@ class CycloneSubscription(Endpoint, Subscription):
         """All waiting messages, readable or not, if it does not matter who sent them."""
         return [data for data, _, _ in take_messages(self.handle, _EVERYTHING)]
 
+    def learn_publishers(self) -> None:
+        """Ask at once who the matching publishers are: one that has left cannot be asked."""
+        with self._lock:
+            for publisher in matched_handles(self.handle, dds.matched_publications):
+                if publisher not in self._gids:
+                    self._gid_of(publisher)
+
     def _publishers_changed(self) -> None:
         self._forget = True
 

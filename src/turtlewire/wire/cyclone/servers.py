@@ -1,0 +1,112 @@
+"""Which servers of a service get requests, and why others get none.
+
+rmw_cyclonedds writes 16 bytes in front of the fields of a request; the other middlewares carry them
+elsewhere. A server on Fast DDS therefore reads these bytes as fields: it takes a length out of
+them, and allocates gigabytes or never answers again. So no request may ever reach such a server.
+
+Two measures together see to that:
+
+- :class:`Servers` looks at all matching servers before each request.
+- The writer of requests is in the partition `ONLY_CYCLONE`, because a server may begin to match
+  between that look and the request. Cyclone matches that partition with the default one, Fast DDS
+  does not, and drops what comes from a writer that it does not match.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from turtlewire.wire.graph import parse_user_data
+
+from . import library as dds
+from .endpoint import matched_handles
+from .ports import is_cyclone
+from .qos import read_user_data
+
+if TYPE_CHECKING:
+    import ctypes
+    from collections.abc import Callable
+
+__all__ = ["ONLY_CYCLONE", "MatchedEndpoint", "Servers", "foreign_middleware", "matched_endpoints"]
+
+#: Cyclone compares patterns with the default partition, whose name is empty; Fast DDS does not.
+ONLY_CYCLONE = "*"
+
+_MIDDLEWARES = {
+    b"\x01\x01": "Connext DDS (rmw_connextdds)",
+    b"\x01\x0f": "Fast DDS (rmw_fastrtps_cpp)",
+    b"\x01\x12": "RustDDS",
+}
+
+
+class MatchedEndpoint(NamedTuple):
+    """A reader or writer at the other end.
+
+    Attributes:
+        gid: Its 16 bytes.
+        ids: Its ``clientid`` or ``serviceid``, and what else it announces.
+    """
+
+    gid: bytes
+    ids: dict[str, str]
+
+
+def foreign_middleware(gid: bytes, ids: dict[str, str]) -> str:
+    """The middleware of a server that reads requests in another layout than ours.
+
+    Empty for a server on rmw_cyclonedds.
+
+    Args:
+        gid: The gid of the server's reader.
+        ids: What the reader announces in its user data.
+    """
+    if is_cyclone(gid):
+        return "" if "serviceid" in ids else "a middleware that announces no serviceid"
+    return _MIDDLEWARES.get(gid[:2], f"a DDS of vendor {gid[:2].hex('.')}")
+
+
+def matched_endpoints(
+    handle: int,
+    list_matched: Callable[..., int],
+    read_matched: Callable[..., ctypes._Pointer[dds.BuiltinEndpoint]],
+) -> list[MatchedEndpoint]:
+    """The readers or writers that match, without those that leave meanwhile."""
+    found = []
+    for instance in matched_handles(handle, list_matched):
+        endpoint = read_matched(handle, instance)
+        if endpoint:
+            try:
+                ids = parse_user_data(read_user_data(endpoint.contents.qos))
+                found.append(MatchedEndpoint(bytes(endpoint.contents.key), ids))
+            finally:
+                dds.free_endpoint(endpoint)
+    return found
+
+
+class Servers:
+    """The servers that match a client's writer of requests.
+
+    Args:
+        writer: Cyclone's handle of the writer.
+    """
+
+    def __init__(self, writer: int) -> None:
+        self._writer = writer
+        #: Cyclone's handles of the matching readers, and what they announced. Cyclone gives no
+        #: handle twice, so equal handles are the same readers.
+        self._known: tuple[list[int], list[MatchedEndpoint]] = ([], [])
+
+    def now(self) -> list[MatchedEndpoint]:
+        """Those that match at this moment."""
+        handles = matched_handles(self._writer, dds.matched_subscriptions)
+        known, servers = self._known
+        if handles != known:
+            servers = matched_endpoints(
+                self._writer, dds.matched_subscriptions, dds.matched_subscription_data
+            )
+            self._known = (handles, servers)
+        return servers
+
+    def foreign(self) -> str:
+        """The middleware of a matching server that would misread a request; empty if none would."""
+        return next(filter(None, (foreign_middleware(*server) for server in self.now())), "")
