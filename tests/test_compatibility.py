@@ -49,6 +49,10 @@ Ctrl-C in `ros2 bag convert` leaves a bag that looks whole
   rosbag2_transport/test_rewrite.py test_an_interrupted_conversion_says_so_and_leaves_no_half_bag
 Python errors carry a text
   rclpy/test_exceptions.py test_hints_are_notes
+a service with a server on Fast DDS is called, and nothing answers
+  peers/test_services.py test_each_command_says_why_and_does_no_harm test_not_even_a_request_sent_at_the_moment_of_discovery_is_read
+`ros2 topic info -v` shows a history that Fast DDS did not announce
+  peers/test_topics.py test_topic_info_shows_no_history_that_was_not_announced
 
 range `LOCALHOST` switches multicast off and asks peers on this host
   wire/test_environment.py test_localhost_uses_nothing_but_the_loopback_interface

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Generic, overload
 
 from turtlewire.errors import CdrError, UncallableServiceError, WireError
 from turtlewire.msg import deserialize, serialize
-from turtlewire.wire.services import not_callable
+from turtlewire.wire.services import require_callable
 
 from ._execution.blocking import Call, wait_for_response
 from ._execution.futures import call_when_done, run_callbacks_on
@@ -190,10 +190,10 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
         """Whether a server is there; logs once why one that is there is not called."""
         if self.service_is_ready():
             return True
-        service = self._wire.service
-        middleware = self._context.wire.graph.uncallable_services().get(service)
-        if middleware is not None:
-            self._say_why_not_called(not_callable(service, middleware))
+        try:
+            require_callable(self._context.wire.graph, self._wire.service)
+        except UncallableServiceError as error:
+            self._say_why_not_called(error)
         return False
 
     def _say_why_not_called(self, error: UncallableServiceError) -> None:

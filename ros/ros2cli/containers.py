@@ -52,10 +52,10 @@ def ask(direct: DirectNode, container: str, verb: str, service_class: Any, reque
         request: The request.
 
     Raises:
-        RuntimeError: The container does not answer.
+        RuntimeError: The container does not answer, or would misread the request.
     """
     client = direct.node.create_client(service_class, f"{container}/_container/{verb}")
-    if not client.wait_for_service(_TIMEOUT_S):
+    if not direct.wait_for_server(client.service_name, client.service_is_ready, _TIMEOUT_S):
         raise RuntimeError(f"The service {client.srv_name} is not available")
     server = f"service '{client.srv_name}'"
     try:

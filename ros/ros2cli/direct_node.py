@@ -135,6 +135,31 @@ class DirectNode:
             remove()
         return True
 
+    def wait_for_server(
+        self, service: str, is_ready: Callable[[], bool], timeout: float | None = None
+    ) -> bool:
+        """Wait until the server of a service is there.
+
+        Args:
+            service: Fully qualified name of the service.
+            is_ready: Whether it is there; asked now and after every change of the graph.
+            timeout: Seconds to wait; None waits without a limit.
+
+        Returns:
+            Whether it came in time.
+
+        Raises:
+            UncallableServiceError: It is there, on a middleware that would misread the request.
+        """
+        from turtlewire.wire.services import require_callable
+
+        def look() -> bool:
+            require_callable(self.graph, service)
+            return is_ready()
+
+        timeout_ns = None if timeout is None else int(timeout * 1e9)
+        return self.node.context.wait_for_graph(look, timeout_ns)
+
     def pause(self, seconds: float) -> None:
         """Handle callbacks for a number of seconds.
 

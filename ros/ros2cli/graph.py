@@ -24,6 +24,7 @@ __all__ = [
     "action_servers",
     "actions",
     "endpoints_of_topic",
+    "foreign_middlewares",
     "full_node_name",
     "is_hidden_node",
     "node_exists",
@@ -167,6 +168,17 @@ def _of_node(
         if pair is not None:
             found.setdefault(pair[0], set()).add(pair[1])
     return _visible(((name, sorted(types)) for name, types in found.items()), hidden=hidden)
+
+
+def foreign_middlewares(graph: Graph, full_name: str) -> list[str]:
+    """The middlewares of a node's servers that cannot be called from here, sorted."""
+    found = {
+        server.middleware
+        for server in graph.foreign_servers()
+        if server.node is not None
+        and names.fully_qualified_node_name(*_printable_node(server.node)[:2]) == full_name
+    }
+    return sorted(found)
 
 
 def _endpoints(graph: Graph) -> Iterator[EndpointInfo]:

@@ -59,10 +59,10 @@ def ask(direct: DirectNode, service_class: Any, service: str, request: Any) -> A
     """Call a service of a managed node.
 
     Raises:
-        RuntimeError: It does not answer.
+        RuntimeError: It does not answer, or would misread the request.
     """
     client = direct.node.create_client(service_class, service)
-    if not client.wait_for_service(_TIMEOUT_S):
+    if not direct.wait_for_server(client.service_name, client.service_is_ready, _TIMEOUT_S):
         raise RuntimeError(f"The service {service} is not available")
     try:
         return direct.result(client.call_async(request), _TIMEOUT_S)

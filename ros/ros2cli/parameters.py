@@ -59,9 +59,10 @@ class Question:
         """Send the request as soon as the service is there.
 
         Raises:
-            RuntimeError: It does not appear.
+            RuntimeError: It does not appear, or it would misread the request.
         """
-        if not self._client.wait_for_service(self._timeout):
+        ready = self._client.service_is_ready
+        if not self._direct.wait_for_server(self._client.service_name, ready, self._timeout):
             raise RuntimeError(
                 f"Wait for service timed out: the node '{self._node_name}' has no"
                 " parameter services"

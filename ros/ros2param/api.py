@@ -31,7 +31,7 @@ def call_get_parameters(*, node: Any, node_name: str, parameter_names: Sequence[
     """Get values: a response of ``rcl_interfaces/srv/GetParameters``.
 
     Raises:
-        RuntimeError: The node has no parameter services.
+        RuntimeError: The node has no parameter services, or would misread requests.
     """
     client = _client(node, node_name)
     return DirectNode.around(node).result(client.get_parameters(list(parameter_names)))
@@ -41,7 +41,7 @@ def call_set_parameters(*, node: Any, node_name: str, parameters: Sequence[Any])
     """Set values: a response of ``rcl_interfaces/srv/SetParameters``.
 
     Raises:
-        RuntimeError: The node has no parameter services.
+        RuntimeError: The node has no parameter services, or would misread requests.
     """
     client = _client(node, node_name)
     return DirectNode.around(node).result(client.set_parameters(list(parameters)))
@@ -69,7 +69,7 @@ def call_describe_parameters(
     """Get descriptors: a response of ``rcl_interfaces/srv/DescribeParameters``.
 
     Raises:
-        RuntimeError: The node has no parameter services.
+        RuntimeError: The node has no parameter services, or would misread requests.
     """
     client = _client(node, node_name)
     return DirectNode.around(node).result(client.describe_parameters(list(parameter_names or ())))
@@ -87,7 +87,8 @@ def load_parameter_file(
         use_wildcard: Whether what the file says of all nodes (``/**``) counts.
 
     Raises:
-        RuntimeError: The node has no parameter services, or the file is wrong.
+        RuntimeError: The node has no parameter services or would misread requests, or the file is
+            wrong.
     """
     from rclpy.parameter import parameter_dict_from_yaml_file
     from ros2cli.output import print_set_results
@@ -124,7 +125,9 @@ class ParameterNameCompleter:
 def _client(node: Any, node_name: str) -> AsyncParameterClient:
     from rclpy.parameter_client import AsyncParameterClient
 
-    client = AsyncParameterClient(getattr(node, "node", node), node_name)
-    if not client.wait_for_services(_TIMEOUT_S):
+    direct = DirectNode.around(node)
+    client = AsyncParameterClient(direct.node, node_name)
+    service = direct.node.resolve_service_name(f"{node_name}/list_parameters")
+    if not direct.wait_for_server(service, client.services_are_ready, _TIMEOUT_S):
         raise RuntimeError("Wait for service timed out")
     return client

@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from rosbag2_transport.options import ServiceRequestsSource
-from turtlewire.errors import InterfaceError
+from turtlewire.errors import InterfaceError, UncallableServiceError
 from turtlewire.msg import deserialize, get_message, serialize, type_hash
 from turtlewire.wire.base import ServiceTypes, TypeId
 from turtlewire.wire.qos import QoS
+from turtlewire.wire.services import require_callable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Container
@@ -71,9 +72,16 @@ class ServiceRequests:
                 "record with the introspection state 'contents'",
             )
         elif not client.is_ready():
-            self._tell(client.service, f"no request is sent: {client.service} has no server")
+            self._tell(client.service, f"no request is sent: {self._why_not_ready(client)}")
         else:
             client.send_request(serialize(requests[0]))
+
+    def _why_not_ready(self, client: Client) -> str:
+        try:
+            require_callable(self._node.context.wire.graph, client.service)
+        except UncallableServiceError as error:
+            return error.in_one_line()
+        return f"{client.service} has no server"
 
     def _tell(self, service: str, text: str) -> None:
         if service not in self._told:

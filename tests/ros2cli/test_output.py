@@ -10,7 +10,7 @@ import pytest
 from ros2cli.discovery import GraphNode
 from ros2cli.main import main
 from ros2cli.output import escaped_output, tell
-from turtlewire.wire.base import EndpointInfo, NodeInfo
+from turtlewire.wire.base import EndpointInfo, ForeignServer, NodeInfo
 from turtlewire.wire.qos import QoS
 
 EVIL = "\x1b]0;owned\x07\x1b[2J"
@@ -78,6 +78,9 @@ class HostileGraph:
     def service_names_and_types(self):
         return {"/s\nrv": ["a/srv/T\n/forged"]}
 
+    def foreign_servers(self):
+        return [ForeignServer("/s\nrv", self.nodes()[0], "Fast DDS")]
+
     def is_complete(self):
         return True
 
@@ -110,9 +113,11 @@ def test_topic_info_of_a_hostile_peer(monkeypatch, capsys):
 def test_node_info_of_a_hostile_peer(monkeypatch, capsys):
     monkeypatch.setattr(GraphNode, "__enter__", lambda _self: HostileGraph())
     assert main(["node", "info", r"/\x1b]0;owned\x07\x1b[2J\nnode"]) == 0
-    text = capsys.readouterr().out
+    text, told = capsys.readouterr()
     assert "    /x\\nPublisher count: 9: a/msg/T\\n/forged\n" in text
     assert "    /s\\nrv: a/msg/T\\n/forged\n" in text
+    assert told.startswith(r"The services of /\x1b]0;owned\x07\x1b[2J\nnode, those of parameters")
+    assert "it runs on Fast DDS. Start the node with RMW_IMPLEMENTATION=rmw_cyclonedds_cpp" in told
 
 
 def test_characters_that_the_output_does_not_have_end_no_verb(monkeypatch):

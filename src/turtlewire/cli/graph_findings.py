@@ -6,15 +6,16 @@ import os
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from turtlewire.cli.finding import Finding, problem
+from turtlewire.cli.finding import Finding, note, problem
 from turtlewire.cli.network import domains_of, udp_ports
 from turtlewire.cli.setup_findings import only_this_host
 from turtlewire.wire.environment import compares_qos, discovery, domain_id
 from turtlewire.wire.names import fully_qualified_node_name, is_hidden
 from turtlewire.wire.qos import Durability, Reliability
+from turtlewire.wire.services import advice
 
 if TYPE_CHECKING:
-    from turtlewire.wire.base import EndpointInfo, Graph
+    from turtlewire.wire.base import EndpointInfo, ForeignServer, Graph
     from turtlewire.wire.qos import QoS
 
 __all__ = ["graph_findings", "owner_of"]
@@ -41,10 +42,26 @@ def graph_findings(graph: Graph) -> list[Finding]:
             topics.setdefault(endpoint.topic, []).append(endpoint)
     for topic, endpoints in sorted(topics.items()):
         found += _topic_findings(topic, endpoints)
+    return found + _foreign_findings(graph)
+
+
+def _foreign_findings(graph: Graph) -> list[Finding]:
+    """Nodes whose services cannot be called, by middleware."""
+    servers: dict[str, list[ForeignServer]] = {}
+    for server in graph.foreign_servers():
+        servers.setdefault(server.middleware, []).append(server)
+    found = []
+    for middleware, theirs in sorted(servers.items()):
+        nodes = ", ".join(sorted({owner_of(server) for server in theirs}))
+        text = (
+            f"The {len(theirs)} services of nodes on {middleware} cannot be called from here, "
+            f"those of parameters and actions included; topics work. Nodes: {nodes}."
+        )
+        found.append(note(text, advice("nodes")))
     return found
 
 
-def owner_of(endpoint: EndpointInfo) -> str:
+def owner_of(endpoint: EndpointInfo | ForeignServer) -> str:
     """Full name of the node that owns an endpoint."""
     if endpoint.node is None:
         return "an unknown node"

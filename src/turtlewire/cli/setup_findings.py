@@ -28,6 +28,11 @@ _INSTALL_COMPILER = (
 )
 _OTHER_LIBRARY = "Let CYCLONEDDS_HOME name the prefix of another one, or unset it."
 _NO_WHEEL = "Nothing has to be done: it speaks to the same robots."
+_BLIND = "Nodes of this computer that run on Fast DDS (rmw_fastrtps_cpp) are not found."
+_OWN_ADDRESS = (
+    "Cyclone DDS 0.10 finds them only by an address that is not the loopback one. To let it, and "
+    "the network in: export ROS_STATIC_PEERS=ADDRESS, an address of this computer."
+)
 _OTHER_DISTRO = (
     "Use a shell in which no other ROS is sourced. From kilted on, turtlesim uses the interfaces "
     "of turtlesim_msgs."
@@ -83,6 +88,9 @@ def _library_findings() -> list[Finding]:
     found = [note(f"{sentence}.", _OTHER_LIBRARY) for sentence in refused]
     if library is not None and library.origin != "the cyclonedds wheel":
         found.append(note(f"{library} is in use: {library.reason}.", _NO_WHEEL))
+    finds_fast_dds = library is None or library.abi is None or library.abi.finds_fast_dds
+    if not finds_fast_dds and discovery().range == Range.LOCALHOST and not discovery().static_peers:
+        found.append(note(_BLIND, _OWN_ADDRESS))
     return found
 
 

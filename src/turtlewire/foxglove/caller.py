@@ -6,10 +6,11 @@ import asyncio
 import threading
 from typing import TYPE_CHECKING
 
-from turtlewire.errors import WireError
+from turtlewire.errors import UncallableServiceError, WireError
 from turtlewire.msg import type_hash
 from turtlewire.wire.base import Client, ServiceTypes, TypeId
 from turtlewire.wire.qos import QoS
+from turtlewire.wire.services import require_callable
 
 if TYPE_CHECKING:
     from turtlewire.foxglove.graph_watch import GraphWatch
@@ -48,6 +49,7 @@ class Caller:
     """
 
     def __init__(self, context: Context, node: Node, calls: LoopCalls, watch: GraphWatch) -> None:
+        self._graph = context.graph
         self._node = node
         self._calls = calls
         self._watch = watch
@@ -70,10 +72,15 @@ class Caller:
             limit_s: How long the service may take [s]; None waits until the service goes.
 
         Raises:
-            ServiceCallError: There is no such service, it went, or the time is over.
+            ServiceCallError: There is no such service, it would misread the request, it went, or
+                the time is over.
             WireError: The wire refuses the request.
         """
         connection = self._connection(service, type_name)
+        try:
+            require_callable(self._graph, service)
+        except UncallableServiceError as error:
+            raise ServiceCallError(error.in_one_line()) from None
         if not await self._watch.wait_until(connection.client.is_ready, _PATIENCE):
             raise ServiceCallError(f"service {service} is not available")
         async with connection.turns:

@@ -8,10 +8,11 @@ from collections import deque
 from typing import TYPE_CHECKING, Any
 
 from turtlewire import msg
-from turtlewire.errors import CdrError, WireError
+from turtlewire.errors import CdrError, UncallableServiceError, WireError
 from turtlewire.view.source import ParameterAnswer
 from turtlewire.wire.base import Client, ServiceTypes, TypeId
 from turtlewire.wire.qos import QoS
+from turtlewire.wire.services import require_callable
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -99,15 +100,19 @@ class ParameterWatch:
             if is_there == self._is_there or self._is_closed:
                 return
             self._is_there = is_there
+            problem = f"the node {self._owner} does not answer yet" if is_there else self._absent()
+            self._answers.append(ParameterAnswer(problem=problem))
             if is_there:
                 self._ask()
-            waiting = f"the node {self._owner} does not answer yet"
-            self._answers.append(ParameterAnswer(problem=waiting if is_there else self._absent()))
             self._wait_set.wake()
 
     def _ask(self) -> None:
         request = self._interface.Request(names=[self._parameter])
-        self._asked = self._client.send_request(msg.serialize(request))
+        try:
+            self._asked = self._client.send_request(msg.serialize(request))
+        except UncallableServiceError as error:  # such a server has just come
+            self._answers.append(ParameterAnswer(problem=error.in_one_line()))
+            self._wait_set.wake()
 
     def _take_event(self, cdr: bytes) -> None:
         """Ask again when the parameter has changed: the value itself may be of another type now."""
@@ -125,6 +130,10 @@ class ParameterWatch:
 
     def _absent(self) -> str:
         """Why nobody can be asked, and who could be."""
+        try:
+            require_callable(self._context.graph, self._owner + _SUFFIX)
+        except UncallableServiceError as error:
+            return error.in_one_line()
         services = self._context.graph.service_names_and_types()
         nodes = sorted(name.removesuffix(_SUFFIX) for name in services if name.endswith(_SUFFIX))
         more = f" and {len(nodes) - _MOST_NAMED} more" if len(nodes) > _MOST_NAMED else ""

@@ -20,6 +20,7 @@ from .records import (
     EndpointInfo,
     EventKind,
     EventStatus,
+    ForeignServer,
     MessageInfo,
     NodeInfo,
     RequestId,
@@ -41,6 +42,7 @@ __all__ = [
     "Event",
     "EventKind",
     "EventStatus",
+    "ForeignServer",
     "Graph",
     "MessageInfo",
     "Node",
@@ -207,7 +209,7 @@ class Client(Entity):
 
         Raises:
             UncallableServiceError: A server would misread the request, so none is sent (see
-                :meth:`Graph.uncallable_services`).
+                :meth:`Graph.foreign_servers`).
             WireError: The middleware refused it.
         """
 
@@ -346,13 +348,13 @@ class Graph(ABC):
     def service_names_and_types(self) -> dict[str, list[str]]:
         """Service name to sorted type names (``turtlesim/srv/Spawn``)."""
 
-    def uncallable_services(self) -> dict[str, str]:
-        """Services that no client of this process may call, with the middleware of the server.
+    def foreign_servers(self) -> list[ForeignServer]:
+        """The servers that would misread requests of this process, so that it sends none.
 
-        The server would misread a request, which can make it fail. It does not matter whether
-        another server of that service understands it: a request reaches all servers.
+        A service that has such a server is not called at all, even if another server of it
+        understands requests: a request reaches all servers.
         """
-        return {}
+        return []
 
     @abstractmethod
     def wait_for(self, predicate: Callable[[], bool], timeout_ns: int | None = None) -> bool:

@@ -32,16 +32,19 @@ class Abi(NamedTuple):
             type is read from the structure of the topic.
         prunes_peers: Whether ``<Peer>`` has the attribute ``PruneDelay``; without it, peers are
             never given up.
+        finds_fast_dds: Whether nodes on Fast DDS are found on the loopback interface. They announce
+            the addresses of the other interfaces alone.
     """
 
     version: str
     tells_type: bool
     prunes_peers: bool
+    finds_fast_dds: bool
 
 
 ABIS = (
-    Abi("11.0", tells_type=True, prunes_peers=True),
-    Abi("0.10", tells_type=False, prunes_peers=False),
+    Abi("11.0", tells_type=True, prunes_peers=True, finds_fast_dds=True),
+    Abi("0.10", tells_type=False, prunes_peers=False, finds_fast_dds=False),
 )
 
 

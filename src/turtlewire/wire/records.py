@@ -110,6 +110,20 @@ class EndpointInfo(NamedTuple):
     qos: QoS
 
 
+class ForeignServer(NamedTuple):
+    """The server of a service that would misread our requests.
+
+    Attributes:
+        service: Fully qualified ROS name.
+        node: The node that owns it, or None when no node claims it.
+        middleware: Name of the middleware on which it runs.
+    """
+
+    service: str
+    node: NodeInfo | None
+    middleware: str
+
+
 class EventKind(Enum):
     """A change of circumstances that an endpoint can report."""
 

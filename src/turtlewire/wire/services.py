@@ -18,9 +18,9 @@ from .base import Client, RequestId, Service
 from .report import warn_once
 
 if TYPE_CHECKING:
-    from .base import Publisher, Subscription
+    from .base import Graph, Publisher, Subscription
 
-__all__ = ["TopicClient", "TopicService", "advice", "join_header", "not_callable", "split_header"]
+__all__ = ["TopicClient", "TopicService", "advice", "join_header", "not_callable", "require_callable", "split_header"]
 
 _ENCAPSULATION = 4
 _HEADER = Struct("<Qq")
@@ -62,11 +62,22 @@ def not_callable(service: str, middleware: str) -> UncallableServiceError:
     return error
 
 
+def require_callable(graph: Graph, service: str) -> None:
+    """Make sure that no server of a service would misread requests.
+
+    Raises:
+        UncallableServiceError: A server would.
+    """
+    for server in graph.foreign_servers():
+        if server.service == service:
+            raise not_callable(service, server.middleware)
+
+
 def advice(other: str) -> str:
     """What makes the two ends of a service understand each other.
 
     Args:
-        other: The end on another middleware, ``client`` or ``server``.
+        other: The end on another middleware, for example ``server``.
     """
     return (
         f"Start the {other} with RMW_IMPLEMENTATION=rmw_cyclonedds_cpp, or both ends with "

@@ -66,16 +66,19 @@ def main(args: argparse.Namespace) -> str | None:
     from rclpy.action import ActionClient
     from ros2cli.direct_node import DirectNode
     from ros2cli.graph import actions
+    from turtlewire.wire.services import require_callable
 
     with DirectNode(args) as direct:
         known = actions(direct.graph)  # our own client is not among them
         client = ActionClient(direct.node, action_class, args.action_name)
+        action = direct.node.resolve_topic_name(args.action_name)
+        service = f"{action}/_action/send_goal"
         try:
             print("Waiting for an action server to become available...")
+            require_callable(direct.graph, service)
             if not client.server_is_ready():
-                action = direct.node.resolve_topic_name(args.action_name)
                 say_why_to_wait("action", action, action_class, known)
-            if not client.wait_for_server():
+            if not direct.wait_for_server(service, client.server_is_ready):
                 raise KeyboardInterrupt
             _run(direct, client, goal, args)
         finally:

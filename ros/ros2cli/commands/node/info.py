@@ -12,6 +12,8 @@ from ros2cli.output import tell
 if TYPE_CHECKING:
     import argparse
 
+    from turtlewire.wire.base import Graph
+
 __all__ = ["ARGUMENTS", "main"]
 
 
@@ -50,7 +52,19 @@ def main(args: argparse.Namespace) -> str | None:
         _print_section("Service Clients", ask.service_clients(graph, name, hidden=hidden))
         _print_section("Action Servers", ask.action_servers(graph, name))
         _print_section("Action Clients", ask.action_clients(graph, name))
+        _say_what_is_not_callable(graph, name)
     return None
+
+
+def _say_what_is_not_callable(graph: Graph, node_name: str) -> None:
+    from ros2cli.graph import foreign_middlewares
+    from turtlewire.wire.services import advice
+
+    for middleware in foreign_middlewares(graph, node_name):
+        tell(
+            f"The services of {node_name}, those of parameters and actions included, cannot be "
+            f"called from here: it runs on {middleware}. {advice('node')}"
+        )
 
 
 def _print_section(title: str, found: list[tuple[str, list[str]]]) -> None:

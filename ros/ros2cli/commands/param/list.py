@@ -11,6 +11,7 @@ from ros2cli.output import tell
 from ros2cli.parameter_options import node_arguments
 from ros2cli.parameters import TYPE_NAMES, Question
 from ros2cli.values import regular_expression
+from turtlewire.errors import UncallableServiceError
 
 if TYPE_CHECKING:
     import argparse
@@ -33,8 +34,8 @@ ARGUMENTS = (
 )
 
 
-def main(args: argparse.Namespace) -> None:
-    """Print the names, below the nodes if none was given."""
+def main(args: argparse.Namespace) -> int:
+    """Print the names, below the nodes if none was given; 1 if a node could not be asked."""
     from ros2cli.graph import node_names, require_node
 
     with DirectNode(args) as direct:
@@ -44,18 +45,20 @@ def main(args: argparse.Namespace) -> None:
             if chosen
             else dict.fromkeys(node_names(direct.graph, hidden=args.include_hidden_nodes))
         )
-        answers = _ask_all(
-            direct, args, {name: {"prefixes": args.param_prefixes} for name in nodes}, "list"
-        )
+        questions = {name: {"prefixes": args.param_prefixes} for name in nodes}
+        answers, failed = _ask_all(direct, args, questions, "list")
         found = {name: _wanted(answer.result.names, args) for name, answer in answers.items()}
         questions = {name: {"names": names} for name, names in found.items()}
-        types = _ask_all(direct, args, questions, "types") if args.param_type else {}
+        types, failed_types = (
+            _ask_all(direct, args, questions, "types") if args.param_type else ({}, set())
+        )
     for name, names in found.items():
         if names and not chosen:
             print(f"{name}:")
         numbers = types[name].types if name in types else ()
         for index, parameter in enumerate(names):
             print(f"  {parameter}{f' (type: {TYPE_NAMES[numbers[index]]})' if numbers else ''}")
+    return 1 if failed | failed_types else 0
 
 
 def _wanted(names: list[str], args: argparse.Namespace) -> list[str]:
@@ -64,7 +67,7 @@ def _wanted(names: list[str], args: argparse.Namespace) -> list[str]:
 
 def _ask_all(
     direct: DirectNode, args: argparse.Namespace, fields: dict[str, dict[str, Any]], what: str
-) -> dict[str, Any]:
+) -> tuple[dict[str, Any], set[str]]:
     """Ask all nodes at the same time.
 
     Args:
@@ -74,11 +77,12 @@ def _ask_all(
         what: ``list`` or ``types``.
 
     Returns:
-        The answers; that a node does not answer is printed.
+        The answers, and the nodes that could not be asked or did not answer, which is printed. A
+        node without parameter services is neither.
     """
     service = {"list": "list_parameters", "types": "get_parameter_types"}[what]
     serving = _serving(direct, fields, service, args.timeout)
-    questions, answers = {}, {}
+    questions, answers, failed = {}, {}, set()
     for name, request in fields.items():
         if name in serving:
             questions[name] = Question(direct, name, service, args.timeout, **request)
@@ -91,10 +95,15 @@ def _ask_all(
             except RuntimeError as error:  # noqa: PERF203  each node may fail on its own
                 if args.node_name:
                     raise
+                failed.add(name)
                 del questions[name]
                 answers.pop(name, None)
-                tell(f"Exception while calling {service} service of node '{name}': {error}")
-    return answers
+                tell(f"Exception while calling {service} service of node '{name}': {_told(error)}")
+    return answers, failed
+
+
+def _told(error: RuntimeError) -> str:
+    return error.in_one_line() if isinstance(error, UncallableServiceError) else str(error)
 
 
 def _serving(direct: DirectNode, nodes: Collection[str], service: str, timeout: float) -> set[str]:

@@ -62,16 +62,18 @@ def main(args: argparse.Namespace) -> str | None:
     from ros2cli.direct_node import DirectNode
     from ros2cli.graph import services
     from ros2cli.suggestion import say_why_to_wait
+    from turtlewire.wire.services import require_callable
 
     with DirectNode(args) as direct:
         known = services(direct.graph)  # our own client is not among them
         client = direct.node.create_client(service_class, args.service_name)
+        service = direct.node.resolve_service_name(args.service_name)
+        require_callable(direct.graph, service)
         if not client.service_is_ready():
             print("waiting for service to become available...")
-            service = direct.node.resolve_service_name(args.service_name)
             if not direct.node.count_services(service):  # else the client itself tells why
                 say_why_to_wait("service", service, service_class, known)
-            if not client.wait_for_service():
+            if not direct.wait_for_server(service, client.service_is_ready):
                 raise KeyboardInterrupt
         while True:
             _call(direct, client, request)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from turtlewire.errors import CdrError
 from turtlewire.wire import names
-from turtlewire.wire.base import EndpointInfo, NodeInfo
+from turtlewire.wire.base import EndpointInfo, ForeignServer, NodeInfo
 from turtlewire.wire.conflicts import EndpointTypes, NodeNames, as_compared
 from turtlewire.wire.graph import (
     DISCOVERY_TOPIC,
@@ -29,7 +29,7 @@ from . import library as dds
 from .endpoint import EndpointSpec
 from .ports import process_of, processes_on_host
 from .qos import read_qos, read_user_data
-from .servers import foreign_middleware
+from .servers import foreign_middleware, is_fast_dds
 from .silent_peers import PATIENCE_NS, Questions, SilentPeers
 from .subscription import CycloneSubscription
 
@@ -226,9 +226,10 @@ class CycloneGraph(GraphView):
                     sample.topic_name.decode("utf-8", "replace"),
                     sample.type_name.decode("utf-8", "replace"),
                 )
-                self._endpoints[gid] = endpoint = _Endpoint(
-                    kind, topic, type_name, user_data, read_qos(sample.qos)
-                )
+                qos = read_qos(sample.qos)
+                if is_fast_dds(gid):  # it does not announce the history; Cyclone tells its default
+                    qos = qos._replace(history=History.UNKNOWN, depth=0)
+                self._endpoints[gid] = endpoint = _Endpoint(kind, topic, type_name, user_data, qos)
                 self._compare_types(self._types.add, gid, endpoint)
         return news
 
@@ -304,17 +305,18 @@ class CycloneGraph(GraphView):
                 for gid, endpoint in self._endpoints.items()
             ]
 
-    def uncallable_services(self) -> dict[str, str]:
-        """See :meth:`Graph.uncallable_services`."""
-        self._look_first()
+    def foreign_servers(self) -> list[ForeignServer]:
+        """See :meth:`Graph.foreign_servers`."""
+        found = []
         with self._lock:
-            return {
-                service: middleware
-                for gid, endpoint in self._endpoints.items()
-                if endpoint.kind == "subscription"
-                and (service := names.service_of_requests(endpoint.dds_topic)) is not None
-                and (middleware := foreign_middleware(gid, endpoint.user_data))
-            }
+            for info in self.endpoints():
+                service = names.service_of_requests(info.topic)
+                if service is not None and info.kind == "subscription":
+                    announced = self._endpoints[info.gid].user_data
+                    middleware = foreign_middleware(info.gid, announced)
+                    if middleware:
+                        found.append(ForeignServer(service, info.node, middleware))
+        return found
 
     def end_waits(self) -> None:
         """End all waits, and take back what was asked."""

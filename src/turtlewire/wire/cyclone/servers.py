@@ -27,14 +27,22 @@ if TYPE_CHECKING:
     import ctypes
     from collections.abc import Callable
 
-__all__ = ["ONLY_CYCLONE", "MatchedEndpoint", "Servers", "foreign_middleware", "matched_endpoints"]
+__all__ = [
+    "ONLY_CYCLONE",
+    "MatchedEndpoint",
+    "Servers",
+    "foreign_middleware",
+    "is_fast_dds",
+    "matched_endpoints",
+]
 
 #: Cyclone compares patterns with the default partition, whose name is empty; Fast DDS does not.
 ONLY_CYCLONE = "*"
 
+_FAST_DDS = b"\x01\x0f"
 _MIDDLEWARES = {
     b"\x01\x01": "Connext DDS (rmw_connextdds)",
-    b"\x01\x0f": "Fast DDS (rmw_fastrtps_cpp)",
+    _FAST_DDS: "Fast DDS (rmw_fastrtps_cpp)",
     b"\x01\x12": "RustDDS",
 }
 
@@ -49,6 +57,11 @@ class MatchedEndpoint(NamedTuple):
 
     gid: bytes
     ids: dict[str, str]
+
+
+def is_fast_dds(gid: bytes) -> bool:
+    """Whether the gid is one of Fast DDS, the default middleware of ROS 2."""
+    return gid.startswith(_FAST_DDS)
 
 
 def foreign_middleware(gid: bytes, ids: dict[str, str]) -> str:

@@ -1,0 +1,118 @@
+"""Topics pass both ways between ours and real nodes on Fast DDS."""
+
+from __future__ import annotations
+
+import re
+import socket
+from pathlib import Path
+
+import pytest
+
+from turtlewire import msg
+from turtlewire.wire.base import TypeId
+from turtlewire.wire.qos import QoS, Reliability
+
+pytestmark = pytest.mark.slow
+
+LONG = 60_000_000_000
+PAGE = Path(__file__).parents[2] / "docs" / "compatibility.md"
+RECEIVE_BUFFER = 4_194_304
+IMAGES = 20
+
+
+def type_id(name):
+    return TypeId(name, msg.type_hash(name))
+
+
+def matched_publisher(context, peer, topic, type_name, qos=QoS()):  # noqa: B008 - a named tuple
+    """A publisher of ours that the real node has matched, too: what it sends arrives."""
+    publisher = context.create_node("ours").create_publisher(topic, type_id(type_name), qos)
+    assert context.graph.wait_for(lambda: publisher.subscription_count() == 1, LONG)
+    peer.wait_for(rf"publishers of {topic}: 1")
+    return publisher
+
+
+def test_messages_go_both_ways(peer, context):
+    name = "geometry_msgs/msg/TransformStamped"
+    node = context.create_node("ours")
+    moved = node.create_subscription("/moved", type_id(name), QoS())
+    # the answer goes to our subscription once the real node knows it
+    assert context.graph.wait_for(lambda: moved.publisher_count() == 1, LONG)
+    publisher = matched_publisher(context, peer, "/move", name)
+    wait_set = context.create_wait_set()
+    wait_set.attach(moved)
+    sent = msg.get_message(name)()
+    sent.header.frame_id, sent.child_frame_id = "world", "räder/links"
+    sent.header.stamp.sec, sent.transform.rotation.z = 12, 0.5
+    received = []
+    while not received:
+        publisher.publish(msg.serialize(sent))
+        wait_set.wait(200_000_000)
+        received = moved.take()
+    sent.transform.translation.x += 1.0
+    assert msg.deserialize(msg.get_message(name), received[0][0]) == sent
+
+
+def test_the_end_of_a_publisher_is_seen_while_its_process_goes_on(peer, context):
+    publisher = matched_publisher(context, peer, "/heard", "std_msgs/msg/String")
+    publisher.publish(msg.serialize(msg.get_message("std_msgs/msg/String")(data="ours")))
+    peer.wait_for("heard ours")
+    publisher.close()
+    peer.wait_for("publishers of /heard: 0")
+
+
+def test_topic_info_shows_no_history_that_was_not_announced(peer, command):
+    status, text = command("ros2", "topic", "info", "-v", "/chatter")
+    assert status == 0
+    assert "  History (Depth): UNKNOWN\n" in text
+
+
+def publish_images(context, peer, topic, qos, size):
+    name = "sensor_msgs/msg/Image"
+    publisher = matched_publisher(context, peer, topic, name, qos)
+    image = msg.get_message(name)(data=bytes(size))
+    for number in range(IMAGES):
+        image.header.frame_id = str(number)
+        publisher.publish(msg.serialize(image))
+        peer.wait_for(f"image {number} {size}", timeout=60)
+
+
+@pytest.mark.parametrize("size", [100_000, 384_000, 1_000_000, 8_000_000])
+def test_images_arrive_at_a_reliable_subscription(peer, context, size):
+    publish_images(context, peer, "/image", QoS(), size)
+
+
+def test_images_arrive_at_a_camera_subscription_with_the_profile_of_the_docs(
+    start_peer, context, tmp_path
+):
+    limit = int(Path("/proc/sys/net/core/rmem_max").read_text())
+    if limit < RECEIVE_BUFFER:
+        pytest.skip(f"net.core.rmem_max is {limit} (sysctl -w net.core.rmem_max={RECEIVE_BUFFER})")
+    (profile,) = re.findall(r"```xml\n(.*?)```", PAGE.read_text(), re.DOTALL)
+    (tmp_path / "profile.xml").write_text(profile)
+    path = str(tmp_path / "profile.xml")
+    variables = {"FASTRTPS_DEFAULT_PROFILES_FILE": path, "FASTDDS_DEFAULT_PROFILES_FILE": path}
+    peer = start_peer(**variables)
+    qos = QoS(reliability=Reliability.BEST_EFFORT)
+    publish_images(context, peer, "/camera", qos, 1_000_000)
+
+
+def own_address():
+    """An address of this computer that is not the loopback one; empty if it has none."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as route:
+        try:
+            route.connect(("203.0.113.1", 9))  # sends nothing
+        except OSError:
+            return ""
+        return str(route.getsockname()[0])
+
+
+def test_debians_cyclone_finds_the_node_by_an_address_of_this_computer(peer, command):
+    if not list(Path("/usr/lib").glob("*/libddsc.so.0.10*")):
+        pytest.skip("no libddsc 0.10 in /usr/lib (Debian: apt install libddsc0debian)")
+    if not (address := own_address()):
+        pytest.skip("this computer has no route but the loopback one")
+    words = ("topic", "echo", "--once", "/chatter", "std_msgs/msg/String")
+    status, text = command("ros2", *words, CYCLONEDDS_HOME="/usr", ROS_STATIC_PEERS=address)
+    assert status == 0
+    assert "data: from Fast DDS" in text
