@@ -31,6 +31,7 @@ __all__ = [
     "ONLY_CYCLONE",
     "MatchedEndpoint",
     "Servers",
+    "foreign_among",
     "foreign_middleware",
     "is_fast_dds",
     "matched_endpoints",
@@ -120,6 +121,7 @@ class Servers:
             self._known = (handles, servers)
         return servers
 
-    def foreign(self) -> str:
-        """The middleware of a matching server that would misread a request; empty if none would."""
-        return next(filter(None, (foreign_middleware(*server) for server in self.now())), "")
+
+def foreign_among(servers: list[MatchedEndpoint]) -> str:
+    """The middleware of a server that would misread a request; empty if none would."""
+    return next(filter(None, (foreign_middleware(*server) for server in servers)), "")

@@ -24,7 +24,7 @@ from turtlewire.wire.services import (
 
 from . import library as dds
 from .ports import is_cyclone
-from .servers import Servers, foreign_middleware, matched_endpoints
+from .servers import Servers, foreign_among, foreign_middleware, matched_endpoints
 
 if TYPE_CHECKING:
     from turtlewire.wire.base import RequestId
@@ -62,7 +62,7 @@ class CycloneClient(TopicClient):
 
     def send_request(self, cdr: bytes) -> int:
         """See :meth:`Client.send_request`."""
-        middleware = self._servers.foreign()
+        middleware = foreign_among(self._servers.now())
         if middleware:
             raise not_callable(self.service, middleware)
         return super().send_request(cdr)
@@ -72,13 +72,14 @@ class CycloneClient(TopicClient):
 
         One and the same server reads our requests and writes replies to us.
         """
-        if self._servers.foreign():
+        servers = self._servers.now()
+        if foreign_among(servers):
             return False
         writers = matched_endpoints(
             self.replies.handle, dds.matched_publications, dds.matched_publication_data
         )
         replying = {writer.ids.get("serviceid") for writer in writers}
-        return any(server.ids["serviceid"] in replying for server in self._servers.now())
+        return any(server.ids["serviceid"] in replying for server in servers)
 
 
 class _Waiting(NamedTuple):
