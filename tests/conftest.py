@@ -223,6 +223,32 @@ def other_domain():
 
 
 @pytest.fixture
+def foreign_server():
+    """Adds servers to a node /stranger that announce no ``serviceid``, as those of Fast DDS do.
+
+    They read requests, and nothing else.
+    """
+    from turtlewire import msg
+    from turtlewire.wire import names, open_context
+    from turtlewire.wire.base import TypeId
+    from turtlewire.wire.cyclone.endpoint import EndpointSpec
+    from turtlewire.wire.qos import QoS
+
+    context = open_context(middleware="rmw_cyclonedds_cpp")
+    node = context.create_node("stranger")
+
+    def add(service, type_name):
+        request = f"{type_name}_Request"
+        type_id = TypeId(request, msg.type_hash(request))
+        return node._subscription(
+            EndpointSpec(service, names.request_topic(service), type_id, QoS())
+        )
+
+    yield add
+    context.close()
+
+
+@pytest.fixture
 def run():
     """Starts programs, and ends those that still run after the test."""
     programs = []

@@ -15,6 +15,7 @@ import pytest
 
 from turtlewire import msg
 from turtlewire.cli import doctor
+from turtlewire.cli import setup_findings as setup
 from turtlewire.cli.finding import Finding
 from turtlewire.cli.graph_findings import graph_findings
 from turtlewire.cli.main import main
@@ -25,6 +26,7 @@ from turtlewire.cli.tf_traffic import TfListener, TfTraffic, frame_names
 from turtlewire.errors import WireError
 from turtlewire.wire import open_context
 from turtlewire.wire.base import TypeId
+from turtlewire.wire.libddsc import Libddsc, Search
 from turtlewire.wire.qos import Durability, QoS, Reliability
 
 STRING = TypeId("std_msgs/msg/String", "RIHS01_" + "1" * 64)
@@ -54,6 +56,45 @@ def test_a_sound_graph_has_no_findings(context):
     context.create_node("talker").create_publisher("/chatter", STRING, QoS())
     context.create_node("listener").create_subscription("/chatter", STRING, QoS())
     assert graph_findings(context.graph) == []
+
+
+def test_servers_that_would_misread_requests(foreign_server):
+    foreign_server("/b/reset", "std_srvs/srv/Empty")
+    foreign_server("/a/reset", "std_srvs/srv/Empty")
+    with contextlib.closing(open_context(middleware="rmw_cyclonedds_cpp")) as context:
+        graph = context.graph
+        graph.wait_for(
+            lambda: [server.node is not None for server in graph.foreign_servers()] == [True, True],
+            60_000_000_000,
+        )
+        (finding,) = graph_findings(graph)
+    assert not finding.is_problem
+    assert finding.text == (
+        "The 2 services of nodes on a middleware that announces no serviceid cannot be called from "
+        "here, those of parameters and actions included; topics work. Nodes: /stranger."
+    )
+    assert finding.remedy.startswith("Start the nodes with RMW_IMPLEMENTATION=rmw_cyclonedds_cpp,")
+
+
+@pytest.mark.parametrize(
+    ("version", "range_", "peers", "is_blind"),
+    [
+        ("0.10.2", "LOCALHOST", "", True),
+        ("0.10.2", "LOCALHOST", "192.0.2.2", False),
+        ("0.10.2", "SUBNET", "", False),
+        ("11.0.1", "LOCALHOST", "", False),
+    ],
+)
+def test_a_library_that_does_not_find_fast_dds_is_named(
+    monkeypatch, version, range_, peers, is_blind
+):
+    library = Libddsc("/lib/libddsc.so", version, "the system")
+    monkeypatch.setattr(setup, "find_libddsc", lambda: Search(library, []))
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", range_)
+    monkeypatch.setenv("ROS_STATIC_PEERS", peers)
+    blind = [found for found in setup_findings({}, []) if "Fast DDS" in found.text]
+    assert len(blind) == is_blind
+    assert all("export ROS_STATIC_PEERS=ADDRESS" in found.remedy for found in blind)
 
 
 def test_nodes_of_one_name(context):

@@ -160,3 +160,24 @@ def test_a_full_pipe_never_blocks_and_the_thread_still_ends():
     os.write(log._write_end, b"\n" * 4096)
     log.start()
     log.stop()
+
+
+@pytest.mark.parametrize(
+    ("line", "is_said"),
+    [
+        ("malformed packet received from vendor 1.15 state parse:UNKNOWN(80) <52545053 @0x0", False),
+        ("malformed packet received from vendor 1.16 state parse:UNKNOWN(80) <52545053 @0x0", True),
+        ("malformed packet received from vendor 1.15 state parse:DATA <52545053 @0x0", True),
+        (
+            "invalid parameter list (vendor 1.15, version 2.2): pid 5a (ENDPOINT_GUID) invalid, "
+            "input = 1,15,120,253,61,101,52,182,0,0,0,0,0,0,1,98",
+            False,
+        ),
+        ("Invalid PublicationBuiltinTopicData (vendor 1.15): invalid qos/parameters", False),
+        ("Invalid PublicationBuiltinTopicData (vendor 1.16): invalid qos/parameters", True),
+    ],
+)
+def test_the_statistics_of_fast_dds_are_no_trouble(line, is_said):
+    log = CycloneLog()
+    os.write(log._write_end, f"1795266048.352094 [64]       recv: {line}\n".encode())
+    assert log.unread() == ([line] if is_said else [])

@@ -206,6 +206,12 @@ def test_heartbeats_are_left_as_they_are_and_buffers_are_large(chosen: Range):
     ]
 
 
+@pytest.mark.parametrize("chosen", Range)
+def test_fast_dds_gets_the_keys_of_endpoints_that_end(chosen: Range):
+    domain = configuration(Discovery(chosen, ()))
+    assert domain.findtext("Internal/GenerateKeyhash") == "true"
+
+
 def test_the_users_configuration_comes_last(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setenv("CYCLONEDDS_URI", "file:///my.xml")
     assert domain_configuration(7, Discovery(Range.SUBNET, ())).endswith(

@@ -34,6 +34,13 @@ _BLOCK = 1 << 16
 # patterns, compiled when there is something to say
 _HEAD = r"[\d.]+ \[\w*\] +\S+: "
 _REFUSED = r"ddsi_udp_conn_write to udp/(.+):\d+ failed"
+#: Fast DDS counts packets in submessages of its own (0x80), and has endpoints of its own for that.
+#: Cyclone cannot read them, loses nothing by it, and nobody can act on it.
+_STATISTICS = (
+    r"malformed packet received from vendor 1\.15 state parse:UNKNOWN\(80\)|"
+    r"invalid parameter list \(vendor 1\.15, [^)]*\): pid 5a \(ENDPOINT_GUID\) invalid|"
+    r"Invalid \w+BuiltinTopicData \(vendor 1\.15\): invalid qos/parameters"
+)
 _STDERR = {"linux": "stderr", "darwin": "__stderrp"}
 
 
@@ -128,7 +135,7 @@ class CycloneLog:
         """The unread lines; for the time before :meth:`start`."""
         if self._file is None or self._thread is not None:
             return []
-        return [_text_of(line) for line in self._read().splitlines()]
+        return list(filter(None, map(_text_of, self._read().splitlines())))
 
     def _read(self) -> bytes:
         with suppress(BlockingIOError):
@@ -173,7 +180,9 @@ def _warn_each(sentences: list[str]) -> None:
 
 
 def _text_of(line: bytes) -> str:
-    return re.sub(_HEAD, "", line.decode("utf-8", "replace").strip(), count=1)
+    """A line without its time and thread; empty if it is about the statistics of Fast DDS."""
+    text = re.sub(_HEAD, "", line.decode("utf-8", "replace").strip(), count=1)
+    return "" if re.match(_STATISTICS, text) else text
 
 
 def _print_on_abort(pipe: int) -> None:

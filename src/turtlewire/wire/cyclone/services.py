@@ -113,7 +113,8 @@ class CycloneService(TopicService):
         #: The clients that could be reached after so many changes.
         self._reachable: tuple[int, set[str | None]] = (-1, set())
         self._waiting: list[_Waiting] = []
-        requests.on_matched.append(requests.learn_publishers)
+        # Before others hear of the match: they may take requests then.
+        requests.on_matched.insert(0, requests.learn_publishers)
 
     def take(self, limit: int = 32) -> list[tuple[RequestId, bytes]]:
         """See :meth:`Service.take`."""
