@@ -112,6 +112,16 @@ def test_a_call_fails_when_its_service_goes(client, robot):
     waiting.close()
 
 
+def test_a_service_whose_server_would_misread_the_call_is_not_called(client, foreign_server):
+    foreign_server("/silent", SET_BOOL)
+    one = client()
+    one.call(one.service("/silent")["id"], 1, b"{}")
+    number, text = failure(one)
+    assert number == 1
+    assert text.startswith("service /silent is not called: its server runs on ")
+    assert "Start the server with RMW_IMPLEMENTATION=rmw_cyclonedds_cpp" in text
+
+
 # -- parameters
 
 

@@ -177,6 +177,15 @@ def test_a_file_that_is_missing_is_one_error(tmp_path):
         played(path)
 
 
+def test_recorded_requests_are_not_sent_to_a_server_that_would_misread_them(
+    tmp_path, capfd, foreign_server
+):
+    server = foreign_server("/add", "example_interfaces/srv/AddTwoInts")
+    played(events(tmp_path / "bag"), rate=50.0, publish_service_requests=True)
+    assert capfd.readouterr().err.count("no request is sent: service /add is not called: ") == 1
+    assert server.take() == []
+
+
 def test_recorded_requests_are_sent_again(peer, tmp_path, capfd):
     bag = events(tmp_path / "bag")
     played(bag, rate=50.0, publish_service_requests=True)

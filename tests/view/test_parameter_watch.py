@@ -137,3 +137,12 @@ def test_a_changed_parameter_is_followed(source, describer, robot):
         events.publish(msg.serialize(event))
         wait_for(answers, lambda answer, text=text: answer.text == text)
     end()
+
+
+def test_a_node_that_would_misread_the_request_is_named(source, foreign_server):
+    foreign_server("/stranger/get_parameters", "rcl_interfaces/srv/GetParameters")
+    answers, end = ask(source, "/stranger", "robot")
+    with contextlib.closing(contextlib.ExitStack()) as stack:
+        stack.callback(end)
+        answer = wait_for(answers, lambda answer: "is not called" in answer.problem)
+    assert "Start the server with RMW_IMPLEMENTATION=rmw_cyclonedds_cpp" in answer.problem
