@@ -85,7 +85,9 @@ class PlayerOutputs:
         if not self._graph.is_complete():
             return False
         uncallable = {server.service for server in self._graph.foreign_servers()}
-        if not self._requests.are_matched(self._graph.service_names_and_types().keys() - uncallable):
+        if not self._requests.are_matched(
+            self._graph.service_names_and_types().keys() - uncallable
+        ):
             return False
         heard = {each.topic for each in self._graph.endpoints() if each.kind == "subscription"}
         return all(

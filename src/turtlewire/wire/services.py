@@ -20,7 +20,15 @@ from .report import warn_once
 if TYPE_CHECKING:
     from .base import Graph, Publisher, Subscription
 
-__all__ = ["TopicClient", "TopicService", "advice", "join_header", "not_callable", "require_callable", "split_header"]
+__all__ = [
+    "TopicClient",
+    "TopicService",
+    "advice",
+    "join_header",
+    "not_callable",
+    "require_callable",
+    "split_header",
+]
 
 _ENCAPSULATION = 4
 _HEADER = Struct("<Qq")
