@@ -14,6 +14,7 @@ __all__ = [
     "EndpointInfo",
     "EventKind",
     "EventStatus",
+    "ForeignServer",
     "MessageInfo",
     "NodeInfo",
     "RequestId",

@@ -307,16 +307,23 @@ class CycloneGraph(GraphView):
 
     def foreign_servers(self) -> list[ForeignServer]:
         """See :meth:`Graph.foreign_servers`."""
-        found = []
+        self._look_first()
         with self._lock:
-            for info in self.endpoints():
-                service = names.service_of_requests(info.topic)
-                if service is not None and info.kind == "subscription":
-                    announced = self._endpoints[info.gid].user_data
-                    middleware = foreign_middleware(info.gid, announced)
-                    if middleware:
-                        found.append(ForeignServer(service, info.node, middleware))
-        return found
+            foreign = {
+                gid: (service, middleware)
+                for gid, endpoint in self._endpoints.items()
+                if endpoint.kind == "subscription"
+                and (service := names.service_of_requests(endpoint.dds_topic)) is not None
+                and (middleware := foreign_middleware(gid, endpoint.user_data))
+            }
+            if not foreign:  # as nearly always: spare the search for the owners
+                return []
+            owners = {endpoint.gid: endpoint.node for endpoint in self.endpoints()}
+            return [
+                ForeignServer(service, owners[gid], middleware)
+                for gid, (service, middleware) in foreign.items()
+                if gid in owners  # it may have left meanwhile
+            ]
 
     def end_waits(self) -> None:
         """End all waits, and take back what was asked."""
