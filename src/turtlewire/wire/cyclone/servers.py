@@ -82,12 +82,18 @@ def foreign_middleware(gid: bytes, ids: dict[str, str]) -> str:
 
 def matched_endpoints(
     handle: int,
-    list_matched: Callable[..., int],
+    matched: list[int],
     read_matched: Callable[..., ctypes._Pointer[dds.BuiltinEndpoint]],
 ) -> list[MatchedEndpoint]:
-    """The readers or writers that match, without those that leave meanwhile."""
+    """What the matching readers or writers announce, without those that have left meanwhile.
+
+    Args:
+        handle: Cyclone's handle of our endpoint.
+        matched: Cyclone's handles of the others.
+        read_matched: The function of Cyclone that tells what one of them announces.
+    """
     found = []
-    for instance in matched_handles(handle, list_matched):
+    for instance in matched:
         endpoint = read_matched(handle, instance)
         if endpoint:
             try:
@@ -116,9 +122,7 @@ class Servers:
         handles = matched_handles(self._writer, dds.matched_subscriptions)
         known, servers = self._known
         if handles != known:
-            servers = matched_endpoints(
-                self._writer, dds.matched_subscriptions, dds.matched_subscription_data
-            )
+            servers = matched_endpoints(self._writer, handles, dds.matched_subscription_data)
             self._known = (handles, servers)
         return servers
 

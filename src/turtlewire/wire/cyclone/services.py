@@ -23,6 +23,7 @@ from turtlewire.wire.services import (
 )
 
 from . import library as dds
+from .endpoint import matched_handles
 from .ports import is_cyclone
 from .servers import Servers, foreign_among, foreign_middleware, matched_endpoints
 
@@ -75,9 +76,9 @@ class CycloneClient(TopicClient):
         servers = self._servers.now()
         if foreign_among(servers):
             return False
-        writers = matched_endpoints(
-            self.replies.handle, dds.matched_publications, dds.matched_publication_data
-        )
+        replies = self.replies.handle
+        matched = matched_handles(replies, dds.matched_publications)
+        writers = matched_endpoints(replies, matched, dds.matched_publication_data)
         replying = {writer.ids.get("serviceid") for writer in writers}
         return any(server.ids["serviceid"] in replying for server in servers)
 
@@ -164,9 +165,9 @@ class CycloneService(TopicService):
     def _can_reach(self, client: str) -> bool:
         matches = self._matches  # read first: a change while we look must not be missed
         if self._reachable[0] != matches:
-            clients = matched_endpoints(
-                self.replies.handle, dds.matched_subscriptions, dds.matched_subscription_data
-            )
+            replies = self.replies.handle
+            matched = matched_handles(replies, dds.matched_subscriptions)
+            clients = matched_endpoints(replies, matched, dds.matched_subscription_data)
             self._reachable = (matches, {client.ids.get("clientid") for client in clients})
         return client in self._reachable[1]
 
