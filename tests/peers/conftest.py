@@ -32,7 +32,7 @@ def venv(request):
 @pytest.fixture
 def real(venv, run):
     """Starts `peer.py` in the domain of this process, with its address space limited."""
-    nodes = []
+    nodes, before = [], shared_memory()
 
     def start(*arguments, **environment):
         kept = ("HOME", "ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE")
@@ -45,19 +45,29 @@ def real(venv, run):
 
     yield start
     for node in nodes:
-        shared = shared_memory(node.process.pid)
         node.process.kill()
         node.wait()
-        for path in shared:
-            path.unlink(missing_ok=True)
+    for path in shared_memory() - before - in_use():
+        path.unlink(missing_ok=True)
 
 
-def shared_memory(pid):
-    """The files of Fast DDS that a process has mapped; a process that is killed leaves them."""
-    with suppress(FileNotFoundError, ProcessLookupError):
-        mapped = [line.split()[-1] for line in Path(f"/proc/{pid}/maps").read_text().splitlines()]
-        return {Path(path) for path in mapped if path.startswith("/dev/shm/") and "fast" in path}
-    return set()
+def shared_memory():
+    """The files through which nodes on Fast DDS share memory; a process that is killed leaves them.
+
+    One that ends leaves some as well.
+    """
+    return set(Path("/dev/shm").glob("*fast*"))
+
+
+def in_use():
+    """The files that a process has open or mapped, among them nodes of others on this computer."""
+    found = set()
+    for process in Path("/proc").glob("[0-9]*"):
+        with suppress(OSError):  # it has ended, or is somebody else's
+            lines = (process / "maps").read_text().splitlines()
+            found |= {Path(line.split(maxsplit=5)[-1]) for line in lines if "/dev/shm/" in line}
+            found |= {file.readlink() for file in (process / "fd").iterdir()}
+    return found
 
 
 @pytest.fixture
