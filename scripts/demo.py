@@ -12,7 +12,6 @@ import math
 import os
 import sys
 import time
-from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 from demo_domain import other_demo_runs
@@ -46,7 +45,6 @@ def main() -> int:
     arguments = parser.parse_args()
     started = float(os.environ.get("TURTLEWIRE_DEMO_STARTED", "").replace(",", ".") or time.time())
     prepare_environment()
-    choose_core()
     from demo_check import check
 
     for signum in ENDING:
@@ -70,16 +68,6 @@ def prepare_environment() -> None:
     os.environ.setdefault("ROS_LOG_DIR", str(VENV / "log"))
     for name in ("PYTHONPATH", "AMENT_PREFIX_PATH"):
         os.environ.pop(name, None)
-
-
-def choose_core() -> None:
-    """Report a missing compiled core once, not in each process."""
-    if "TURTLEWIRE_CORE" not in os.environ and find_spec("turtlewire._native") is None:
-        os.environ["TURTLEWIRE_CORE"] = "python"
-        print(
-            "[demo] transforms run on the plain-Python core; "
-            "to get the compiled one, type `apt install g++ python3-dev` (or the like)"
-        )
 
 
 def show(seconds: float | None) -> int:

@@ -20,7 +20,6 @@ import threading
 import time
 import uuid
 import zlib
-from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -30,8 +29,6 @@ from turtlewire.testing import isolated_domain, reserved_domain
 
 for_this_run = contextlib.ExitStack()
 for_this_run.enter_context(isolated_domain())
-if find_spec("turtlewire._native") is None:  # each child process would say that it is not built
-    os.environ.setdefault("TURTLEWIRE_CORE", "python")
 
 
 # A shell starts what ends with `&` with SIGINT ignored, and `nohup` ignores SIGHUP; children

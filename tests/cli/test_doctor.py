@@ -45,9 +45,24 @@ def texts(findings):
     return [finding.text for finding in findings]
 
 
+@pytest.mark.parametrize(
+    ("variable", "value", "is_problem"),
+    [
+        ("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST", False),
+        ("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET", True),
+        ("ROS_STATIC_PEERS", "192.0.2.1", True),
+    ],
+)
+def test_an_empty_domain_is_a_problem_where_others_are_looked_for(
+    context, monkeypatch, variable, value, is_problem
+):
+    monkeypatch.setenv(variable, value)
+    (finding,) = graph_findings(context.graph)
+    assert finding.is_problem == is_problem
+
+
 def test_an_empty_domain(context):
     (finding,) = graph_findings(context.graph)
-    assert finding.is_problem
     assert finding.text == f"No node is seen on domain {os.environ['ROS_DOMAIN_ID']} of this host."
     assert "ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET" in finding.remedy
 
@@ -403,15 +418,43 @@ def test_another_distribution_is_named():
 
 
 def test_the_command_says_problems_first_and_fails(monkeypatch, capsys):
-    findings = [Finding(False, "small", "do a"), Finding(True, "big", "do b")]
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+    monkeypatch.setenv("ROS_DOMAIN_ID", "7")
+    network = "middleware local, discovery range LOCALHOST, domain 7."
+    findings = [Finding(False, "small", "do a"), *[Finding(True, "big", "do b")] * 2]
     monkeypatch.setattr(doctor, "examine", lambda _seconds: findings)
     assert main(["doctor"]) == 1
-    assert capsys.readouterr().out == "PROBLEM: big\n    do b\nnote: small\n    do a\n"
+    big = "PROBLEM: big\n    do b\n"
+    small = "note: small\n    do a\n"
+    assert capsys.readouterr().out == f"2 problems found: {network}\n{big}{big}{small}"
+    findings.pop()
+    assert main(["doctor"]) == 1
+    assert capsys.readouterr().out == f"1 problem found: {network}\n{big}{small}"
     findings.pop()
     assert main(["doctor"]) == 0
+    assert capsys.readouterr().out == f"All is well: {network}\n{small}"
     findings.clear()
     assert main(["doctor"]) == 0
-    assert capsys.readouterr().out.endswith("No problems found.\n")
+    assert capsys.readouterr().out == f"All is well: {network}\n"
+
+
+def test_right_after_the_installation_all_is_well(run):
+    """Nothing runs, nothing is sourced and no variable of ROS is set but the test's own domain."""
+    variables = {"PATH": "/usr/bin:/bin", "HOME": os.environ["HOME"]}
+    variables["ROS_DOMAIN_ID"] = os.environ["ROS_DOMAIN_ID"]
+    words = ["env", "-i", *(f"{name}={value}" for name, value in variables.items())]
+    program = run(*words, str(Path(sys.executable).parent / "turtlewire"), "doctor")
+    assert program.wait() == 0, program.text
+    first, *others = program.text.splitlines()
+    assert first.startswith("All is well: middleware rmw_")
+    assert first.endswith(f", discovery range LOCALHOST, domain {variables['ROS_DOMAIN_ID']}.")
+    assert not any("PROBLEM" in line for line in others)
+
+
+def test_without_a_middleware_none_is_named(monkeypatch):
+    monkeypatch.setattr(doctor, "is_installed", lambda _name: False)
+    first, *_ = doctor.full_report([Finding(True, "no network", "install one")]).splitlines()
+    assert first.startswith("1 problem found: middleware none, ")
 
 
 def test_findings_as_json(monkeypatch, capsys):
@@ -581,5 +624,5 @@ def test_everything_at_once_on_the_wire(run):
         "note: The frame 'leaping' leaps by up to 50.0 m between transforms.",
     ):
         assert text in program.text, program.text
-    remedies = program.text.splitlines()[1::2]
+    remedies = program.text.splitlines()[2::2]
     assert all(remedy.startswith("    ") for remedy in remedies)

@@ -680,13 +680,11 @@ class TestChoiceOfCore:
 
     MISSING = "import sys; sys.modules['turtlewire._native'] = None\n"
 
-    def test_missing_native_is_said(self) -> None:
+    def test_missing_native_is_not_said_by_each_process(self) -> None:
         run = self.run(
             self.MISSING + "import turtlewire; print(turtlewire.Buffer().frame_strings())"
         )
-        assert run.stdout == "[]\n"
-        assert run.stderr.count("\n") == 1
-        assert "g++" in run.stderr
+        assert (run.stdout, run.stderr) == ("[]\n", "")
 
     def test_missing_native_can_be_an_error(self) -> None:
         run = self.run(

@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING
 
 from turtlewire.cli.finding import Finding, problem
 from turtlewire.cli.graph_findings import graph_findings
-from turtlewire.cli.setup_findings import network_findings, only_this_host, setup_findings
+from turtlewire.cli.setup_findings import looks_for_others, network_findings, setup_findings
 from turtlewire.cli.tf_findings import tf_findings
 from turtlewire.cli.tf_traffic import TfListener, tf_publishers
 from turtlewire.errors import WireError
 from turtlewire.printable import printable
-from turtlewire.wire.environment import discovery
+from turtlewire.wire.environment import discovery, is_installed, middleware_name
 
 if TYPE_CHECKING:
     from turtlewire.wire.base import Graph
 
-__all__ = ["as_json", "examine", "report"]
+__all__ = ["as_json", "examine", "full_report", "report"]
 
 _LISTEN_S = 2.0
 _DISCOVERY_LIMIT_NS = 2_000_000_000
@@ -46,7 +46,7 @@ def examine(listen_s: float | None = None) -> list[Finding]:
         context.create_node("_turtlewire_doctor")
         listener = TfListener(context)
         graph.hurry()
-        if discovery().static_peers or not only_this_host():
+        if looks_for_others():
             graph.wait_for(lambda: False, _OTHER_HOSTS_NS)
         graph.wait_for(graph.is_complete, _DISCOVERY_LIMIT_NS)
         if listen_s is None:
@@ -65,6 +65,24 @@ def _listen(listener: TfListener, graph: Graph) -> None:
     # What seems to be missing or late may still come.
     if not heard_all and tf_findings(graph, listener.traffic()):
         listener.wait(max(0.0, end - time.monotonic()))
+
+
+def full_report(findings: list[Finding]) -> str:
+    """Return the findings of `examine` as text, below a line with the verdict and the network."""
+    verdict = _verdict(findings)
+    return f"{verdict}\n{report(findings)}" if findings else verdict
+
+
+def _verdict(findings: list[Finding]) -> str:
+    count = sum(finding.is_problem for finding in findings)
+    found = f"{count} problem{'s' * (count > 1)} found" if count else "All is well"
+    middleware = middleware_name()
+    if not is_installed(middleware):
+        middleware = "none"
+    # As it is set: a value that is no domain is among the findings.
+    domain = os.environ.get("ROS_DOMAIN_ID", "").strip() or "0"
+    network = f"middleware {middleware}, discovery range {discovery().range.value}"
+    return f"{found}: {network}, domain {printable(domain)}."
 
 
 def report(findings: list[Finding]) -> str:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from turtlewire.cli.finding import Finding, note, problem
 from turtlewire.cli.network import domains_of, udp_ports
-from turtlewire.cli.setup_findings import only_this_host
+from turtlewire.cli.setup_findings import looks_for_others, only_this_host
 from turtlewire.wire.environment import compares_qos, discovery, domain_id
 from turtlewire.wire.names import fully_qualified_node_name, is_hidden
 from turtlewire.wire.qos import Durability, Reliability
@@ -83,7 +83,9 @@ def _no_nodes() -> Finding:
         "other hosts, set ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET on both sides "
         f"(here {discovery().range.value})."
     )
-    return problem(f"No node is seen on domain {domain} of {reach}.", " ".join(remedy))
+    text = f"No node is seen on domain {domain} of {reach}."
+    # On this host alone, for example after the installation, nothing needs to run yet.
+    return (problem if looks_for_others() else note)(text, " ".join(remedy))
 
 
 def _topic_findings(topic: str, endpoints: list[EndpointInfo]) -> list[Finding]:

@@ -146,8 +146,9 @@ def _frame_names(**_: Any) -> list[str]:
 
 
 def _doctor(args: argparse.Namespace) -> int:
-    from turtlewire.cli.doctor import as_json, examine, report
+    from turtlewire.cli.doctor import as_json, examine, full_report, report
 
+    as_text = full_report if args.bag is None else report
     if args.bag is None:
         if args.topic or args.static_topic:
             args.parser.error("--topic and --static-topic are of a bag: name one")
@@ -158,7 +159,7 @@ def _doctor(args: argparse.Namespace) -> int:
         from turtlewire.cli.bag_findings import examine_bag
 
         findings = examine_bag(args.bag, *tf_topics(args))
-    print(as_json(findings) if args.json else report(findings))
+    print(as_json(findings) if args.json else as_text(findings))
     return 1 if any(finding.is_problem for finding in findings) else 0
 
 

@@ -20,7 +20,7 @@ from turtlewire.wire.security import (
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-__all__ = ["network_findings", "only_this_host", "setup_findings"]
+__all__ = ["looks_for_others", "network_findings", "only_this_host", "setup_findings"]
 
 _PLAIN_CORE = "The plain-Python core is in use; lookups take many times as long."
 _INSTALL_COMPILER = (
@@ -104,3 +104,8 @@ def network_findings() -> list[Finding]:
 def only_this_host() -> bool:
     """Whether discovery stays on this host."""
     return discovery().range in (Range.LOCALHOST, Range.OFF)
+
+
+def looks_for_others() -> bool:
+    """Whether this process looks for nodes on other hosts."""
+    return bool(discovery().static_peers) or not only_this_host()

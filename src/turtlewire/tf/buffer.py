@@ -4,27 +4,20 @@ The environment decides when this module is first imported:
 
 - ``TURTLEWIRE_CORE=python`` takes the twin, ``TURTLEWIRE_CORE=native`` insists on the compiled
   core; any other value is ignored with one line on stderr (by :mod:`turtlewire.platforms`);
-- without it the compiled core is taken if it is there; if not, one line on stderr says how to
-  get it, except in a browser tab, where there is none;
+- without it the compiled core is taken if it is there (``scripts/setup`` and ``turtlewire doctor``
+  say how to get it);
 - ``TURTLEWIRE_REQUIRE_NATIVE=1`` makes a missing compiled core an ImportError.
 """
 
 from __future__ import annotations
 
 import os
-import sys
 from typing import TYPE_CHECKING
 
 from turtlewire.platforms import asked_core, in_browser
 from turtlewire.tf.surface import equip
 
 __all__ = ["CORE", "Buffer", "RecordWalk", "Transform"]
-
-_ADVICE = (
-    "turtlewire: the compiled core is not built, the plain-Python one is used (slower, same "
-    "answers). For the fast one install a C++ compiler and Python's headers (Debian: apt install "
-    "g++ python3-dev) and install turtlewire again."
-)
 
 
 def _choose() -> str:
@@ -40,7 +33,6 @@ def _choose() -> str:
             raise ImportError(
                 "the compiled core of turtlewire is required here, but it is not built"
             ) from error
-        print(_ADVICE, file=sys.stderr)  # noqa: T201
         return "python"
     return "native"
 

@@ -63,11 +63,11 @@ def main(args: argparse.Namespace) -> int:
         for other in api.reports_of_others():
             printing.format_print(other)
         return 0
-    from turtlewire.cli.doctor import examine, report
+    from turtlewire.cli.doctor import examine, full_report
 
     findings = examine(args.listen)
     failed = [finding for finding in findings if finding.is_problem or args.include_warnings]
-    print(report(findings), flush=True)
+    print(full_report(findings), flush=True)
     categories, count, total = api.run_checks_of_others(include_warnings=args.include_warnings)
     if count:
         print(f"\n{count}/{total} check(s) of other packages failed\n")
