@@ -18,7 +18,8 @@ import time
 from pathlib import Path
 
 from docs_links import faults_of
-from lesson import BuildError, serve
+from lesson import serve
+from lesson_npm import BuildError
 
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build"

@@ -1,7 +1,6 @@
 """Builds the lesson: our pure wheels, Pyodide and the editor from npm, and the page itself.
 
-Each package of npm is pinned in ``site/lesson/packages.json``, with its hash; ``npm pack`` fetches
-it once, and ``build/npm`` keeps it.
+Each package of npm is pinned in ``site/lesson/packages.json``, with its hash.
 """
 
 from __future__ import annotations
@@ -21,12 +20,12 @@ import zipfile
 from pathlib import Path
 from typing import Any
 
+from lesson_npm import BuildError, fetched
 from static_server import static_server
 
 ROOT = Path(__file__).resolve().parent.parent
 SOURCE = ROOT / "site" / "lesson"
 WHEEL_CACHE = ROOT / "build" / "lesson-wheels"
-NPM_CACHE = ROOT / "build" / "npm"
 TURTLESIM_PAGE = ROOT / "ros" / "turtlesim" / "page"
 #: Ours, and how each is built without a compiler.
 WHEELS = (
@@ -38,10 +37,6 @@ WHEELS = (
 PURE_PYTHON = ("PyYAML", "argcomplete", "defusedxml")
 #: Files of the page itself, beside its scripts.
 PAGE = ("index.html", "style.css", "icon.svg")
-
-
-class BuildError(Exception):
-    """An error whose text says what is missing."""
 
 
 def main() -> int:
@@ -108,7 +103,8 @@ def _copy_page(page: Path) -> None:
 
 def _unpack(package: dict[str, Any], page: Path) -> None:
     """Copy the files of a package of npm that the page uses."""
-    with tarfile.open(_fetched(package)) as archive:
+    archive_path = fetched(package["name"], package["version"], package["integrity"])
+    with tarfile.open(archive_path) as archive:
         for inside, outside in package["files"].items():
             member = archive.extractfile(f"package/{inside}")
             if member is None:
@@ -116,31 +112,6 @@ def _unpack(package: dict[str, Any], page: Path) -> None:
             target = page / outside
             _made(target.parent)
             target.write_bytes(member.read())
-
-
-def _fetched(package: dict[str, Any]) -> Path:
-    """The package's archive, from the cache or from npm, with the right hash."""
-    name, version = package["name"], package["version"]
-    archive = NPM_CACHE / f"{name.removeprefix('@').replace('/', '-')}-{version}.tgz"
-    if not archive.exists():
-        print(f"[lesson] fetching {name} {version} from npm", file=sys.stderr, flush=True)
-        command = ["npm", "pack", "--silent", "--ignore-scripts", f"{name}@{version}"]
-        try:
-            done = subprocess.run(
-                command, cwd=_made(NPM_CACHE), capture_output=True, text=True, check=False
-            )
-        except FileNotFoundError:
-            raise BuildError("npm is not installed (Debian: apt install npm)") from None
-        if done.returncode or not archive.exists():
-            raise BuildError(f"`{' '.join(command)}` failed:\n{done.stdout}{done.stderr}")
-    digest = base64.b64encode(hashlib.sha512(archive.read_bytes()).digest()).decode()
-    if package["integrity"] != f"sha512-{digest}":
-        archive.unlink()
-        raise BuildError(
-            f"{name} {version} has another hash than packages.json says: {digest}. "
-            "It was thrown away; try again, or find out who changed it."
-        )
-    return archive
 
 
 def _build_wheels(folder: Path) -> None:
