@@ -7,8 +7,6 @@ import signal
 if __name__ == "__main__":
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # until there are processes to stop
 
-import argparse
-import math
 import os
 import sys
 import time
@@ -16,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from demo_domain import other_demo_runs
 from demo_launch import ENDING, VENV, Launch, interrupt
+from demo_options import parse
 
 from turtlewire.errors import WireError
 from turtlewire.wire import environment
@@ -30,19 +29,7 @@ _SAME_SITUATION_S = 10.0
 
 def main() -> int:
     """Run the demo or the check; the exit status."""
-    parser = argparse.ArgumentParser(
-        prog="scripts/demo",
-        description="One turtle follows another: the tutorial's launch file, ready to run.",
-    )
-    mode = parser.add_mutually_exclusive_group()
-    mode.add_argument("--seconds", type=seconds, help="end by itself after so many seconds")
-    mode.add_argument(
-        "--check",
-        action="store_true",
-        help="run headless, drive turtle1 through a square, print figures; "
-        "status 0 if turtle2 followed",
-    )
-    arguments = parser.parse_args()
+    arguments = parse()
     started = float(os.environ.get("TURTLEWIRE_DEMO_STARTED", "").replace(",", ".") or time.time())
     prepare_environment()
     from demo_check import check
@@ -50,16 +37,6 @@ def main() -> int:
     for signum in ENDING:
         signal.signal(signum, interrupt)
     return check(started) if arguments.check else show(arguments.seconds)
-
-
-def seconds(text: str) -> float:
-    """A time that can be waited for."""
-    value = float(text)
-    if not 0.0 < value < math.inf:
-        raise argparse.ArgumentTypeError(
-            f"{text} is not a time to wait for; give a positive number"
-        )
-    return value
 
 
 def prepare_environment() -> None:
