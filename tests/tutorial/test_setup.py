@@ -1,10 +1,15 @@
-"""What scripts/setup installs, what it leaves as it is, and what it prints."""
+"""What scripts/setup installs, compiles and leaves as it is, and what it prints."""
 
 from __future__ import annotations
 
+import importlib
 import importlib.util
 import json
+import os
+import shutil
+import subprocess
 import sys
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -14,84 +19,464 @@ SETUP = SCRIPTS / "setup.py"
 
 
 @pytest.fixture
-def setup(monkeypatch, tmp_path):
-    """The module, with a pip that only notes what it is to do."""
+def module(monkeypatch, tmp_path):
+    """Imports a module of scripts/; what programs print goes to a file of this test."""
+    monkeypatch.syspath_prepend(SCRIPTS)
+    monkeypatch.setattr(importlib.import_module("setup_steps"), "LOG", tmp_path / "setup.log")
+    return importlib.import_module
+
+
+@pytest.fixture
+def steps(module):
+    return module("setup_steps")
+
+
+@pytest.fixture
+def setup(module, monkeypatch, tmp_path):
+    """The script, which only notes what it is to do."""
     spec = importlib.util.spec_from_file_location("setup_script", SETUP)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+    script = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(script)
+    script.calls = []
     monkeypatch.delenv("CI", raising=False)
-    module.calls = []
-    monkeypatch.setattr(module, "pip", lambda *words: module.calls.append(words))
-    monkeypatch.setattr(module, "ensure_pip", lambda: None)
-    monkeypatch.setattr(module, "make_venv", lambda: module.calls.append("make_venv"))
-    monkeypatch.setattr(module, "usable", lambda _stamp, _wanted: True)
-    monkeypatch.setattr(module, "STAMP", tmp_path / "stamp.json")
-    return module
+    monkeypatch.setattr(module("setup_venv"), "uv_to_use", lambda: None)
+    monkeypatch.setattr(module("setup_venv"), "pip", lambda *words, **_: script.calls.append(words))
+    for name, value in (
+        ("core_key", lambda: "key"),
+        ("provide_core", lambda key: script.calls.append(("core", key))),
+        ("usable", lambda _stamp, _wanted: True),
+        ("STAMP", tmp_path / "stamp.json"),
+    ):
+        monkeypatch.setattr(script, name, value)
+    return script
 
 
 def test_nothing_is_done_twice(setup):
     setup.main(["workspace"])
-    ((_install, *words),) = setup.calls
+    (_install, *words), core = setup.calls
     assert words.count("-e") == 4
     assert str(setup.ROOT) in words
+    assert core == ("core", "key")
     setup.main(["workspace"])
     setup.main([])
-    assert len(setup.calls) == 1
+    assert len(setup.calls) == 2
 
 
 def test_ci_installs_what_is_locked_first(setup, monkeypatch):
     monkeypatch.setenv("CI", "true")
     setup.main(["test"])
-    locked, (_install, *words) = setup.calls
+    locked, (_install, *words), _core = setup.calls
     assert locked == ("install", "--require-hashes", "-r", str(SCRIPTS / "locks" / "ci.txt"))
     assert words.count("-e") == 4
 
 
 def test_extras_alone_compile_nothing(setup):
     setup.main([])
+    setup.calls.clear()
     setup.main(["workspace"])
-    assert setup.calls[1] == ("install", "turtlewire-ros[workspace]")
     setup.main(["lint"])
-    assert setup.calls[2] == (
-        "install",
-        "turtlewire-ros[workspace]",
-        "--group",
-        f"{setup.ROOT / 'pyproject.toml'}:lint",
-    )
+    assert setup.calls == [
+        ("install", "turtlewire-ros[workspace]"),
+        (
+            "install",
+            "turtlewire-ros[workspace]",
+            "--group",
+            f"{setup.ROOT / 'pyproject.toml'}:lint",
+        ),
+    ]
     assert json.loads(setup.STAMP.read_text())["extras"] == ["lint", "workspace"]
 
 
 def test_changed_sources_are_installed_with_the_extras_there_are(setup, monkeypatch):
     setup.main(["workspace"])
+    setup.calls.clear()
     monkeypatch.setattr(setup, "fingerprint", lambda: "other")
     setup.main([])
-    assert f"{setup.ROOT / 'ros'}[workspace]" in setup.calls[1]
-    assert setup.calls[1].count("-e") == 4
+    (words,) = setup.calls  # the core is not compiled again
+    assert f"{setup.ROOT / 'ros'}[workspace]" in words
+    assert words.count("-e") == 4
 
 
-def test_each_native_source_counts(setup, monkeypatch, tmp_path):
-    """All that CMake compiles; not the core's own tests, which are built elsewhere."""
-    sources = sorted((setup.ROOT / "native").rglob("*.?pp"))
-    folders = {path.parent.name for path in sources}
-    assert folders >= {"bindings", "core", "cyclone", "tests"}
-    root = setup.ROOT
-    for name, path in vars(setup).copy().items():
-        if isinstance(path, Path) and path.is_relative_to(root):
-            monkeypatch.setattr(setup, name, tmp_path / path.relative_to(root))
-    (tmp_path / "native").mkdir()
-    for name in ("pyproject.toml", "native/CMakeLists.txt"):
-        (tmp_path / name).touch()
-    for folder in folders:
-        (tmp_path / "native" / folder).mkdir()
-        before = setup.fingerprint()
-        (tmp_path / "native" / folder / "new.cpp").write_text("int changed;")
-        assert (setup.fingerprint() == before) == (folder == "tests"), folder
+def test_changed_native_sources_install_no_package(setup, monkeypatch):
+    setup.main([])
+    setup.calls.clear()
+    monkeypatch.setattr(setup, "core_key", lambda: "other")
+    setup.main([])
+    assert setup.calls == [("core", "other")]
 
 
-def test_what_fails_is_named(setup, capfd):
-    with pytest.raises(setup.SetupError, match="this failed, see above"):
-        setup.checked([sys.executable, "-c", "import sys; print('why'); sys.exit(3)"])
+def test_an_interrupted_compilation_is_taken_up_again(setup, monkeypatch):
+    def interrupted(_key):
+        raise KeyboardInterrupt
+
+    provide = setup.provide_core
+    monkeypatch.setattr(setup, "provide_core", interrupted)
+    assert setup.run([]) == 130
+    setup.calls.clear()
+    monkeypatch.setattr(setup, "provide_core", provide)
+    assert setup.run([]) == 0
+    assert setup.calls == [("core", "key")]
+
+
+def test_a_full_disk_is_one_line(setup, monkeypatch, capfd):
+    def full(*_, **__):
+        raise OSError(28, "No space left on device", "somewhere")
+
+    monkeypatch.setattr(setup, "install", full)
+    assert setup.run([]) == 1
+    *_, said = capfd.readouterr().err.splitlines()
+    assert said == "[setup] [Errno 28] No space left on device: 'somewhere'"
+
+
+def test_an_old_python_is_refused_before_it_reads_the_rest():
+    code = "import runpy, sys; sys.version_info = (3, 9, 18); sys.version = '3.9.18 (main)'; "
+    code += f"runpy.run_path({str(SETUP)!r}, run_name='__main__')"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert "is Python 3.9.18; 3.10 or newer is needed (PYTHON=python3.12" in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+def test_a_python_that_is_not_there_is_one_line():
+    done = subprocess.run(
+        [SCRIPTS / "setup"],
+        env={**os.environ, "PYTHON": "python3.not-there"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 1
+    assert "there is no python3.not-there on the PATH" in done.stderr
+    assert "apt install python3;" in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize("name", ["demo", "docs", "lesson"])
+def test_the_help_of_a_script_installs_nothing(tmp_path, name):
+    shutil.copytree(SCRIPTS, tmp_path / "scripts")
+    done = subprocess.run(
+        [tmp_path / "scripts" / name, "--help"],
+        env={**os.environ, "PYTHON": sys._base_executable},  # which has no turtlewire
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.startswith(f"usage: scripts/{name} ")
+    assert not (tmp_path / ".venv").exists()
+
+
+class TestPip:
+    """Where the pip in .venv comes from."""
+
+    @pytest.fixture
+    def venv(self, module, monkeypatch):
+        """A Python as Debian's python3 without python3-venv: no ensurepip, no pip, and no uv."""
+        made = module("setup_venv")
+        monkeypatch.setattr(made, "find_spec", lambda _name: None)
+        monkeypatch.setattr(made, "outer_pip_version", lambda: (0, 0))
+        self.programs = {"apt"}
+        monkeypatch.setattr(
+            made.shutil, "which", lambda name: f"/bin/{name}" if name in self.programs else None
+        )
+        return made
+
+    def test_ensurepip_comes_first(self, venv, monkeypatch):
+        monkeypatch.setattr(venv, "find_spec", lambda _name: "found")
+        assert venv.pip_command() == [str(venv.PYTHON), "-m", "ensurepip"]
+
+    def test_uv_does_as_well(self, venv):
+        self.programs.add("uv")
+        assert venv.pip_command() == [
+            *("/bin/uv", "pip", "install", "--python", str(venv.PYTHON), "pip")
+        ]
+
+    @pytest.mark.parametrize(
+        ("user", "programs", "lists", "told"),
+        [
+            (0, {"apt"}, ["x_Packages.lz4"], "this line, then|apt install python3-venv"),
+            (0, {"apt"}, [], "this line, then|apt update && apt install python3-venv"),
+            (7, {"apt", "sudo"}, ["x_Packages"], "this line, then|sudo apt install python3-venv"),
+            (
+                *(7, {"apt", "sudo"}, []),
+                "this line, then|sudo apt update && sudo apt install python3-venv",
+            ),
+            (7, {"apt"}, ["x_Packages"], "this line as root, then|apt install python3-venv"),
+        ],
+    )
+    def test_otherwise_the_line_to_type_is_told(
+        self, setup, venv, monkeypatch, tmp_path, capfd, user, programs, lists, told
+    ):
+        (tmp_path / "lists").mkdir()
+        for name in lists:
+            (tmp_path / "lists" / name).touch()
+        monkeypatch.setattr(sys.modules["setup_steps"], "APT_LISTS", tmp_path / "lists")
+        monkeypatch.setattr(venv.os, "geteuid", lambda: user)
+        default = "/usr/bin/python3"
+        told_to = venv.how_to_get_pip
+        monkeypatch.setattr(venv, "how_to_get_pip", lambda *_: told_to(default, default))
+        self.programs = programs
+        monkeypatch.setattr(setup, "usable", lambda _stamp, _wanted: False)
+        monkeypatch.setattr(setup, "make_venv", lambda _pip: setup.calls.append("made"))
+        assert setup.run([]) == 1
+        said = capfd.readouterr().err.splitlines()
+        sentence, line = told.split("|")
+        assert said[0].startswith("[setup] Python's venv package is missing; type ")
+        assert sentence in said[0]
+        assert said[1:4] == ["", f"    {line}", ""]
+        assert setup.calls == []
+
+    def test_a_python_beside_the_default_has_a_package_of_its_own(self, venv):
+        default = "/usr/bin/python3.13"
+        assert "apt install python3-venv" in venv.how_to_get_pip(default, default)
+        assert "apt install python3.12-venv" in venv.how_to_get_pip("/usr/bin/python3.12", default)
+
+    @pytest.mark.parametrize(
+        ("python", "programs"), [("/usr/local/bin/python3", {"apt"}), ("/usr/bin/python3", set())]
+    )
+    def test_where_apt_cannot_help_it_is_not_named(self, venv, python, programs):
+        self.programs = programs
+        told = venv.how_to_get_pip(python, "/usr/bin/python3")
+        assert told.startswith(f"{python} has no ensurepip")
+        assert "apt" not in told
+
+    def test_the_pip_of_this_python_does_as_well(self, venv, monkeypatch):
+        self.programs.add("uv")
+        monkeypatch.setattr(venv, "outer_pip_version", lambda: (22, 3))
+        assert venv.pip_command()[:3] == [sys.executable, "-m", "pip"]
+        monkeypatch.setattr(venv, "outer_pip_version", lambda: (22, 2))
+        assert venv.pip_command()[0] == "/bin/uv"
+
+
+class TestUv:
+    """When uv installs the packages instead of pip."""
+
+    @pytest.fixture
+    def venv(self, module, monkeypatch):
+        made = module("setup_venv")
+        self.told, self.run = "", []
+        monkeypatch.delenv("CI", raising=False)
+        monkeypatch.setattr(made.shutil, "which", lambda name: f"/bin/{name}")
+        monkeypatch.setattr(
+            made,
+            "run_python",
+            lambda *_: subprocess.CompletedProcess((), 0, self.told, ""),
+        )
+        monkeypatch.setattr(made, "checked", lambda words, _settings: self.run.append(words))
+        monkeypatch.setattr(made, "pip", lambda *words, settings: self.run.append(words))
+        return made
+
+    def test_it_takes_the_same_words(self, venv):
+        venv.install(["test", "workspace"], only_extras=False)
+        (words,) = self.run
+        assert words[:5] == ["/bin/uv", "pip", "install", "--python", str(venv.PYTHON)]
+        assert words.count("-e") == words.count("--reinstall-package") == 4
+        assert words[words.index("--group") + 1] == f"{venv.ROOT / 'pyproject.toml'}:test"
+
+    def test_extras_leave_the_packages_alone(self, venv):
+        venv.install(["workspace"], only_extras=True)
+        assert self.run[0][5:] == ["turtlewire-ros[workspace]"]
+
+    def test_without_it_pip_installs(self, venv, monkeypatch):
+        monkeypatch.setattr(venv.shutil, "which", lambda _name: None)
+        venv.install([], only_extras=True)
+        assert self.run == [("install", "turtlewire-ros")]
+
+    @pytest.mark.parametrize(
+        ("told", "names"),
+        [
+            ("global.extra-index-url='file:///x'\n:env:.cert='/y'\n", "(cert, extra-index-url)"),
+            (":env:.find-links='/wheels'\n", "(find-links)"),
+            ("install.index-url='file:///x?a=b'\n", "(index-url)"),
+        ],
+    )
+    def test_settings_of_pip_that_it_does_not_read_keep_pip(self, venv, capfd, told, names):
+        self.told = told
+        venv.install([], only_extras=True)
+        assert self.run == [("install", "turtlewire-ros")]
+        assert names in capfd.readouterr().err
+
+    def test_other_settings_of_pip_do_not(self, venv, capfd):
+        self.told = "global.timeout='60'\n:env:.disable-pip-version-check='1'\n"
+        venv.install([], only_extras=True)
+        assert self.run[0][0] == "/bin/uv"
+        assert capfd.readouterr().err == ""
+
+
+class TestCore:
+    """The compiled core, which a second checkout of the same sources does not compile again."""
+
+    @pytest.fixture
+    def core(self, module, monkeypatch, tmp_path):
+        made = module("setup_core")
+        self.compiled, self.content = [], b"core"
+        monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+        monkeypatch.setattr(made, "pip", self.pip)
+        self.module = made.MODULE
+        self.checkout(made, monkeypatch, tmp_path / "one")
+        return made
+
+    def pip(self, *words):
+        """Writes a wheel, as pip does."""
+        assert words[0] == "wheel"
+        self.compiled.append(words)
+        folder = Path(words[words.index("-w") + 1])
+        with zipfile.ZipFile(folder / "turtlewire-0.1.0-py3-none-any.whl", "w") as wheel:
+            wheel.writestr("turtlewire/__init__.py", "")
+            if self.content is not None:
+                wheel.writestr(f"turtlewire/{self.module}", self.content)
+
+    @staticmethod
+    def checkout(core, monkeypatch, folder):
+        folder.mkdir()
+        monkeypatch.setattr(core, "CORE", folder / core.MODULE)
+
+    def test_another_checkout_does_not_compile_it_again(self, core, monkeypatch, tmp_path, capfd):
+        core.provide_core("key")
+        assert core.CORE.read_bytes() == b"core"
+        self.checkout(core, monkeypatch, tmp_path / "two")
+        self.content = b"other"
+        core.provide_core("key")
+        assert core.CORE.read_bytes() == b"core"
+        assert len(self.compiled) == 1
+        assert f"is taken from {tmp_path / 'cache' / 'turtlewire' / 'core'}" in (
+            capfd.readouterr().err
+        )
+        core.provide_core("another key")
+        assert core.CORE.read_bytes() == b"other"
+        assert len(self.compiled) == 2
+
+    def test_a_compilation_that_fails_leaves_none(self, core, capfd):
+        core.CORE.write_bytes(b"of older sources")
+        self.content = None
+        core.provide_core("key")
+        assert not core.CORE.exists()
+        assert "does not compile here (see " in capfd.readouterr().err
+        self.content = b"core"
+        core.provide_core("key")
+        assert core.CORE.read_bytes() == b"core"
+
+    def test_without_a_compiler_it_is_said_what_to_type(self, core, monkeypatch, capfd):
+        core.CORE.write_bytes(b"of older sources")
+        monkeypatch.setattr(core.shutil, "which", lambda name: f"/bin/{name}")
+        core.provide_core("")
+        assert not core.CORE.exists()
+        assert self.compiled == []
+        said = capfd.readouterr().err
+        assert "apt install g++ python3-dev\n" in said
+        monkeypatch.setattr(core.shutil, "which", lambda _name: None)
+        core.provide_core("")
+        assert "install a C++ compiler and Python's headers" in capfd.readouterr().err
+
+    def test_a_cache_that_cannot_be_written_keeps_the_core_here(self, core, tmp_path, capfd):
+        (tmp_path / "cache").write_text("no folder")
+        core.provide_core("key")
+        assert core.CORE.read_bytes() == b"core"
+        assert "is not kept for other checkouts: " in capfd.readouterr().err
+
+    def test_those_used_last_are_kept(self, core, tmp_path):
+        folder = tmp_path / "cache" / "turtlewire" / "core"
+        for number in range(core.KEPT):
+            core.provide_core(f"key {number}")
+            os.utime(folder / f"key {number}", (number, number))
+        core.provide_core("key 0")  # which is now the one that was used last
+        core.provide_core("one more")
+        assert {path.name for path in folder.iterdir()} == {
+            *("key 0", "one more"),
+            *(f"key {number}" for number in range(2, core.KEPT)),
+        }
+
+    @pytest.fixture
+    def sources(self, core, monkeypatch, tmp_path):
+        """A copy of what the key is made of; a compiler that tells its version."""
+        monkeypatch.setattr(core, "ROOT", tmp_path)
+        monkeypatch.setattr(core, "compiler_version", lambda: "c++ 1")
+        monkeypatch.setattr(core.sysconfig, "get_path", lambda _name: str(tmp_path))
+        (tmp_path / "Python.h").touch()
+        for folder in ("bindings", "core", "cyclone", "tests"):
+            assert (SCRIPTS.parent / "native" / folder).is_dir()
+            (tmp_path / "native" / folder).mkdir(parents=True)
+        (tmp_path / "native" / "CMakeLists.txt").touch()
+        (tmp_path / "pyproject.toml").write_text("[build-system]\nx = 1\n[project]\ny = 1\n")
+        return tmp_path
+
+    @pytest.mark.parametrize(
+        ("file", "text", "counts"),
+        [
+            ("native/core/new.cpp", "int changed;", True),
+            ("native/bindings/new.hpp", "int changed;", True),
+            ("native/cyclone/new.cpp", "", True),
+            ("native/tests/new.cpp", "int changed;", False),  # built elsewhere
+            ("native/CMakeLists.txt", "# changed", True),
+            ("pyproject.toml", "[build-system]\nx = 2\n[project]\ny = 1\n", True),
+            ("pyproject.toml", "[build-system]\nx = 1\n[project]\ny = 2\n", False),
+        ],
+    )
+    def test_all_that_is_compiled_counts(self, core, sources, file, text, counts):
+        before = core.core_key()
+        assert before
+        (sources / file).write_text(text)
+        assert (core.core_key() != before) == counts
+
+    def test_compiler_flags_and_python_count(self, core, sources, monkeypatch):
+        keys = [core.core_key()]
+        monkeypatch.setenv("CXXFLAGS", "-O0")
+        keys.append(core.core_key())
+        monkeypatch.setattr(core, "compiler_version", lambda: "c++ 2")
+        keys.append(core.core_key())
+        monkeypatch.setattr(core, "MODULE", "_native.another-python.so")
+        keys.append(core.core_key())
+        assert len({*keys}) == 4
+
+    def test_without_compiler_or_headers_there_is_no_key(self, core, sources, monkeypatch):
+        (sources / "Python.h").unlink()
+        assert core.core_key() == ""
+        (sources / "Python.h").touch()
+        monkeypatch.setattr(core, "compiler_version", lambda: "")
+        assert core.core_key() == ""
+
+    @pytest.mark.parametrize(
+        ("script", "version"),
+        [("echo c++ 12", "c++ 12\n"), ("echo install me; exit 1", "")],
+    )
+    def test_a_compiler_that_only_says_how_to_install_it_is_none(
+        self, core, monkeypatch, tmp_path, script, version
+    ):
+        program = tmp_path / "my-c++"
+        program.write_text(f"#!/bin/sh\n{script}\n")
+        program.chmod(0o755)
+        monkeypatch.setenv("CXX", str(program))
+        assert core.compiler_version() == version
+
+
+@pytest.mark.parametrize(
+    ("home", "cache"), [("/var/x", "/var/x/turtlewire"), ("", None), ("relative", None)]
+)
+def test_the_cache_is_where_the_user_has_it(module, monkeypatch, home, cache):
+    monkeypatch.setenv("XDG_CACHE_HOME", home)
+    expected = Path(cache) if cache else Path.home() / ".cache" / "turtlewire"
+    assert module("user_cache").cache_folder() == expected
+
+
+def test_a_stage_says_how_long_it_took(steps, capfd):
+    with steps.stage("installing"):
+        assert capfd.readouterr().err == "[setup] installing ...\n"
+    assert capfd.readouterr().err == "[setup] ... done in 0 s\n"
+
+
+def test_what_fails_is_named(steps, capfd):
+    with pytest.raises(steps.SetupError, match=f"this failed, see above and {steps.LOG}: "):
+        steps.checked([sys.executable, "-c", "import sys; print('why'); sys.exit(3)"])
     assert capfd.readouterr().err == "why\n"
+
+
+def test_of_much_output_the_end_is_shown_and_all_is_kept(steps, capfd):
+    code = "for line in range(1000): print(line)\nraise SystemExit(3)"
+    with pytest.raises(steps.SetupError):
+        steps.checked([sys.executable, "-c", code])
+    shown = [str(line) for line in range(1000 - steps.SHOWN_LINES, 1000)]
+    assert capfd.readouterr().err.split() == shown
+    assert steps.LOG.read_text().count("\n") == 1000
 
 
 def printing(text: str, status: int) -> list[str]:
@@ -103,21 +488,21 @@ def printing(text: str, status: int) -> list[str]:
     ]
 
 
-def test_a_missing_network_is_one_line(setup, monkeypatch, capfd):
+def test_a_missing_network_is_one_line(setup, steps, monkeypatch, capfd):
     text = (
         "WARNING: Retrying (…) after connection broken by 'NewConnectionError(…)'\nERROR: No match"
     )
-    monkeypatch.setattr(setup, "pip", lambda *_words: setup.checked(printing(text, 1)))
+    monkeypatch.setattr(setup, "install", lambda *_, **__: steps.checked(printing(text, 1)))
     assert setup.run([]) == 1
     *_, said = capfd.readouterr().err.splitlines()
     assert said.startswith("[setup] no network: ")
     assert "Retrying" not in said
-    monkeypatch.setattr(setup, "pip", lambda *_words: None)
+    monkeypatch.setattr(setup, "install", lambda *_, **__: None)
     assert setup.run([]) == 0  # the folder is not locked any more
 
 
-def test_warnings_of_a_pip_that_succeeds_are_not_shown(setup, capfd):
-    setup.checked(printing("WARNING: Location '/wheels' is ignored", 0))
+def test_warnings_of_a_pip_that_succeeds_are_not_shown(steps, capfd):
+    steps.checked(printing("WARNING: Location '/wheels' is ignored", 0))
     assert capfd.readouterr().err == ""
 
 
@@ -129,26 +514,28 @@ def test_an_unknown_extra_is_refused_with_those_there_are(setup, capfd):
     assert setup.calls == []
 
 
-#: scripts/setup with a pip that tells when it runs, and complains at length when it is interrupted.
+#: The set-up with a pip that tells when it runs, and complains at length when it is interrupted.
 SLOW_PIP = f"""
-import importlib.util, sys
-spec = importlib.util.spec_from_file_location("setup_script", {str(SETUP)!r})
-module = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(module)
+import os, pathlib, runpy, subprocess, sys
+sys.path.insert(0, {str(SCRIPTS)!r})
+import setup_steps as steps
+steps.LOG = pathlib.Path(sys.argv[1])
 pip = "import os, sys, time; os.write(int(sys.argv[1]), b'pip runs'); time.sleep(600)"
-import os, subprocess
 told, tell = os.pipe()
 start = subprocess.Popen
 subprocess.Popen = lambda command, **options: start(
     [*command, str(tell)], pass_fds=[tell], **options)
-module.show_progress = lambda text: text and print(os.read(told, 100).decode(), flush=True)
-module.main = lambda extras: module.checked([sys.executable, "-c", pip])
-sys.exit(module.run([]))
+steps.show_progress = lambda text: text and print(os.read(told, 100).decode(), flush=True)
+script = runpy.run_path({str(SETUP)!r})
+run = script["run"]
+run.__globals__["main"] = lambda extras: steps.checked([sys.executable, "-c", pip])
+sys.exit(run([]))
 """
 
 
-def test_ctrl_c_while_pip_runs_is_one_line(run):
-    program = run(SCRIPTS / "interruptible", sys.executable, "-c", SLOW_PIP, terminal=True)
+def test_ctrl_c_while_pip_runs_is_one_line(run, tmp_path):
+    words = (sys.executable, "-c", SLOW_PIP, str(tmp_path / "log"))
+    program = run(SCRIPTS / "interruptible", *words, terminal=True)
     program.wait_for("pip runs")
     program.type("\x03")
     assert program.wait() == 130
@@ -177,9 +564,12 @@ def test_an_interruptible_program_keeps_its_status_and_its_input(run, status):
     assert program.text.split()[-1] == "hello"
 
 
-def test_a_terminal_shows_that_it_goes_on(run):
-    code = f"import runpy, sys; checked = runpy.run_path({str(SETUP)!r})['checked']; "
-    code += "checked([sys.executable, '-c', 'import time; time.sleep(1.5)']); print('ready')"
+def test_a_terminal_shows_that_it_goes_on(run, tmp_path):
+    """The last line that the program printed, without what would steer the terminal."""
+    program = "import time; print('one\\nDownloading \\x1b[2Jtwo'); time.sleep(1.5)"
+    code = f"import pathlib, sys; sys.path.insert(0, {str(SCRIPTS)!r}); import setup_steps as s; "
+    code += f"s.LOG = pathlib.Path({str(tmp_path / 'log')!r}); "
+    code += f"s.checked([sys.executable, '-c', {program!r}]); print('ready')"
     program = run(sys.executable, "-c", code, terminal=True)
     program.wait_for("ready")
-    assert "[setup] 1 s" in program.text
+    assert "[setup] 1 s Downloading [2Jtwo" in program.text

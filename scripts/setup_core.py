@@ -1,0 +1,107 @@
+"""How the set-up provides the compiled core: from this user's cache, or by compiling it.
+
+The core is one file beside the Python modules. The cache holds it under a key of all that makes it:
+sources, compiler, flags and Python. Another checkout with the same ones does not compile again.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import platform
+import re
+import shlex
+import shutil
+import subprocess
+import sysconfig
+import tempfile
+import zipfile
+from pathlib import Path
+
+from setup_steps import LOG, ROOT, pip, say, stage, type_this
+from user_cache import cache_folder, keep
+
+MODULE = f"_native{sysconfig.get_config_var('EXT_SUFFIX')}"
+CORE = ROOT / "src" / "turtlewire" / MODULE
+#: How many cores of older sources the cache keeps; each has about 1 MB.
+KEPT = 10
+#: Environment variables that compilers and scikit-build-core read.
+FLAGS = ("CFLAGS", "CXXFLAGS", "CPPFLAGS", "LDFLAGS", "CMAKE_ARGS", "SKBUILD_CMAKE_ARGS")
+PLAIN = "everything runs on plain Python, more slowly and with the same answers"
+
+
+def core_key() -> str:
+    """Return what identifies the compiled core; empty where it cannot be compiled."""
+    compiler = compiler_version()
+    if not compiler or not (Path(sysconfig.get_path("include")) / "Python.h").exists():
+        return ""
+    flags = [os.environ.get(name, "") for name in FLAGS]
+    digest = hashlib.sha256(repr((compiler, flags, platform.machine(), MODULE)).encode())
+    settings = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    for section in re.split(r"^(?=\[)", settings, flags=re.MULTILINE):
+        if section.startswith(("[build-system]", "[tool.scikit-build", "[[tool.scikit-build")):
+            digest.update(section.encode())
+    native = ROOT / "native"
+    sources = [path for path in native.glob("*/*.?pp") if path.parent.name != "tests"]
+    for path in sorted([native / "CMakeLists.txt", *sources]):
+        digest.update(str(path.relative_to(ROOT)).encode())
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def compiler_version() -> str:
+    """Return what the C++ compiler says of itself; empty if there is none."""
+    named = shlex.split(os.environ.get("CXX", ""))
+    for command in filter(None, (named, ["c++"], ["g++"], ["clang++"])):
+        if shutil.which(command[0]):
+            done = subprocess.run(
+                [*command, "--version"], capture_output=True, text=True, check=False
+            )
+            # macOS has a c++ that only says how to install the compiler.
+            return done.stdout if done.returncode == 0 else ""
+    return ""
+
+
+def provide_core(key: str) -> None:
+    """Put the compiled core of a key beside the Python modules, or say why there is none."""
+    CORE.unlink(missing_ok=True)  # one of other sources
+    if not key:
+        remedy = "install a C++ compiler and Python's headers, then type the same again"
+        if shutil.which("apt"):
+            remedy = type_this("g++ python3-dev")
+        say(f"the core is not compiled: {PLAIN}. For the fast one, {remedy}")
+        return
+    kept = cache_folder() / "core" / key / MODULE
+    if kept.exists():
+        kept.parent.touch()
+        shutil.copy(kept, CORE)
+        say(f"the compiled core is taken from {kept.parent.parent}")
+        return
+    with stage("compiling the core"):
+        compile_core()
+    if not CORE.exists():
+        say(f"the core does not compile here (see {LOG}): {PLAIN}")
+        return
+    try:
+        keep(CORE, kept)
+        forget_old_cores(kept.parent.parent)
+    except OSError as error:
+        say(f"the compiled core is not kept for other checkouts: {error}")
+
+
+def compile_core() -> None:
+    """Build a wheel and take the core out of it; a wheel without it does not compile here."""
+    with tempfile.TemporaryDirectory() as folder:
+        build = f"build-dir={folder}/build"
+        pip("wheel", "-v", "--no-deps", "-w", folder, "-C", build, str(ROOT))
+        (wheel,) = Path(folder).glob("*.whl")
+        with zipfile.ZipFile(wheel) as files:
+            if f"turtlewire/{MODULE}" in files.namelist():
+                CORE.write_bytes(files.read(f"turtlewire/{MODULE}"))
+
+
+def forget_old_cores(folder: Path) -> None:
+    """Remove the cores that were not used for the longest time."""
+    cores = sorted(folder.iterdir(), key=lambda core: core.stat().st_mtime)
+    for core in cores[:-KEPT]:
+        shutil.rmtree(core)
