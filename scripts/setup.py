@@ -29,11 +29,13 @@ STAMP = VENV / "turtlewire-stamp.json"
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 #: What can be added: dependency groups of pyproject.toml, and an extra of turtlewire-ros.
 EXTRAS = {"test": "what the tests need", "lint": "ruff and mypy", "workspace": "colcon and rosdep"}
-#: Prints the middleware.
+#: Prints the middleware, and its library if that is not the usual one.
 MIDDLEWARE = """
-from turtlewire.wire.environment import is_installed, middleware_name
+from turtlewire.wire.environment import is_installed, middleware_library, middleware_name
 name = middleware_name()
-print(f"middleware {name}" if is_installed(name) else "no middleware, only the transform buffer")
+library = middleware_library(name)
+reason = "" if "the cyclonedds wheel" in library else f", which stands on {library}"
+print(f"middleware {name}{reason}" if is_installed(name) else "only the transform buffer")
 """
 
 
@@ -100,12 +102,8 @@ def bring_up_to_date(stamp: dict[str, Any], wanted: dict[str, Any]) -> None:
             make_venv(put_pip)
     only_extras = stamp.get("sources") == wanted["sources"]
     if not only_extras:
-        packages = (
-            "the changed packages"
-            if venv_works
-            else "all packages: 35 MB to download, 225 with the tests'"
-        )
-        with stage(f"installing {packages}"):
+        size = "" if venv_works else " (35 MB to download, 225 with those of the tests)"
+        with stage(f"installing the packages{size}"):
             install(wanted["extras"], only_extras=False)
     elif stamp["extras"] != wanted["extras"]:
         added = sorted({*wanted["extras"]} - {*stamp["extras"]})
