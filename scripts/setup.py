@@ -43,7 +43,7 @@ def main(extras: list[str]) -> None:
     """Bring .venv up to date with the sources, with ``extras`` installed besides."""
     if not missing(extras)[1]:
         return
-    lock = wait_for_turn()
+    lock = wait_for_turn(ROOT)
     try:
         stamp, wanted = missing(extras)
         if wanted:
@@ -80,9 +80,9 @@ def missing(extras: list[str]) -> tuple[dict[str, Any], dict[str, Any]]:
     return stamp, {} if stamp == wanted else wanted
 
 
-def wait_for_turn() -> int:
-    """Lock this folder against a second set-up; return the descriptor that holds the lock."""
-    descriptor = os.open(ROOT, os.O_RDONLY)
+def wait_for_turn(folder: Path) -> int:
+    """Lock a checkout against a second set-up; return the descriptor that holds the lock."""
+    descriptor = os.open(folder, os.O_RDONLY)
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:

@@ -25,8 +25,8 @@ MODULE = f"_native{sysconfig.get_config_var('EXT_SUFFIX')}"
 CORE = ROOT / "src" / "turtlewire" / MODULE
 #: How many cores of older sources the cache keeps; each has about 1 MB.
 KEPT = 10
-#: Environment variables that compilers and scikit-build-core read.
-FLAGS = ("CFLAGS", "CXXFLAGS", "CPPFLAGS", "LDFLAGS", "CMAKE_ARGS", "SKBUILD_CMAKE_ARGS")
+#: Environment variables that compilers, CMake and scikit-build-core read; prefixes of names.
+FLAGS = ("CFLAGS", "CXXFLAGS", "CPPFLAGS", "LDFLAGS", "CMAKE_", "SKBUILD_")
 PLAIN = "everything runs on plain Python, more slowly and with the same answers"
 
 
@@ -35,7 +35,7 @@ def core_key() -> str:
     compiler = compiler_version()
     if not compiler or not (Path(sysconfig.get_path("include")) / "Python.h").exists():
         return ""
-    flags = [os.environ.get(name, "") for name in FLAGS]
+    flags = sorted(pair for pair in os.environ.items() if pair[0].startswith(FLAGS))
     digest = hashlib.sha256(repr((compiler, flags, platform.machine(), MODULE)).encode())
     settings = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
     for section in re.split(r"^(?=\[)", settings, flags=re.MULTILINE):
@@ -74,7 +74,7 @@ def provide_core(key: str) -> None:
     kept = cache_folder() / "core" / key / MODULE
     if kept.exists():
         kept.parent.touch()
-        shutil.copy(kept, CORE)
+        keep(kept, CORE)
         say(f"the compiled core is taken from {kept.parent.parent}")
         return
     with stage("compiling the core"):

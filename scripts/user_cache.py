@@ -14,7 +14,7 @@ def cache_folder() -> Path:
 
 
 def keep(source: Path, target: Path) -> None:
-    """Copy a file into the cache; another process sees all of it or nothing."""
+    """Copy a file into or out of the cache; another process sees all of it or nothing."""
     target.parent.mkdir(parents=True, exist_ok=True)
     fresh = target.with_name(f".{target.name}.{os.getpid()}")
     try:

@@ -41,7 +41,9 @@ def setup(module, monkeypatch, tmp_path):
     monkeypatch.delenv("CI", raising=False)
     monkeypatch.setattr(module("setup_venv"), "uv_to_use", lambda: None)
     monkeypatch.setattr(module("setup_venv"), "pip", lambda *words, **_: script.calls.append(words))
+    wait_for_turn = script.wait_for_turn
     for name, value in (
+        ("wait_for_turn", lambda _checkout: wait_for_turn(tmp_path)),  # a set-up may run here
         ("core_key", lambda: "key"),
         ("provide_core", lambda key: script.calls.append(("core", key))),
         ("usable", lambda _stamp, _wanted: True),
@@ -420,13 +422,14 @@ class TestCore:
 
     def test_compiler_flags_and_python_count(self, core, sources, monkeypatch):
         keys = [core.core_key()]
-        monkeypatch.setenv("CXXFLAGS", "-O0")
-        keys.append(core.core_key())
+        for name in ("CXXFLAGS", "SKBUILD_CMAKE_BUILD_TYPE"):
+            monkeypatch.setenv(name, "-O0")
+            keys.append(core.core_key())
         monkeypatch.setattr(core, "compiler_version", lambda: "c++ 2")
         keys.append(core.core_key())
         monkeypatch.setattr(core, "MODULE", "_native.another-python.so")
         keys.append(core.core_key())
-        assert len({*keys}) == 4
+        assert len({*keys}) == 5
 
     def test_without_compiler_or_headers_there_is_no_key(self, core, sources, monkeypatch):
         (sources / "Python.h").unlink()
