@@ -21,7 +21,6 @@ from pathlib import Path
 from typing import Any
 
 from lesson_npm import BuildError, fetched
-from static_server import static_server
 
 ROOT = Path(__file__).resolve().parent.parent
 SOURCE = ROOT / "site" / "lesson"
@@ -234,6 +233,9 @@ def _pack_for_files(page: Path) -> None:
 
 def serve(folder: Path, port: int) -> None:
     """Serve the folder to this machine until Ctrl-C."""
+    # Needs turtlewire, which the help of this script and of docs.py does without.
+    from static_server import static_server
+
     try:
         listening = static_server(folder, port)
     except OSError as error:
