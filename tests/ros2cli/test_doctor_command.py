@@ -16,9 +16,10 @@ from turtlewire.wire.qos import QoS
 @pytest.mark.parametrize("name", ["doctor", "wtf"])
 def test_an_empty_domain_of_this_host_is_no_problem(capsys, name):
     assert main([name, "--report-failed"]) == 0
-    first, second, *_ = capsys.readouterr().out.splitlines()
+    first, *others = capsys.readouterr().out.splitlines()
     assert first.startswith("All is well: middleware ")
-    assert second == f"note: No node is seen on domain {os.environ['ROS_DOMAIN_ID']} of this host."
+    nobody = f"note: No node is seen on domain {os.environ['ROS_DOMAIN_ID']} of this host."
+    assert nobody in others
 
 
 def test_what_is_only_worth_knowing_fails_when_asked(capsys):
