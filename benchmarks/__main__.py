@@ -13,6 +13,7 @@ import sys
 from typing import TYPE_CHECKING
 
 import benchmarks
+from turtlewire.program import program
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -84,4 +85,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(program(main)())

@@ -45,9 +45,10 @@ _PACKAGE_XML = """<?xml version="1.0"?>
 _EXECUTABLE = """#!/usr/bin/env python3
 import sys
 
+from turtlewire.program import program
 from {module} import {function}
 
-sys.exit({function}())
+sys.exit(program({function})())
 """
 
 

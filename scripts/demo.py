@@ -17,6 +17,7 @@ from demo_launch import ENDING, VENV, Launch, interrupt
 from demo_options import parse
 
 from turtlewire.errors import WireError
+from turtlewire.program import program
 from turtlewire.wire import environment
 
 if TYPE_CHECKING:
@@ -136,7 +137,7 @@ def describe(buffer: Buffer) -> str:
 
 if __name__ == "__main__":
     try:
-        sys.exit(main())
+        sys.exit(program(main)())
     except WireError as error:
         sys.exit(f"[demo] {error}\n[demo] {error.hint}")
     except KeyboardInterrupt:

@@ -21,6 +21,8 @@ from docs_links import faults_of
 from lesson import serve
 from lesson_npm import BuildError
 
+from turtlewire.program import program
+
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build"
 DOCS = ROOT / "docs"
@@ -170,4 +172,4 @@ def _checked(command: list[str], environment: dict[str, str]) -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(program(main)())

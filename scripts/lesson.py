@@ -22,6 +22,8 @@ from typing import Any
 
 from lesson_npm import BuildError, fetched
 
+from turtlewire.program import program
+
 ROOT = Path(__file__).resolve().parent.parent
 SOURCE = ROOT / "site" / "lesson"
 WHEEL_CACHE = ROOT / "build" / "lesson-wheels"
@@ -251,4 +253,4 @@ def serve(folder: Path, port: int) -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(program(main)())

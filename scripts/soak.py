@@ -19,6 +19,7 @@ from typing import IO, NamedTuple
 from soak_actors import BROADCASTERS
 
 from turtlewire import wire
+from turtlewire.program import program
 from turtlewire.testing import isolated_domain
 
 ACTORS = Path(__file__).with_name("soak_actors.py")
@@ -306,4 +307,4 @@ def stop(residents: list[Resident]) -> list[str]:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(program(main)())

@@ -7,6 +7,7 @@ import sys
 from typing import Any
 
 from ament_index_python.resources import get_resource, get_resource_types, get_resources
+from turtlewire.program import program
 
 __all__ = ["main", "resource_name_completer", "resource_type_completer"]
 
@@ -63,4 +64,4 @@ def resource_name_completer(
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(program(main)())

@@ -13,6 +13,7 @@ from launch_testing.junitxml import unittestResultsToXml
 from launch_testing.loader import LoadTestsFromPythonModule
 from launch_testing.print_arguments import print_arguments_of_launch_description
 from launch_testing.test_runner import LaunchTestRunner
+from turtlewire.program import program
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -97,6 +98,7 @@ def run(
     return int(not all(result.wasSuccessful() for result in results.values()))
 
 
+@program
 def main() -> None:
     """Run the command line of this process, and end it."""
     parser, args = parse_arguments()

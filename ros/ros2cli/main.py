@@ -14,6 +14,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 from ros2cli.commands import COMMANDS
+from turtlewire.program import program
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
 __all__ = ["define", "main", "make_parser"]
 
 _EXIT_INTERRUPTED = 2  # the number of SIGINT
-_EXIT_READER_GONE = 141  # what a shell shows for a program that wrote into a closed pipe
 _INVALID_CHOICE = re.compile(r"invalid choice: '([^']*)' \(choose from")
 _OPTION = re.compile(r"(?<![\w-])--?[a-z][\w-]*")
 
@@ -57,6 +57,7 @@ def _hint(word: str, known: list[str]) -> str:
     return did_you_mean(word, known)
 
 
+@program
 def main(argv: list[str] | None = None) -> int:
     """Run a command line.
 
@@ -216,9 +217,6 @@ def _status(args: argparse.Namespace) -> int:
     try:
         with escaped:
             status: int | str | None = module.main(args)
-    except BrokenPipeError:  # the reader of a pipe has enough
-        sys.stdout = None
-        return _EXIT_READER_GONE
     except RuntimeError as error:
         status = _told(error)
     except Exception as error:  # noqa: BLE001  the user gets one line, which names the class

@@ -56,10 +56,8 @@ def escaped_output() -> Iterator[None]:
     if stream is None:
         yield
         return
-    escaping = _EscapingStream(stream)
-    sys.stdout = escaping
+    sys.stdout = _EscapingStream(stream)
     try:
         yield
     finally:
-        if sys.stdout is escaping:  # a broken pipe has left None there
-            sys.stdout = stream
+        sys.stdout = stream

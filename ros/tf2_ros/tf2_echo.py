@@ -14,7 +14,6 @@ from rclpy.node import Node
 from rclpy.time import Time
 from rclpy.utilities import remove_ros_args
 from tf_transformations import euler_from_quaternion
-from turtlewire.cli.pipes import leave_pipe
 from turtlewire.errors import TransformException
 from turtlewire.printable import printable_lines
 
@@ -55,8 +54,6 @@ def main(args: list[str] | None = None) -> int:
             _echo(node, options, 1.0 / rate)
     except KeyboardInterrupt:
         pass
-    except BrokenPipeError:
-        return leave_pipe()
     finally:
         rclpy.try_shutdown()
     return 0

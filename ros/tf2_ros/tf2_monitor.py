@@ -13,7 +13,6 @@ from rclpy.time import Time
 from rclpy.utilities import remove_ros_args
 from turtlewire import msg
 from turtlewire.cli.parser import seconds
-from turtlewire.cli.pipes import leave_pipe
 from turtlewire.errors import TransformException
 from turtlewire.printable import printable_lines
 from turtlewire.tf.frame_tree import read_frame_tree
@@ -156,8 +155,6 @@ def main(args: list[str] | None = None) -> int:
                 thread.join()
     except KeyboardInterrupt:
         pass
-    except BrokenPipeError:
-        return leave_pipe()
     finally:
         rclpy.try_shutdown()
     return 0

@@ -18,7 +18,6 @@ from rclpy.utilities import remove_ros_args
 from tf2_ros import DEFAULT_STATIC_TF_TOPIC, DEFAULT_TF_TOPIC, Buffer, TransformListener
 from tf2_tools.dot import dot_from_tree, generate_dot
 from tf2_tools.pdf import pdf_from_drawing
-from turtlewire.cli.pipes import leave_pipe
 from turtlewire.printable import printable
 from turtlewire.tf.drawing import svg_from_drawing
 from turtlewire.tf.frame_tree import FrameTree, read_frame_tree
@@ -161,8 +160,6 @@ def main(args: list[str] | None = None) -> int:
     except (InvalidTopicNameException, ValueError) as error:
         print(error, file=sys.stderr)  # noqa: T201
         return 1
-    except BrokenPipeError:
-        return leave_pipe()
     finally:
         rclpy.try_shutdown()
     return 0

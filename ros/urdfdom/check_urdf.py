@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from turtlewire.cli.pipes import leave_pipe
 from turtlewire.printable import printable
+from turtlewire.program import program
 from turtlewire.urdf import UrdfError
 from urdfdom.reading import read_robot
 
@@ -32,6 +32,7 @@ def tree_lines(robot: Robot) -> Iterator[str]:
         left += [(level + 1, count, each) for count, each in reversed([*enumerate(below, 1)])]
 
 
+@program
 def main(args: list[str] | None = None) -> int:
     """Check a file; the exit status: 0 for a robot, 1 for none, -1 (255) without a file."""
     words = sys.argv[1:] if args is None else args[1:]
@@ -53,8 +54,5 @@ def main(args: list[str] | None = None) -> int:
         f"robot name is: {printable(robot.name)}",
         "---------- Successfully Parsed XML ---------------",
     )
-    try:
-        print("\n".join([*heading, *tree_lines(robot)]), flush=True)  # noqa: T201
-    except BrokenPipeError:
-        return leave_pipe()
+    print("\n".join([*heading, *tree_lines(robot)]))  # noqa: T201
     return 0

@@ -6,6 +6,7 @@ import sys
 
 from tf2_tools.pdf import pdf_from_drawing
 from turtlewire.printable import printable
+from turtlewire.program import program
 from turtlewire.urdf import UrdfError
 from urdfdom.dot import dot_from_robot
 from urdfdom.drawing import draw_robot
@@ -18,6 +19,7 @@ _USAGE = """Usage: urdf_to_graphviz input.xml [OUTPUT]
   or OUTPUT.gv & OUTPUT.pdf."""
 
 
+@program
 def main(args: list[str] | None = None) -> int:
     """Write both files; the exit status: 0, 1 for what cannot be read or written, 255 for usage.
 

@@ -13,6 +13,7 @@ module               what it holds
 `msg`                interface definitions, message classes, CDR and type hashes
 `platforms`          what this platform can do, and which core is asked for
 `printable`          text from other processes, made safe for a terminal
+`program`            how a command ends whose output cannot be written
 `signal_watch`       signals that are acted on while the main thread waits
 `suggestion`         the nearest names to one that does not exist
 `terminal_keyboard`  keys of a terminal

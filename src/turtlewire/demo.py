@@ -15,6 +15,8 @@ from contextlib import contextmanager, suppress
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
+from turtlewire.program import program
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -120,4 +122,4 @@ def _interrupt(launch: subprocess.Popen[bytes]) -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(program(main)())

@@ -36,6 +36,7 @@ signal.pause()
 def generate_launch_description():
     return LaunchDescription([
 """
+ROS2 = Path(sys.executable).parent / "ros2"
 TWO_CHILDREN = HEAD + "child(WAITS), child(WAITS)])"
 STUBBORN_CHILD = HEAD + "child(IGNORES, sigterm_timeout=0.3)])"
 
@@ -168,12 +169,20 @@ def test_a_reader_that_goes_away_ends_the_launch(run, tmp_path):
     shell = run(
         "bash",
         "-c",
-        f"{Path(sys.executable).parent}/ros2 launch ./test.launch.py 2>&1 | head -n 5",
+        f"set -o pipefail; {ROS2} launch ./test.launch.py 2>&1 | head -n 5",
         cwd=tmp_path,
     )
-    assert shell.wait() == 0
+    assert shell.wait() == 141
     assert len(shell.lines) == 5
     assert "Error" not in shell.text
+    shell.wait_for_survivors()
+
+
+def test_a_full_disk_ends_the_launch_with_one_line(run, tmp_path):
+    (tmp_path / "test.launch.py").write_text(HEAD + "child(WAITS)])")
+    shell = run("bash", "-c", f"exec {ROS2} launch ./test.launch.py >/dev/full", cwd=tmp_path)
+    assert shell.wait() == 1
+    assert shell.text == "ros2: write error: No space left on device"
     shell.wait_for_survivors()
 
 

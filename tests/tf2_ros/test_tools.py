@@ -56,7 +56,10 @@ def tool():
     processes = []
 
     def start(name, *arguments):
-        code = f"import sys; from {TOOLS[name]} import main; sys.exit(main())"
+        code = f"""import sys
+from {TOOLS[name]} import main
+from turtlewire.program import program
+sys.exit(program(main)())"""
         process = subprocess.Popen(
             [sys.executable, "-c", code, *arguments],
             stdout=subprocess.PIPE,

@@ -80,13 +80,20 @@ class _Formatter(logging.Formatter):
 
 
 class _ScreenHandler(logging.StreamHandler):  # type: ignore[type-arg]  # not generic in 3.10
-    """Writes to stdout. A closed stdout ends the launch like SIGTERM, and so its processes."""
+    """Writes to stdout. When that fails, the launch and its processes end as after SIGTERM."""
 
     def __init__(self) -> None:
         super().__init__(sys.stdout)
         if hasattr(self.stream, "reconfigure"):
             # The terminal's encoding may lack characters that processes write.
             self.stream.reconfigure(errors="backslashreplace")
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Write the line."""
+        try:
+            super().emit(record)
+        except SystemExit:  # from the stdout of a command, which reports it after the launch
+            signal.raise_signal(signal.SIGTERM)
 
     def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802  logging's name
         error = sys.exc_info()[1]

@@ -25,6 +25,5 @@ module                what it holds
 `compare_command`     the verb ``compare``
 `trajectory_sources`  trajectories of bags and files, for these verbs
 `keyboard`            keys with which ``frames`` is scrolled
-`pipes`               a quiet end when the reader of a pipe has gone
 ====================  ============================================================
 """

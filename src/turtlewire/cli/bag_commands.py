@@ -211,8 +211,6 @@ def reporting_errors(
 
         try:
             return run(args)
-        except BrokenPipeError:
-            raise  # the reader has seen enough
         except (BagError, TransformException, ModuleNotFoundError, OSError, ValueError) as error:
             text = _text_of(error)
             if hint := getattr(error, "hint", ""):

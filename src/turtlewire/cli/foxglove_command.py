@@ -114,8 +114,6 @@ def _foxglove(args: argparse.Namespace) -> int:
     except WireError as error:
         print(f"turtlewire foxglove: {error.in_one_line()}", file=sys.stderr)
         return 2
-    except BrokenPipeError:
-        raise
     except OSError as error:
         print(f"turtlewire foxglove: {error}.", file=sys.stderr)
         print("--port N takes another one, --port 0 a free one.", file=sys.stderr)

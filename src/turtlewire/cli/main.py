@@ -13,8 +13,8 @@ from turtlewire.cli.bag_commands import add_bag_commands, complete_bags, reporti
 from turtlewire.cli.class_command import add_class_command
 from turtlewire.cli.foxglove_command import add_foxglove_command
 from turtlewire.cli.parser import Parser, add_tf_topics, seconds, tf_topics
-from turtlewire.cli.pipes import leave_pipe
 from turtlewire.cli.view_command import add_view_command
+from turtlewire.program import program
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["main"]
 
 
+@program
 def main(argv: list[str] | None = None) -> int:
     """Run a command line.
 
@@ -30,17 +31,14 @@ def main(argv: list[str] | None = None) -> int:
 
     Returns:
         The exit status: of ``doctor``, 1 if it found a problem; of ``frames``, 1 if there was no
-        transform to print once; 2 if the network cannot be joined, a file cannot be read, or the
-        output cannot be written; 130 after Ctrl-C, and 141 if the reader of the output has closed
-        it.
+        transform to print once; 2 if the network cannot be joined or a file cannot be read; 130
+        after Ctrl-C.
     """
     try:
         return _run(argv)
     except KeyboardInterrupt:
         return 130
-    except BrokenPipeError:
-        return leave_pipe()
-    except OSError as error:  # for example, the disk is full
+    except OSError as error:
         print(f"turtlewire: {error}", file=sys.stderr)
         return 2
 

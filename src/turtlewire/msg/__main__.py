@@ -11,6 +11,7 @@ from pathlib import Path
 
 from turtlewire.errors import InterfaceError
 from turtlewire.msg.generate import generate_package
+from turtlewire.program import program
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -53,4 +54,4 @@ def main(argv: list[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(program(main)())

@@ -39,8 +39,6 @@ def main(args: argparse.Namespace) -> str | None:
             name, comments=not args.no_comments, nested_comments=args.all_comments, depth=0
         ):
             print(line)
-    except BrokenPipeError:
-        raise  # the reader of a pipe has enough; it is no unknown interface
     except (LookupError, OSError, ValueError) as error:
         from ros2cli.suggestion import interface_meant
 

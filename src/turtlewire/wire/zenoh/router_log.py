@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, TextIO
 
 import zenoh
 
+from turtlewire.program import open_output
 from turtlewire.wire.report import warn
 
 if TYPE_CHECKING:
@@ -86,7 +87,7 @@ def explained_log() -> Iterator[TextIO]:
         return
     sys.stdout.flush()
     reading, writing = os.pipe()
-    with os.fdopen(os.dup(1), "w", encoding="utf-8") as output:
+    with open_output(os.dup(1)) as output:
         os.dup2(writing, 1)
         os.close(writing)
         thread = threading.Thread(target=_pass_on, args=(reading,), name="turtlewire-log")
@@ -94,7 +95,6 @@ def explained_log() -> Iterator[TextIO]:
         try:
             yield output
         finally:
-            output.flush()
             os.dup2(output.fileno(), 1)  # closes the end to write to, which ends the thread
             thread.join()
 
