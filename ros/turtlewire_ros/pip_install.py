@@ -14,6 +14,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from turtlewire.program import program
 from turtlewire_ros.wheel import WheelError, build_package_wheels
 
 _OPTIONS = ["--no-deps", "--force-reinstall"]
@@ -44,7 +45,7 @@ def main(argv: list[str] | None = None) -> int:
         _say(str(error))
         return 1
     for wheel in wheels:
-        print(wheel)  # noqa: T201 -- a command line prints
+        print(wheel, flush=True)  # noqa: T201 -- a command line prints, and before pip does
     if others:
         return _pip("wheel", "--no-deps", "--wheel-dir", str(options.output), *others)
     return 0
@@ -77,4 +78,4 @@ def _say(text: str) -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(program(main)())

@@ -9,12 +9,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.bag.conftest import START, transform
+from tests.needs import COMPILED_CORE
 
 from turtlewire import msg
 from turtlewire.tf import plain
 from turtlewire.tf.inspection import links, malformed, refusals
 
-_native = pytest.importorskip("turtlewire._native", reason="the compiled core is not built here")
+_native = pytest.importorskip("turtlewire._native", reason=COMPILED_CORE)
 
 FOREVER = (1 << 64) - 1
 CHANNELS = {1: ("/tf", False), 2: ("/tf_static", True), 3: ("/robot/tf", False)}

@@ -7,6 +7,7 @@ import subprocess
 import sys
 
 import pytest
+from tests.needs import COMPILED_CORE
 
 pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="the system has no fork()")
 
@@ -69,4 +70,6 @@ def failures(core: str, count: int) -> str:
 
 @pytest.mark.parametrize("core", ["native", "python"])
 def test_fork(core: str) -> None:
+    if core == "native":
+        pytest.importorskip("turtlewire._native", reason=COMPILED_CORE)
     assert failures(core, 60) == "0 failures\n"

@@ -552,7 +552,10 @@ NOBODY = "PROBLEM: No node is seen on domain"
 NO_WIRE = "PROBLEM: join domain"
 
 
-@pytest.mark.skipif(not OWN_NETWORK, reason="a network of its own takes root, unshare and ip")
+@pytest.mark.skipif(
+    not OWN_NETWORK,
+    reason="a network of its own needs root, unshare and ip (Debian: apt install iproute2)",
+)
 @pytest.mark.parametrize(
     ("network", "problems"),
     [

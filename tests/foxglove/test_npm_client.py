@@ -18,7 +18,7 @@ ROOT = Path(__file__).parents[2]
 CLIENT = ROOT / "build" / "npm-tools" / "foxglove"
 pytestmark = pytest.mark.skipif(
     shutil.which("node") is None or not (CLIENT / "node_modules").is_dir(),
-    reason="Foxglove's client is missing: scripts/npm-tools fetches it (needs node, npm)",
+    reason="needs Foxglove's client: scripts/npm-tools (Debian: apt install nodejs npm)",
 )
 
 

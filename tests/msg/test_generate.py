@@ -138,7 +138,7 @@ def test_a_type_is_found_by_name_before_its_package_was_imported(generated):
 
 
 def test_stubs_satisfy_a_type_checker(generated, tmp_path):
-    pytest.importorskip("mypy", reason="the type checker comes with the lint group")
+    pytest.importorskip("mypy", reason="needs mypy (scripts/setup lint)")
     program = tmp_path / "user.py"
     program.write_text(
         "from my_interfaces.msg import Everything, Sphere\n"

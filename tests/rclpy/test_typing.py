@@ -115,7 +115,7 @@ MISTAKEN_LINES = [13, 14, 15, 17, 19, 20, 22, 23, 24, 25, 26, 28, 30]
 
 @pytest.mark.slow
 def test_a_strict_type_checker_accepts_programs_and_finds_mistakes(tmp_path):
-    pytest.importorskip("mypy", reason="the type checker comes with the lint group")
+    pytest.importorskip("mypy", reason="needs mypy (scripts/setup lint)")
     (tmp_path / "user.py").write_text(PROGRAM)
     (tmp_path / "wrong.py").write_text(MISTAKES)
     environment = {**os.environ, "MYPYPATH": f"{ROOT / 'src'}:{ROOT / 'ros'}"}

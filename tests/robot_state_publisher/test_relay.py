@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.needs import COMPILED_CORE
 
 from sensor_msgs.msg import JointState
 from turtlewire.tf.buffer import CORE
@@ -16,7 +17,7 @@ ONE = (
     '<robot name="r"><link name="base"/><link name="tip"/><joint name="turn" type="continuous">'
     '<parent link="base"/><child link="tip"/><axis xyz="0 0 1"/></joint></robot>'
 )
-native_only = pytest.mark.skipif(CORE != "native", reason="the core is not compiled")
+native_only = pytest.mark.skipif(CORE != "native", reason=COMPILED_CORE)
 
 
 @pytest.fixture

@@ -10,6 +10,7 @@ import random
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from tests.needs import COMPILED_CORE
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -30,7 +31,7 @@ def cores() -> list[Any]:
             pytest.param(
                 None,
                 id="native",
-                marks=pytest.mark.skip(reason="the compiled core is not built here"),
+                marks=pytest.mark.skip(reason=COMPILED_CORE),
             )
         )
     else:

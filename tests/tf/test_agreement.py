@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from tests.needs import COMPILED_CORE
 
 from turtlewire import errors
 from turtlewire.tf import plain
@@ -66,7 +67,7 @@ def same_numbers(a: list[float], b: list[float], tolerance: float) -> bool:
 @settings(max_examples=150)
 @given(st.integers(0, 2**32))
 def test_cores_agree(make_world: Callable[..., Any], seed: int) -> None:
-    native = pytest.importorskip("turtlewire._native", reason="the compiled core is not built here")
+    native = pytest.importorskip("turtlewire._native", reason=COMPILED_CORE)
     fast, clear = native.Buffer(), plain.Buffer()
     for operation in make_world(seed, wild=True).operations:
         a, b = perform(fast, operation), perform(clear, operation)
@@ -89,7 +90,7 @@ def test_cores_agree(make_world: Callable[..., Any], seed: int) -> None:
 
 
 def compare_with_debian(make_world: Callable[..., Any], seeds: range) -> int:
-    native = pytest.importorskip("turtlewire._native", reason="the compiled core is not built here")
+    native = pytest.importorskip("turtlewire._native", reason=COMPILED_CORE)
     if (
         subprocess.run(
             [DEBIAN, "-c", "import tf2_py, rospy"], capture_output=True, check=False

@@ -18,6 +18,7 @@ import weakref
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from tests.needs import COMPILED_CORE
 
 from turtlewire import errors, msg
 
@@ -536,7 +537,7 @@ class TestWaiting:
     @pytest.mark.parametrize("core_name", ["native", "python"])
     def test_ctrl_c_ends_a_wait_of_the_main_thread(self, core_name: str) -> None:
         if core_name == "native":
-            pytest.importorskip("turtlewire._native", reason="the compiled core is not built here")
+            pytest.importorskip("turtlewire._native", reason=COMPILED_CORE)
         program = (
             "import turtlewire\n"
             "turtlewire.Buffer\n"
@@ -661,7 +662,7 @@ class TestChoiceOfCore:
         assert (run.stdout, run.stderr) == ("python turtlewire\n", "")
 
     def test_wrong_request(self) -> None:
-        pytest.importorskip("turtlewire._native", reason="the compiled core is not built here")
+        pytest.importorskip("turtlewire._native", reason=COMPILED_CORE)
         run = self.run("import turtlewire.tf.buffer as b; print(b.CORE)", TURTLEWIRE_CORE="foo")
         assert run.stdout == "native\n"
         assert run.stderr.count("\n") == 1

@@ -11,6 +11,7 @@ import sys
 import threading
 
 import pytest
+from tests.needs import COMPILED_CORE
 
 from turtlewire import Buffer, msg, wire
 from turtlewire.tf import buffer as core
@@ -19,9 +20,7 @@ from turtlewire.tf.listener import QOS, STATIC_QOS, TYPE_NAME, TransformListener
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import History
 
-pytestmark = pytest.mark.skipif(
-    core.CORE != "native", reason="the plain-Python core has no short way"
-)
+pytestmark = pytest.mark.skipif(core.CORE != "native", reason=COMPILED_CORE)
 
 TYPE = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
 KEEP_ALL = QOS._replace(history=History.KEEP_ALL)

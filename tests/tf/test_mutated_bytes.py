@@ -7,6 +7,7 @@ from __future__ import annotations
 import random
 
 import pytest
+from tests.needs import COMPILED_CORE
 
 from turtlewire import errors, msg
 from turtlewire.tf import inspection, plain
@@ -44,7 +45,7 @@ def ingest(buffer, data: bytes) -> tuple[str, object]:
 
 
 def test_both_decoders_say_the_same_of_mutated_messages():
-    native = pytest.importorskip("turtlewire._native", reason="the compiled core is not built here")
+    native = pytest.importorskip("turtlewire._native", reason=COMPILED_CORE)
     chance = random.Random(20)
     good = good_message()
     answers = {"accepted": 0, "refused": 0}

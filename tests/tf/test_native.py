@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.needs import COMPILED_CORE
 
 from turtlewire.tf.buffer import CORE
 
@@ -33,7 +34,7 @@ def test_core(sanitizer: str) -> None:
     if shutil.which("cmake") is None or (
         shutil.which("g++") is None and shutil.which("clang++") is None
     ):
-        pytest.skip("no CMake or no C++ compiler on this machine")
+        pytest.skip("needs CMake and a C++ compiler (Debian: apt install cmake g++)")
     flags = f"-g -O1 {SANITIZERS[sanitizer]}" if sanitizer != "plain" else ""
     options = ["-DTURTLEWIRE_MODULE=OFF", "-DTURTLEWIRE_TESTS=ON", f"-DCMAKE_CXX_FLAGS={flags}"]
     if sanitizer != "plain":
@@ -96,7 +97,7 @@ def test_the_stub_agrees_with_the_module() -> None:
     assert code == 0, lines
 
 
-@pytest.mark.skipif(CORE != "native", reason="the compiled core is not built here")
+@pytest.mark.skipif(CORE != "native", reason=COMPILED_CORE)
 @pytest.mark.parametrize(
     ("old", "new", "fault"),
     [

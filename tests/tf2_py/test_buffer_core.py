@@ -7,6 +7,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from tests.needs import COMPILED_CORE
 
 import tf2_py
 from builtin_interfaces.msg import Duration as DurationMsg
@@ -36,7 +37,7 @@ def buffer(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> t
         monkeypatch.setattr("turtlewire.Buffer", plain.Buffer)
         monkeypatch.setattr(messages, "CORE", "python")
     elif messages.CORE != "native":
-        pytest.skip("the compiled core is not built here")
+        pytest.skip(COMPILED_CORE)
     core = tf2_py.BufferCore(Duration(seconds=5))
     for t in (1, 2):
         core.set_transform(stamped("map", "base", t * SECOND, x=float(t)), "me")
@@ -212,7 +213,7 @@ def test_refusal_is_logged(buffer: tf2_py.BufferCore, capfd: pytest.CaptureFixtu
 
 def test_classes_without_slots_are_refused() -> None:
     if messages.CORE != "native":
-        pytest.skip("only the compiled core fills slots")
+        pytest.skip(COMPILED_CORE)
     import turtlewire
     from turtlewire import _native
 

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.needs import COMPILED_CORE
 
 GOLDEN = Path(__file__).parents[1] / "golden" / "tf2"
 #: Jazzy's first core and its newest: answers, texts, and texts that 0.36.20 still gives.
@@ -21,7 +22,7 @@ FILES = {
 @pytest.mark.parametrize("core", ["native", "python"])
 def test_all_answers_equal(core: str, file: str) -> None:
     if core == "native":
-        pytest.importorskip("turtlewire._native", reason="the compiled core is not built here")
+        pytest.importorskip("turtlewire._native", reason=COMPILED_CORE)
     answers, texts = FILES[file]
     command = [sys.executable, str(GOLDEN / "check.py"), str(GOLDEN / file), "--allow-subclass"]
     run = subprocess.run(

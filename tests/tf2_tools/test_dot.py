@@ -40,7 +40,7 @@ def test_no_data():
     assert dot_from_tree(FrameTree([]), "1.0") == 'digraph G { "No tf data received" }'
 
 
-@pytest.mark.skipif(shutil.which("dot") is None, reason="graphviz is not installed")
+@pytest.mark.skipif(shutil.which("dot") is None, reason="needs dot (Debian: apt install graphviz)")
 @pytest.mark.parametrize(
     "pairs", [[("a", "b"), ("b", "a")], [('say "hi"', "back\\slash"), ("x", "y")]]
 )

@@ -80,7 +80,9 @@ def test_pages_larger_than_pdf_allows_are_scaled():
     assert content(data).startswith("0.500000 0 0 0.500000 0 0 cm\n")
 
 
-@pytest.mark.skipif(shutil.which("pdftotext") is None, reason="poppler-utils is not installed")
+@pytest.mark.skipif(
+    shutil.which("pdftotext") is None, reason="needs pdftotext (Debian: apt install poppler-utils)"
+)
 def test_poppler_reads_it(tmp_path):
     (tmp_path / "x.pdf").write_bytes(pdf_from_drawing(DRAWING))
     run = subprocess.run(

@@ -372,7 +372,7 @@ def test_teleop_reads_keys_again_after_ctrl_z_and_fg(run):
     shell.wait_for(r"'Q' to quit\.")
     shell.type("\x1a")
     shell.wait_for("modes", count=2)
-    shell.wait_for(r"turtle_teleop_key$", count=2)  # the shell's lines on its stop and on `fg`
+    shell.wait_for(f"^{re.escape(teleop)}$")  # the line of `fg`
     shell.type("q")
     assert shell.wait() == 0
     assert (

@@ -22,7 +22,9 @@ from turtlewire.wire.qos import Durability, QoS
 
 FILES = Path(__file__).parents[2] / "ros/turtlewire_ros/environment"
 
-needs_fish = pytest.mark.skipif(shutil.which("fish") is None, reason="needs fish")
+needs_fish = pytest.mark.skipif(
+    shutil.which("fish") is None, reason="needs fish (Debian: apt install fish)"
+)
 
 
 @pytest.fixture
@@ -107,7 +109,7 @@ def type_until(terminal, line, shown):
 @pytest.mark.parametrize("shell", SHELLS)
 def test_tab_completes_words_topics_nodes_and_frames(prefix, run, shell):
     if shutil.which(shell) is None:
-        pytest.skip(f"needs {shell}")
+        pytest.skip(f"needs {shell} (Debian: apt install {shell})")
     ros2 = prefix / "bin/ros2"
     ros2.parent.mkdir()
     ros2.write_text(

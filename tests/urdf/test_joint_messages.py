@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.needs import COMPILED_CORE
 
 from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
@@ -45,7 +46,7 @@ def core(request, monkeypatch):
     if request.param == "python":
         monkeypatch.setattr(frames_writer, "_native_frames", lambda: None)
     elif frames_writer._native_frames() is None:
-        pytest.skip("the compiled core is not built here (Debian: apt install g++ python3-dev)")
+        pytest.skip(COMPILED_CORE)
 
 
 def joint_state(positions, frame_id="", sec=5, nanosec=6):

@@ -9,6 +9,7 @@ import sys
 from importlib.util import find_spec
 
 import pytest
+from tests.needs import COMPILED_CORE
 
 from turtlewire.tf.buffer import CORE
 
@@ -62,7 +63,7 @@ def test_the_files_that_were_tried_are_free_again():
     assert len(set(run(code).stdout.split())) == 1
 
 
-@pytest.mark.skipif(CORE == "python", reason="the compiled core writes them")
+@pytest.mark.skipif(CORE == "python", reason=COMPILED_CORE)
 @pytest.mark.skipif(find_spec("cyclonedds") is None, reason="Cyclone DDS 0.10 does not abort")
 def test_the_last_words_of_cyclone_survive_an_abort():
     peers = "<Discovery><Peers><Peer address='no.such.host.invalid'/></Peers></Discovery>"
@@ -71,7 +72,7 @@ def test_the_last_words_of_cyclone_survive_an_abort():
     assert "no.such.host.invalid" in done.stderr
 
 
-@pytest.mark.skipif(CORE == "python", reason="the compiled core writes them")
+@pytest.mark.skipif(CORE == "python", reason=COMPILED_CORE)
 def test_an_abort_for_another_reason_ends_as_before():
     code = f"{OPEN}import faulthandler, os\nfaulthandler.enable()\nopen_context(5)\nos.abort()\n"
     done = run(code)

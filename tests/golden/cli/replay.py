@@ -226,6 +226,8 @@ _MASKS = [
 _NUMBERS_VARY = re.compile(r"topic_(hz|bw|delay)|echo_pose|echo_csv|echo_i_|echo_cmd_vel|echo_continuous|send_goal|echo_field_list")
 _ORDER_VARIES = re.compile(r"info_v|launch|interface_package|rosargs_rclcpp|param_load")
 _INSTALLED_PACKAGES = re.compile(r"interface_list|interface_packages|pkg_list")
+#: Where it breaks the usage depends on the version of argparse.
+_USAGE = re.compile(r"(?m)^usage: .*(\n {7,}\S.*)*")
 #: How many there are depends on how fast the reader of the topic is.
 _FEEDBACK = re.compile(r"(Feedback:\n    remaining: F\n\n)+")
 #: Lines of ours that help, and one of the capture's environment.
@@ -245,6 +247,7 @@ def masked(case: Case, text: str) -> list[str]:
         text = re.sub(pattern, replacement, text)
     if _NUMBERS_VARY.search(case.name):
         text = _FLOAT.sub("F", re.sub(r"(window: |from )\d+", r"\1N", text))
+    text = _USAGE.sub(lambda usage: " ".join(usage[0].split()), text)
     text = _FEEDBACK.sub(r"\1", text)
     if "topic_bw" in case.name:  # the unit depends on the rate, and that on how busy the machine is; test_topic_statistics.py has the units
         text = re.sub(r"\S+ K?B\b", "N B", text)

@@ -125,7 +125,7 @@ def test_a_file_replaces_all(monkeypatch: pytest.MonkeyPatch, tmp_path):
         ('connect/endpoints=["udpp/127.0.0.1:3"]', "not supported for udpp protocol"),
         ('mode="client";connect/endpoints=["tcp/127.0.0.1"]', "tcp/127.0.0.1 is no address"),
         (  # at the usual address, a router of another test might be found
-            'mode="client";connect/endpoints=[];scouting/multicast/address="224.0.0.224:7"',
+            'mode="client";connect/endpoints=[];scouting/multicast/address="224.0.0.224:47017"',
             "connect/endpoints names no router",
         ),
     ],

@@ -7,6 +7,7 @@ import threading
 from types import SimpleNamespace
 
 import pytest
+from tests.needs import COMPILED_CORE
 
 from turtlewire import Buffer, msg
 from turtlewire.tf.buffer import CORE
@@ -15,7 +16,7 @@ from turtlewire.wire import open_context
 from turtlewire.wire.base import EventKind, TypeId
 
 if CORE != "native":
-    pytest.skip("the plain-Python core has no sink", allow_module_level=True)
+    pytest.skip(COMPILED_CORE, allow_module_level=True)
 
 from turtlewire._native import Intake, ZenohInlet
 

@@ -15,7 +15,9 @@ import pytest
 from turtlewire.wire.zenoh.router_log import explain
 
 pytestmark = [
-    pytest.mark.skipif(shutil.which("openssl") is None, reason="the command openssl makes keys"),
+    pytest.mark.skipif(
+        shutil.which("openssl") is None, reason="needs openssl (Debian: apt install openssl)"
+    ),
     pytest.mark.skipif(shutil.which("bash") is None, reason="the page's commands are bash"),
 ]
 
@@ -53,14 +55,30 @@ def environment(**more: str) -> dict[str, str]:
     return {**os.environ, "PATH": path, "PYTHONUNBUFFERED": "1", **more}
 
 
-def sign(folder: Path, name: str, authority: str, days: int) -> None:
-    """One more certificate, as the page makes them."""
+AUTHORITY = """[ca]
+default_ca = here
+[here]
+database = signed.txt
+new_certs_dir = .
+default_md = sha256
+policy = names
+rand_serial = yes
+[names]
+commonName = supplied
+"""
+
+
+def sign(folder: Path, name: str, authority: str, end: str) -> None:
+    """One more certificate; valid from 2020 to ``end``, which `openssl x509` cannot have passed."""
     new, _ = commands("certificates").split("new ca ", 1)
+    (folder / "authority.cnf").write_text(AUTHORITY)
     script = f"""{new}
 test -e {authority}.pem || new {authority} -x509 -days 9 -out {authority}.pem
 new {name} -out {name}.csr
-openssl x509 -req -in {name}.csr -CA {authority}.pem -CAkey {authority}.key -CAcreateserial \\
-    -days {days} -out {name}.pem -extfile <(echo subjectAltName=DNS:{name})"""
+touch signed.txt
+openssl ca -batch -notext -config authority.cnf -cert {authority}.pem -keyfile {authority}.key \\
+    -startdate 20200101000000Z -enddate {end} -in {name}.csr -out {name}.pem \\
+    -extfile <(echo subjectAltName=DNS:{name})"""
     subprocess.run(["bash", "-euc", script], cwd=folder, check=True, capture_output=True)
 
 
@@ -70,8 +88,8 @@ def folder(tmp_path_factory):
     made = tmp_path_factory.mktemp("keys")
     script = f"set -eu\n{commands('certificates')}"
     subprocess.run(["bash", "-c", script], cwd=made, check=True, capture_output=True)
-    sign(made, "mallory", "otherca", days=9)
-    sign(made, "late", "ca", days=-1)
+    sign(made, "mallory", "otherca", end="20491231000000Z")
+    sign(made, "late", "ca", end="20200102000000Z")
     return made
 
 
@@ -349,7 +367,7 @@ def space(host: str) -> str:
 def networks():
     """Three hosts in namespaces: `here` and `there`, and the router between them."""
     if not hasattr(os, "geteuid") or os.geteuid() != 0 or shutil.which("ip") is None:
-        pytest.skip("network namespaces need root and the command ip (iproute2)")
+        pytest.skip("network namespaces need root and ip (Debian: apt install iproute2)")
     hosts = ("router", *NETWORKS)
     try:
         for host in hosts:
