@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import subprocess
 import sys
-import tarfile
 import zipfile
 from pathlib import Path
 
@@ -99,8 +98,8 @@ def test_an_sdist_has_all_that_its_wheel_needs(wheel, tmp_path):
     build = "import sys, hatchling.build as b; b.build_sdist(sys.argv[1])"
     subprocess.run([sys.executable, "-c", build, str(tmp_path)], cwd=ROS, check=True)
     (archive,) = tmp_path.glob("*.tar.gz")
-    with tarfile.open(archive) as sources:
-        sources.extractall(tmp_path, filter="data")
+    # Not with tarfile: its filters are younger than the Python of Debian 12.
+    subprocess.run(["tar", "-xf", archive, "-C", tmp_path], check=True)
     build = "import sys, hatchling.build as b; b.build_wheel(sys.argv[1])"
     folder = tmp_path / archive.name.removesuffix(".tar.gz")
     subprocess.run([sys.executable, "-c", build, str(tmp_path)], cwd=folder, check=True)

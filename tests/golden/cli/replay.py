@@ -218,6 +218,7 @@ _MASKS = [
     (r"(/home/user/ros2_ws/install/\w+|/opt/ros/jazzy)", "PREFIX"),
     (r"\(choose from .*\)", "(choose from THESE)"),
     (r", at /\S+/\w+\.c:\d+", ""),
+    (r"(?m)( are required: .*), (argv|launch_arguments)$", r"\1"),  # newer argparse does not name what may be empty
     (r"static_transform_publisher_\w+", "static_transform_publisher_N"),
     (r"(?<![\d.])\d{19}\b", "NANOSECONDS"),
     (r"(?m)^([rgb]): \d+$", r"\1: N"),  # what the sensor sees depends on the way of the turtle
