@@ -343,6 +343,8 @@ a daemon answers questions about the graph
   test_compatibility.py test_no_daemon_is_running
 Ctrl-C of a verb may end in error lines
   ros2cli/test_main.py test_what_a_verb_raises_becomes_one_line_and_a_status
+a verb whose output `head` has closed, or that a full disk refuses, ends with a traceback or "Exception ignored"
+  test_program.py test_a_reader_that_has_gone_ends_a_command_as_it_ends_git test_a_full_disk_is_one_line
 `ros2 run` obeys the first line of a script
   ros2cli/test_run_command.py test_python_scripts_run_on_this_interpreter
 `AMENT_PREFIX_PATH` must be set
