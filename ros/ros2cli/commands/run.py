@@ -63,8 +63,11 @@ def named(paths: list[str], executable: str) -> list[str]:
 def run_and_tell(command: list[str]) -> int:
     """Run a command to its end, and print it if the end is a failure; returns the status."""
     status = run(command)
-    if status < 0:
-        print(f"[ros2run]: {signal.strsignal(-status)}")
-    elif status > 0:
-        print(f"[ros2run]: Process exited with failure {status}")
+    if status == 0:
+        return 0
+    end = signal.strsignal(-status) if status < 0 else f"Process exited with failure {status}"
+    try:
+        print(f"[ros2run]: {end}", flush=True)
+    except SystemExit as unwritten:  # as the program's own output was, which has said so
+        raise SystemExit(status if status > 0 else unwritten.code) from None
     return status
