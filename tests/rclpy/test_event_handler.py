@@ -6,6 +6,7 @@ import importlib
 import sys
 
 import pytest
+from tests.needs import needs_cyclone_dds
 
 import rclpy
 from rclpy import _qos_events, event_handler
@@ -257,6 +258,7 @@ def test_wrong_overrides(context):
     node.destroy_node()
 
 
+@needs_cyclone_dds
 def test_a_publisher_misses_its_deadline_without_a_subscription(monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", "rmw_cyclonedds_cpp")
     with Context() as context:

@@ -7,6 +7,7 @@ import sys
 import threading
 
 import pytest
+from tests.needs import needs_cyclone_dds
 
 import rclpy
 from rclpy._rclpy_pybind11 import RCLError
@@ -309,6 +310,7 @@ print(sorted(heavy & set(sys.modules)))
     )
 
 
+@needs_cyclone_dds
 def test_helpers():
     assert timeout_sec_to_nsec(None) == -1
     assert timeout_sec_to_nsec(-0.5) == -1

@@ -5,6 +5,7 @@ import sys
 import textwrap
 
 import pytest
+from tests.needs import needs_cyclone_dds
 
 from rclpy.duration import Duration, Infinite
 from rclpy.qos import (
@@ -211,6 +212,7 @@ def test_text():
         ({"reliability": S}, {"reliability": B}, "OK", ""),
     ],
 )
+@needs_cyclone_dds
 def test_compatibility(publisher, subscription, level, reason, monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", "rmw_cyclonedds_cpp")
     answer = qos_check_compatible(profile(**publisher), profile(**subscription))
@@ -233,6 +235,7 @@ def test_with_zenoh_everything_matches(monkeypatch):
     assert "transient local" in reason
 
 
+@needs_cyclone_dds
 def test_two_system_defaults_are_left_open(monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", "rmw_cyclonedds_cpp")
     level, reason = qos_check_compatible(qos_profile_system_default, qos_profile_system_default)

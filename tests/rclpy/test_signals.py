@@ -9,6 +9,7 @@ import subprocess
 import sys
 
 import pytest
+from tests.needs import needs_cyclone_dds
 
 TUTORIAL_MAIN = """
 import rclpy
@@ -480,6 +481,7 @@ def test_a_forked_child_does_not_shut_its_parent_down(start):
     assert program.finish() == (0, "True True\n", "")
 
 
+@needs_cyclone_dds
 def test_a_program_that_never_shuts_down_ends(start):
     program = start(
         "import rclpy\nrclpy.init()\nnode = rclpy.create_node('tested')\nprint('up')",

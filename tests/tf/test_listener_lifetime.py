@@ -10,6 +10,7 @@ import subprocess
 import sys
 
 import pytest
+from tests.needs import needs_cyclone_dds
 
 PROGRAM = """
 import gc, random, sys, threading
@@ -87,6 +88,7 @@ print("alive")
 
 
 @pytest.mark.slow
+@needs_cyclone_dds
 def test_everything_may_end_while_messages_arrive():
     """Freed memory is filled with rubbish, so that its use shows."""
     variables = os.environ | {

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import pytest
+from tests.needs import needs_cyclone_dds
 
 from turtlewire.wire import open_context
 from turtlewire.wire.base import Context, EventKind, TypeId
 from turtlewire.wire.qos import Liveliness, QoS
+
+pytestmark = needs_cyclone_dds
 
 STRING = TypeId("std_msgs/msg/String", "RIHS01_" + "0" * 64)
 MESSAGE = b"\x00\x01\x00\x00" + bytes(8)

@@ -11,6 +11,7 @@ import time
 from pathlib import Path
 
 import pytest
+from tests.needs import needs_cyclone_dds
 
 from turtlewire.errors import WireError
 from turtlewire.wire import open_context
@@ -19,6 +20,8 @@ from turtlewire.wire.cyclone import library
 from turtlewire.wire.cyclone.announcer import ANNOUNCEMENT_INTERVAL_NS
 from turtlewire.wire.graph import DISCOVERY_TOPIC, DISCOVERY_TYPE, unpack_discovery_info
 from turtlewire.wire.qos import Durability, History, QoS
+
+pytestmark = needs_cyclone_dds
 
 PEERS = Path(__file__).parent / "peers"
 STRING = TypeId("std_msgs/msg/String", "RIHS01_" + "0" * 64)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+from tests.needs import needs_cyclone_dds
+
 from turtlewire.wire import open_context
 from turtlewire.wire.base import RequestId, ServiceTypes, TypeId
 from turtlewire.wire.cyclone.services import format_service_id
@@ -40,6 +42,7 @@ def test_service_ids_are_spelled_like_those_of_rmw_cyclonedds():
     assert format_service_id(participant, 1) == " 1.10.a8.3e.d7.62.1.7d.d5.28.6b.fb.0.0.0.1"
 
 
+@needs_cyclone_dds
 def test_replies_that_wait_for_a_client_end_with_their_service_in_silence(monkeypatch, capfd):
     switch = ServiceTypes(
         "std_srvs/srv/SetBool",

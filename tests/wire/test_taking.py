@@ -5,11 +5,14 @@ same.
 from __future__ import annotations
 
 import pytest
+from tests.needs import needs_cyclone_dds
 
 from turtlewire import wire
 from turtlewire.wire.base import EventKind, TypeId
 from turtlewire.wire.cyclone import taking
 from turtlewire.wire.qos import History, QoS
+
+pytestmark = needs_cyclone_dds
 
 STRING = TypeId(
     "std_msgs/msg/String", "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
