@@ -15,6 +15,7 @@ from pathlib import Path
 from subprocess import run
 
 import pytest
+from tests.needs import HAS_CYCLONE_DDS
 
 ROOT = Path(__file__).parent.parent
 
@@ -119,9 +120,10 @@ def test_what_a_module_defines_without_underscore_is_in_its_all(house):
 
 def test_what_is_in_all_is_there(house):
     missing = []
+    cannot = () if HAS_CYCLONE_DDS else ("turtlewire.wire.cyclone.",)
     for name, tree in house.trees.items():
         exported = public(tree)[1]
-        if exported and name not in NOT_IMPORTED:
+        if exported and name not in NOT_IMPORTED and not name.startswith(cannot):
             module = importlib.import_module(name)
             missing += [f"{name}.{each}" for each in exported if not hasattr(module, each)]
     assert missing == []

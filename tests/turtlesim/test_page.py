@@ -349,8 +349,11 @@ def test_what_a_page_sends_wrong_is_answered(simulator):
         ]
         raw.send("[" * 60_000)
         answers = (message for _ in range(100) if isinstance(message := raw.recv(timeout=60), str))
-        assert json.loads(next(answers)) == {
-            "type": "error",
-            "text": "not a command: the JSON is nested too deeply",
+        answer = json.loads(next(answers))
+        assert answer["type"] == "error"
+        assert answer["text"] in {
+            "not a command: the JSON is nested too deeply",
+            # Python 3.14 reads as deeply as its stack is large.
+            "not JSON: Expecting value: line 1 column 60001 (char 60000)",
         }
     assert simulator.commands == []
