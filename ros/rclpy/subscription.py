@@ -166,7 +166,10 @@ def _callback_type(callback: Callable[..., Any]) -> Subscription.CallbackType:
             return Subscription.CallbackType(count - 1)
     import inspect
 
-    signature = inspect.signature(callback)
+    try:
+        signature = inspect.signature(callback)
+    except ValueError:  # a built-in function without one, such as `print` in Python 3.10
+        return Subscription.CallbackType.MessageOnly
     for count in (1, 2):
         try:
             signature.bind(*(None,) * count)

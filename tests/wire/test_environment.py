@@ -27,6 +27,7 @@ VARIABLES = [
 ]
 OWN_DOMAIN = os.environ["ROS_DOMAIN_ID"]
 HAS_WHEEL = find_spec("cyclonedds") is not None
+TRACEBACKS_HAVE_HINTS = sys.version_info >= (3, 11)  # as notes
 
 
 @pytest.fixture(autouse=True)
@@ -310,7 +311,7 @@ def test_a_broken_configuration_of_the_user_is_one_clear_error():
         "Cyclone DDS says config: //CycloneDDS/Domain: Nonsense: unknown element" in done.stderr
         or sys.platform == "win32"
     )
-    assert "CYCLONEDDS_URI is set" in done.stderr
+    assert "CYCLONEDDS_URI is set" in done.stderr or not TRACEBACKS_HAVE_HINTS
 
 
 def test_a_domain_that_is_full_says_so():
@@ -334,7 +335,8 @@ def test_a_domain_that_is_full_says_so():
         neighbour.communicate(b"\n")
     assert done.returncode == 1
     assert f"WireError: join domain {OWN_DOMAIN}" in done.stderr
-    assert re.search(r"in the domain: \d+; it holds 1\.", done.stderr) or sys.platform != "linux"
+    said = re.search(r"in the domain: \d+; it holds 1\.", done.stderr)
+    assert said or sys.platform != "linux" or not TRACEBACKS_HAVE_HINTS
 
 
 def test_the_last_domain_works():
