@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import http.client
 import io
+import os
 import re
 import shutil
 import socket
@@ -164,7 +165,7 @@ class Terminal(io.StringIO):
 @pytest.fixture
 def terminal(monkeypatch):
     pytest.importorskip("segno")
-    monkeypatch.setattr(shutil, "get_terminal_size", lambda: SimpleNamespace(columns=80))
+    monkeypatch.setattr(shutil, "get_terminal_size", lambda **_: os.terminal_size((80, 24)))
     return Terminal()
 
 
@@ -222,7 +223,7 @@ def test_where_no_code_can_be_shown_the_address_and_a_line_remain(
     if obstacle == "library":
         monkeypatch.setitem(sys.modules, "segno", None)
     elif obstacle == "width":
-        monkeypatch.setattr(shutil, "get_terminal_size", lambda: SimpleNamespace(columns=20))
+        monkeypatch.setattr(shutil, "get_terminal_size", lambda **_: os.terminal_size((20, 24)))
     else:
         monkeypatch.setattr(Terminal, "encoding", "ascii")
     lines = invite(monkeypatch, terminal, "192.168.1.7")
