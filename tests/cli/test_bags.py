@@ -205,7 +205,7 @@ def test_a_file_without_data_is_no_trajectory(capsys, tmp_path, text, what):
         ("trajectory BAG", "is a bag: name a topic, or a target and a source frame"),
         ("trajectory BAG a b c", "expected a topic or two frames, got 3 names"),
         ("trajectory BAG odom camera --rate 0", "'0' is not a number above 0"),
-        ("trajectory BAG odom camera --plot a.png", "a.png does not end in .svg"),
+        ("trajectory BAG odom camera --plot a.gif", "a.gif does not end in .svg"),
         ("trajectory BAG /chatter", "which has no poses"),
         ("trajectory nothing", "turtlewire trajectory: nothing: No such file or directory\n"),
         ("trajectory BAG odom camera -o no/where.tum", "no/where.tum: No such file or directory"),
