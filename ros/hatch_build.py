@@ -1,8 +1,9 @@
-"""Builds the data of the wheel: files for ament, colcon and rosdep, and shell files of the prefix.
+"""Builds what is generated in the wheel: interface packages, and the files of a ROS 2 prefix.
 
-Every folder here and in ``interfaces/`` with an ``__init__.py`` is a ROS package. Entry points of
-the groups ``turtlewire.executables.<package>`` become ``lib/<package>/<executable>``, as ``ros2
-run`` expects them.
+The interface packages (``std_msgs`` …) are made of the engine's definitions. The prefix has files
+for ament, colcon, rosdep and shells: every folder here with an ``__init__.py`` and every interface
+package is a ROS package, and entry points of the groups ``turtlewire.executables.<package>`` become
+``lib/<package>/<executable>``, as ``ros2 run`` expects them.
 """
 
 from __future__ import annotations
@@ -21,8 +22,11 @@ from xml.sax.saxutils import escape
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 _GROUP = "turtlewire.executables."
-#: Where an sdist has the files of interfaces, which are made of the engine's.
-_SHIPPED = "interface_files"
+#: Where an sdist has what is made of the engine's definitions, which do not come with it.
+_SHIPPED_FILES = "interface_files"
+_SHIPPED_MODULES = "interface_modules"
+#: The one package that has both code here and interfaces.
+_MIXED = "turtlesim"
 _RULES_URL = "file:///turtlewire/rosdep.yaml"
 
 #: Packages that pip installs under their ROS names: the prefix makes them known, and `ros2 run` and
@@ -53,18 +57,23 @@ sys.exit(program({function})())
 
 
 class PrefixBuildHook(BuildHookInterface):  # type: ignore[type-arg]
-    """Adds the prefix's files to the wheel, editable ones included."""
+    """Adds interface packages and the prefix's files to the wheel, editable ones included."""
 
-    def initialize(self, _version: str, build_data: dict[str, Any]) -> None:
+    def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Make the files and name them to the builder of the wheel or of the sdist."""
         self._folder = Path(tempfile.mkdtemp(prefix="turtlewire-prefix-"))
+        self._modules = Path(tempfile.mkdtemp(prefix="turtlewire-interfaces-"))
         root = Path(self.root)
-        self._add_interface_files(root)
+        self._generate(root)
         if self.target_name == "sdist":
-            build_data["force_include"][str(self._folder)] = _SHIPPED
+            build_data["force_include"][str(self._folder)] = _SHIPPED_FILES
+            build_data["force_include"][str(self._modules)] = _SHIPPED_MODULES
             return
-        for init in sorted([*root.glob("*/__init__.py"), *root.glob("interfaces/*/__init__.py")]):
-            self._add_package(init.parent.name, init.parent)
+        self._add_interfaces(root, version, build_data)
+        packages = {init.parent for init in root.glob("*/__init__.py")}
+        packages |= {init.parent for init in self._modules.glob("*/__init__.py")}
+        for package in sorted(packages):
+            self._add_package(package.name, package)
         for name, description in _FROM_PYPI.items():
             self._add_marker(name, description)
         for group, entries in self.metadata.core.entry_points.items():
@@ -86,18 +95,43 @@ class PrefixBuildHook(BuildHookInterface):  # type: ignore[type-arg]
     def finalize(self, _version: str, _build_data: dict[str, Any], _artifact: str) -> None:
         """Remove the files again; the wheel or the sdist has them."""
         shutil.rmtree(self._folder)
+        shutil.rmtree(self._modules)
 
-    def _add_interface_files(self, root: Path) -> None:
-        shipped = root / _SHIPPED
-        if shipped.is_dir():
-            shutil.copytree(shipped, self._folder, dirs_exist_ok=True)
+    def _generate(self, root: Path) -> None:
+        """Make what the engine's definitions give, or take it from the sdist."""
+        if (root / _SHIPPED_FILES).is_dir():
+            shutil.copytree(root / _SHIPPED_FILES, self._folder, dirs_exist_ok=True)
+            shutil.copytree(root / _SHIPPED_MODULES, self._modules, dirs_exist_ok=True)
             return
         paths = os.pathsep.join((str(root.parent / "src"), str(root)))
         subprocess.run(  # noqa: S603 -- our own module
-            [sys.executable, "-m", "turtlewire_ros.interface_files", str(self._folder)],
+            [
+                sys.executable,
+                "-m",
+                "turtlewire_ros.interface_files",
+                str(self._folder),
+                str(self._modules),
+            ],
             env={**os.environ, "PYTHONPATH": paths, "AMENT_PREFIX_PATH": ""},
             check=True,
         )
+
+    def _add_interfaces(self, root: Path, version: str, build_data: dict[str, Any]) -> None:
+        """Put the interface packages into the wheel; real files also in an editable installation.
+
+        Type checkers see them there, which they would not behind an import hook.
+        """
+        is_editable = version == "editable"
+        included = build_data["force_include_editable" if is_editable else "force_include"]
+        for package in self._modules.iterdir():
+            if package.name == _MIXED and is_editable:
+                # Its code is imported from this folder, so its interfaces must lie there, too.
+                for kind in package.iterdir():
+                    target = root / _MIXED / kind.name
+                    shutil.rmtree(target, ignore_errors=True)
+                    shutil.copytree(kind, target)
+            else:
+                included[str(package)] = package.name
 
     def _add_package(self, name: str, source: Path) -> None:
         docstring = (

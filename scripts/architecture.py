@@ -44,14 +44,13 @@ class House:
     """
 
     def __init__(self, root: Path) -> None:
-        self.shells = {init.parent.parent.name for init in _stubs(root)}
-        self.paths = dict(_modules(root, self.shells))
+        interfaces = root / "src/turtlewire/msg/interfaces"
+        # turtlesim has code besides its interfaces.
+        self.shells = {folder.name for folder in interfaces.glob("*")} - {"turtlesim"}
+        self.paths = dict(_modules(root))
         self.trees = {name: ast.parse(path.read_bytes()) for name, path in self.paths.items()}
         self.imports = sorted({found for name in self.trees for found in self._imports(name)})
         self.excused = _excused(root)
-        shells = (ast.parse(stub.with_suffix(".py").read_bytes()) for stub in _stubs(root))
-        imports = (node for shell in shells for node, _ in _import_nodes(shell, "run"))
-        self._below_shells = {room(found) for node in imports for found in self._targets(node, "")}
 
     def _imports(self, name: str) -> Iterator[Import]:
         is_package = self.paths[name].name == "__init__.py"
@@ -90,7 +89,7 @@ class House:
     def rooms(self) -> dict[str, set[str]]:
         """Each room with the rooms that its modules import."""
         arrows: dict[str, set[str]] = {room(name): set() for name in self.paths}
-        arrows[SHELLS] = self._below_shells
+        arrows[SHELLS] = {"turtlewire.msg"}
         for found in self.imports:
             if (found.source, found.target) not in self.excused:
                 arrows[room(found.source)].add(room(found.target))
@@ -103,18 +102,11 @@ def room(module: str) -> str:
     return ".".join(parts[:2]) if parts[0] == ENGINE else parts[0]
 
 
-def _stubs(root: Path) -> Iterator[Path]:
-    """Stubs of generated packages; turtlesim has interfaces beside its own modules."""
-    for stub in root.glob("ros/**/__init__.pyi"):
-        if stub.parent.name in {"msg", "srv", "action"} and stub.parent.parent.name != "turtlesim":
-            yield stub
-
-
-def _modules(root: Path, shells: set[str]) -> Iterator[tuple[str, Path]]:
+def _modules(root: Path) -> Iterator[tuple[str, Path]]:
     for top in (root / "src", root / "ros"):
         for path in sorted(top.rglob("*.py")):
             parts = path.relative_to(top).with_suffix("").parts
-            if len(parts) > 1 and parts[0] not in {*shells, SHELLS}:
+            if len(parts) > 1:
                 yield ".".join(parts[:-1] if parts[-1] == "__init__" else parts), path
 
 

@@ -151,8 +151,8 @@ def fingerprint() -> str:
     ]
     files += [*ros.glob("*.*"), *ros.glob("turtlewire_ros/*/*.*"), *ros.glob("*/share/**/*")]
     files += [*(ROOT / "src" / "turtlewire" / "msg" / "interfaces").glob("*/*/*.*")]
-    inits = [*ros.glob("*/__init__.py"), *ros.glob("interfaces/*/__init__.py")]
-    digest = hashlib.sha256(repr(sorted(path.parent.name for path in inits)).encode())
+    packages = sorted(path.parent.name for path in ros.glob("*/__init__.py"))
+    digest = hashlib.sha256(repr(packages).encode())
     for path in sorted(files):
         if path.is_file() and "__pycache__" not in path.parts:
             digest.update(str(path.relative_to(ROOT)).encode())

@@ -9,10 +9,8 @@ import ast
 import configparser
 import importlib
 import re
-import shutil
 import sys
 from pathlib import Path
-from subprocess import run
 
 import pytest
 from tests.needs import HAS_CYCLONE_DDS
@@ -77,7 +75,7 @@ def test_a_circle_is_found_whatever_the_kind_of_its_imports(architecture, tmp_pa
 def test_import_linter_knows_every_package(house):
     contracts = configparser.ConfigParser()
     contracts.read(ROOT / ".importlinter")
-    packages = {name.partition(".")[0] for name in house.paths} | house.shells
+    packages = {name.partition(".")[0] for name in house.paths}
     assert set(contracts["importlinter"]["root_packages"].split()) == packages
     layers = contracts["importlinter:contract:ros"]["layers"].replace("|", " ").split()
     assert set(layers) == packages
@@ -127,33 +125,6 @@ def test_what_is_in_all_is_there(house):
             module = importlib.import_module(name)
             missing += [f"{name}.{each}" for each in exported if not hasattr(module, each)]
     assert missing == []
-
-
-def test_lint_tells_of_interface_files_that_the_generator_would_write_otherwise(tmp_path):
-    shutil.copytree(ROOT / "src", tmp_path / "src", ignore=shutil.ignore_patterns("__pycache__"))
-    for folder in ("ros/interfaces", "ros/turtlesim"):
-        shutil.copytree(ROOT / folder, tmp_path / folder)
-    (tmp_path / "scripts").mkdir()
-    script = shutil.copy(ROOT / "scripts/generate-interfaces", tmp_path / "scripts")
-
-    def check():
-        return run([sys.executable, script, "--check"], capture_output=True, text=True, check=False)
-
-    fresh = check()
-    assert (fresh.returncode, fresh.stdout) == (0, "")
-    package = "ros/interfaces/std_msgs/msg"
-    stale = [f"{package}/__init__.py", f"{package}/extra.py", "ros/turtlesim/srv/__init__.pyi"]
-    for path in stale:
-        (tmp_path / path).write_text("changed = True\n")
-    told = check()
-    assert told.returncode == 1
-    assert told.stdout.splitlines() == [
-        f"{path} is stale: run scripts/generate-interfaces" for path in stale
-    ]
-
-
-def test_lint_checks_the_interface_files():
-    assert "\nscripts/generate-interfaces --check\n" in (ROOT / "scripts/lint").read_text()
 
 
 def mapped(house):

@@ -1,7 +1,8 @@
-"""``python -m turtlewire_ros.interface_files DIR``: what ``share`` holds of this distribution.
+"""Write what is generated from the engine's interfaces; the build of the wheel runs it.
 
-Programs read definitions where ROS 2 has them, in ``share/std_msgs/msg/String.msg`` and beside it
-``String.idl``. The build of the wheel writes them from the engine's, with the index of them.
+``python -m turtlewire_ros.interface_files PREFIX MODULES`` writes definitions below ``PREFIX``,
+where programs of ROS 2 read them (``share/std_msgs/msg/String.msg`` and ``String.idl`` beside it),
+and packages to import (``std_msgs.msg`` with its type stubs) below ``MODULES``.
 """
 
 from __future__ import annotations
@@ -11,8 +12,9 @@ from pathlib import Path
 
 from rosidl_adapter.idl import interface_to_idl
 from turtlewire.msg import interface_names, interface_path
+from turtlewire.msg.generate import write_modules
 
-__all__ = ["INDEX", "write_interface_files"]
+__all__ = ["INDEX", "write_interface_files", "write_interface_modules"]
 
 #: Folder of a prefix that has, for each package with interfaces, a file that lists theirs.
 INDEX = Path("share", "ament_index", "resource_index", "rosidl_interfaces")
@@ -42,6 +44,23 @@ def write_interface_files(prefix: Path) -> None:
         _write(prefix / INDEX / package, "\n".join(sorted(listed)))
 
 
+def write_interface_modules(folder: Path) -> None:
+    """Write a package of Python modules and stubs for each known package below a folder.
+
+    turtlesim, which has code of its own, gets the modules ``msg``, ``srv`` and ``action`` alone.
+
+    Raises:
+        OSError: A file cannot be written.
+    """
+    for package, kinds in interface_names().items():
+        first = next(f"{package}/{kind}/{names[0]}" for kind, names in kinds.items() if names)
+        source = Path(interface_path(first)).parents[1]
+        write_modules(package, source, folder / package)
+        if package != "turtlesim":
+            _write(folder / package / "__init__.py", f'"""Interfaces of {package}."""\n')
+            _write(folder / package / "py.typed", "")
+
+
 def _write(path: Path, text: str) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text, encoding="utf-8")
@@ -49,3 +68,4 @@ def _write(path: Path, text: str) -> None:
 
 if __name__ == "__main__":
     write_interface_files(Path(sys.argv[1]))
+    write_interface_modules(Path(sys.argv[2]))

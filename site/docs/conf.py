@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
 #: The plain-Python twin of the compiled core has its docstrings in Python, with types.
 os.environ["TURTLEWIRE_CORE"] = "python"
-sys.path[:0] = [str(ROOT / folder) for folder in ("src", "ros", "ros/interfaces", "site/docs")]
+sys.path[:0] = [str(ROOT / folder) for folder in ("src", "ros", "site/docs")]
 
 project = "turtlewire"
 author = "The turtlewire authors"

@@ -159,7 +159,7 @@ def test_stubs_satisfy_a_type_checker(generated, tmp_path):
     root = Path(__file__).parents[2]
     environment = {
         **os.environ,
-        "MYPYPATH": f"{generated}:{root / 'src'}:{root / 'ros'}:{root / 'ros/interfaces'}",
+        "MYPYPATH": f"{generated}:{root / 'src'}:{root / 'ros'}",
     }
     command = [
         sys.executable,

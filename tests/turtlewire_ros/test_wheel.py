@@ -36,8 +36,10 @@ def wheel(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def packages():
-    inits = [*ROS.glob("*/__init__.py"), *ROS.glob("interfaces/*/__init__.py")]
-    return sorted(path.parent.name for path in inits)
+    inits = ROS.glob("*/__init__.py")
+    return sorted(
+        {init.parent.name for init in inits} | {path.name for path in INTERFACES.iterdir()}
+    )
 
 
 def test_every_package_has_its_marks(wheel, packages):

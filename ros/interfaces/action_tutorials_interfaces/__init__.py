@@ -1,1 +1,0 @@
-"""Interfaces of action_tutorials_interfaces."""

@@ -1,1 +1,0 @@
-"""Interfaces of control_msgs."""

@@ -1,1 +1,0 @@
-"""Interfaces of example_interfaces."""

@@ -1,1 +1,0 @@
-"""Interfaces of foxglove_msgs."""

@@ -1,1 +1,0 @@
-"""Interfaces of geographic_msgs."""

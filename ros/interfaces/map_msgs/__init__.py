@@ -1,1 +1,0 @@
-"""Interfaces of map_msgs."""

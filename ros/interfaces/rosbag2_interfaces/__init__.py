@@ -1,1 +1,0 @@
-"""Interfaces of rosbag2_interfaces."""

@@ -1,1 +1,0 @@
-"""Interfaces of tf2_msgs."""

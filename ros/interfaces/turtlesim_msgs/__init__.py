@@ -1,1 +1,0 @@
-"""Interfaces of turtlesim in Kilted and later."""

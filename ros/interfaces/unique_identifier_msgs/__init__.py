@@ -1,1 +1,0 @@
-"""Interfaces of unique_identifier_msgs."""

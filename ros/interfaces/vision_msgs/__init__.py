@@ -1,1 +1,0 @@
-"""Interfaces of vision_msgs."""
