@@ -14,6 +14,9 @@ from tests.bag.conftest import ANSWERED, GOLDEN
 from turtlewire.bag import load_transforms, open_bag
 from turtlewire.errors import TransformException
 
+#: Of the 500 answers, the errors in which tf2 0.36.20 reports the other leg of a V-shaped path than
+#: the core that gave the answers.
+OTHER_LEG = {"d_mcap": 11, "d_split_file_zstd": 5, "d_sqlite3_message_zstd": 15}
 REAL = sorted(path.name for path in (GOLDEN / "real").iterdir() if path.is_dir())
 
 
@@ -58,15 +61,26 @@ def test_every_message_can_be_decoded(name):
 def test_lookups(name):
     buffer, report = load_transforms(GOLDEN / name)
     assert report.problems == []
-    wrong = []
+    wrong, other_leg = [], 0
     with gzip.open(GOLDEN / f"{name}.answers.jsonl.gz", "rt") as file:
         questions = [json.loads(line) for line in file]
     for question in questions:
         answer = ask(buffer, question)
-        if not same(question, answer):
+        if is_of_other_leg(question, answer):
+            other_leg += 1
+        elif not same(question, answer):
             wrong.append((question, answer))
     assert len(questions) == 500
     assert wrong == []
+    assert other_leg == OTHER_LEG.get(name, 0)
+
+
+def is_of_other_leg(question, answer):
+    """Return True for the same exception with another link's stamps."""
+    if not question.get("error") == answer.get("error") == "ExtrapolationException":
+        return False
+    texts = [each["text"].partition(", when looking up transform") for each in (question, answer)]
+    return texts[0][0] != texts[1][0] and texts[0][1:] == texts[1][1:]
 
 
 def ask(buffer, q):

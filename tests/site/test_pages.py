@@ -24,7 +24,7 @@ TROUBLE = (DOCS / "troubleshooting.md").read_text(encoding="utf-8")
 HEADINGS = re.findall(r"^### `(.+)`$", TROUBLE, re.MULTILINE)
 HINTS = re.findall(r"^> Hint: (.+)$", TROUBLE, re.MULTILINE)
 #: Packages of a real ROS 2 that pages name.
-THEIRS = {"urdf_tutorial"}
+THEIRS = {"urdf_tutorial", "my_turtle"}
 #: A block, or code within a line.
 CODE = re.compile(r"^```\w+\n(.*?)^```$|(`[^`\n]+`)", re.MULTILINE | re.DOTALL)
 SECOND = 1_000_000_000

@@ -92,7 +92,9 @@ def test_it_reports_the_missing_turtle_then_follows_it_and_stops_at_ctrl_c(run, 
         line[2] for line in re.finditer(COULD_NOT, golden, re.MULTILINE)
     }
     stamps = [float(report[1]) for report in reports]
-    assert 0.09 < median(later - earlier for earlier, later in pairwise(stamps)) < 0.9  # not 1 Hz
+    gaps = [later - earlier for earlier, later in pairwise(stamps)]
+    assert median(gaps) > 0.09
+    assert min(gaps) < 0.9  # not 1 Hz, on a busy machine neither
     launch.wait_for(re.escape(f'ros2 service call /spawn turtlesim/srv/Spawn "{SPAWN}"'))
 
     spawn = run(ROS2, "service", "call", "/spawn", "turtlesim/srv/Spawn", SPAWN)
