@@ -7,9 +7,6 @@ it receives. `peer.py client COUNT` calls /echo that often.
 import contextlib
 import sys
 
-from test_msgs.action import Fibonacci
-from test_msgs.srv import BasicTypes
-
 import rclpy
 import rclpy.executors
 from geometry_msgs.msg import TransformStamped
@@ -19,6 +16,8 @@ from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import Image
 from std_msgs.msg import String
+from test_msgs.action import Fibonacci
+from test_msgs.srv import BasicTypes
 
 
 def say(*words):
