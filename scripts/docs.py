@@ -21,8 +21,6 @@ from docs_links import faults_of
 from lesson import serve
 from lesson_npm import BuildError
 
-from turtlewire.program import program
-
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build"
 DOCS = ROOT / "docs"
@@ -172,4 +170,8 @@ def _checked(command: list[str], environment: dict[str, str]) -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(program(main)())
+    if {"-h", "--help"}.isdisjoint(sys.argv):  # the help does without turtlewire
+        from turtlewire.program import program
+
+        main = program(main)
+    sys.exit(main())

@@ -22,8 +22,6 @@ from typing import Any
 
 from lesson_npm import BuildError, fetched
 
-from turtlewire.program import program
-
 ROOT = Path(__file__).resolve().parent.parent
 SOURCE = ROOT / "site" / "lesson"
 WHEEL_CACHE = ROOT / "build" / "lesson-wheels"
@@ -253,4 +251,8 @@ def serve(folder: Path, port: int) -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(program(main)())
+    if {"-h", "--help"}.isdisjoint(sys.argv):  # the help does without turtlewire
+        from turtlewire.program import program
+
+        main = program(main)
+    sys.exit(main())

@@ -132,7 +132,9 @@ def test_a_type_of_our_name_with_other_fields_is_named_once(victim, capfd, monke
     As many bytes, so that only the hash tells the difference.
     """
     monkeypatch.setattr(report, "_said", set())
-    got, arrived = [], threading.Event()
+    got, arrived, warned = [], threading.Event(), threading.Event()
+    warn = report.warn
+    monkeypatch.setattr(report, "warn", lambda text: (warn(text), warned.set()))
 
     def on_pose(message: Pose) -> None:
         got.append(message)
@@ -144,6 +146,7 @@ def test_a_type_of_our_name_with_other_fields_is_named_once(victim, capfd, monke
     foreign = ("/pose", "turtlesim/msg/Pose", theirs, HEADER + "01000000" * 6)
     good = ("/pose", "turtlesim/msg/Pose", ours, msg.serialize(Pose(x=7.0)).hex())
     attack([foreign] * 3 + [good], arrived)
+    assert warned.wait(60)  # the graph may learn of the peer after its messages have come
     [line] = complaints(capfd.readouterr().err)
     assert "a peer on /pose has another definition of turtlesim/msg/Pose" in line
     assert "same version of turtlesim" in line

@@ -10,6 +10,7 @@ const STEPS = {
 
 const windows = new Set();
 let front = 0;
+let styled = null;
 
 export class PictureWindow {
   canvas = document.createElement("canvas");
@@ -18,13 +19,14 @@ export class PictureWindow {
   #name = document.createElement("b");
   #details = document.createElement("span");
   #isWanted = true;
+  #hasPicture = false;
   #isPlaced = false;
   #around = document.getElementById("viewport");
   #watch = new ResizeObserver(() => this.#move(this.#place()));
 
   /** `close()`: the user does not want to see it. */
   constructor(close) {
-    loadStyle();
+    styled ??= loadStyle();
     this.canvas.setAttribute("role", "img");
     this.#frame.className = "image-window";
     this.#frame.hidden = true; // until there is a picture
@@ -40,9 +42,14 @@ export class PictureWindow {
     const { canvas } = this;
     const isSame = canvas.width === width && canvas.height === height;
     if (!isSame) Object.assign(canvas, { width, height });
-    if (this.#isPlaced) return;
-    this.#isPlaced = true;
-    this.setVisible(this.#isWanted);
+    if (this.#hasPicture) return;
+    this.#hasPicture = true;
+    // Before its style is there, a window has another size, and would be placed wrongly.
+    styled.then(() => {
+      if (!windows.has(this)) return; // removed meanwhile
+      this.#isPlaced = true;
+      this.setVisible(this.#isWanted);
+    });
   }
 
   /** What the caption says: whose picture it is, and what is known of it. */
@@ -165,9 +172,14 @@ function layer(viewport) {
   return made;
 }
 
+/** A promise for the style sheet of all windows; without it they are shown unstyled. */
 function loadStyle() {
-  if (document.querySelector(`link[href="${STYLE}"]`)) return;
   const link = document.createElement("link");
+  const settled = new Promise((settle) => {
+    link.onload = settle;
+    link.onerror = settle;
+  });
   Object.assign(link, { rel: "stylesheet", href: STYLE });
   document.head.append(link);
+  return settled;
 }
