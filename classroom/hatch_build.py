@@ -14,7 +14,7 @@ class ExercisesHook(BuildHookInterface[Any]):
     """Adds what lies elsewhere in the sources."""
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        """See hatchling: ``version`` is ``standard`` or ``editable``."""
+        """Add the lessons' and exercises' files; ``version`` is ``standard`` or ``editable``."""
         if version == "standard":
             build_data["force_include"] = {
                 str(_LESSON / "python" / "turtle_lesson"): "turtle_lesson",

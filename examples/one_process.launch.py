@@ -11,7 +11,7 @@ LISTENER = "learning_tf2_py.turtle_tf2_listener.TurtleListener"
 
 
 def generate_launch_description() -> LaunchDescription:
-    """The same nodes, names and parameters as in ``turtle_tf2_demo.launch.py``."""
+    """Return the same nodes, names and parameters as in ``turtle_tf2_demo.launch.py``."""
     nodes = [
         ComposableNode(
             package="turtlesim", plugin="turtlesim.turtlesim_node.TurtlesimNode", name="sim"

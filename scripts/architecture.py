@@ -2,7 +2,7 @@
 
 `scripts/architecture` draws docs/images/architecture.svg and writes the index of modules in
 ARCHITECTURE.md; `--check` tells whether both are fresh;
-`--figures` prints figures of the code, with `--root` those of another checkout.
+`--figures` prints figures of the code, with `--root` of another checkout.
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ class House:
         return sorted((group for group in groups if len(group) > 1), key=lambda g: (-len(g), g))
 
     def rooms(self) -> dict[str, set[str]]:
-        """Each room with the rooms that its modules import."""
+        """Return each room with the rooms that its modules import."""
         arrows: dict[str, set[str]] = {room(name): set() for name in self.paths}
         arrows[SHELLS] = {"turtlewire.msg"}
         for found in self.imports:
@@ -97,7 +97,7 @@ class House:
 
 
 def room(module: str) -> str:
-    """The room of a module: a package of ROS 2, or a package or module of the engine."""
+    """Return the room of a module: a package of ROS 2, or a package or module of the engine."""
     parts = module.split(".")
     return ".".join(parts[:2]) if parts[0] == ENGINE else parts[0]
 
@@ -137,7 +137,7 @@ def _import_nodes(node: ast.AST, kind: str) -> Iterator[tuple[ast.Import | ast.I
 
 
 def _statements(node: ast.AST) -> Iterator[ast.AST]:
-    """The statements right below a node, and what else holds statements; no expressions."""
+    """Yield the statements right below a node, and what else holds statements; no expressions."""
     for name in ("body", "handlers", "orelse", "finalbody", "cases"):
         found = getattr(node, name, ())
         if isinstance(found, list):  # of a lambda and of `a if b else c` they are expressions

@@ -23,7 +23,7 @@ STYLE = """
 
 
 def draw(house: House) -> str:
-    """The picture; the same for the same imports."""
+    """Return the picture; the same for the same imports."""
     arrows = house.rooms()
     rows = _rows(arrows)
     places = {
@@ -49,7 +49,7 @@ def draw(house: House) -> str:
 
 
 def _rows(arrows: dict[str, set[str]]) -> list[list[str]]:
-    """The rooms by height, the lowest first; a room stands above all that it imports."""
+    """Return the rooms by height, the lowest first; a room stands above all that it imports."""
     height: dict[str, int] = {}
     for group in strong_components(arrows, arrows):
         below = {target for name in group for target in arrows[name]} - {*group}
@@ -63,7 +63,7 @@ def _rows(arrows: dict[str, set[str]]) -> list[list[str]]:
 
 
 def _middle(name: str, arrows: dict[str, set[str]], rows: list[list[str]]) -> float:
-    """Where a room's imports stand on average, from 0 to 1, so that few arrows cross."""
+    """Return the mean position of a room's imports, from 0 to 1, so that few arrows cross."""
     spots = [
         (index + 0.5) / len(row)
         for row in rows
@@ -74,7 +74,7 @@ def _middle(name: str, arrows: dict[str, set[str]], rows: list[list[str]]) -> fl
 
 
 def _essential(arrows: dict[str, set[str]]) -> dict[str, set[str]]:
-    """The arrows without those that a longer way says too."""
+    """Return the arrows without those that a longer way says too."""
     reach: dict[str, set[str]] = {}
     for name, *_ in strong_components(arrows, arrows):
         reach[name] = set().union(*({t} | reach.get(t, set()) for t in arrows[name]), set())

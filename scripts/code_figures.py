@@ -26,7 +26,7 @@ PUBLIC = {
 
 
 def figures(root: Path, house: House) -> str:
-    """A table in Markdown."""
+    """Return a table in Markdown."""
     arrows = house.rooms()
     lines = {name: path.read_text("utf-8").splitlines() for name, path in house.paths.items()}
     code = sum(map(len, lines.values()))

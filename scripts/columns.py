@@ -27,7 +27,7 @@ DIRECTIVE = re.compile(r"\s*#\s*(noqa|type: ignore).*$")
 
 
 def too_long(path: str, line: str) -> bool:
-    """Whether a line is too long and could be shorter."""
+    """Return True if a line is too long and could be shorter."""
     line = DIRECTIVE.sub("", line)
     if len(line) <= LIMIT or " " not in line.strip().removeprefix("# "):
         return False

@@ -122,7 +122,7 @@ def is_news(text: str, shown: str, age_s: float) -> bool:
 
 
 def describe(buffer: Buffer) -> str:
-    """Who follows whom, and how far away."""
+    """Describe which turtle follows which, and at what distance."""
     from turtlewire.errors import TransformException
 
     missing = [name for name in (LEADER, FOLLOWER) if not buffer.frame_exists(name)]

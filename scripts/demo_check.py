@@ -226,7 +226,7 @@ class Observer:
                 raise CheckError(f"nothing heard of {what} for {now - heard:.1f} s")
 
     def figures(self) -> str:
-        """What was measured, in one line."""
+        """Return the measured figures in one line."""
         return (
             f"largest distance {self.largest_distance:.2f} m, final distance {self.distance:.3f} "
             "m, "
@@ -236,5 +236,5 @@ class Observer:
 
 
 def type_id(name: str) -> TypeId:
-    """What a peer must know of a message type."""
+    """Return the name and hash by which peers identify a message type."""
     return TypeId(name, msg.type_hash(name))

@@ -30,7 +30,7 @@ def reserve(domain: int) -> socket.socket | None:
 
 
 def free_domain() -> tuple[int, socket.socket] | None:
-    """A domain without processes on this computer, and the socket that reserves it.
+    """Return a domain without processes on this computer, and the socket that reserves it.
 
     Below 102 the ports stay clear of those that systems hand out.
     """
@@ -43,7 +43,7 @@ def free_domain() -> tuple[int, socket.socket] | None:
 
 
 def other_demo_runs(domain: int) -> bool:
-    """Whether the simulator of another demo is in this domain, which is the one that is set."""
+    """Return True if another demo's simulator is in this domain, which must be the set one."""
     mark = reserve(domain)
     if mark is not None:
         mark.close()

@@ -43,12 +43,12 @@ class Place(NamedTuple):
 
     @property
     def emulated(self) -> bool:
-        """Whether this machine's processor cannot run it."""
+        """True if this machine's processor cannot run it."""
         return self.machine == "aarch64"
 
     @property
     def folder(self) -> Path:
-        """Where all of it is."""
+        """Folder of the root file system."""
         return HOME / f"{self.suite}-{self.architecture}"
 
     @property
@@ -58,7 +58,7 @@ class Place(NamedTuple):
 
     @property
     def python(self) -> Path:
-        """What runs Python in the venv."""
+        """Python of the venv."""
         return self.folder / "venv" / "bin" / "python"
 
 
@@ -205,7 +205,7 @@ def install(place: Place) -> None:
 
 
 def ours(place: Place) -> list[Path]:
-    """The release's wheels for this Python."""
+    """Return the release's wheels for this Python."""
     tag = wheel_tag(place.version)
     patterns = (f"turtlewire-*-{tag}-*{place.machine}.whl", "turtlewire_ros-*.whl")
     if not all(list(WHEELS.glob(pattern)) for pattern in patterns):

@@ -31,7 +31,7 @@ WAY_M = 1.0  # that turtle2 must go
 
 
 def main(middleware: str, *, with_router: bool) -> int:
-    """The exit status: 0 once turtle2 has followed, and the launch has ended well."""
+    """Return the exit status: 0 once turtle2 has followed, and the launch has ended well."""
     with isolated_domain():  # which leaves the choice of the middleware open
         os.environ |= {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0"}
         os.environ["RMW_IMPLEMENTATION"] = middleware

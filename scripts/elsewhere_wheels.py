@@ -49,7 +49,7 @@ def main(wheels: Path, venv: Path, version: str, machine: str, packages: list[st
 
 
 def requirements(wheel: Path, version: str, machine: str) -> list[Requirement]:
-    """What a wheel asks for on Linux, CPython."""
+    """Return a wheel's requirements on Linux with CPython."""
     there = {"platform_machine": machine, "sys_platform": "linux", "extra": ""}
     there |= {"python_version": version, "implementation_name": "cpython"}
     with zipfile.ZipFile(wheel) as archive:

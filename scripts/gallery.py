@@ -69,7 +69,7 @@ def main() -> None:
 
 
 def drawings() -> Iterator[tuple[str, str]]:
-    """The drawings as file name and SVG."""
+    """Yield the drawings as file name and SVG."""
     yield "frames.svg", _on_white(_robot()._repr_svg_())
     shown = _robot().lookup_transform("map", "laser")._repr_html_()
     yield "transform.svg", _on_white(shown[shown.index("<svg") : shown.index("</svg>")] + "</svg>")
@@ -95,7 +95,7 @@ def _robot() -> Buffer:
 
 
 def _compared_runs() -> str:
-    """The paths of two estimates beside the true one."""
+    """Return the paths of two estimates beside the true one."""
     angle = np.linspace(0.0, 2 * np.pi, 400)
     poses = np.zeros((400, 7))
     poses[:, 0], poses[:, 1] = 5 * np.cos(angle), 3 * np.sin(2 * angle)
@@ -112,7 +112,7 @@ def _compared_runs() -> str:
 
 
 def _on_white(svg: str) -> str:
-    """A drawing with a white ground, to be seen on dark pages, too."""
+    """Return a drawing with a white ground, to be seen on dark pages, too."""
     ground = '<rect width="100%" height="100%" fill="#ffffff"/>'
     return re.sub(r"(<svg[^>]*>)", rf"\1\n{ground}", svg, count=1).rstrip() + "\n"
 

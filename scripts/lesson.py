@@ -162,7 +162,7 @@ def _pack_pure_python(archive: Path) -> None:
 
 
 def _entry(name: str) -> zipfile.ZipInfo:
-    """An entry with the same bytes in each build."""
+    """Return an entry with the same bytes in each build."""
     entry = zipfile.ZipInfo(name)
     entry.compress_type = zipfile.ZIP_DEFLATED
     return entry
@@ -182,7 +182,7 @@ def _pack_lessons(page: Path) -> None:
 
 
 def _lesson(folder: Path) -> dict[str, Any]:
-    """A lesson as the page needs it: title, text and the student's files."""
+    """Return a lesson as the page needs it: title, text and the student's files."""
     facts = json.loads((folder / "lesson.json").read_text(encoding="utf-8"))
 
     def sources(kind: str) -> dict[str, str]:

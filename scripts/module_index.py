@@ -18,12 +18,12 @@ _ROW = re.compile(r"^(`\w+`(?:, `\w+`)*)  +(\S.*)$", re.MULTILINE)
 
 
 def rows(docstring: str) -> list[tuple[str, str]]:
-    """The rows of a package's table: modules in backticks, and what they hold."""
+    """Return the rows of a package's table: modules in backticks, and what they hold."""
     return _ROW.findall(docstring)
 
 
 def with_index(text: str, root: Path, house: House) -> str:
-    """The text of ARCHITECTURE.md with the index between its marks."""
+    """Return the text of ARCHITECTURE.md with the index between its marks."""
     before, mark, rest = text.partition(BEGIN)
     _, end, after = rest.partition(END)
     if not mark or not end:

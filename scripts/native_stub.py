@@ -49,12 +49,12 @@ def main(stub: Path) -> int:
 
 
 def is_public(name: str) -> bool:
-    """Whether no part of a dotted name begins with an underscore."""
+    """Return True if no part of a dotted name begins with an underscore."""
     return not re.search(r"(^|\.)_", name)
 
 
 def same(wanted: str | None, found: str | None) -> bool:
-    """Whether the parameters agree; a default of ``...`` agrees with any."""
+    """Return True if the parameters agree; a default of ``...`` agrees with any."""
     if wanted is None or found is None:
         return False
     if found == SLOT:
@@ -64,7 +64,7 @@ def same(wanted: str | None, found: str | None) -> bool:
 
 
 def shown(signatures: dict[str, str], name: str) -> str:
-    """How a difference names one side of it."""
+    """Return one side of a difference."""
     return signatures.get(name, "not at all")
 
 
@@ -72,7 +72,7 @@ def shown(signatures: dict[str, str], name: str) -> str:
 
 
 def declared(body: list[ast.stmt], prefix: str = "") -> dict[str, str]:
-    """The parameters of all functions of a stub by dotted name; attributes likewise."""
+    """Return the parameters of all functions of a stub by dotted name; attributes likewise."""
     found = {}
     for node in body:
         if isinstance(node, ast.ClassDef):
@@ -112,12 +112,12 @@ def members(module: Any) -> dict[str, Any]:
 
 
 def is_described(value: Any) -> bool:
-    """Whether a member is a class, a function or an attribute of instances."""
+    """Return True if a member is a class, a function or an attribute of instances."""
     return callable(value) or isinstance(value, classmethod) or inspect.isdatadescriptor(value)
 
 
 def built(name: str, value: Any) -> str:
-    """The parameters of a member of the module, as :func:`declared` writes them."""
+    """Return the parameters of a member of the module, as :func:`declared` writes them."""
     if isinstance(value, type):
         return "a class"
     if isinstance(value, property) or inspect.isdatadescriptor(value):
@@ -134,13 +134,13 @@ def built(name: str, value: Any) -> str:
 
 
 def with_defaults(text: str, _: str | None, defaults: tuple[Any, ...] | None) -> str:
-    """A function as nanobind describes it, its numbered defaults put in."""
+    """Return a function as nanobind describes it, its numbered defaults put in."""
     plain = re.sub(r"\[dtype=[^\]]*\]", "", text)  # no expression
     return re.sub(r"\\(\d+)", lambda place: repr((defaults or ())[int(place[1])]), plain) + ": ..."
 
 
 def signature(name: str, value: Any) -> str:
-    """What Python knows of the parameters of a function."""
+    """Return a function's signature as Python knows it."""
     try:
         if name.endswith(".__new__"):
             owner = getattr(
@@ -155,7 +155,7 @@ def signature(name: str, value: Any) -> str:
 
 
 def documentation(value: Any) -> str | None:
-    """The docstring of a member."""
+    """Return the docstring of a member."""
     inner = value.fget if isinstance(value, property) else value
     overloads = getattr(inner, "__nb_signature__", None)
     text: str | None = overloads[0][1] if overloads else inspect.getdoc(inner)

@@ -74,7 +74,7 @@ def main() -> None:
 
 
 def address_in(launch: subprocess.Popen[str]) -> str:
-    """Where the page is, once turtle2 is there, too."""
+    """Return the page's address once turtle2 exists."""
     address = ""
     for line in launch.stdout or ():
         if found := re.search(r"http://\S+", line):
@@ -112,7 +112,7 @@ def take_pictures(address: str) -> None:
 
 
 def is_good_view(page: Page) -> bool:
-    """Whether turtle2 sees turtle1 ahead and to a side."""
+    """Return True if turtle2 sees turtle1 ahead and to a side."""
     numbers = re.match(r"translation ([-\d.]+), ([-\d.]+)", page.inner_text("#relation-detail"))
     return numbers is not None and float(numbers[1]) > AHEAD and abs(float(numbers[2])) > ASIDE
 
@@ -128,7 +128,7 @@ def drive(page: Page) -> Iterator[bytes]:
 
 
 def animated_png(frames: list[bytes], frame_ms: int) -> bytes:
-    """An endless APNG of PNG pictures of one size (PNG specification, third edition)."""
+    """Return an endless APNG of PNG pictures of one size (PNG specification, third edition)."""
     out = b"\x89PNG\r\n\x1a\n"
     sequence = 0
     for index, frame in enumerate(frames):
@@ -153,7 +153,7 @@ def animated_png(frames: list[bytes], frame_ms: int) -> bytes:
 
 
 def png_chunks(png: bytes) -> Iterator[tuple[bytes, bytes]]:
-    """The chunks of a PNG file as (kind, data)."""
+    """Yield the chunks of a PNG file as (kind, data)."""
     position = 8
     while position < len(png):
         (length,) = struct.unpack_from(">I", png, position)

@@ -96,7 +96,7 @@ def release(versions: tuple[str, ...], machines: tuple[str, ...], *, dirty: bool
 
 
 def make_sources(python: Path) -> dict[str, Path]:
-    """The sdists of all projects, checked and unpacked; the folders."""
+    """Return the sdists of all projects, checked and unpacked; the folders."""
     folders = {}
     for name, folder in PROJECTS.items():
         sdist = make_sdist(python, name, folder)
@@ -115,7 +115,7 @@ def make_core(tools: Path, python: Path, source: Path, target: Target) -> None:
 
 
 def version_of_all() -> str:
-    """The version that every project has."""
+    """Return the version that every project has."""
     found = {
         match[1]
         for folder in PROJECTS.values()
@@ -131,7 +131,7 @@ def version_of_all() -> str:
 
 
 def notes(number: str) -> str:
-    """The section of the CHANGELOG about a version, or what is not released yet."""
+    """Return the section of the CHANGELOG about a version, or what is not released yet."""
     sections = re.split(
         r"^## (.*)\n", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), flags=re.MULTILINE
     )

@@ -40,7 +40,7 @@ BUFFER_ONLY = ("numpy", "PyYAML", "argcomplete")
 
 
 def make_tools(python: str) -> Path:
-    """A venv with what checks, kept from one run to the next; the folder of its commands."""
+    """Return a venv with what checks, kept from one run to the next; the folder of its commands."""
     commands = WORK.parent / "release-tools" / "checks" / "bin"
     if not (commands / "python").exists():
         run(python, "-m", "venv", "--clear", commands.parent, what="a venv for the checks")
@@ -107,7 +107,7 @@ def check_sdist(path: Path) -> None:
 
 
 def leftovers(names: list[str]) -> list[str]:
-    """The names with a part that only a build, an editor or a test run makes."""
+    """Return the names with a part that only a build, an editor or a test run makes."""
     return [name for name in names if LEFTOVERS & set(PurePosixPath(name).parts)]
 
 
@@ -129,7 +129,7 @@ def try_wheels(version: str, python: str) -> None:
 
 
 def wheel_for(version: str) -> Path:
-    """The core's wheel that a Python of this machine takes."""
+    """Return the core's wheel that a Python of this machine takes."""
     found = [
         path
         for path in WORK.glob(f"turtlewire-*-{wheel_tag(version)}-*.whl")

@@ -55,7 +55,7 @@ def install_locked(python: Path, lock: str, *, what: str) -> None:
 
 
 def output(*command: str) -> str:
-    """What a command prints."""
+    """Return a command's output."""
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     if done.returncode:
         raise ReleaseError(f"{' '.join(command)}: {done.stderr.strip()}")

@@ -45,22 +45,22 @@ class Target:
 
     @property
     def stable(self) -> bool:
-        """Whether it is for all later Pythons, too."""
+        """True if it is for all later Pythons, too."""
         return self.tag.endswith("abi3")
 
     @property
     def foreign(self) -> bool:
-        """Whether it does not run here."""
+        """True if it does not run here."""
         return self.machine != here()
 
 
 def here() -> str:
-    """The machine that this is, as wheels name it."""
+    """Return the machine that this is, as wheels name it."""
     return {"AMD64": "x86_64", "arm64": "aarch64"}.get(platform.machine(), platform.machine())
 
 
 def interpreters(versions: tuple[str, ...]) -> dict[str, str]:
-    """The Pythons that this machine has, by version.
+    """Return the Pythons that this machine has, by version.
 
     Raises:
         ReleaseError: It has none of them.
@@ -85,7 +85,7 @@ def interpreter(version: str) -> str | None:
 
 
 def targets(pythons: dict[str, str], machines: tuple[str, ...]) -> list[Target]:
-    """The wheels that these Pythons can build: no two with the same tag."""
+    """Return the wheels that these Pythons can build: no two with the same tag."""
     found: dict[tuple[str, str], Target] = {}
     for machine in machines:
         for version, python in pythons.items():
@@ -95,7 +95,7 @@ def targets(pythons: dict[str, str], machines: tuple[str, ...]) -> list[Target]:
 
 
 def wheel_tag(version: str) -> str:
-    """The tag of the wheel that a Python takes."""
+    """Return the tag of the wheel that a Python takes."""
     number = f"cp{version.rstrip('t').replace('.', '')}"
     if version.endswith("t"):
         return f"{number}-{number}t"
@@ -103,7 +103,7 @@ def wheel_tag(version: str) -> str:
 
 
 def possible_machines(asked: tuple[str, ...]) -> tuple[str, ...]:
-    """Those of the machines for which this one can compile.
+    """Return the machines for which this one can compile.
 
     Raises:
         ReleaseError: A machine was asked for by name, and its compiler is missing.
@@ -123,7 +123,7 @@ def possible_machines(asked: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def make_builder(python: str) -> Path:
-    """A venv with what builds a wheel, kept from one run to the next; its Python."""
+    """Return a venv with what builds a wheel, kept from one run to the next; its Python."""
     version = subprocess.run(
         [python, "-c", "import sys; print('%d.%d' % sys.version_info[:2] + sys.abiflags)"],
         capture_output=True,
@@ -138,7 +138,7 @@ def make_builder(python: str) -> Path:
 
 
 def make_sdist(python: Path, name: str, folder: Path) -> Path:
-    """The sdist of a project."""
+    """Return the sdist of a project."""
     command = [python, "-m", "build", "--no-isolation", "--sdist", "-o", WORK, folder]
     run(*command, what=f"the sdist of {name}")
     [path] = WORK.glob(f"{name.replace('-', '_')}-*.tar.gz")
@@ -146,7 +146,7 @@ def make_sdist(python: Path, name: str, folder: Path) -> Path:
 
 
 def make_wheel(python: Path, source: Path, target: Target | None, folder: Path) -> Path:
-    """The wheel of an unpacked sdist; a pure one where there is no target."""
+    """Return the wheel of an unpacked sdist; a pure one where there is no target."""
     options: list[str] = []
     environment = {**os.environ, "PATH": f"{python.parent}{os.pathsep}{os.environ['PATH']}"}
     what = f"the wheel of {source.name}"
@@ -172,7 +172,7 @@ def headers(python: Path) -> str:
 
 
 def cross_environment(target: Target) -> dict[str, str]:
-    """What makes CMake and scikit-build-core compile for another machine."""
+    """Return the variables with which CMake and scikit-build-core compile for another machine."""
     toolchain = WORK / "toolchain.cmake"
     toolchain.write_text(TOOLCHAIN, encoding="utf-8")
     abi = "abi3" if target.stable else f"cpython-{target.tag.split('-')[1][2:]}"

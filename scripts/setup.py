@@ -123,7 +123,7 @@ def middleware() -> str:
 
 
 def usable(stamp: dict[str, Any], wanted: dict[str, Any]) -> bool:
-    """Whether there is a .venv that works, of this Python, and that was not moved here."""
+    """Return True if there is a .venv that works, of this Python, and that was not moved here."""
     return (
         stamp.get("python", wanted["python"]) == wanted["python"]
         and PYTHON.exists()

@@ -50,7 +50,7 @@ def core_key() -> str:
 
 
 def compiler_version() -> str:
-    """Return what the C++ compiler says of itself; empty if there is none."""
+    """Return the C++ compiler's description of itself; empty without a compiler."""
     named = shlex.split(os.environ.get("CXX", ""))
     for command in filter(None, (named, ["c++"], ["g++"], ["clang++"])):
         if shutil.which(command[0]):
@@ -63,7 +63,7 @@ def compiler_version() -> str:
 
 
 def provide_core(key: str) -> None:
-    """Put the compiled core of a key beside the Python modules, or say why there is none."""
+    """Put the compiled core of a key beside the Python modules, or say why it is missing."""
     CORE.unlink(missing_ok=True)  # one of other sources
     if not key:
         remedy = "install a C++ compiler and Python's headers, then type the same again"

@@ -78,7 +78,7 @@ def pip_command() -> list[str]:
 
 
 def outer_pip_version() -> tuple[int, ...]:
-    """Return the version of this Python's own pip; (0, 0) when there is none."""
+    """Return the version of this Python's own pip; (0, 0) without pip."""
     done = subprocess.run(
         [sys.executable, "-m", "pip", "--version"], capture_output=True, text=True, check=False
     )
@@ -95,7 +95,7 @@ def how_to_get_pip(python: str, default: str) -> str:
 
 
 def pip_version() -> tuple[int, ...] | None:
-    """Return the version of the venv's pip; None when there is none."""
+    """Return the version of the venv's pip; None without pip."""
     if not PYTHON.exists():
         return None
     done = run_python("-m", "pip", "--version")

@@ -26,7 +26,7 @@ ACTORS = Path(__file__).with_name("soak_actors.py")
 BIN = Path(sys.executable).parent
 VISITS_PER_MINUTE = 60
 MOST_VISITORS = 12  # at a time: a slow machine gets fewer, and the table says how many
-KILLED = 3  # one of so many visitors
+KILLED = 3  # one of this many visitors
 SAMPLES = 60
 #: How much more than in the middle third a process may hold at least in the last third. Packets
 #: fill a receive buffer of 1 MB before Cyclone frees it, so memory goes up and down by that much.
@@ -68,7 +68,7 @@ class Resident:
         self.samples.append(Sample(pages * os.sysconf("SC_PAGE_SIZE"), descriptors, threads))
 
     def ends_within(self, seconds: float) -> bool:
-        """Whether it ends in that time by itself; it is killed otherwise."""
+        """Return True if it ends in that time by itself; it is killed otherwise."""
         try:
             self.process.wait(seconds)
         except subprocess.TimeoutExpired:
@@ -78,7 +78,7 @@ class Resident:
         return True
 
     def faults(self) -> list[str]:
-        """What is wrong with it at the end of the run."""
+        """Return the problems at the end of the run."""
         if self.process.poll() is not None:
             return [f"ended with status {self.process.returncode}"]
         middle, last = self.thirds()[1:]
@@ -201,7 +201,7 @@ def main() -> int:
 
 
 def soak(seconds: float, log: IO[str], log_path: Path) -> int:
-    """Run everything for so many seconds, and judge it."""
+    """Run everything for a number of seconds, and judge it."""
     residents: list[Resident] = []
     faults: list[str] = []
     try:
@@ -248,13 +248,13 @@ def wait_for_nodes(names: set[str]) -> None:
 
 
 def actor(name: str, argument: str, log: IO[str]) -> Resident:
-    """A resident of soak_actors.py."""
+    """Return a resident of soak_actors.py."""
     label = f"{name} {argument}" if name == "broadcaster" else name
     return Resident(label, sys.executable, ACTORS, name, argument, log=log)
 
 
 def wait_for_page(simulator: Resident, log_path: Path) -> str:
-    """The address that the simulator logs."""
+    """Return the address that the simulator logs."""
     import re
 
     end = time.monotonic() + START_LIMIT_S

@@ -31,7 +31,7 @@ News = dict[str, Any]
 
 
 class _End:
-    """What both ends do: tell of their nodes and endpoints, and mirror those of the other end.
+    """One end of a link: announces its nodes and endpoints, and mirrors the other end's.
 
     Args:
         bus: The bus of this process.
@@ -170,7 +170,7 @@ class FarEnd(_End):
         self._messages.append([sender.gid.hex(), _text(message[0])])
 
     def _heard(self, gid: str, message: Message) -> None:
-        """See `_End`; nothing is delivered here."""
+        """Deliver nothing."""
 
     def _apply_message(self, gid: str, cdr: str, *info: Any) -> None:
         subscription = self._told.get(gid)
@@ -190,7 +190,6 @@ class _MirroredSubscription(LocalSubscription):
         super().__init__(node, spec)
 
     def receive(self, message: Message) -> None:
-        """See :meth:`LocalEndpoint.receive`."""
         self._heard(message)
 
 

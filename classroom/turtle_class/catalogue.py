@@ -48,11 +48,11 @@ class Exercise(NamedTuple):
     source: str
 
     def text(self) -> str:
-        """The text and the task, as HTML."""
+        """Return the text and the task, as HTML."""
         return (self.folder / "text.html").read_text(encoding="utf-8")
 
     def plain_text(self) -> str:
-        """The text, the task and the commands, as Markdown without links.
+        """Return the text, the task and the commands, as Markdown without links.
 
         What holds in the browser tab only (`class="browser"`) is left out.
         """
@@ -68,7 +68,7 @@ class Exercise(NamedTuple):
         return f"{text}\n\n{self._commands()}"
 
     def _commands(self) -> str:
-        """How to run and check the exercise in a terminal, as Markdown."""
+        """Return the commands to run and check the exercise in a terminal, as Markdown."""
         files = " and ".join(f"`{file}`" for file in self.files)
         echo = f"ros2 run tf2_ros tf2_echo {self.target} {self.source}"
         return f"""\
@@ -95,7 +95,7 @@ turtlewire class check .. -e {self.name}
 """
 
     def starter(self) -> dict[str, str]:
-        """The files as students find them, by name."""
+        """Return the files as students find them, by name."""
         return {
             file: (self.folder / "starter" / file).read_text(encoding="utf-8")
             for file in self.files
@@ -103,7 +103,7 @@ turtlewire class check .. -e {self.name}
 
 
 def exercises() -> list[Exercise]:
-    """All exercises, in the order of teaching."""
+    """Return all exercises, in the order of teaching."""
     return [
         exercise
         for installed, source in _FOLDERS
@@ -112,7 +112,7 @@ def exercises() -> list[Exercise]:
 
 
 def chosen(names: Sequence[str]) -> list[Exercise]:
-    """The exercises of these names, or all if there are none.
+    """Return the exercises of these names, or all if there are none.
 
     Raises:
         ClassError: There is no exercise of such a name.

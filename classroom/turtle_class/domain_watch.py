@@ -82,7 +82,7 @@ class DomainWatch:
         self._context.close()
 
     def picture(self, *, fresh: bool) -> dict[str, Any]:
-        """The state as JSON values; ``fresh`` looks at the tree of frames, too."""
+        """Return the state as JSON values; ``fresh`` looks at the tree of frames, too."""
         if self._changed.is_set():
             self._changed.clear()
             self._take_graph()
@@ -132,7 +132,7 @@ class DomainWatch:
         nodes = sorted(_shown(name) for name in names if not is_hidden(name))
         if nodes != self._nodes:
             self._active = time.monotonic()
-            self._flooded = False  # it may be mended
+            self._flooded = False  # it may be repaired
         self._nodes = nodes
         topics = sorted(
             {
@@ -189,7 +189,7 @@ class DomainWatch:
                     self._active = time.monotonic()
 
     def _distance(self) -> float | None:
-        """How far turtle2 is from turtle1 by TF [m]; None if TF does not know it now."""
+        """Return turtle2's distance from turtle1 by TF [m]; None if TF does not have it now."""
         frames = [self._frames.get(name) for name in ("turtle1", "turtle2")]
         if not all(frame and (frame.age is None or frame.age < _STALE_S) for frame in frames):
             return None

@@ -43,12 +43,12 @@ class Report(NamedTuple):
 
     @property
     def passed(self) -> int:
-        """How many exercises passed."""
+        """Number of exercises that passed."""
         return sum(outcome.passed for outcome in self.outcomes)
 
 
 def students_in(folder: Path) -> list[Path]:
-    """The students' folders, by name.
+    """Return the students' folders, by name.
 
     Raises:
         ClassError: There is no such folder, or none in it.

@@ -15,7 +15,7 @@ __all__ = ["as_junit"]
 
 
 def as_junit(report: Report) -> str:
-    """A student's results: a suite for each exercise, a case for each check."""
+    """Return a student's results: a suite for each exercise, a case for each check."""
     suites = [_suite(report, outcome) for outcome in report.outcomes]
     root = ET.Element("testsuites", {"name": report.student, **_totals(suites)})
     root.extend(suites)

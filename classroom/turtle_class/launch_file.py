@@ -47,7 +47,7 @@ def generate_launch_description():
 
 
 def launch_text(exercise: Exercise) -> str:
-    """A launch file that starts turtlesim, its turtles, and the programs of an exercise.
+    """Return a launch file that starts turtlesim, its turtles, and the programs of an exercise.
 
     The files of the student are run by Python from the launch file's own folder.
     """
@@ -77,7 +77,7 @@ def _own_file(program: Program) -> Iterator[str]:
 
 
 def _process(command: list[str], output: str = "log") -> Iterator[str]:
-    """The action for a command, each of whose words is Python's text for it."""
+    """Yield the action for a command, each of whose words is Python's text for it."""
     yield "ExecuteProcess("
     yield "    cmd=["
     yield from (f"        {word}," for word in command)

@@ -47,7 +47,7 @@ _LINES_AROUND = 2
 
 
 def overview(reports: Sequence[Report], title: str, when: str) -> str:
-    """The table of all students; ``title`` and ``when`` stand above it."""
+    """Return the table of all students; ``title`` and ``when`` stand above it."""
     exercises = [outcome.exercise for outcome in reports[0].outcomes]
     head = "".join(f"<th scope=col>{_text(each.title)}</th>" for each in exercises)
     rows = "".join(_row(report) for report in reports)
@@ -88,7 +88,7 @@ def _line_of_totals(reports: Sequence[Report]) -> str:
 
 
 def student_page(report: Report, when: str) -> str:
-    """What a student has reached, and what helps."""
+    """Return a student's page: results and advice."""
     parts = "".join(_exercise(outcome) for outcome in report.outcomes)
     body = (
         f'<p><a href="index.html">All students</a></p><h1>{_text(report.student)}</h1>'
@@ -120,7 +120,7 @@ def _check(result: CheckResult, outcome: Outcome) -> str:
 
 
 def _excerpt(result: CheckResult, outcome: Outcome) -> str:
-    """The line that an error points to, and those around it."""
+    """Return the line that an error points to, and those around it."""
     lines = outcome.files.get(result.file, "").splitlines()
     if not 0 < result.line <= len(lines):
         return ""

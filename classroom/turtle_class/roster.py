@@ -35,7 +35,7 @@ class Seat(NamedTuple):
 
 
 def seats_of_domains(text: str) -> list[Seat]:
-    """The seats of domains such as ``1-30,40``.
+    """Return the seats of domains such as ``1-30,40``.
 
     Raises:
         ClassError: The text is something else.
@@ -53,7 +53,7 @@ def seats_of_domains(text: str) -> list[Seat]:
 
 
 def read_roster(path: Path) -> list[Seat]:
-    """The students of a file: ``name,domain`` lines, or YAML of ``name: domain``.
+    """Return the students of a file: ``name,domain`` lines, or YAML of ``name: domain``.
 
     Raises:
         ClassError: The file cannot be read, or a line is wrong; the text names it.

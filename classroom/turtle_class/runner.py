@@ -85,12 +85,12 @@ class Outcome(NamedTuple):
 
     @property
     def points(self) -> int:
-        """How many checks passed."""
+        """Number of checks that passed."""
         return sum(result.state == "passed" for result in self.results)
 
     @property
     def passed(self) -> bool:
-        """Whether all checks passed."""
+        """True if all checks passed."""
         return self.points == len(self.results)
 
 
@@ -201,7 +201,7 @@ def _read(folder: Path, file: str) -> str:
 
 
 def _environment(place: Path, domain: int) -> dict[str, str]:
-    """What the child knows: nothing of the teacher's tokens and settings."""
+    """Return the child's environment, without the teacher's tokens and settings."""
     home = place / "home"
     home.mkdir()
     places = {
@@ -236,11 +236,11 @@ def _beginning(stream: IO[bytes], most: int) -> str:
 
 
 class _Facts(NamedTuple):
-    """What the child wrote.
+    """Read the child's results.
 
     Attributes:
         checks: The names of all checks.
-        results: Those of the checks that ran.
+        results: Results of the checks that ran.
         end: Whether it came to its end.
     """
 

@@ -128,7 +128,6 @@ class _Session:
         self._sent = 0
 
     def outgoing(self) -> list[str | bytes]:
-        """See :class:`turtlewire.web.server.Session`."""
         number, text = self._page.latest()
         if number == self._sent:
             return []

@@ -87,7 +87,7 @@ def _end_all(child: subprocess.Popen[bytes]) -> None:
 
 
 def _groups_below() -> set[int]:
-    """The process groups of all descendants, including those of zombies."""
+    """Return the process groups of all descendants, including zombies' groups."""
     below: dict[int, list[tuple[int, int]]] = {}
     for name in os.listdir("/proc"):
         if not name.isdigit():

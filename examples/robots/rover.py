@@ -26,7 +26,7 @@ class Place(NamedTuple):
     heading: float = 0.0
 
     def driven(self, ahead: float, turned: float) -> Place:
-        """The place after ``ahead`` metres on an arc that turns by ``turned`` rad."""
+        """Return the place after ``ahead`` metres on an arc that turns by ``turned`` rad."""
         middle = self.heading + turned / 2
         chord = ahead * (math.sin(turned / 2) / (turned / 2) if turned else 1.0)
         return Place(

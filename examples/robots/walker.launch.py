@@ -12,7 +12,7 @@ from launch_ros.parameter_descriptions import ParameterValue
 
 
 def generate_launch_description() -> LaunchDescription:
-    """The robot's program, and the robot_state_publisher with the robot's description."""
+    """Return the robot's program, and the robot_state_publisher with the robot's description."""
     here = ThisLaunchFileDir()
     xacro = Command(["xacro ", PathJoinSubstitution([here, "walker.urdf.xacro"])])
     return LaunchDescription(

@@ -31,7 +31,7 @@ LEGS = {
 
 
 def gait(phase: float) -> tuple[float, float]:
-    """How far a leg reaches ahead, from -1 to 1, and how high its foot is, from 0 to 1.
+    """Return a leg's reach ahead, from -1 to 1, and its foot's height, from 0 to 1.
 
     In the first half of a phase from 0 to 1 the foot stands and the body moves over it; in the
     second half it swings ahead through the air.
@@ -43,7 +43,7 @@ def gait(phase: float) -> tuple[float, float]:
 
 
 def joint_angles(seconds: float) -> dict[str, float]:
-    """The angles of all joints [rad] at a time after the start."""
+    """Return the angles of all joints [rad] at a time after the start."""
     angles = {}
     for name, (side, start) in LEGS.items():
         ahead, height = gait((CADENCE * seconds + start) % 1.0)

@@ -24,7 +24,7 @@ class PackageNotFoundError(KeyError):
 
 
 def get_package_prefix(package_name: str) -> str:
-    """The prefix in which the package is installed, for example ``/opt/ros/jazzy``.
+    """Return the prefix in which the package is installed, for example ``/opt/ros/jazzy``.
 
     Raises:
         PackageNotFoundError: The package is in no prefix.
@@ -46,14 +46,14 @@ def get_package_prefix(package_name: str) -> str:
 
 
 def get_packages_with_prefixes() -> dict[str, str]:
-    """All installed packages, each with its prefix; of equal names the one found first."""
+    """Return all installed packages, each with its prefix; of equal names the one found first."""
     from turtlewire_ros.prefix import package_names
 
     return package_names()
 
 
 def get_package_share_directory(package_name: str, print_warning: bool = True) -> str:
-    """The folder with the package's data, for example ``/opt/ros/jazzy/share/turtlesim``.
+    """Return the folder with the package's data, for example ``/opt/ros/jazzy/share/turtlesim``.
 
     Args:
         package_name: The package.
@@ -75,7 +75,7 @@ def get_package_share_directory(package_name: str, print_warning: bool = True) -
 
 
 def get_package_share_path(package_name: str, print_warning: bool = True) -> pathlib.Path:
-    """The same as :func:`get_package_share_directory`, as a path object."""
+    """Return the same as :func:`get_package_share_directory`, as a path object."""
     return pathlib.Path(get_package_share_directory(package_name, print_warning))
 
 

@@ -28,12 +28,12 @@ class InvalidResourceNameError(Exception):
 
 
 def name_is_invalid(resource_name: str) -> bool:
-    """Whether the name contains a separator of path components."""
+    """Return True if the name contains a separator of path components."""
     return any(separator in resource_name for separator in ("/", "\\"))
 
 
 def get_resource(resource_type: str, resource_name: str) -> tuple[str, str]:
-    """The content of a resource, and the prefix that has it.
+    """Return the content of a resource, and the prefix that has it.
 
     Raises:
         LookupError: No prefix has it.
@@ -53,7 +53,7 @@ def get_resource(resource_type: str, resource_name: str) -> tuple[str, str]:
 
 
 def has_resource(resource_type: str, resource_name: str) -> str | bool:
-    """The prefix that has the resource, or False."""
+    """Return the prefix that has the resource, or False."""
     _check_type(resource_type)
     if not resource_name or name_is_invalid(resource_name):
         raise InvalidResourceNameError(f"Resource name '{resource_name}' is invalid")
@@ -66,7 +66,7 @@ def has_resource(resource_type: str, resource_name: str) -> str | bool:
 
 
 def get_resources(resource_type: str) -> dict[str, str]:
-    """All resources of a type, each with its prefix."""
+    """Return all resources of a type, each with its prefix."""
     _check_type(resource_type)
     resources: dict[str, str] = {}
     for prefix in get_search_paths():
@@ -79,7 +79,7 @@ def get_resources(resource_type: str) -> dict[str, str]:
 
 
 def get_resource_types() -> set[str]:
-    """All types of resources that any prefix has."""
+    """Return all types of resources that any prefix has."""
     types: set[str] = set()
     for prefix in get_search_paths():
         folder = os.path.join(prefix, RESOURCE_INDEX_SUBFOLDER)

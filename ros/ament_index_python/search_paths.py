@@ -8,7 +8,7 @@ __all__ = ["AMENT_PREFIX_PATH_ENV_VAR", "get_search_paths"]
 
 
 def get_search_paths() -> list[str]:
-    """The prefixes of ``AMENT_PREFIX_PATH`` that exist, then that of this distribution.
+    """Return the prefixes of ``AMENT_PREFIX_PATH`` that exist, then that of this distribution.
 
     Raises:
         OSError: There is neither.

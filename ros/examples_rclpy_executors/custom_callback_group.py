@@ -34,7 +34,7 @@ class ThrottledCallbackGroup(CallbackGroup):
         self.lock = threading.Lock()
 
     def can_execute(self, entity: Any) -> bool:  # noqa: ARG002 -- all are alike
-        """Whether a callback may run now."""
+        """Return True if a callback may run now."""
         return self.bucket > 0
 
     def beginning_execution(self, entity: Any) -> bool:  # noqa: ARG002 -- all are alike

@@ -30,7 +30,7 @@ class Estopper(Node):
 
 
 class PriorityExecutor(Executor):
-    """Runs callbacks of nodes of high priority on many threads, those of the others on one."""
+    """Runs callbacks of high-priority nodes on many threads, and other nodes' on one."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -39,7 +39,7 @@ class PriorityExecutor(Executor):
         self.lp_executor = ThreadPoolExecutor(max_workers=1)
 
     def add_high_priority_node(self, node: Node) -> None:
-        """Serve a node whose callbacks do not wait for those of other nodes."""
+        """Serve a node whose callbacks do not wait for other nodes'."""
         self.high_priority_nodes.add(node)
         self.add_node(node)
 

@@ -19,7 +19,7 @@ __all__ = ["main", "wait_for"]
 
 
 def wait_for(node: Node, future: Future[Any]) -> Any:
-    """The future's result, for which the node spins."""
+    """Return the future's result, for which the node spins."""
     rclpy.spin_until_future_complete(node, future)
     if not future.done():
         raise ExternalShutdownException

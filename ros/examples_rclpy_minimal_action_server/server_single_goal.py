@@ -60,7 +60,7 @@ class MinimalActionServer(Node):
         return CancelResponse.ACCEPT
 
     def is_stopped(self, goal_handle: Any) -> bool:
-        """Whether a new goal or a client has stopped this one; the lock keeps them apart."""
+        """Return True if a new goal or a client has stopped this one; the lock keeps them apart."""
         with self._goal_lock:
             if not goal_handle.is_active:
                 self.get_logger().info("Goal aborted")

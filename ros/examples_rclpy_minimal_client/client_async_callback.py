@@ -17,7 +17,7 @@ def main(args: list[str] | None = None) -> None:
     """Ask for 41 + 1, once, half a second after the service is there, and log the answer."""
     with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
         node = rclpy.create_node("minimal_client")
-        # In the node's own group, the answer would wait for the callback that waits for it.
+        # In the node's own group, the answer and the callback would wait for each other.
         group = ReentrantCallbackGroup()
         client = node.create_client(AddTwoInts, "add_two_ints", callback_group=group)
         answered: Future[AddTwoInts.Response] = Future()

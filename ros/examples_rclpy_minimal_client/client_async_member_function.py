@@ -26,7 +26,7 @@ class MinimalClientAsync(Node):
             self.get_logger().info("service not available, waiting again...")
 
     def send_request(self, a: int, b: int) -> AddTwoInts.Response | None:
-        """The service's answer; None if rclpy was shut down before."""
+        """Return the service's answer; None if rclpy was shut down before."""
         future = self.cli.call_async(AddTwoInts.Request(a=a, b=b))
         rclpy.spin_until_future_complete(self, future)
         return future.result()

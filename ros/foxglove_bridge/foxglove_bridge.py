@@ -86,7 +86,7 @@ class FoxgloveBridge(Node):
         super().destroy_node()
 
     def _options(self) -> Options:
-        """The settings, from parameters of the same names."""
+        """Return the settings, from parameters of the same names."""
         values: dict[str, Any] = {}
         for name, default in vars(Options()).items():
             if name == "use_sim_time":  # each node has it

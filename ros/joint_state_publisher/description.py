@@ -46,7 +46,7 @@ class Options(NamedTuple):
 
 
 def read_joints(text: str, options: Options, warn: Callable[[str], None]) -> JointSet:
-    """The joints of a description that move.
+    """Return the joints of a description that move.
 
     Args:
         text: The XML.

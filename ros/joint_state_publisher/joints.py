@@ -46,11 +46,11 @@ class FreeJoint:
 
     @property
     def continuous(self) -> bool:
-        """Whether the joint turns endlessly."""
+        """True if the joint turns endlessly."""
         return self.kind == "continuous"
 
     def clipped(self, position: float) -> float:
-        """The position within the limits."""
+        """Return the position within the limits."""
         return min(max(position, self.minimum), self.maximum)
 
     def sweep(self, step: float) -> None:
@@ -105,7 +105,7 @@ class JointSet:
     lock: threading.RLock = field(default_factory=threading.RLock, repr=False, compare=False)
 
     def source_of(self, name: str) -> tuple[FreeJoint, Mimic]:
-        """The free joint that a joint follows in the end, and by which formula.
+        """Return the free joint that a joint follows in the end, and by which formula.
 
         A free joint follows itself.
 
@@ -162,7 +162,7 @@ class JointSet:
                     joint.effort = efforts[index]
 
     def state(self) -> State:
-        """The values of all joints, those of mimic joints computed."""
+        """Return the values of all joints, with mimic joints computed."""
         state = State(list(self.order), [], [], [])
         with self.lock:
             for name in self.order:

@@ -44,7 +44,7 @@ _COMMANDS = {kind.__name__.lower(): kind for kind in _KINDS}
 
 
 def parse_command(text: str | bytes) -> Command:
-    """The command in a message.
+    """Return the command in a message.
 
     An example: ``{"type": "set", "joint": "elbow", "position": 0.5}``.
 

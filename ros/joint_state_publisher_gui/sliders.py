@@ -68,7 +68,7 @@ class Sliders:
                     joint.sweep(_speed(joint) * seconds)
 
     def snapshot(self) -> Snapshot:
-        """The present positions."""
+        """Return the present positions."""
         with self.lock:
             positions = self._joints.state().positions
             return Snapshot(self._version, tuple(positions), self._playing)
@@ -106,6 +106,6 @@ def _position_after(command: Randomize | Center, joint: FreeJoint) -> float:
 
 
 def _speed(joint: FreeJoint) -> float:
-    """How fast a joint plays [rad/s or m/s]; never faster than its limit."""
+    """Return the speed of a playing joint [rad/s or m/s], at most its limit."""
     speed = (joint.maximum - joint.minimum) / _SWEEP_S
     return min(speed, joint.max_velocity) if joint.max_velocity else speed

@@ -52,11 +52,11 @@ class Action(LaunchDescriptionEntity):
 
     @property
     def is_conditional(self) -> bool:
-        """Whether it has a condition."""
+        """True if it has a condition."""
         return self._condition is not None
 
     def describe(self) -> str:
-        """The text that ``ros2 launch --print`` shows."""
+        """Return the text that ``ros2 launch --print`` shows."""
         return self.__repr__()
 
     def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
@@ -81,7 +81,7 @@ class Action(LaunchDescriptionEntity):
         return []
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """The same, for inspection without running."""
+        """Return the same, for inspection without running."""
         return self.get_sub_entities()
 
     def _announce_completion(self, context: LaunchContext) -> None:

@@ -84,7 +84,7 @@ class ChildProcess:
 
     @property
     def running(self) -> bool:
-        """Whether it has not ended yet."""
+        """True if it has not ended yet."""
         return not self._protocol.exited.is_set()
 
     async def wait(self, timeout: float | None = None) -> int | None:
@@ -120,7 +120,7 @@ class ChildProcess:
 
 
 def stdin_is_terminal() -> bool:
-    """Whether a child could read keys from this process's stdin."""
+    """Return True if a child could read keys from this process's stdin."""
     return sys.stdin is not None and not sys.stdin.closed and sys.stdin.isatty()
 
 
@@ -208,7 +208,7 @@ class _TerminalStream(asyncio.Protocol):
 
 
 def _streams(terminals: dict[int, tuple[int, int]], inherit_stdin: bool) -> dict[str, Any]:
-    """Where a child's streams go: pseudo terminals, or pipes without them."""
+    """Return the arguments for a child's streams: pseudo terminals, or pipes without them."""
     return {
         "stdin": None if inherit_stdin else subprocess.PIPE,
         "stdout": terminals[1][1] if terminals else subprocess.PIPE,

@@ -20,7 +20,7 @@ class Condition:
         self._last_result: bool | None = None
 
     def describe(self) -> str:
-        """The text that stands for it in descriptions."""
+        """Return the text that stands for it in descriptions."""
         return repr(self)
 
     def evaluate(self, context: LaunchContext) -> bool:
@@ -29,5 +29,5 @@ class Condition:
         return self._last_result
 
     def evaluated_value(self) -> bool | None:
-        """The last result, or None if it was never evaluated."""
+        """Return the last result, or None if it was never evaluated."""
         return self._last_result

@@ -30,25 +30,25 @@ class BaseEventHandler:
 
     @property
     def handle_once(self) -> bool:
-        """Whether it handles only one event."""
+        """True if it handles only one event."""
         return self._handle_once
 
     @property
     def handler_description(self) -> str:
-        """What it does, in a few words."""
+        """Short description of the handler."""
         return "{OMITTED}"
 
     @property
     def matcher_description(self) -> str:
-        """Which events it handles, in a few words."""
+        """Short description of the events."""
         return "{OMITTED}"
 
     def matches(self, event: Event) -> bool:
-        """Whether it handles the event."""
+        """Return True if it handles the event."""
         return self._matcher(event)
 
     def describe(self) -> tuple[str, list[Any]]:
-        """A text, and the entities that the handler returns, as far as they are known."""
+        """Return a text, and the entities that the handler returns, as far as they are known."""
         text = (
             f"{type(self).__name__}(matcher='{self.matcher_description}', "
             f"handler='{self.handler_description}', handle_once={self._handle_once})"
@@ -96,7 +96,7 @@ class EventHandler(BaseEventHandler):
         return "<actions>" if self._function is None else str(self._function)
 
     def describe(self) -> tuple[str, list[Any]]:
-        """A text, and the fixed entities."""
+        """Return a text, and the fixed entities."""
         return super().describe()[0], list(self._entities)
 
     def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:

@@ -26,7 +26,7 @@ class LaunchArgument(Protocol):
 
     @property
     def description(self) -> str:
-        """What it is for."""
+        """Purpose of the argument."""
 
     @property
     def choices(self) -> list[str] | None:

@@ -76,12 +76,12 @@ class LaunchContext:
 
     @property
     def noninteractive(self) -> bool:
-        """Whether no user watches the launch at a terminal."""
+        """True if no user watches the launch at a terminal."""
         return self._noninteractive
 
     @property
     def is_shutdown(self) -> bool:
-        """Whether the launch is ending."""
+        """True if the launch is ending."""
         return self._run.is_shutdown
 
     @property
@@ -106,7 +106,7 @@ class LaunchContext:
         self._run.unregister(event_handler)
 
     def would_handle_event(self, event: Event) -> bool:
-        """Whether a handler is registered for such an event."""
+        """Return True if a handler is registered for such an event."""
         return any(handler.matches(event) for handler in self._run.handlers())
 
     def emit_event_sync(self, event: Event) -> None:
@@ -154,7 +154,7 @@ class LaunchContext:
         self._locals.update(extensions)
 
     def get_locals_as_dict(self) -> dict[str, Any]:
-        """All locals, globals included."""
+        """Return all locals, globals included."""
         return {**self._globals, **self._locals}
 
     @property
@@ -163,5 +163,5 @@ class LaunchContext:
         return _Locals(self.get_locals_as_dict())
 
     def perform_substitution(self, substitution: Performable[LaunchContext]) -> str:
-        """The text of a substitution, here and now."""
+        """Return the text of a substitution, here and now."""
         return substitution.perform(self)

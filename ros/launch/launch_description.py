@@ -40,7 +40,7 @@ class LaunchDescription(LaunchDescriptionEntity):
 
     @property
     def deprecated(self) -> bool:
-        """Whether a use of the description warns."""
+        """True if a use of the description warns."""
         return self._deprecated_reason is not None
 
     @property
@@ -67,7 +67,7 @@ class LaunchDescription(LaunchDescriptionEntity):
         return self._entities
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """The entities."""
+        """Return the entities."""
         return self._entities
 
     def get_launch_arguments(self, conditional_inclusion: bool = False) -> list[LaunchArgument]:
@@ -87,7 +87,7 @@ class LaunchDescription(LaunchDescriptionEntity):
     def get_launch_arguments_with_include_launch_description_actions(
         self, conditional_inclusion: bool = False
     ) -> list[tuple[LaunchArgument, list[LaunchDescriptionEntity]]]:
-        """The declared arguments, each with the chain of inclusions that leads to it."""
+        """Return the declared arguments, each with the chain of inclusions that leads to it."""
         found: list[tuple[LaunchArgument, list[LaunchDescriptionEntity]]] = []
         _collect_arguments(self._entities, conditional_inclusion, [], found)
         return found

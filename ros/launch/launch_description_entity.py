@@ -22,7 +22,7 @@ class LaunchDescriptionEntity:
         raise NotImplementedError(f"{type(self).__name__} does not define visit()")
 
     def describe(self) -> str:
-        """The text that stands for it in descriptions."""
+        """Return the text that stands for it in descriptions."""
         return repr(self)
 
     @property
@@ -32,12 +32,12 @@ class LaunchDescriptionEntity:
 
     @property
     def is_conditional(self) -> bool:
-        """Whether a condition decides if a visit takes effect."""
+        """True if a condition decides if a visit takes effect."""
         return False
 
     @property
     def is_inclusion(self) -> bool:
-        """Whether it includes another launch description."""
+        """True if it includes another launch description."""
         return False
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:

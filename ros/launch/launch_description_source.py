@@ -37,7 +37,7 @@ class LaunchDescriptionSource:
         self._method = method
 
     def try_get_launch_description_without_context(self) -> LaunchDescription | None:
-        """The description, or None if only a running launch can tell its location.
+        """Return the description, or None if only a running launch can tell its location.
 
         Raises:
             Exception: What the loader raises.
@@ -50,7 +50,7 @@ class LaunchDescriptionSource:
         return self._launch_description
 
     def get_launch_description(self, context: LaunchContext) -> LaunchDescription:
-        """The description, read at the first call.
+        """Return the description, read at the first call.
 
         Raises:
             Exception: What the loader raises.
@@ -69,7 +69,7 @@ class LaunchDescriptionSource:
 
     @property
     def method(self) -> str:
-        """How the description is read, for messages."""
+        """Method of reading the description, for messages."""
         return self._method
 
     def _get_launch_description(self, location: str) -> LaunchDescription:

@@ -30,7 +30,7 @@ class LaunchIntrospector:
     """Shows launch descriptions without running them."""
 
     def format_launch_description(self, launch_description: LaunchDescriptionEntity) -> str:
-        """The tree of a description."""
+        """Return the tree of a description."""
         return "\n".join(
             [
                 str(launch_description),
@@ -47,7 +47,7 @@ def format_substitutions(substitutions: Iterable[Substitution] | None) -> str:
 
 
 def format_action(action: Action) -> list[str]:
-    """An action, with its sub-entities below it."""
+    """Return an action, with its sub-entities below it."""
     if is_a(action, LogInfo):
         return [f"LogInfo({format_substitutions(action.msg)})"]
     if is_a(action, EmitEvent):
@@ -83,18 +83,18 @@ def format_entities(entities: Iterable[LaunchDescriptionEntity]) -> list[str]:
 
 
 def format_event_handler(event_handler: BaseEventHandler) -> list[str]:
-    """A handler, with the entities that it returns."""
+    """Return a handler, with the entities that it returns."""
     text, entities = event_handler.describe()
     return [text, *_indented(format_entities(entities))]
 
 
 def indent(lines: Iterable[str], indention: str = "    ") -> list[str]:
-    """The lines, each behind an indention."""
+    """Return the lines, each behind an indention."""
     return [f"{indention}{line}" for line in lines]
 
 
 def tree_like_indent(lines: list[str]) -> list[str]:
-    """The lines of one level, with the branches that lead to them."""
+    """Return the lines of one level, with the branches that lead to them."""
     return _indented(lines)
 
 

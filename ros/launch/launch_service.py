@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 __all__ = ["LaunchService"]
 
-# After so many Ctrl-C that the loop did not see, a launch file that hangs is interrupted.
+# After this many Ctrl-C that the loop did not see, a launch file that hangs is interrupted.
 _PATIENCE = 3
 
 
@@ -115,7 +115,7 @@ class LaunchService:
             loop.close()
 
     async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
-        """The same as :meth:`run`, on the running loop."""
+        """Return the same as :meth:`run`, on the running loop."""
         if not self._running.acquire(blocking=False):
             raise RuntimeError("LaunchService cannot be run multiple times concurrently.")
         try:
@@ -263,7 +263,7 @@ class LaunchService:
 def _entities(
     handled: Visitable[LaunchContext] | Iterable[Visitable[LaunchContext]] | None,
 ) -> list[Visitable[LaunchContext]]:
-    """What a handler returned, as a list."""
+    """Return a handler's result as a list."""
     if handled is None:
         return []
     return list(handled) if isinstance(handled, Iterable) else [handled]

@@ -29,7 +29,7 @@ class OutputLines:
         return [_text(line) for line in lines]
 
     def rest(self) -> list[str]:
-        """The beginning of a line that is not complete; an empty list if there is none."""
+        """Return the beginning of an incomplete line; an empty list without one."""
         line, self._rest = bytes(self._rest), bytearray()
         return [_text(line)] if line else []
 

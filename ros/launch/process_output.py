@@ -60,7 +60,7 @@ class ProcessOutput:
             self._cache[fd] += data
 
     def kept(self, fd: int) -> bytes:
-        """The kept bytes."""
+        """Return the kept bytes."""
         return bytes(self._cache[fd])
 
     def show(self, fd: int, data: bytes) -> None:

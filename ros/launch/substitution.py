@@ -14,11 +14,11 @@ class Substitution:
     """Base of all substitutions."""
 
     def describe(self) -> str:
-        """The text that ``ros2 launch --print`` shows."""
+        """Return the text that ``ros2 launch --print`` shows."""
         return self.__repr__()
 
     def perform(self, context: LaunchContext) -> str:
-        """The text, in the given context.
+        """Return the text, in the given context.
 
         Raises:
             SubstitutionFailure: There is no text in this context.

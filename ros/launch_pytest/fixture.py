@@ -72,7 +72,7 @@ def get_event_loop_fixture(*, scope: str = "function", overridable: bool = True)
     """
 
     def event_loop() -> Iterator[asyncio.AbstractEventLoop]:
-        """The event loop of launch and tests."""
+        """Yield the event loop of launch and tests."""
         loop = asyncio.new_event_loop()
         yield loop
         loop.run_until_complete(loop.shutdown_asyncgens())
@@ -86,7 +86,7 @@ def get_launch_service_fixture(*, scope: str = "function", overridable: bool = T
     """Make the fixture ``launch_service``; arguments as for the event loop."""
 
     def launch_service(event_loop: asyncio.AbstractEventLoop) -> LaunchService:
-        """The launch."""
+        """Return the launch."""
         del event_loop  # it must outlive the launch
         return LaunchService()
 
@@ -97,14 +97,14 @@ def get_launch_context_fixture(*, scope: str = "function", overridable: bool = T
     """Make the fixture ``launch_context``; arguments as for the event loop."""
 
     def launch_context(launch_service: LaunchService) -> LaunchContext:
-        """The context of the launch."""
+        """Return the context of the launch."""
         return launch_service.context
 
     return _made(launch_context, scope, overridable)
 
 
 def scope_gt(scope1: str, scope2: str) -> bool:
-    """Whether the first of two scopes of pytest is the wider one."""
+    """Return True if the first of two scopes of pytest is the wider one."""
     return _SCOPES.index(scope1) > _SCOPES.index(scope2)
 
 

@@ -102,10 +102,10 @@ async def _first(task: asyncio.Task[int], ready: asyncio.Event) -> None:
 
 
 def get_ready_to_test_action(launch_description: LaunchDescription) -> ReadyToTest:
-    """The one ``ReadyToTest`` of a description.
+    """Return the one ``ReadyToTest`` of a description.
 
     Raises:
-        RuntimeError: There is none, or there are several, or it is no launch description.
+        RuntimeError: The fixture is missing, ambiguous, or not a launch description.
     """
     if not isinstance(launch_description, LaunchDescription):
         raise TypeError(
@@ -124,7 +124,7 @@ def get_ready_to_test_action(launch_description: LaunchDescription) -> ReadyToTe
 def iterate_ready_to_test_actions(
     entities: Iterable[LaunchDescriptionEntity],
 ) -> Iterator[ReadyToTest]:
-    """All ``ReadyToTest`` actions among entities and what they contain."""
+    """Yield all ``ReadyToTest`` actions among entities and what they contain."""
     for entity in entities:
         if isinstance(entity, ReadyToTest):
             yield entity
@@ -137,51 +137,51 @@ def iterate_ready_to_test_actions(
 
 
 def is_launch_test(item: Any) -> bool:
-    """Whether an item is marked ``launch``."""
+    """Return True if an item is marked ``launch``."""
     return item.get_closest_marker("launch") is not None
 
 
 def is_launch_test_mark_valid(item: Any) -> bool:
-    """Whether the mark of an item names a launch fixture."""
+    """Return True if the mark of an item names a launch fixture."""
     return _options(item) is not None
 
 
 def get_launch_test_fixture(item: Any) -> Any:
-    """The fixture that the mark of an item names, or None."""
+    """Return the fixture that the mark of an item names, or None."""
     mark = item.get_closest_marker("launch")
     return None if mark is None else mark.kwargs.get("fixture")
 
 
 def get_launch_test_fixturename(item: Any) -> str | None:
-    """The name by which pytest knows that fixture, or None."""
+    """Return the name by which pytest knows that fixture, or None."""
     options = _options(item)
     return None if options is None else options.name
 
 
 def is_same_launch_test_fixture(left_item: Any, right_item: Any) -> bool:
-    """Whether two items are tests of one launch fixture."""
+    """Return True if two items are tests of one launch fixture."""
     left = get_launch_test_fixture(left_item)
     return left is not None and left is get_launch_test_fixture(right_item)
 
 
 def has_shutdown_kwarg(item: Any) -> bool:
-    """Whether the mark of an item says that it runs after the shutdown."""
+    """Return True if the mark of an item says that it runs after the shutdown."""
     mark = item.get_closest_marker("launch")
     return mark is not None and bool(mark.kwargs.get("shutdown", False))
 
 
 def is_shutdown_test(item: Any) -> bool:
-    """Whether an item runs after the shutdown: by its mark, or as the end of a generator."""
+    """Return True if an item runs after the shutdown: by its mark, or as the end of a generator."""
     return has_shutdown_kwarg(item) or hasattr(item, "_launch_pytest_begin")
 
 
 def need_shutdown_test_item(obj: Any) -> bool:
-    """Whether a test function is a generator: it goes on after the shutdown."""
+    """Return True if a test function is a generator: it goes on after the shutdown."""
     return inspect.isgeneratorfunction(obj) or inspect.isasyncgenfunction(obj)
 
 
 def is_valid_test_item(obj: Any) -> bool:
-    """Whether something is a function, coroutine function or generator function."""
+    """Return True if something is a function, coroutine function or generator function."""
     return inspect.isfunction(obj) or inspect.ismethod(obj)
 
 
@@ -226,7 +226,7 @@ def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> list[pytes
 
 
 def _end_of(begin: Any) -> pytest.Item:
-    """The item that runs what follows the ``yield`` of a generator."""
+    """Return the item that runs what follows the ``yield`` of a generator."""
     end: Any = pytest.Function.from_parent(
         begin.parent,
         name=begin.originalname + _SUFFIX,
@@ -255,7 +255,7 @@ def pytest_collection_modifyitems(
 
 
 def _launch_of(item: Any, options: Options) -> Any:
-    """What items of one launch have in common: fixture, place of its scope, parameters."""
+    """Return the key of an item's launch: fixture, scope and parameters."""
     scopes = {"class": pytest.Class, "module": pytest.Module, "package": pytest.Package}
     place = item if options.scope == "function" else item.session
     if options.scope in scopes:

@@ -52,7 +52,7 @@ class ParameterValue:
         return self._value_type
 
     def evaluate(self, context: LaunchContext) -> Any:
-        """The value after its substitutions, with its type.
+        """Return the value after its substitutions, with its type.
 
         Raises:
             ValueError: The text has no value of the type.
@@ -139,15 +139,15 @@ class ParameterFile:
 
     @property
     def allow_substs(self) -> bool | list[Substitution]:
-        """Whether its text holds substitutions; before :meth:`evaluate` as it was given."""
+        """True if its text holds substitutions; before :meth:`evaluate` as it was given."""
         return self._allow_substs if self._allowed is None else self._allowed
 
     def copy(self) -> ParameterFile:
-        """The same file, for another node."""
+        """Return the same file, for another node."""
         return ParameterFile(self._param_file, allow_substs=self._allow_substs)
 
     def evaluate(self, context: LaunchContext) -> Path:
-        """The path of the file, or of its copy.
+        """Return the path of the file, or of its copy.
 
         Raises:
             OSError: It cannot be read.

@@ -100,7 +100,7 @@ class ROSAdapter:
 
 
 def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
-    """The adapter of a launch, made when it is first asked for; it ends with the launch."""
+    """Return the adapter of a launch, made when it is first asked for; it ends with the launch."""
     adapter: ROSAdapter | None = context.get_locals_as_dict().get(_KEY)
     if adapter is None:
         adapter = ROSAdapter()
@@ -113,7 +113,7 @@ def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
 
 
 def get_ros_node(context: LaunchContext) -> Node:
-    """The node of the adapter of a launch."""
+    """Return the node of the adapter of a launch."""
     return get_ros_adapter(context).ros_node
 
 

@@ -49,7 +49,7 @@ class IoHandler:
         return self._by_name.keys()
 
     def __getitem__(self, key: Any) -> list[ProcessIO]:
-        """The output of a process, given by its action or by its name.
+        """Return the output of a process, given by its action or by its name.
 
         Raises:
             KeyError: It is not known.
@@ -101,7 +101,7 @@ class ActiveIoHandler:
             return list(self._records.process_names())
 
     def __getitem__(self, key: Any) -> list[ProcessIO]:
-        """The output of a process, given by its action or by its name."""
+        """Return the output of a process, given by its action or by its name."""
         with self._changed:
             return self._records[key]
 

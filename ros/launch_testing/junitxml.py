@@ -100,5 +100,5 @@ def unittestCaseToXml(  # noqa: N802  ROS 2's name
 
 
 def _printable(text: str) -> str:
-    """The text without characters that XML does not allow."""
+    """Return the text without characters that XML does not allow."""
     return "".join(character for character in text if character >= " " or character in "\t\n\r")

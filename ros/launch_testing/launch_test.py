@@ -44,7 +44,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def parse_arguments() -> tuple[argparse.ArgumentParser, argparse.Namespace]:
-    """The parser of the command, and what it found on the command line of this process."""
+    """Return the parser of the command, and what it found on the command line of this process."""
     parser = argparse.ArgumentParser(
         prog="launch_test", description="Run tests against what a launch description starts."
     )
@@ -106,7 +106,7 @@ def main() -> None:
 
 
 def _imported(name: str, path: str) -> ModuleType:
-    """The file as a module of its own; files beside it can be imported as in a script."""
+    """Return the file as a module of its own; files beside it can be imported as in a script."""
     sys.path.insert(0, os.path.dirname(path))
     specification: Any = importlib.util.spec_from_file_location(name, path)
     module = importlib.util.module_from_spec(specification)

@@ -70,7 +70,7 @@ class TestRun:
         return marks
 
     def all_cases(self) -> Iterator[unittest.TestCase]:
-        """All tests."""
+        """Yield all tests."""
         yield from self._cases
 
     def describe(self, ready_fn: Callable[[], object]) -> _Description:
@@ -151,12 +151,12 @@ def LoadTestsFromPythonModule(  # noqa: N802  ROS 2's name
 
 
 def PreShutdownTestLoader() -> unittest.TestLoader:  # noqa: N802  ROS 2's name
-    """A loader of tests that run while the processes run."""
+    """Return a loader of tests that run while the processes run."""
     return _Loader(post_shutdown=False)
 
 
 def PostShutdownTestLoader() -> unittest.TestLoader:  # noqa: N802  ROS 2's name
-    """A loader of the tests of classes marked with ``post_shutdown_test``."""
+    """Return a loader of the tests of classes marked with ``post_shutdown_test``."""
     return _Loader(post_shutdown=True)
 
 
@@ -171,7 +171,7 @@ class _Loader(unittest.TestLoader):
         self,
         testCaseClass: type[unittest.TestCase],  # noqa: N803  likewise
     ) -> unittest.TestSuite:
-        """The tests of a class, or none."""
+        """Return the tests of a class, or none."""
         if getattr(testCaseClass, "__post_shutdown_test__", False) != self._post_shutdown:
             return unittest.TestSuite()
         # A class of its own for each run: `bind` changes it.

@@ -43,7 +43,7 @@ class ProcInfoHandler:
         return (event.process_name for event in self._events.values())
 
     def __getitem__(self, key: Any) -> Any:
-        """The last event of a process, given by its action or by its name.
+        """Return the last event of a process, given by its action or by its name.
 
         Raises:
             KeyError: It is not recorded.
@@ -94,7 +94,7 @@ class ActiveProcInfoHandler:
             return list(self._records.process_names())
 
     def __getitem__(self, key: Any) -> Any:
-        """The last event of a process, given by its action or by its name."""
+        """Return the last event of a process, given by its action or by its name."""
         with self._changed:
             return self._records[key]
 

@@ -52,17 +52,17 @@ class DataRepublisher:
             self._publisher.publish(changed)
 
     def get_num_received(self) -> int:
-        """How many messages have come."""
+        """Return the number of messages received."""
         with self._lock:
             return self._received
 
     def get_num_republished(self) -> int:
-        """How many messages were sent."""
+        """Return the number of messages sent."""
         with self._lock:
             return len(self._sent)
 
     def get_republished(self) -> list[Any]:
-        """The messages that were sent."""
+        """Return the messages that were sent."""
         with self._lock:
             return list(self._sent)
 

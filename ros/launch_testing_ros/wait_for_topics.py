@@ -78,7 +78,7 @@ class WaitForTopics:
         return {topic for topic, _ in self.topic_tuples} - self.topics_received()
 
     def received_messages(self, topic_name: str) -> list[Any]:
-        """The last messages of a topic.
+        """Return the last messages of a topic.
 
         Raises:
             KeyError: It is none of the topics.

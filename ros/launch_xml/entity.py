@@ -59,7 +59,7 @@ class Entity(BaseEntity):
     def get_attr(
         self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True
     ) -> Any:
-        """The value of an attribute; a list of elements holds the children with that tag."""
+        """Return the value of an attribute; a list of elements holds the children with that tag."""
         if is_entity_list(data_type):
             return self._children_named(name, optional)
         if name not in self._element.attrib:

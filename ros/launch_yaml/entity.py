@@ -41,7 +41,7 @@ class Entity(BaseEntity):
 
     @property
     def children(self) -> list[BaseEntity]:
-        """The elements in it: those of the list, or of the key ``children``."""
+        """The elements of the list, or of the key ``children``."""
         elements = self._element
         if isinstance(elements, dict):
             if "children" not in elements:
@@ -77,7 +77,7 @@ class Entity(BaseEntity):
     def get_attr(
         self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True
     ) -> Any:
-        """The value of an attribute. See the base class."""
+        """Return the value of an attribute. See the base class."""
         if not isinstance(self._element, dict) or name not in self._element:
             if optional:
                 return None

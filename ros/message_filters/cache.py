@@ -86,26 +86,26 @@ class Cache(OneMessageFilter[MsgT]):
     def getInterval(  # noqa: N802 -- ROS 2's name
         self, from_stamp: Time, to_stamp: Time
     ) -> list[MsgT]:
-        """The messages from one time to another, both included."""
+        """Return the messages from one time to another, both included."""
         with self._lock:
             return self.cache_msgs[
                 bisect_left(self.cache_times, from_stamp) : bisect_right(self.cache_times, to_stamp)
             ]
 
     def getElemAfterTime(self, stamp: Time) -> MsgT | None:  # noqa: N802 -- ROS 2's name
-        """The oldest message that is not older than a time, or None."""
+        """Return the oldest message that is not older than a time, or None."""
         with self._lock:
             place = bisect_left(self.cache_times, stamp)
             return self.cache_msgs[place] if place < len(self.cache_msgs) else None
 
     def getElemBeforeTime(self, stamp: Time) -> MsgT | None:  # noqa: N802 -- ROS 2's name
-        """The newest message that is not newer than a time, or None."""
+        """Return the newest message that is not newer than a time, or None."""
         with self._lock:
             place = bisect_right(self.cache_times, stamp)
             return self.cache_msgs[place - 1] if place else None
 
     def getLatestTime(self) -> Time | None:  # noqa: N802 -- ROS 2's name
-        """The newest stamp, or None."""
+        """Return the newest stamp, or None."""
         with self._lock:
             return self.cache_times[-1] if self.cache_times else None
 
@@ -113,11 +113,11 @@ class Cache(OneMessageFilter[MsgT]):
     getLastestTime = getLatestTime  # noqa: N815
 
     def getOldestTime(self) -> Time | None:  # noqa: N802 -- ROS 2's name
-        """The oldest stamp, or None."""
+        """Return the oldest stamp, or None."""
         with self._lock:
             return self.cache_times[0] if self.cache_times else None
 
     def getLast(self) -> MsgT | None:  # noqa: N802 -- ROS 2's name
-        """The newest message, or None."""
+        """Return the newest message, or None."""
         with self._lock:
             return self.cache_msgs[-1] if self.cache_msgs else None

@@ -26,6 +26,6 @@ class OneMessageFilter(SimpleFilter, Generic[MsgT]):
         def registerCallback(self, cb: Callable[..., Any], arg: Any, /, *args: Any) -> int: ...
 
         # Narrower than that of the base, which passes on any number of messages.
-        def registerCallback(  # noqa: D102, N802 -- as in the base
+        def registerCallback(  # noqa: N802 -- as in the base
             self, cb: Callable[..., Any], *args: Any
         ) -> int: ...

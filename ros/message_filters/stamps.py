@@ -19,7 +19,7 @@ _HEADERLESS = (
 
 
 def stamp_of(message: Any, *, allow_headerless: bool, logger: str) -> Time | None:
-    """The stamp of a message.
+    """Return the stamp of a message.
 
     Args:
         message: A message with or without a ``header``.

@@ -110,7 +110,7 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
             self.signalMessage(*messages)
 
     def _closest_set(self, stamp_ns: int, index: int | None) -> tuple[int, ...] | None:
-        """A stamp of each queue, all within the slop of the new message's stamp, or None."""
+        """Return a stamp of each queue, all within the slop of the new message's stamp, or None."""
         slop_ns = self.slop.nanoseconds
         candidates = []
         for number, queue in enumerate(self.queues):

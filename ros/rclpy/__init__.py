@@ -162,7 +162,7 @@ def init(
 
 
 def get_global_executor() -> Executor:
-    """The executor that is used where none is given.
+    """Return the executor that is used where none is given.
 
     It lives until the default context is shut down.
     """
@@ -215,7 +215,7 @@ def create_node(
     automatically_declare_parameters_from_overrides: bool = False,
     enable_logger_service: bool = False,
 ) -> Node:
-    """Make a node; the arguments are those of :class:`rclpy.node.Node`."""
+    """Make a node; see :class:`rclpy.node.Node` for the arguments."""
     from .node import Node
 
     return Node(

@@ -12,7 +12,7 @@ __all__ = ["interrupted_loop", "running_loop"]
 
 
 def running_loop() -> Any:
-    """The asyncio loop that runs in this thread, if any; never imports asyncio."""
+    """Return the asyncio loop that runs in this thread, if any; never imports asyncio."""
     # While another thread imports asyncio, this one runs no loop and the module is not complete.
     get_running_loop = getattr(sys.modules.get("asyncio"), "_get_running_loop", None)
     return None if get_running_loop is None else get_running_loop()

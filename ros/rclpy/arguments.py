@@ -174,7 +174,7 @@ class Arguments:
             raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: {error}") from None
 
     def followed_by(self, other: Arguments) -> Arguments:
-        """These arguments (of a node) before ``other`` (of the process).
+        """Return these arguments (of a node) before ``other`` (of the process).
 
         Remap rules and parameters of these win.
         """
@@ -203,19 +203,19 @@ class Arguments:
             )
 
     def remap_node_name(self, node_name: str) -> str:
-        """The name that a node of this name gets."""
+        """Return the name that a node of this name gets."""
         return self._remap("NODE_NAME", node_name, node_name, "/")
 
     def remap_namespace(self, node_name: str, namespace: str) -> str:
-        """The namespace that the node gets; ``node_name`` is its name after renaming."""
+        """Return the namespace that the node gets; ``node_name`` is its name after renaming."""
         return self._remap("NAMESPACE", namespace, node_name, namespace)
 
     def remap_topic(self, topic: str, node_name: str, namespace: str) -> str:
-        """The topic that a node uses instead of ``topic``; both are fully qualified."""
+        """Return the topic that a node uses instead of ``topic``; both are fully qualified."""
         return self._remap("TOPIC", topic, node_name, namespace)
 
     def remap_service(self, service: str, node_name: str, namespace: str) -> str:
-        """The service that a node uses instead of ``service``; both are fully qualified."""
+        """Return the service that a node uses instead of ``service``; both are fully qualified."""
         return self._remap("SERVICE", service, node_name, namespace)
 
     def _remap(self, kind: str, name: str, node_name: str, namespace: str) -> str:
@@ -226,7 +226,7 @@ class Arguments:
         return remap(self.rules, RemapKind[kind], name, node_name, namespace)
 
     def parameter_overrides(self, node_fqn: str) -> dict[str, Any]:
-        """The values that the command line and its files give to a node's parameters.
+        """Return the values that the command line and its files give to a node's parameters.
 
         Args:
             node_fqn: Fully qualified name after renaming, for example ``/ns/listener``.
@@ -303,7 +303,7 @@ class Arguments:
 
 
 def _matches(pattern: str, node_fqn: str) -> bool:
-    """Whether a node name of a parameter file means this node.
+    """Return True if a node name of a parameter file means this node.
 
     ``/*`` is one token, ``/**`` any number of them.
     """

@@ -1,6 +1,6 @@
 """Callback groups: which callbacks of a node may run at the same time.
 
-A group holds its entities by weak references; whoever makes a group keeps it alive, as in ROS 2.
+A group holds its entities by weak references; its creator keeps the group alive, as in ROS 2.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class CallbackGroup(ABC):
         self.entities.add(weakref.ref(entity, self.entities.discard))
 
     def has_entity(self, entity: object) -> bool:
-        """Whether ``entity`` is a member."""
+        """Return True if ``entity`` is a member."""
         return weakref.ref(entity) in self.entities
 
     def _rclpy_note_wait(self, scheduler: _Scheduler) -> None:
@@ -53,7 +53,7 @@ class CallbackGroup(ABC):
 
     @abstractmethod
     def can_execute(self, entity: object) -> bool:
-        """Whether the callback of ``entity`` might start now."""
+        """Return True if the callback of ``entity`` might start now."""
 
     @abstractmethod
     def beginning_execution(self, entity: object) -> bool:
@@ -91,7 +91,7 @@ class MutuallyExclusiveCallbackGroup(CallbackGroup):
         self._lock = threading.Lock()
 
     def can_execute(self, entity: object) -> bool:  # noqa: ARG002
-        """Whether no callback of the group is running."""
+        """Return True if no callback of the group is running."""
         return self._active_entity is None
 
     def beginning_execution(self, entity: object) -> bool:

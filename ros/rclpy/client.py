@@ -169,7 +169,7 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
         return bool(self._pending) and self._wire.service == service
 
     def get_pending_request(self, sequence_number: int) -> Future[Any]:
-        """The future of a request that is not answered yet; KeyError if there is none."""
+        """Return the future of an unanswered request; raise KeyError for another number."""
         with self._lock:
             return self._pending[sequence_number]
 
@@ -182,12 +182,12 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
                     return
 
     def service_is_ready(self) -> bool:
-        """Whether a server is there."""
+        """Return True if a server is there."""
         self._check_usable()
         return self._wire.is_ready()
 
     def _look_for_server(self) -> bool:
-        """Whether a server is there; logs once why one that is there is not called."""
+        """Return True if a server is there; logs once why one that is there is not called."""
         if self.service_is_ready():
             return True
         try:

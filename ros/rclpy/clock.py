@@ -75,7 +75,7 @@ class JumpThreshold:
         self.on_clock_change = on_clock_change
 
     def is_crossed_by(self, jump: TimeJump) -> bool:
-        """Whether ``jump`` is one of those that were asked for."""
+        """Return True if ``jump`` is one of those that were asked for."""
         if self.on_clock_change and jump.clock_change in (
             ClockChange.ROS_TIME_ACTIVATED,
             ClockChange.ROS_TIME_DEACTIVATED,
@@ -97,12 +97,12 @@ class TimeJump:
 
     @property
     def clock_change(self) -> ClockChange:
-        """What happened to the source of time."""
+        """Change of the source of time."""
         return self._clock_change
 
     @property
     def delta(self) -> Duration:
-        """How far the time moved; negative when it moved backwards."""
+        """Difference of the times; negative for a jump backwards."""
         return self._delta
 
 
@@ -146,7 +146,7 @@ class JumpHandle:
             self._post_callback(jump)
 
     def wants(self, jump: TimeJump) -> bool:
-        """Whether the callbacks are to run for ``jump``."""
+        """Return True if the callbacks are to run for ``jump``."""
         return self._threshold.is_crossed_by(jump)
 
     def __enter__(self) -> Self:
@@ -187,7 +187,7 @@ class Clock:
 
     @property
     def clock_type(self) -> ClockType:
-        """Which time it tells."""
+        """Type of the clock."""
         return self._clock_type
 
     def __repr__(self) -> str:
@@ -197,7 +197,7 @@ class Clock:
         return time.monotonic_ns() if self._clock_type is ClockType.STEADY_TIME else time.time_ns()
 
     def now(self) -> Time:
-        """The present time of this clock."""
+        """Return the present time of this clock."""
         return Time(nanoseconds=self._now_ns(), clock_type=self._clock_type)
 
     def create_jump_callback(
@@ -280,7 +280,7 @@ class ROSClock(Clock):
 
     @property
     def ros_time_is_active(self) -> bool:
-        """Whether the time comes from :meth:`set_ros_time_override` rather than from the system."""
+        """True if the time comes from :meth:`set_ros_time_override` rather than from the system."""
         return self._override_is_active
 
     def _now_ns(self) -> int:

@@ -32,7 +32,7 @@ class _Scheduler(Protocol):
     """What a context knows of an executor."""
 
     def holds_up(self, service: str) -> bool:
-        """Whether a request for a service is there that cannot be answered at the moment."""
+        """Return True if a request for a service is there that cannot be answered at the moment."""
         ...
 
 
@@ -112,15 +112,15 @@ class Context:
         self._schedulers.add(scheduler)
 
     def schedulers(self) -> list[_Scheduler]:
-        """Those of all executors of this context."""
+        """Return the schedulers of all executors of this context."""
         return list(self._schedulers)
 
     def ok(self) -> bool:
-        """Whether it is initialized and has not been shut down."""
+        """Return True if it is initialized and has not been shut down."""
         return self._valid
 
     def is_open(self) -> bool:
-        """Whether endpoints work.
+        """Return True if endpoints work.
 
         After a signal they still do, until the program calls :meth:`shutdown`: it may send its last
         messages.
@@ -128,7 +128,7 @@ class Context:
         return self._valid or self.ended_by_signal
 
     def get_domain_id(self) -> int:
-        """The domain it is in."""
+        """Return the domain it is in."""
         return self.wire.domain_id
 
     @property
@@ -144,7 +144,7 @@ class Context:
 
     @property
     def arguments(self) -> Arguments:
-        """What the command line said.
+        """Arguments of the command line.
 
         Raises:
             NotInitializedException: Before :meth:`init`.
@@ -283,7 +283,7 @@ class Context:
 
 
 def _reference(callback: Callable[[], None]) -> Callable[[], Callable[[], None] | None]:
-    """A weak reference to a method, a strong one to a function.
+    """Return a weak reference to a method, a strong one to a function.
 
     So a context keeps no object alive.
     """

@@ -124,11 +124,11 @@ class EventHandler(Waitable):
         self._index = wait_set.add_event(self._part)
 
     def is_ready(self, wait_set: WaitSet) -> bool:
-        """Whether the event has happened."""
+        """Return True if the event has happened."""
         return wait_set.is_ready("event", self._index)
 
     def take_data(self) -> Any:
-        """What is known of the event; None if there was none after all."""
+        """Return the event's info; None if the event was taken already."""
         status = self._event.take()
         return None if status is None else self._info(status)
 
@@ -221,7 +221,7 @@ class _EventCallbacks:
 
 
 class SubscriptionEventCallbacks(_EventCallbacks):
-    """What is to be called at the events of a subscription.
+    """Callbacks for the events of a subscription.
 
     Each callback gets the info of its event.
 
@@ -285,7 +285,7 @@ class SubscriptionEventCallbacks(_EventCallbacks):
 
 
 class PublisherEventCallbacks(_EventCallbacks):
-    """What is to be called at the events of a publisher; each callback gets the info of its event.
+    """Callbacks for the events of a publisher; each gets the info of its event.
 
     Args:
         deadline: No message was sent in time (:class:`QoSDeadlineOfferedInfo`).

@@ -50,7 +50,7 @@ def note_signal() -> None:
 
 
 def take_dropped() -> bool:
-    """Whether Python has dropped the last ``KeyboardInterrupt``, so that it comes again now."""
+    """Return True if Python dropped the last ``KeyboardInterrupt``, which is raised again."""
     global _dropped
     dropped, _dropped = _dropped, False
     return dropped
@@ -68,7 +68,7 @@ def _hook(kind: type[BaseException], value: BaseException, traceback: TracebackT
 
 
 def _is_of_the_command_line(traceback: TracebackType | None) -> bool:
-    """Whether ``--ros-args`` could not be read.
+    """Return True if ``--ros-args`` could not be read.
 
     The text says all, and the program is not at fault.
     """

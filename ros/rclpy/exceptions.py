@@ -1,6 +1,6 @@
 """The errors of ROS 2's client library, with its texts.
 
-Those of executors are in :mod:`rclpy.executors`, those of the layers below in
+Exceptions of executors are in :mod:`rclpy.executors`, of the layers below in
 ``rclpy._rclpy_pybind11``. Some carry a ``hint``: what exists and what to do; tracebacks show it as
 a note on Python 3.11 and later.
 """

@@ -109,7 +109,7 @@ class Executor:
         node.executor = None
 
     def get_nodes(self) -> list[Node]:
-        """The nodes that it serves."""
+        """Return the nodes that it serves."""
         with self._rclpy_scheduler.lock:
             return list(self._nodes)
 
@@ -243,7 +243,7 @@ class Executor:
         self._rclpy_scheduler.wake()
 
     def can_execute(self, entity: Entity) -> bool:
-        """Whether the callback group of an entity lets it run at this moment."""
+        """Return True if the callback group of an entity lets it run at this moment."""
         return entity.callback_group.can_execute(entity)
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:
@@ -262,7 +262,7 @@ class Executor:
 
 
 def _node_of(node: Any) -> Node:
-    """The node, or the one in the attribute ``node``, as the nodes of ros2cli have it.
+    """Return the node, or the one in the attribute ``node``, as the nodes of ros2cli have it.
 
     Raises:
         TypeError: It is no node.
@@ -334,6 +334,6 @@ def _nanoseconds(timeout_sec: float | None) -> int | None:
 async def await_or_execute(
     callback: Callable[..., Any] | CoroutineType[Any, Any, Any], *args: Any
 ) -> Any:
-    """The result of a function or of a coroutine (function)."""
+    """Return the result of a function or of a coroutine (function)."""
     outcome = callback if isinstance(callback, CoroutineType) else callback(*args)
     return await outcome if isinstance(outcome, CoroutineType) else outcome

@@ -21,7 +21,7 @@ def with_hint(error: _Error, hint: str) -> _Error:
 
 
 def described(value: Any) -> str:
-    """What a value is, in words: ``None``, ``the class String``, ``an object of type float``."""
+    """Describe a value: ``None``, ``the class String``, ``an object of type float``."""
     if value is None:
         return "None"
     return (

@@ -35,7 +35,7 @@ _root_logger = RcutilsLogger()
 
 
 def get_logger(name: str) -> RcutilsLogger:
-    """The logger of this name.
+    """Return the logger of this name.
 
     Raises:
         ValueError: The name is empty.
@@ -72,7 +72,7 @@ def set_logger_level(name: str, level: int, detailed_error: bool = False) -> Non
 
 
 def get_logger_effective_level(name: str) -> LoggingSeverity:
-    """The level that decides about messages of a logger.
+    """Return the level that decides about messages of a logger.
 
     Its own, or the nearest ancestor's, or the default.
     """
@@ -80,12 +80,12 @@ def get_logger_effective_level(name: str) -> LoggingSeverity:
 
 
 def get_logger_level(name: str) -> LoggingSeverity:
-    """The level that was set for this logger itself; ``UNSET`` when it inherits."""
+    """Return the level that was set for this logger itself; ``UNSET`` when it inherits."""
     return LoggingSeverity(log_levels.own(name))
 
 
 def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
-    """The severity of a name such as ``info``; upper and lower case are the same.
+    """Return the severity of a name such as ``info``; upper and lower case are the same.
 
     Raises:
         RuntimeError: There is no such severity.
@@ -100,7 +100,7 @@ def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
 
 
 def get_logging_directory() -> Path:
-    """Where log files are written.
+    """Return the directory of log files.
 
     ROS_LOG_DIR, else the folder ``log`` in ROS_HOME, else ``~/.ros/log``.
     """

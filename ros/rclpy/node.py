@@ -1,8 +1,8 @@
 """The node: a named participant of the graph, with its endpoints, timers and parameters.
 
 :class:`Node` itself holds no logic: each method hands over to the part that does the work.
-``node_endpoints.py`` makes and keeps the endpoints, ``node_graph.py`` answers questions about other
-nodes, ``parameters.py`` keeps the parameters.
+``_node/endpoints.py`` makes and keeps the endpoints, ``_node/graph.py`` answers questions about
+other nodes, ``parameters.py`` keeps the parameters.
 
 Programs derive from it and have attributes of their own: beside those that ROS 2's has
 (``_logger``, ``_clock`` …), ours begin with two underscores, or with ``_rclpy`` where other modules
@@ -106,13 +106,13 @@ class Node:
     Args:
         node_name: Base name (no slashes); ``--ros-args -r __node:=…`` replaces it.
         context: None takes the default context.
-        cli_args: Command line of this node alone; its ``--ros-args`` come before those of the
+        cli_args: Command line of this node alone; its ``--ros-args`` precede the ones of the
             context.
         namespace: None and "" mean "/"; ``--ros-args -r __ns:=…`` replaces it.
         use_global_arguments: Whether the command line of the context applies.
         enable_rosout: Whether what it logs is published on ``/rosout``.
         start_parameter_services: Whether other nodes can read and set its parameters.
-        parameter_overrides: Values that go before those of the command line.
+        parameter_overrides: Values that take precedence over the command line's.
         allow_undeclared_parameters: Whether parameters can be set and read without being declared.
         automatically_declare_parameters_from_overrides: Whether all overrides are declared at once.
         enable_logger_service: Whether other nodes can set its log levels.
@@ -250,7 +250,7 @@ class Node:
 
     @property
     def default_callback_group(self) -> CallbackGroup:
-        """Of entities that are made without one: mutually exclusive."""
+        """Mutually exclusive group of entities created without a group."""
         return self._rclpy_endpoints.default_callback_group
 
     @property
@@ -293,11 +293,11 @@ class Node:
     # Names
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
-        """The fully qualified name of a topic, remapped unless ``only_expand``."""
+        """Return the fully qualified name of a topic, remapped unless ``only_expand``."""
         return self._rclpy_endpoints.names.resolve_topic(topic, only_expand=only_expand)
 
     def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
-        """The fully qualified name of a service, remapped unless ``only_expand``."""
+        """Return the fully qualified name of a service, remapped unless ``only_expand``."""
         return self._rclpy_endpoints.names.resolve_service(service, only_expand=only_expand)
 
     # Endpoints
@@ -500,7 +500,7 @@ class Node:
         )
 
     def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
-        """A rate whose ``sleep()`` keeps a loop at ``frequency`` Hz.
+        """Return a rate whose ``sleep()`` keeps a loop at ``frequency`` Hz.
 
         Another thread has to spin the node.
 
@@ -601,17 +601,17 @@ class Node:
         """Forget a parameter.
 
         Raises:
-            ParameterNotDeclaredException: There is none.
+            ParameterNotDeclaredException: The parameter is not declared.
             ParameterImmutableException: It is read-only.
         """
         self._parameters.undeclare_parameter(name)
 
     def has_parameter(self, name: str) -> bool:
-        """Whether a parameter is declared."""
+        """Return True if a parameter is declared."""
         return self._parameters.has_parameter(name)
 
     def get_parameter(self, name: str) -> Parameter:
-        """A parameter.
+        """Return a parameter.
 
         Raises:
             ParameterNotDeclaredException: It is not declared, and undeclared ones are not allowed.
@@ -624,19 +624,19 @@ class Node:
         return self._parameters.get_parameters(names)
 
     def get_parameter_or(self, name: str, alternative_value: Parameter | None = None) -> Parameter:
-        """A parameter, or ``alternative_value`` when it is not declared or not set."""
+        """Return a parameter, or ``alternative_value`` when it is not declared or not set."""
         return self._parameters.get_parameter_or(name, alternative_value)
 
     def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter]:
-        """The parameters below a prefix, by their names without it."""
+        """Return the parameters below a prefix, by their names without it."""
         return self._parameters.get_parameters_by_prefix(prefix)
 
     def get_parameter_type(self, name: str) -> Any:
-        """The type of a parameter."""
+        """Return the type of a parameter."""
         return self._parameters.get_parameter_type(name)
 
     def get_parameter_types(self, names: list[str]) -> list[Any]:
-        """The types of several parameters."""
+        """Return the types of several parameters."""
         return self._parameters.get_parameter_types(names)
 
     def set_parameters(self, parameter_list: list[Parameter]) -> list[SetParametersResult]:
@@ -652,11 +652,11 @@ class Node:
         return self._parameters.list_parameters(prefixes, depth)
 
     def describe_parameter(self, name: str) -> ParameterDescriptor:
-        """The descriptor of a parameter."""
+        """Return the descriptor of a parameter."""
         return self._parameters.describe_parameter(name)
 
     def describe_parameters(self, names: list[str]) -> list[ParameterDescriptor]:
-        """The descriptors of parameters."""
+        """Return the descriptors of parameters."""
         return self._parameters.describe_parameters(names)
 
     def set_descriptor(
@@ -702,11 +702,11 @@ class Node:
     # The graph
 
     def get_topic_names_and_types(self, no_demangle: bool = False) -> list[tuple[str, list[str]]]:
-        """All topics with the names of their types."""
+        """Return all topics with the names of their types."""
         return self.__graph.topic_names_and_types(no_demangle)
 
     def get_service_names_and_types(self) -> list[tuple[str, list[str]]]:
-        """All services with the names of their types."""
+        """Return all services with the names of their types."""
         return self.__graph.service_names_and_types()
 
     def get_node_names(self) -> list[str]:
@@ -755,31 +755,31 @@ class Node:
         return self.__graph.services_by_node("client", node_name, node_namespace)
 
     def count_publishers(self, topic_name: str) -> int:
-        """How many publishers a topic has; ValueError for an impossible name, as below."""
+        """Return the number of a topic's publishers; raise ValueError for an invalid name."""
         return self.__graph.count_topic("publisher", topic_name)
 
     def count_subscribers(self, topic_name: str) -> int:
-        """How many subscriptions a topic has."""
+        """Return the number of subscriptions of a topic."""
         return self.__graph.count_topic("subscription", topic_name)
 
     def count_clients(self, service_name: str) -> int:
-        """How many clients a service has."""
+        """Return the number of clients of a service."""
         return self.__graph.count_service("client", service_name)
 
     def count_services(self, service_name: str) -> int:
-        """How many servers a service has."""
+        """Return the number of servers of a service."""
         return self.__graph.count_service("service", service_name)
 
     def get_publishers_info_by_topic(
         self, topic_name: str, no_mangle: bool = False
     ) -> list[TopicEndpointInfo]:
-        """What is known of each publisher of a topic."""
+        """Return information about each publisher of a topic."""
         return self.__graph.endpoint_infos("publisher", topic_name, no_mangle=no_mangle)
 
     def get_subscriptions_info_by_topic(
         self, topic_name: str, no_mangle: bool = False
     ) -> list[TopicEndpointInfo]:
-        """What is known of each subscription of a topic."""
+        """Return information about each subscription of a topic."""
         return self.__graph.endpoint_infos("subscription", topic_name, no_mangle=no_mangle)
 
     def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
@@ -803,7 +803,7 @@ def _usable_context(context: Context | None) -> Context:
 def _arguments(
     context: Context, cli_args: list[str] | None, *, use_global_arguments: bool
 ) -> Arguments:
-    """The node's own command line before the context's."""
+    """Return the node's own command line before the context's."""
     from .arguments import Arguments
 
     component = component_arguments.get()

@@ -56,7 +56,7 @@ class Parameter:
 
         @classmethod
         def from_parameter_value(cls, parameter_value: Any) -> Parameter.Type:
-            """The type of a Python value; an empty list counts as a BYTE_ARRAY, as in ROS 2.
+            """Return the type of a Python value; an empty list counts as a BYTE_ARRAY, as in ROS 2.
 
             Raises:
                 TypeError: No parameter can have this value.
@@ -78,7 +78,7 @@ class Parameter:
             )
 
         def check(self, parameter_value: Any) -> bool:
-            """Whether a Python value agrees with this type."""
+            """Return True if a Python value agrees with this type."""
             if self is Parameter.Type.NOT_SET:
                 return parameter_value is None
             if not self.name.endswith("_ARRAY"):
@@ -161,12 +161,12 @@ def _is_array(value: Any) -> bool:
 
 
 def _value_field(type_: Parameter.Type) -> str:
-    """The field of ``ParameterValue`` that holds a value of this type."""
+    """Return the field of ``ParameterValue`` that holds a value of this type."""
     return f"{type_.name.lower()}_value"
 
 
 def parameter_value_to_python(parameter_value: rcl_interfaces.msg.ParameterValue) -> Any:
-    """The Python value of a message.
+    """Return the Python value of a message.
 
     Raises:
         RuntimeError: The message has an unknown type number.
@@ -181,7 +181,7 @@ def parameter_value_to_python(parameter_value: rcl_interfaces.msg.ParameterValue
 
 
 def get_parameter_value(string_value: str) -> rcl_interfaces.msg.ParameterValue:
-    """The value that a YAML text stands for.
+    """Return the value that a YAML text stands for.
 
     What is no value of a parameter is taken as a string.
     """
@@ -195,7 +195,7 @@ def get_parameter_value(string_value: str) -> rcl_interfaces.msg.ParameterValue:
 
 
 def _value_from_yaml(value: Any, text: str) -> rcl_interfaces.msg.ParameterValue:
-    """A loaded YAML value.
+    """Return a loaded YAML value.
 
     ``text`` stands in for what no parameter can hold (null, dates, mixed lists).
     """

@@ -75,7 +75,7 @@ class AsyncParameterClient:
         )
 
     def services_are_ready(self) -> bool:
-        """Whether all services of the other node are there."""
+        """Return True if all services of the other node are there."""
         return all(client.service_is_ready() for client in self._clients())
 
     def wait_for_services(self, timeout_sec: float | None = None) -> bool:
@@ -209,7 +209,7 @@ class AsyncParameterClient:
     ) -> Subscription[rcl_interfaces.msg.ParameterEvent]:
         """Have ``callback`` called with the parameter events of all nodes.
 
-        The arguments are those of :meth:`rclpy.node.Node.create_subscription`, and so is what is
+        Arguments are as in :meth:`rclpy.node.Node.create_subscription`, and so is what is
         returned; the events of other nodes than ``remote_node_name`` come, too.
         """
         from rcl_interfaces.msg import ParameterEvent

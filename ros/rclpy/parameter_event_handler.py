@@ -98,7 +98,7 @@ class ParameterEventHandler:
     def get_parameter_from_event(
         event: ParameterEvent, parameter_name: str, node_name: str
     ) -> rcl_interfaces.msg.Parameter | None:
-        """The new or changed parameter of that name, if the event has it."""
+        """Return the new or changed parameter of that name, if the event has it."""
         if event.node != node_name:
             return None
         found = [
@@ -110,7 +110,7 @@ class ParameterEventHandler:
 
     @staticmethod
     def get_parameters_from_event(event: ParameterEvent) -> Iterable[rcl_interfaces.msg.Parameter]:
-        """All new and changed parameters of an event."""
+        """Yield all new and changed parameters of an event."""
         yield from event.new_parameters
         yield from event.changed_parameters
 

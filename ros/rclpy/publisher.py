@@ -92,7 +92,7 @@ class Publisher(Generic[MsgT]):
 
     @property
     def _rclpy_outlet(self) -> base.Outlet | None:
-        """What native code sends with, without Python; None where there is none."""
+        """Return the sender for native code; None if the middleware has none."""
         return self._wire.outlet()
 
     def _check_context(self) -> None:
@@ -100,7 +100,7 @@ class Publisher(Generic[MsgT]):
             raise RCLError("Failed to publish: publisher's context is invalid") from None
 
     def get_subscription_count(self) -> int:
-        """How many matching subscriptions are known at the moment."""
+        """Return the number of matching subscriptions that are known now."""
         self._check_usable()
         return self._wire.subscription_count()
 

@@ -152,7 +152,7 @@ class QoSProfile:
 
     @property
     def history(self) -> HistoryPolicy:
-        """How many samples are kept."""
+        """History policy: which samples are kept."""
         return self._history
 
     @history.setter
@@ -162,7 +162,7 @@ class QoSProfile:
 
     @property
     def depth(self) -> int:
-        """How many samples KEEP_LAST keeps."""
+        """Number of samples that KEEP_LAST keeps."""
         return self._depth
 
     @depth.setter
@@ -182,7 +182,7 @@ class QoSProfile:
 
     @property
     def reliability(self) -> ReliabilityPolicy:
-        """Whether lost samples are sent again."""
+        """Reliability policy: RELIABLE sends lost samples again."""
         return self._reliability
 
     @reliability.setter
@@ -192,7 +192,7 @@ class QoSProfile:
 
     @property
     def durability(self) -> DurabilityPolicy:
-        """Whether late joiners receive earlier samples."""
+        """Durability policy: TRANSIENT_LOCAL sends earlier samples to late joiners."""
         return self._durability
 
     @durability.setter
@@ -202,7 +202,7 @@ class QoSProfile:
 
     @property
     def lifespan(self) -> Duration:
-        """How long a sample is valid; zero means unlimited."""
+        """Time for which a sample is valid; zero means unlimited."""
         return self._lifespan
 
     @lifespan.setter
@@ -222,7 +222,7 @@ class QoSProfile:
 
     @property
     def liveliness(self) -> LivelinessPolicy:
-        """Who asserts that a publisher is alive."""
+        """Liveliness policy: who asserts that a publisher is alive."""
         return self._liveliness
 
     @liveliness.setter
@@ -232,7 +232,7 @@ class QoSProfile:
 
     @property
     def liveliness_lease_duration(self) -> Duration:
-        """How long a publisher counts as alive without a sign; zero means unlimited."""
+        """Time for which a publisher counts as alive after a sign of life; zero means unlimited."""
         return self._liveliness_lease_duration
 
     @liveliness_lease_duration.setter
@@ -242,7 +242,7 @@ class QoSProfile:
 
     @property
     def avoid_ros_namespace_conventions(self) -> bool:
-        """Whether the topic name goes out without ROS 2's prefix."""
+        """True if the topic name goes out without ROS 2's prefix."""
         return self._avoid_ros_namespace_conventions
 
     @avoid_ros_namespace_conventions.setter
@@ -333,12 +333,12 @@ class QoSPresetProfiles(Enum):
 
     @classmethod
     def short_keys(cls) -> list[str]:
-        """All presets as short keys, for example ``sensor_data``."""
+        """Return all presets as short keys, for example ``sensor_data``."""
         return [name.lower() for name in cls.__members__]
 
     @classmethod
     def get_from_short_key(cls, name: str) -> QoSProfile:
-        """The profile of a short key.
+        """Return the profile of a short key.
 
         Raises:
             KeyError: There is no such preset.

@@ -121,7 +121,7 @@ def _open(
     weakest_offer: QoSPolicyEnum,
     strictest_request: QoSPolicyEnum,
 ) -> str:
-    """The warning for a policy that the middleware will settle.
+    """Return the warning for a policy that the middleware will settle.
 
     ``durabilty`` is ROS 2's own spelling.
     """

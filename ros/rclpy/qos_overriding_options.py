@@ -69,12 +69,12 @@ class QoSOverridingOptions:
 
     @property
     def callback(self) -> Callable[[QoSProfile], SetParametersResult] | None:
-        """What decides about the resulting profile."""
+        """Callback that validates the resulting profile."""
         return self._callback
 
     @property
     def entity_id(self) -> str | None:
-        """What distinguishes the endpoint."""
+        """Identifier that distinguishes the endpoint."""
         return self._entity_id
 
 
@@ -94,7 +94,7 @@ def overridden_profile(
     options: QoSOverridingOptions,
     parameters: NodeParameters,
 ) -> QoSProfile:
-    """A copy of the profile with what parameters say, where ``options`` lets them."""
+    """Return a copy of the profile with what parameters say, where ``options`` lets them."""
     import copy
 
     qos = copy.copy(qos)
@@ -149,7 +149,7 @@ def declare_qos_parameters(
 
 
 def _declare(node: NodeParameters, name: str, default: Any, what: str) -> Any:
-    """The value of the read-only parameter of one policy."""
+    """Return the value of the read-only parameter of one policy."""
     from rcl_interfaces.msg import ParameterDescriptor
 
     field = name.rpartition(".")[2]

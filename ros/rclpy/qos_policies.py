@@ -38,7 +38,7 @@ class QoSPolicyKind(IntEnum):
 
 
 def qos_policy_name_from_kind(policy_kind: QoSPolicyKind | int) -> str:
-    """The name of a policy, for example ``RELIABILITY``."""
+    """Return the name of a policy, for example ``RELIABILITY``."""
     return str(QoSPolicyKind(policy_kind).name)
 
 
@@ -47,12 +47,12 @@ class QoSPolicyEnum(IntEnum):
 
     @classmethod
     def short_keys(cls) -> list[str]:
-        """All values as short keys, for example ``["system_default", "keep_last", …]``."""
+        """Return all values as short keys, for example ``["system_default", "keep_last", …]``."""
         return [name.lower() for name in cls.__members__]
 
     @classmethod
     def get_from_short_key(cls, name: str) -> int:
-        """The value of a short key.
+        """Return the value of a short key.
 
         Raises:
             KeyError: There is no such key.
@@ -66,7 +66,7 @@ class QoSPolicyEnum(IntEnum):
 
 
 class HistoryPolicy(QoSPolicyEnum):
-    """How many samples are kept."""
+    """History policy: which samples are kept."""
 
     SYSTEM_DEFAULT = 0
     KEEP_LAST = 1
@@ -75,7 +75,7 @@ class HistoryPolicy(QoSPolicyEnum):
 
 
 class ReliabilityPolicy(QoSPolicyEnum):
-    """Whether lost samples are sent again."""
+    """Reliability policy: RELIABLE sends lost samples again."""
 
     SYSTEM_DEFAULT = 0
     RELIABLE = 1
@@ -85,7 +85,7 @@ class ReliabilityPolicy(QoSPolicyEnum):
 
 
 class DurabilityPolicy(QoSPolicyEnum):
-    """Whether late joiners receive earlier samples."""
+    """Durability policy: TRANSIENT_LOCAL sends earlier samples to late joiners."""
 
     SYSTEM_DEFAULT = 0
     TRANSIENT_LOCAL = 1
@@ -95,7 +95,7 @@ class DurabilityPolicy(QoSPolicyEnum):
 
 
 class LivelinessPolicy(QoSPolicyEnum):
-    """Who asserts that a publisher is alive."""
+    """Liveliness policy: who asserts that a publisher is alive."""
 
     SYSTEM_DEFAULT = 0
     AUTOMATIC = 1

@@ -44,7 +44,7 @@ class EventType(IntEnum):
 
 
 class IntrospectedEndpoint(Entity):
-    """What clients and services have in common: a place on the wire, and events for who watches.
+    """What clients and services have in common: an endpoint on the wire, and introspection events.
 
     Args:
         wire: Its side on the wire.

@@ -115,7 +115,7 @@ class _Watcher:
             os.write(self._previous_wakeup_fd, bytes([signum]))
 
     def _is_needed_for(self, signum: int) -> bool:
-        """Whether a signal that comes after the shutdown belongs to the request that led to it.
+        """Return True if a signal after the shutdown belongs to the request that caused it.
 
         After SIGTERM, SIGINT may follow at once: from `ros2 launch` below `timeout`, for example.
         """
@@ -142,7 +142,7 @@ class _Watcher:
         loop = interrupted_loop(frame)
         if previous is signal.default_int_handler and loop is not None and not self._is_deferred:
             # In asyncio's own code KeyboardInterrupt could lose a callback that is about to be
-            # called, and a task would wait for it for ever. Raised by a callback, it loses none.
+            # called, and a task would wait for it without end. Raised by a callback, it loses none.
             self._is_deferred = True
             loop.call_soon_threadsafe(self._interrupt, signum, frame)
         elif callable(previous):
@@ -176,7 +176,7 @@ def _note_stop() -> None:
 
 
 def get_current_signal_handlers_options() -> SignalHandlerOptions:
-    """Which signals are handled at the moment."""
+    """Return the signals that are handled now."""
     return _options
 
 

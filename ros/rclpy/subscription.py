@@ -71,7 +71,7 @@ class Subscription(Entity, Generic[MsgT]):
 
     @property
     def callback(self) -> Callable[..., Any]:
-        """What is called with each message."""
+        """Callback for each message."""
         return self._callback
 
     @callback.setter
@@ -92,13 +92,13 @@ class Subscription(Entity, Generic[MsgT]):
         return self._core.logger.name
 
     def get_publisher_count(self) -> int:
-        """How many matching publishers are known at the moment."""
+        """Return the number of matching publishers that are known now."""
         self._check_usable()
         return self._wire.publisher_count()
 
     @property
     def is_cft_enabled(self) -> bool:
-        """Whether the middleware filters by content: it does not."""
+        """True if the middleware filters by content: it does not."""
         return False
 
     def _attach(self, host: Host) -> None:
@@ -151,7 +151,7 @@ def _message_info(info: base.MessageInfo) -> MessageInfo:
 
 
 def _callback_type(callback: Callable[..., Any]) -> Subscription.CallbackType:
-    """Whether a callback takes one argument or two.
+    """Return the number of a callback's arguments, one or two.
 
     Raises:
         RuntimeError: It takes neither.

@@ -84,15 +84,15 @@ class Future(Generic[T]):
         self._finish(cancelled=True)
 
     def cancelled(self) -> bool:
-        """Whether it was cancelled."""
+        """Return True if it was cancelled."""
         return self._cancelled
 
     def done(self) -> bool:
-        """Whether it has a result or an exception, or was cancelled."""
+        """Return True if it has a result or an exception, or was cancelled."""
         return self._done or self._cancelled
 
     def result(self) -> T:
-        """The result, or None while there is none.
+        """Return the result, or None before it is set.
 
         Raises:
             BaseException: What :meth:`set_exception` was given.
@@ -103,7 +103,7 @@ class Future(Generic[T]):
         return self._result  # type: ignore[return-value]  # None before it is done, as in ROS 2
 
     def exception(self) -> BaseException | None:
-        """The exception, if it ended with one."""
+        """Return the exception, if it ended with one."""
         self._exception_fetched = True
         return self._exception
 
@@ -260,7 +260,7 @@ class Task(Future[T]):
             resume()
 
     def executing(self) -> bool:
-        """Whether a thread is running a step at this moment."""
+        """Return True if a thread is running a step at this moment."""
         return self._step_lock.locked()
 
     def cancel(self) -> None:

@@ -45,7 +45,7 @@ class TimeSource:
 
     @property
     def ros_time_is_active(self) -> bool:
-        """Whether the clocks follow ``/clock``."""
+        """True if the clocks follow ``/clock``."""
         return self._ros_time_is_active
 
     @ros_time_is_active.setter

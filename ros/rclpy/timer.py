@@ -73,12 +73,12 @@ class Timer(Entity):
         self._period_ns = int(value)
 
     def is_ready(self) -> bool:
-        """Whether a call is due."""
+        """Return True if a call is due."""
         self._check_usable()
         return not self._canceled and self._next_call_ns <= self._now_ns()
 
     def is_canceled(self) -> bool:
-        """Whether it was cancelled and not reset since."""
+        """Return True if it was cancelled and not reset since."""
         self._check_usable()
         return self._canceled
 

@@ -11,7 +11,7 @@ HIDDEN_TOPIC_PREFIX = "_"
 
 
 def topic_or_service_is_hidden(name: str) -> bool:
-    """Whether a part of the name begins with an underscore, as in ``/fibonacci/_action/status``."""
+    """Return True if a name part begins with an underscore: ``/fibonacci/_action/status``."""
     return any(
         token.startswith(HIDDEN_TOPIC_PREFIX) for token in name.split(TOPIC_SEPARATOR_STRING)
     )

@@ -83,7 +83,7 @@ def type_id(name: str) -> TypeId:
 
 
 def service_types(name: str) -> ServiceTypes:
-    """What a peer must know of the type ``turtlesim/srv/Spawn``."""
+    """Return the names and hashes by which peers identify the type ``turtlesim/srv/Spawn``."""
     return ServiceTypes(
         name, type_id(f"{name}_Request"), type_id(f"{name}_Response"), msg.type_hash
     )

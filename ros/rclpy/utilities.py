@@ -28,7 +28,7 @@ _lock = threading.Lock()
 
 
 def get_default_context(*, shutting_down: bool = False) -> Context:
-    """The context that is used where none is given.
+    """Return the context that is used where none is given.
 
     Args:
         shutting_down: Return it for the last time: the next call makes a new one, so that ``init``
@@ -44,7 +44,7 @@ def get_default_context(*, shutting_down: bool = False) -> Context:
 
 
 def ok(*, context: Context | None = None) -> bool:
-    """Whether the context (None: the default one) is initialized and has not been shut down."""
+    """Return True if the context is initialized and not shut down; None is the default context."""
     return (get_default_context() if context is None else context).ok()
 
 
@@ -81,7 +81,7 @@ def get_rmw_implementation_identifier() -> str:
 
 
 def get_available_rmw_implementations() -> set[str]:
-    """The middlewares that ``RMW_IMPLEMENTATION`` may name to talk to other processes."""
+    """Return the middlewares that ``RMW_IMPLEMENTATION`` may name to talk to other processes."""
     from turtlewire.wire.environment import MIDDLEWARES, is_installed
 
     return {name for name in MIDDLEWARES if name.startswith("rmw_") and is_installed(name)}

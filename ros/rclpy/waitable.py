@@ -97,7 +97,7 @@ class WaitSet:
         return len(self._entities[entity_type]) - 1
 
     def is_ready(self, entity_type: str, index: int) -> bool:
-        """Whether an entity is ready.
+        """Return True if an entity is ready.
 
         Args:
             entity_type: ``guard_condition``, ``subscription``, ``timer`` or ``event``.
@@ -110,7 +110,7 @@ class WaitSet:
         self._ready = {entity}
 
     def entities(self) -> list[Entity]:
-        """All of them."""
+        """Return all of them."""
         return [entity for group in self._entities.values() for entity in group]
 
 
@@ -132,7 +132,7 @@ class Waitable(Entity):
         self._wait_set: WaitSet | None = None
 
     def is_ready(self, wait_set: WaitSet) -> bool:
-        """Whether there is something to execute."""
+        """Return True if there is something to execute."""
         raise NotImplementedError
 
     def take_data(self) -> Any:
@@ -144,7 +144,7 @@ class Waitable(Entity):
         raise NotImplementedError
 
     def get_num_entities(self) -> NumberOfEntities:
-        """How many entities it waits for."""
+        """Return the numbers of entities to wait for."""
         raise NotImplementedError
 
     def add_to_wait_set(self, wait_set: WaitSet) -> None:
@@ -154,7 +154,7 @@ class Waitable(Entity):
         """
 
     def _work_of(self, part: Entity) -> Work | None:
-        """What has to run when a part is ready."""
+        """Return the work to run when a part is ready."""
         wait_set = self._wait_set
         if wait_set is None:
             return None  # it was never attached

@@ -24,7 +24,7 @@ class ComponentManager(Node):
 
     A component is a class of nodes, given as ``package.module.Class``. It is constructed without
     arguments, as its own ``main()`` would do it; name, namespace, parameters and remappings of the
-    request apply to it as those of a command line do. Components do not wait for each other: each
+    request apply to it like a command line's. Components do not wait for each other: each
     runs in a thread of its own.
     """
 
@@ -136,7 +136,7 @@ def _construct(request: Any) -> Node:
 
 
 def _words(request: Any) -> list[str]:
-    """The request as a command line."""
+    """Return the request as a command line."""
     import yaml
 
     rules = list(request.remap_rules)

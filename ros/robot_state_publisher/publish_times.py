@@ -26,12 +26,12 @@ class PublishTimes:
         self._last_call = 0
 
     def moved_back(self, now: int) -> bool:
-        """Whether the clock is behind the time of the last joint state; notes the time."""
+        """Return True if the clock is behind the time of the last joint state; notes the time."""
         last, self._last_call = self._last_call, now
         return now < last
 
     def earliest(self, names: Sequence[str], now: int) -> int:
-        """The smallest stamp of these joints, 0 for a new one; ``now`` if all are later."""
+        """Return the smallest stamp of these joints, 0 for a new one; ``now`` if all are later."""
         if names is self._names:
             return min(now, self._time) if names else now
         self._remember()

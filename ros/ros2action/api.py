@@ -78,7 +78,7 @@ class ActionTypeCompleter:
         self.action_name_key = action_name_key
 
     def __call__(self, prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
-        """The type of the action, or all actions."""
+        """Return the type of the action, or all actions."""
         action = getattr(parsed_args, self.action_name_key or "", None)
         with NodeStrategy(parsed_args) as node:
             found = dict(get_action_names_and_types(node=node))
@@ -96,5 +96,5 @@ class ActionGoalPrototypeCompleter:
         self.action_type_key = action_type_key
 
     def __call__(self, prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
-        """The default values, as YAML."""
+        """Return the default values, as YAML."""
         return completion.prototype("action", getattr(parsed_args, self.action_type_key or ""))

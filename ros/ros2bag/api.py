@@ -45,12 +45,12 @@ class SplitLineFormatter(argparse.HelpFormatter):
 
 
 def print_error(string: str) -> str:
-    """The text as an error of ``ros2 bag``."""
+    """Return the text as an error of ``ros2 bag``."""
     return f"[ERROR] [ros2bag]: {string}"
 
 
 def print_warn(string: str) -> str:
-    """The text as a warning of ``ros2 bag``."""
+    """Return the text as a warning of ``ros2 bag``."""
     return f"[WARN] [ros2bag]: {string}"
 
 
@@ -69,7 +69,7 @@ def add_writer_storage_plugin_extensions(parser: argparse.ArgumentParser) -> Non
 
 
 def check_path_exists(value: str) -> str:
-    """A path that exists, for argparse.
+    """Return a path that exists, for argparse.
 
     Raises:
         ArgumentTypeError: There is nothing.
@@ -78,7 +78,7 @@ def check_path_exists(value: str) -> str:
 
 
 def check_positive_float(value: str) -> float:
-    """A number above zero, for argparse.
+    """Return a number above zero, for argparse.
 
     Raises:
         ArgumentTypeError: It is none.
@@ -90,7 +90,7 @@ def check_positive_float(value: str) -> float:
 
 
 def check_not_negative_float(value: str) -> float:
-    """A number from zero, for argparse.
+    """Return a number from zero, for argparse.
 
     Raises:
         ArgumentTypeError: It is none.
@@ -102,7 +102,7 @@ def check_not_negative_float(value: str) -> float:
 
 
 def check_not_negative_int(arg: str) -> int:
-    """A whole number from zero, for argparse.
+    """Return a whole number from zero, for argparse.
 
     Raises:
         ArgumentTypeError: It is none.
@@ -123,12 +123,12 @@ def _number(kind: Any, text: str) -> Any:
 
 
 def convert_service_to_service_event_topic(services: Sequence[str] | None) -> list[str]:
-    """The topics on which the events of services are."""
+    """Return the topics on which the events of services are."""
     return bag_options.event_topics(list(services or ()))
 
 
 def dict_to_duration(time_dict: Mapping[str, int] | None) -> Duration:
-    """A duration of ``sec`` and ``nsec``; zero for None.
+    """Return a duration of ``sec`` and ``nsec``; zero for None.
 
     Raises:
         ValueError: One of the two is missing.
@@ -144,7 +144,7 @@ def dict_to_duration(time_dict: Mapping[str, int] | None) -> Duration:
 
 
 def interpret_dict_as_qos_profile(qos_profile_dict: dict[str, Any]) -> QoSProfile:
-    """A profile from the words of YAML.
+    """Return a profile from the words of YAML.
 
     Raises:
         ValueError: A key or a word is not known.

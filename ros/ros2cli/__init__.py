@@ -32,7 +32,7 @@ module                             what it holds
 `builtin`                          our commands and verbs behind these classes
 `installed`                        entry points of other packages, found fast
 `entry_points`, `plugin_system`    ROS 2's functions for entry points and extensions
-`extension`                        runs those of other packages
+`extension`                        runs extensions of other packages
 `node`                             nodes for extensions: direct, strategy, daemon
 `xmlrpc`                           remote calls on this host
 =================================  ========================================================

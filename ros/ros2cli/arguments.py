@@ -34,7 +34,7 @@ class Exclusive:
 
 
 def argument(*names: str, completer: Completer | None = None, **options: Any) -> Argument:
-    """An argument, described as for :meth:`argparse.ArgumentParser.add_argument`.
+    """Return an argument, described as for :meth:`argparse.ArgumentParser.add_argument`.
 
     Args:
         *names: Its flags, or one name.

@@ -43,10 +43,10 @@ LOG_LEVEL = argument(
 
 
 def existing_file(text: str) -> str:
-    """A file that exists.
+    """Return a file that exists.
 
     Raises:
-        argparse.ArgumentTypeError: There is none.
+        argparse.ArgumentTypeError: The file does not exist.
     """
     if not os.path.isfile(text):
         raise argparse.ArgumentTypeError(f"file '{text}' does not exist!")
@@ -62,7 +62,7 @@ QOS_OVERRIDES = argument(
 
 
 def bag_path(text: str) -> str:
-    """An existing path.
+    """Return an existing path.
 
     Raises:
         argparse.ArgumentTypeError: There is nothing.
@@ -120,12 +120,12 @@ def bag_topics(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
 
 
 def event_topics(services: list[str]) -> list[str]:
-    """The topics on which the events of services are; ROS 2 needs the slash in front."""
+    """Return the topics on which the events of services are; ROS 2 needs the slash in front."""
     return [f"{absolute(name)}/_service_event" for name in services]
 
 
 def absolute(name: str) -> str:
-    """The name of a topic or service as the graph and bags know it."""
+    """Return the name of a topic or service as the graph and bags know it."""
     return name if name.startswith("/") else f"/{name}"
 
 
@@ -154,7 +154,7 @@ def custom_data(text: str) -> tuple[str, str]:
 
 
 def qos_overrides(path: str | None) -> dict[str, QoSProfile]:
-    """The profiles in a file, by topic; none without a file.
+    """Return the profiles in a file, by topic; none without a file.
 
     Raises:
         RuntimeError: The file does not hold profiles.

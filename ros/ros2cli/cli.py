@@ -21,7 +21,7 @@ def main(
 
     Args:
         script_name: Name of the program in the help.
-        argv: The words after it; those of this process by default.
+        argv: The words after it; this process's by default.
         description: What the help says of it.
         extension: The only command of the program; None for all commands of ``ros2``.
 

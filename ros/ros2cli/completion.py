@@ -108,7 +108,7 @@ def frame_names(**_: Any) -> list[str]:
 
 
 def arguments_of_executable(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
-    """Arguments of an executable: frames for those of tf2_ros that take them."""
+    """Arguments of an executable: frames for tools of tf2_ros that take them."""
     executable = (parsed_args.package_name, parsed_args.executable_name)
     return frame_names() if executable in _TAKES_FRAMES else []
 
@@ -128,22 +128,22 @@ def folders(prefix: str, **_: Any) -> list[str]:
 
 
 def message_values(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
-    """The default values of the message type on the command line."""
+    """Return the default values of the message type on the command line."""
     return prototype("msg", parsed_args.message_type)
 
 
 def request_values(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
-    """The default values of a request of the service type on the command line."""
+    """Return the default values of a request of the service type on the command line."""
     return prototype("srv", parsed_args.service_type)
 
 
 def goal_values(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
-    """The default values of a goal of the action type on the command line."""
+    """Return the default values of a goal of the action type on the command line."""
     return prototype("action", parsed_args.action_type)
 
 
 def prototype(kind: str, type_name: str) -> list[str]:
-    """The default values of a message, request or goal; empty for an unknown type.
+    """Return the default values of a message, request or goal; empty for an unknown type.
 
     Args:
         kind: ``msg``, ``srv`` or ``action``.

@@ -49,7 +49,7 @@ COMPONENT_ARGUMENTS = (
 
 
 def load_request(args: argparse.Namespace) -> Any:
-    """The ``composition_interfaces/srv/LoadNode`` request that the options describe."""
+    """Return the ``composition_interfaces/srv/LoadNode`` request that the options describe."""
     from composition_interfaces.srv import LoadNode
     from rcl_interfaces.msg import Parameter
     from rclpy.parameter import get_parameter_value

@@ -27,10 +27,10 @@ def container_names(graph: Graph) -> list[str]:
 
 
 def require_container(graph: Graph, name: str) -> str:
-    """The full name of a container.
+    """Return the full name of a container.
 
     Raises:
-        RuntimeError: There is none of that name.
+        RuntimeError: The name is unknown.
     """
     from ros2cli.graph import full_node_name
     from ros2cli.suggestion import did_you_mean

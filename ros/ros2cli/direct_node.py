@@ -53,7 +53,7 @@ class DirectNode:
 
     @classmethod
     def around(cls, node: Any) -> DirectNode:
-        """What can be done with a node that somebody else made and will destroy.
+        """Wrap a node that the caller owns and destroys.
 
         Args:
             node: A node of rclpy, or a thing with one in its attribute ``node``.

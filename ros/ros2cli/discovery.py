@@ -117,7 +117,7 @@ class GraphNode:
         name = f"_ros2cli_{os.getpid()}"
         self.full_name = f"/{name}"
         node = self._context.create_node(name)
-        # Every node has these; without them the lists of an empty domain would differ from those of
+        # Every node has these; without them an empty domain's lists would differ from
         # ROS 2.
         for topic, type_name, type_hash, lifespan in _NODE_TOPICS:
             durability = Durability.TRANSIENT_LOCAL if lifespan else Durability.VOLATILE

@@ -1,4 +1,4 @@
-"""Commands and verbs as entry points: those of this distribution, and those of other packages.
+"""Commands and verbs as entry points: this distribution's, and other packages'.
 
 A package adds a verb to ``ros2 topic`` by an entry point in the group ``ros2topic.verb``, and a
 command by one in ``ros2cli.command``. The ones of this distribution are tables in
@@ -46,7 +46,7 @@ def get_all_entry_points() -> dict[str, dict[str, tuple[Distribution, EntryPoint
 
 
 def get_entry_points(group_name: str) -> dict[str, EntryPoint]:
-    """Entry points of a group by name, those of this distribution first."""
+    """Entry points of a group by name, this distribution's first."""
     return {**_own(group_name), **others(group_name)}
 
 

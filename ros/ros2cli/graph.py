@@ -45,17 +45,17 @@ _FEEDBACK_TYPE = "_FeedbackMessage"
 
 
 def topics(graph: Graph, *, hidden: bool = False) -> NamesAndTypes:
-    """All topics."""
+    """Return all topics."""
     return _visible(graph.topic_names_and_types().items(), hidden=hidden)
 
 
 def services(graph: Graph, *, hidden: bool = False) -> NamesAndTypes:
-    """All services."""
+    """Return all services."""
     return _visible(graph.service_names_and_types().items(), hidden=hidden)
 
 
 def actions(graph: Graph) -> NamesAndTypes:
-    """All actions, by their feedback topics."""
+    """Return all actions, by their feedback topics."""
     return _actions(topics(graph, hidden=True))
 
 
@@ -67,25 +67,25 @@ def node_names(graph: Graph, *, hidden: bool = False) -> list[str]:
 
 
 def full_node_name(name: str) -> str:
-    """The name of a node with a slash in front."""
+    """Return the name of a node with a slash in front."""
     return name if name.startswith("/") else f"/{name}"
 
 
 def is_hidden_node(full_name: str) -> bool:
-    """Whether the last part of the name begins with an underscore."""
+    """Return True if the last part of the name begins with an underscore."""
     return full_name.rpartition("/")[2].startswith("_")
 
 
 def node_exists(graph: Graph, full_name: str) -> bool:
-    """Whether a node of the name is known."""
+    """Return True if a node of the name is known."""
     return full_name in node_names(graph, hidden=True)
 
 
 def require_node(graph: Graph, name: str) -> str:
-    """The full name of a node.
+    """Return the full name of a node.
 
     Raises:
-        RuntimeError: There is none of that name.
+        RuntimeError: The name is unknown.
     """
     from ros2cli.suggestion import did_you_mean
 
@@ -96,7 +96,7 @@ def require_node(graph: Graph, name: str) -> str:
 
 
 def endpoints_of_topic(graph: Graph, topic: str, kind: str) -> list[EndpointInfo]:
-    """The publishers (``kind`` "publisher") or subscriptions ("subscription") of a topic."""
+    """Return the publishers (``kind`` "publisher") or subscriptions ("subscription") of a topic."""
     return [
         endpoint
         for endpoint in _endpoints(graph)
@@ -135,7 +135,7 @@ def action_clients(graph: Graph, full_name: str) -> NamesAndTypes:
 
 
 def action_nodes(graph: Graph, action: str, kind: str) -> NamesAndTypes:
-    """The servers (``kind`` "publisher") or clients ("subscription") of an action.
+    """Return the servers (``kind`` "publisher") or clients ("subscription") of an action.
 
     Servers publish the feedback of the action, and clients subscribe to it.
     """
@@ -171,7 +171,7 @@ def _of_node(
 
 
 def foreign_middlewares(graph: Graph, full_name: str) -> list[str]:
-    """The middlewares of a node's servers that cannot be called from here, sorted."""
+    """Return the middlewares of a node's servers that cannot be called from here, sorted."""
     found = {
         server.middleware
         for server in graph.foreign_servers()

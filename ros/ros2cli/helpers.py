@@ -30,7 +30,7 @@ def get_ros_domain_id() -> int:
 
 
 def before_invocation(func: Callable[..., Any], hook: Callable[..., Any]) -> Callable[..., Any]:
-    """A function that calls ``hook`` with the same arguments before ``func``."""
+    """Return a function that calls ``hook`` with the same arguments before ``func``."""
 
     @functools.wraps(func)
     def wrapper(*args: Any, **kwargs: Any) -> Any:
@@ -52,12 +52,12 @@ def pretty_print_call(func: Callable[..., Any], *args: Any, **kwargs: Any) -> No
 
 
 def collect_stdin() -> str:
-    """All of stdin, read line by line until its end."""
+    """Return all of stdin, read line by line until its end."""
     return "".join(sys.stdin)
 
 
 def unsigned_int(string: str) -> int:
-    """A whole number from zero, for argparse.
+    """Return a whole number from zero, for argparse.
 
     Raises:
         ArgumentTypeError: It is negative.

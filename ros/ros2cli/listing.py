@@ -40,7 +40,7 @@ def count_argument(kind: str) -> Argument:
 
 
 def hidden_argument(kind: str) -> Argument:
-    """The option ``--include-hidden-topics`` for the kind ``topic``, and so on."""
+    """Return the option ``--include-hidden-topics`` for the kind ``topic``, and so on."""
     return argument(
         f"--include-hidden-{kind}s",
         action="store_true",

@@ -62,7 +62,7 @@ def main(argv: list[str] | None = None) -> int:
     """Run a command line.
 
     Args:
-        argv: The words after ``ros2``; None takes those of this process.
+        argv: The words after ``ros2``; None for this process's.
 
     Returns:
         The exit status.
@@ -106,7 +106,7 @@ def _parse(words: list[str]) -> argparse.Namespace:
 
 
 def make_parser(words: list[str]) -> argparse.ArgumentParser:
-    """The parser for a command line; loads only the commands and verbs that are on it.
+    """Return the parser for a command line; loads only the commands and verbs that are on it.
 
     Args:
         words: The words after ``ros2``.
@@ -168,7 +168,7 @@ def _extensions(prog: str, chosen: str | None) -> dict[str, object]:
 
 
 def _parser_class(choices: dict[str, str], chosen: str | None) -> type[_Parser]:
-    """What makes the parser of each choice; those that cannot be called share one.
+    """Return the parser class of each choice; choices that cannot be called share one.
 
     Two dozen parsers would take a tenth of the time of ``ros2 --help``.
     """
@@ -236,5 +236,5 @@ def _told(error: RuntimeError) -> str:
 
 
 def _words_to_complete() -> list[str]:
-    """The words of the command line for which the shell asks completions."""
+    """Return the words of the command line for which the shell asks completions."""
     return os.environ.get("COMP_LINE", "").split()[1:] if "_ARGCOMPLETE" in os.environ else []

@@ -40,10 +40,10 @@ HIDDEN_ARGUMENT = argument(
 
 
 def require_managed_node(graph: Graph, args: argparse.Namespace) -> str:
-    """The full name of the managed node on the command line.
+    """Return the full name of the managed node on the command line.
 
     Raises:
-        RuntimeError: There is none of that name.
+        RuntimeError: The name is unknown.
     """
     from ros2cli.graph import full_node_name
     from ros2cli.suggestion import did_you_mean

@@ -97,7 +97,7 @@ class MulticastSocket:
         return self._receiver.recvfrom(_LONGEST)
 
     def received(self) -> Iterator[tuple[bytes, tuple[str, int]]]:
-        """The datagrams that have arrived."""
+        """Yield the datagrams that have arrived."""
         self._receiver.setblocking(False)
         with suppress(BlockingIOError):
             while True:

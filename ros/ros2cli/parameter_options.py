@@ -13,7 +13,7 @@ _TIMEOUT_S = 5.0
 
 
 def node_arguments(*, optional: bool = False) -> tuple[Argument, ...]:
-    """The arguments that all verbs of ``ros2 param`` have."""
+    """Return the arguments that all verbs of ``ros2 param`` have."""
     return (
         *STRATEGY_ARGUMENTS,
         argument(

@@ -74,13 +74,13 @@ def named_extensions(group_name: str, exclude_names: Iterable[str] | None = None
 def order_extensions(
     extensions: dict[str, Any], key_function: Callable[[str, Any], Any], *, reverse: bool = False
 ) -> dict[str, Any]:
-    """The extensions sorted by a function of name and instance."""
+    """Return the extensions sorted by a function of name and instance."""
     ordered = sorted(extensions.items(), key=lambda item: key_function(*item), reverse=reverse)
     return dict(ordered)
 
 
 def order_extensions_by_name(extensions: dict[str, Any]) -> dict[str, Any]:
-    """The extensions sorted by name."""
+    """Return the extensions sorted by name."""
     return order_extensions(extensions, lambda name, _: name)
 
 
@@ -103,7 +103,7 @@ def satisfies_version(version: str, caret_range: str) -> None:
 
 
 def get_upper_bound_caret_version(version: str) -> str:
-    """The first version that is outside of a caret range: ``0.2`` for ``0.1``."""
+    """Return the first version that is outside of a caret range: ``0.2`` for ``0.1``."""
     numbers = _numbers(version)
     place = next((index for index, number in enumerate(numbers) if number), len(numbers) - 1)
     upper = [*numbers[:place], numbers[place] + 1, *[0] * (len(numbers) - place - 1)]
@@ -117,6 +117,6 @@ def _numbers(version: str) -> list[int]:
 def call_add_arguments(
     extension: Any, parser: argparse.ArgumentParser, cli_name: str, argv: list[str]
 ) -> None:
-    """Call ``add_arguments`` of a command or a verb; those of verbs do not take ``argv``."""
+    """Call ``add_arguments`` of a command or a verb; verbs' do not take ``argv``."""
     takes_argv = "argv" in inspect.signature(extension.add_arguments).parameters
     extension.add_arguments(parser, cli_name, **({"argv": argv} if takes_argv else {}))

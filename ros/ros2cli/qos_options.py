@@ -53,12 +53,12 @@ QOS_ARGUMENTS = (
 
 
 def asked_for(args: argparse.Namespace) -> bool:
-    """Whether any of the options was given."""
+    """Return True if any of the options was given."""
     return any(value is not None for name, value in vars(args).items() if name.startswith("qos_"))
 
 
 def with_options(args: argparse.Namespace, default: str) -> QoSProfile:
-    """The profile that the options describe.
+    """Return the profile that the options describe.
 
     Args:
         args: The command line.
@@ -71,10 +71,10 @@ def with_options(args: argparse.Namespace, default: str) -> QoSProfile:
 
 
 def preset(name: str) -> QoSProfile:
-    """A copy of a named profile.
+    """Return a copy of a named profile.
 
     Raises:
-        ValueError: There is none of that name.
+        ValueError: The name is unknown.
     """
     from rclpy import qos
 
@@ -117,7 +117,7 @@ def configure(
 
 
 def matching_publishers(graph: Graph, topic: str) -> QoSProfile:
-    """A profile that matches all publishers of a topic, as strict as they allow."""
+    """Return a profile that matches all publishers of a topic, as strict as they allow."""
     from rclpy import qos
     from ros2cli.graph import endpoints_of_topic
     from turtlewire.wire.qos import Durability, Reliability

@@ -13,7 +13,7 @@ __all__ = ["sections", "system_report"]
 
 
 def system_report() -> str:
-    """All sections, each with a title and a line for every fact."""
+    """Return all sections, each with a title and a line for every fact."""
     return "\n".join(_block(title, facts) for title, facts in sections())
 
 

@@ -11,10 +11,10 @@ __all__ = ["message_class", "type_of_topic"]
 
 
 def message_class(type_name: str) -> Any:
-    """The class of a message.
+    """Return the class of a message.
 
     Raises:
-        RuntimeError: There is none of that name.
+        RuntimeError: The name is unknown.
     """
     from rosidl_runtime_py.utilities import get_message
 
@@ -29,7 +29,7 @@ def message_class(type_name: str) -> Any:
 
 
 def type_of_topic(direct: DirectNode, topic: str, *, blocking: bool = False) -> Any:
-    """The message class of a topic that has publishers or subscriptions.
+    """Return the message class of a topic that has publishers or subscriptions.
 
     Args:
         direct: The node that asks.

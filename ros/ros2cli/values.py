@@ -21,7 +21,7 @@ _LONGEST_ERROR = 1000
 
 
 def read_values(text: str) -> dict[str, Any]:
-    """The mapping that a YAML text is; an empty text is an empty one.
+    """Return the mapping that a YAML text is; an empty text is an empty one.
 
     Raises:
         RuntimeError: It is not a mapping, holds a date of no calendar, or aliases or nesting make
@@ -49,7 +49,7 @@ def read_values(text: str) -> dict[str, Any]:
 
 
 def _size(value: Any, known: dict[int, float]) -> float:
-    """How many values there are in ``value`` when its YAML aliases are written out."""
+    """Count the values in ``value`` with its YAML aliases expanded."""
     parts = value.values() if isinstance(value, dict) else value
     if not isinstance(value, (dict, list)):
         return 1
@@ -60,7 +60,7 @@ def _size(value: Any, known: dict[int, float]) -> float:
 
 
 def shortened(error: object) -> str:
-    """The text of an error, cut where it quotes a value of any length."""
+    """Return the text of an error, cut where it quotes a value of any length."""
     text = str(error)
     return text if len(text) <= _LONGEST_ERROR else f"{text[:_LONGEST_ERROR]}..."
 
@@ -74,7 +74,7 @@ def assignment(text: str) -> tuple[str, str]:
 
 
 def positive_float(inval: str) -> float:
-    """A number above zero, for argparse."""
+    """Return a number above zero, for argparse."""
     value = float(inval)
     if not value > 0:
         raise argparse.ArgumentTypeError("value must be positive")
@@ -82,7 +82,7 @@ def positive_float(inval: str) -> float:
 
 
 def regular_expression(text: str) -> str:
-    """A regular expression on the command line.
+    """Return a regular expression on the command line.
 
     Raises:
         argparse.ArgumentTypeError: It is none.
@@ -97,7 +97,7 @@ def regular_expression(text: str) -> str:
 
 
 def positive_int(string: str) -> int:
-    """A whole number above zero, for argparse."""
+    """Return a whole number above zero, for argparse."""
     value = int(string)
     if value <= 0:
         raise argparse.ArgumentTypeError("value must be positive")
@@ -105,7 +105,7 @@ def positive_int(string: str) -> int:
 
 
 def unsigned_int(text: str) -> int:
-    """A whole number from zero, for argparse."""
+    """Return a whole number from zero, for argparse."""
     value = int(text)
     if value < 0:
         raise argparse.ArgumentTypeError("value must be non-negative integer")

@@ -70,7 +70,7 @@ def get_registered_component_types() -> list[tuple[str, list[str]]]:
 
 
 def find_container_node_names(*, node: Any, node_names: Sequence[NodeName]) -> list[NodeName]:
-    """Those of the nodes that are containers."""
+    """Return the names of the component containers."""
     from ros2cli.containers import container_names
 
     known = container_names(DirectNode.around(node).graph)
@@ -80,7 +80,7 @@ def find_container_node_names(*, node: Any, node_names: Sequence[NodeName]) -> l
 def get_components_in_container(
     *, node: Any, remote_container_node_name: str
 ) -> tuple[bool, list[ComponentInfo] | str]:
-    """The nodes in a container: true and a list, or false and why there is none."""
+    """Return the nodes in a container: true and a list, or false and the reason."""
     from composition_interfaces.srv import ListNodes
     from ros2cli.containers import ask
 

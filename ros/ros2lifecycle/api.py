@@ -70,7 +70,7 @@ def call_get_available_transitions(*, node: Any, states: Mapping[str, Any]) -> d
 
 
 def call_get_transition_graph(*, node: Any, states: Mapping[str, Any]) -> dict[str, Any]:
-    """All transitions by node, as `call_get_available_transitions`."""
+    """Return all transitions by node, as `call_get_available_transitions`."""
     return _transitions(node, states, "get_transition_graph")
 
 

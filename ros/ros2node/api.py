@@ -57,7 +57,7 @@ class TopicInfo(NamedTuple):
 
 
 def get_absolute_node_name(node_name: str) -> str | None:
-    """The name with a slash in front; None for an empty name."""
+    """Return the name with a slash in front; None for an empty name."""
     return graph.full_node_name(node_name) if node_name else None
 
 
@@ -69,7 +69,7 @@ def parse_node_name(node_name: str) -> NodeName:
 
 
 def has_duplicates(values: Collection[Any]) -> bool:
-    """Whether a value occurs twice."""
+    """Return True if a value occurs twice."""
     return len(set(values)) < len(values)
 
 
@@ -111,7 +111,7 @@ def get_topics(
     *,
     include_hidden_topics: bool = False,
 ) -> list[TopicInfo]:
-    """What a function of name and namespace says of a node.
+    """Call a function with a node's name and namespace.
 
     Args:
         remote_node_name: Full name of the node.

@@ -99,7 +99,7 @@ def load_parameter_file(
 
 
 def get_value(*, parameter_value: Any) -> Any:
-    """The Python value of ``rcl_interfaces/msg/ParameterValue``; None if it is not set."""
+    """Return the Python value of ``rcl_interfaces/msg/ParameterValue``; None if it is not set."""
     from rclpy.parameter import parameter_value_to_python
 
     return parameter_value_to_python(parameter_value)

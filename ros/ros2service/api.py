@@ -89,7 +89,7 @@ class ServiceTypeCompleter:
         self.service_name_key = service_name_key
 
     def __call__(self, prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
-        """The type of the service, or all services."""
+        """Return the type of the service, or all services."""
         service = getattr(parsed_args, self.service_name_key or "", None)
         with NodeStrategy(parsed_args) as node:
             found = get_service_names_and_types(node=node, include_hidden_services=True)
@@ -107,7 +107,7 @@ class ServicePrototypeCompleter:
         self.service_type_key = service_type_key
 
     def __call__(self, prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
-        """The default values, as YAML."""
+        """Return the default values, as YAML."""
         return completion.prototype("srv", getattr(parsed_args, self.service_type_key or ""))
 
 

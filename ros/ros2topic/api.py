@@ -97,7 +97,7 @@ class TopicTypeCompleter:
         self.topic_name_key = topic_name_key
 
     def __call__(self, prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
-        """The type of the topic, or all messages."""
+        """Return the type of the topic, or all messages."""
         topic = getattr(parsed_args, self.topic_name_key or "", None)
         with NodeStrategy(parsed_args) as node:
             found = get_topic_names_and_types(node=node, include_hidden_topics=True)
@@ -115,7 +115,7 @@ class TopicMessagePrototypeCompleter:
         self.topic_type_key = topic_type_key
 
     def __call__(self, prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
-        """The default values, as YAML."""
+        """Return the default values, as YAML."""
         return completion.prototype("msg", getattr(parsed_args, self.topic_type_key or ""))
 
 
@@ -174,7 +174,7 @@ def qos_profile_from_short_keys(
     liveliness: str | None = None,
     liveliness_lease_duration_s: float | None = None,
 ) -> QoSProfile:
-    """A named profile, changed by the names of policies on a command line.
+    """Return a named profile, changed by the names of policies on a command line.
 
     Raises:
         ValueError: There is no profile or policy of a name.

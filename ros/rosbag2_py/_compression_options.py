@@ -40,7 +40,7 @@ class CompressionOptions:
 
 
 def compression_mode_from_string(compression_mode: str) -> CompressionMode:
-    """A mode from its name in any case; empty means NONE.
+    """Return a mode from its name in any case; empty means NONE.
 
     Raises:
         RuntimeError: There is no such mode.
@@ -52,5 +52,5 @@ def compression_mode_from_string(compression_mode: str) -> CompressionMode:
 
 
 def compression_mode_to_string(compression_mode: CompressionMode) -> str:
-    """The name of a mode."""
+    """Return the name of a mode."""
     return compression_mode.name

@@ -14,7 +14,7 @@ class LocalMessageDefinitionSource:
     """Finds the definitions that bags carry."""
 
     def get_full_text(self, root_topic_type: str) -> MessageDefinition:
-        """The definition of a type with those of all types in it.
+        """Return the definition of a type, followed by all types in it.
 
         Returns:
             The definition; its encoding is ``unknown`` and its text empty for an unknown type, as

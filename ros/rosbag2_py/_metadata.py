@@ -44,7 +44,7 @@ class TopicMetadata:
     type_description_hash: str = ""
 
     def equals(self, other: TopicMetadata) -> bool:
-        """Whether both describe the same topic; the number does not count."""
+        """Return True if both describe the same topic; the number does not count."""
         return (self.name, self.type, self.serialization_format, self.offered_qos_profiles) == (
             other.name,
             other.type,
@@ -101,7 +101,7 @@ class BagMetadata:
 
 
 def info(metadata: BagMetadata, counts: Mapping[str, tuple[int, int]] | None = None) -> str:
-    """The text about a bag.
+    """Return the text about a bag.
 
     Args:
         metadata: What the bag holds.

@@ -45,7 +45,7 @@ _WITHOUT_EFFECT = {
 
 
 def make_writer(storage_options: StorageOptions, compression_mode: str) -> BagWriter:
-    """A new bag.
+    """Return a new bag.
 
     Args:
         storage_options: Where and how.
@@ -107,7 +107,7 @@ def _mcap_options(storage_options: StorageOptions) -> dict[str, Any]:
 
 
 def _configuration(path: str) -> dict[str, Any]:
-    """What a file with the options of MCAP asks for."""
+    """Read a file with options of MCAP."""
     with open(path, encoding="utf-8") as file:
         content = load_yaml(file.read(), path) or {}
     if not isinstance(content, dict):

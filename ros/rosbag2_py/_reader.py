@@ -37,7 +37,7 @@ _FOREVER = (1 << 64) - 1
 
 
 def get_registered_readers() -> set[str]:
-    """The storages that can be read."""
+    """Return the storages that can be read."""
     return {"mcap", "sqlite3"}
 
 
@@ -95,7 +95,7 @@ class SequentialReader:
         self._position_ns = position_ns
         names = [name for name, topic in bag.topics.items() if self._passes(topic)]
         if self._order.reverse:
-            # Without a seek the reader stands at the first message, before which there is none.
+            # Without a seek the reader stands at the first message, before which no other lies.
             before = bag.messages(names, end_ns=position_ns)
             self._messages = reversed(list(before))
         else:
@@ -121,7 +121,7 @@ class SequentialReader:
         return not listed or topic.name in listed
 
     def has_next(self) -> bool:
-        """Whether there is another message."""
+        """Return True if there is another message."""
         self._opened()
         return self._next is not None
 
@@ -129,7 +129,7 @@ class SequentialReader:
         """Topic, CDR bytes and log time [ns] of the next message.
 
         Raises:
-            RuntimeError: There is none, or the bag is damaged.
+            RuntimeError: No message is left, or the bag is damaged.
         """
         message = self._next
         if message is None:
@@ -144,12 +144,12 @@ class SequentialReader:
         return from_engine(bag.metadata, folder_size(bag.path))
 
     def get_all_topics_and_types(self) -> list[TopicMetadata]:
-        """The bag's topics."""
+        """Return the bag's topics."""
         topics = self._opened().topics.values()
         return [topic_of(number, topic) for number, topic in enumerate(topics)]
 
     def get_all_message_definitions(self) -> list[MessageDefinition]:
-        """The definitions of the bag's types."""
+        """Return the definitions of the bag's types."""
         hashes = {topic.type: topic.type_hash for topic in self._opened().topics.values()}
         return [
             MessageDefinition(name, encoding, text, hashes.get(name, ""))

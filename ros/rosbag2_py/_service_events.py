@@ -8,7 +8,7 @@ _EVENT_TOPIC, _EVENT_TYPE = "/_service_event", "_Event"
 
 
 def is_service_event(topic: str, type_name: str) -> bool:
-    """Whether a topic carries the introspection events of a service."""
+    """Return True if a topic carries the introspection events of a service."""
     return topic.endswith(_EVENT_TOPIC) and type_name.endswith(_EVENT_TYPE)
 
 

@@ -45,7 +45,7 @@ __all__ = [
 
 
 def get_default_storage_id() -> str:
-    """The storage of new bags: ``mcap``."""
+    """Return the storage of new bags: ``mcap``."""
     return "mcap"
 
 
@@ -152,7 +152,7 @@ class MetadataIo:
         """Metadata of a bag's folder.
 
         Raises:
-            RuntimeError: There is none, or it cannot be understood.
+            RuntimeError: The metadata is missing or invalid.
         """
         try:
             found = engine.read_metadata(uri)
@@ -167,11 +167,11 @@ class MetadataIo:
         engine.write_metadata(uri, to_engine(metadata))
 
     def metadata_file_exists(self, uri: str) -> bool:
-        """Whether a folder has metadata."""
+        """Return True if a folder has metadata."""
         return os.path.exists(os.path.join(uri, engine.METADATA_FILE))
 
     def serialize_metadata(self, metadata: BagMetadata) -> str:
-        """The metadata as YAML."""
+        """Return the metadata as YAML."""
         return engine.dump_metadata(to_engine(metadata))
 
     def deserialize_metadata(self, serialized_metadata: str) -> BagMetadata:
@@ -195,12 +195,12 @@ def to_rclcpp_qos_vector(qos_profiles: str, _version: int) -> list[QoSProfile]:
 
 
 def convert_rclcpp_qos_to_rclpy_qos(qos: QoSProfile) -> QoSProfile:
-    """The profile itself: there is no second class for C++ here."""
+    """Return the profile itself: there is no second class for C++ here."""
     return qos
 
 
 def profile_of(qos: QoS) -> QoSProfile:
-    """A recorded QoS as rclpy's class."""
+    """Return a recorded QoS as rclpy's class."""
     return QoSProfile.from_wire(qos)
 
 
@@ -212,7 +212,7 @@ def folder_size(path: str) -> int:
 
 
 def from_engine(metadata: engine.BagMetadata, size: int) -> BagMetadata:
-    """The engine's metadata as rosbag2's class."""
+    """Return the engine's metadata as rosbag2's class."""
     return BagMetadata(
         version=metadata.version,
         bag_size=size,
@@ -242,7 +242,7 @@ def from_engine(metadata: engine.BagMetadata, size: int) -> BagMetadata:
 
 
 def topic_of(number: int, topic: engine.TopicInfo) -> TopicMetadata:
-    """The engine's topic as rosbag2's class."""
+    """Return the engine's topic as rosbag2's class."""
     return TopicMetadata(
         number,
         topic.name,

@@ -26,12 +26,12 @@ __all__ = [
 
 
 def get_registered_writers() -> set[str]:
-    """The storages that can be written."""
+    """Return the storages that can be written."""
     return {"mcap", "sqlite3"}
 
 
 def get_registered_compressors() -> set[str]:
-    """The compressions of whole files and single messages."""
+    """Return the compressions of whole files and single messages."""
     return {"zstd"}
 
 

@@ -63,7 +63,7 @@ class Latched:
         self._sent = dict.fromkeys(self._depths, 0)
 
     def is_known(self, topic: str) -> bool:
-        """Whether listeners have the next message of a topic already."""
+        """Return True if listeners have the next message of a topic already."""
         return topic in self._passed and self._passed[topic] < self._sent[topic]
 
     def pass_by(self, topic: str) -> None:

@@ -118,7 +118,7 @@ class PlayOptions:
         start_offset: Where in the bag to begin.
         disable_keyboard_controls: Do not read keys.
         wait_acked_timeout: How long to wait at the end until all reliable subscriptions have all
-            messages [ms]; 0 for ever.
+            messages [ms]; 0 without limit.
         disable_loan_message: Accepted as in ROS 2; messages are never loaned.
         publish_service_requests: Send recorded requests to services instead of their events.
         service_requests_source: Whose record of a request is sent.

@@ -124,7 +124,7 @@ def _run(
 def _bindings(
     player: Player, session: Session, options: PlayOptions
 ) -> dict[bytes, Callable[[], object]]:
-    """What each key does; tells the user of them."""
+    """Return the action of each key, and print the keys."""
     if not options.disable_keyboard_controls:
         for line in _KEYS:
             session.node.get_logger().info(line)

@@ -48,7 +48,7 @@ def played_topics(bag: Bag, options: PlayOptions) -> list[str]:
 
 
 def mistakes(bag: Bag, options: PlayOptions) -> list[str]:
-    """What the options name and the bag does not have; rosbag2 passes over it in silence."""
+    """List names in the options that the bag does not have; rosbag2 ignores them silently."""
     return [*_unknown_topics(bag, options), *_unknown_services(bag, options)] or [
         f"Nothing is played: {why}" for why in _emptiness(bag, options)
     ]

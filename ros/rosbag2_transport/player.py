@@ -1,7 +1,7 @@
 """Plays a bag: its messages at their times, paused, faster, from another place, message by message.
 
 All times of the bag are log times in nanoseconds. One thread plays; commands come from any other.
-Whoever waits, waits for a deadline or a command; a command wakes it.
+The playing thread waits for a deadline or a command; a command wakes it.
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ class Player:
         return max(self.start_ns, min(time_ns, self.end_ns + 1))
 
     def _play_until(self) -> int:
-        """Where to end; -1 for the end of the bag."""
+        """Return the time to end at; -1 for the end of the bag."""
         options = self._options
         until = options.playback_until_timestamp
         if options.playback_duration >= 0:
@@ -171,7 +171,7 @@ class Player:
             self.changed.wait_for(lambda: self._stopped, delay_ns / _SECOND)
 
     def _next(self) -> BagMessage | None:
-        """The next message that listeners do not have yet; None at the end."""
+        """Return the next message that listeners do not have yet; None at the end."""
         if self._source is None:
             return None
         while (message := self._source.peek()) is not None:
@@ -265,7 +265,7 @@ class Player:
 
     @contextlib.contextmanager
     def _command(self) -> Iterator[None]:
-        """Have a damage of the bag end the playback, which raises it; not whoever commands."""
+        """End the playback with the error if the bag is damaged; the command does not raise."""
         with self.changed:
             try:
                 yield
@@ -280,7 +280,7 @@ class Player:
             self._move(self._clamped(time_ns))
 
     def play_next(self) -> bool:
-        """Publish the next message of a paused playback; False if there is none or it runs."""
+        """Publish the next message of a paused playback; False at the end or if it runs."""
         with self.changed:
             if not self.clock.is_paused:
                 self._logger.warning("Called play next, but not in paused state.")

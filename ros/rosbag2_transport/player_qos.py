@@ -21,7 +21,7 @@ _CHOSEN = (Reliability.RELIABLE, Reliability.BEST_EFFORT)
 
 
 def publisher_qos(topic: TopicInfo) -> tuple[QoS, str | None]:
-    """The QoS that the publishers of a recorded topic offered.
+    """Return the QoS that the publishers of a recorded topic offered.
 
     A latched topic is as deep as it needs to be for one that joins late to get what all recorded
     publishers kept; rosbag2 gives the last ten messages, and loses parts of larger static trees.
@@ -53,7 +53,7 @@ def publisher_qos(topic: TopicInfo) -> tuple[QoS, str | None]:
 
 
 def _latched_depth(topic: TopicInfo) -> int:
-    """How many messages of a latched topic listeners that join late get."""
+    """Return the number of latched messages for listeners that join late."""
     depths = [qos.depth if qos.history == History.KEEP_LAST else 0 for qos in topic.qos]
     kept = sum(depths) if all(depths) else topic.message_count
     if topic.type == "tf2_msgs/msg/TFMessage":  # each message may bring other frames

@@ -39,7 +39,7 @@ class ServiceRequests:
         self._told: set[str] = set()
 
     def sender(self, topic: TopicInfo) -> Callable[[bytes], None]:
-        """What takes the events of a service and sends the requests among them."""
+        """Return a function that sends the requests among a service's events."""
         service = self._node.resolve_service_name(topic.name.removesuffix("/_service_event"))
         type_name = topic.type.removesuffix("_Event")
         try:
@@ -56,7 +56,7 @@ class ServiceRequests:
         return lambda event: self._send(client, topic.type, event)
 
     def are_matched(self, services: Container[str]) -> bool:
-        """Whether the clients of all services that exist can send."""
+        """Return True if the clients of all services that exist can send."""
         return all(client.service not in services or client.is_ready() for client in self._clients)
 
     def _send(self, client: Client, event_type: str, data: bytes) -> None:

@@ -33,7 +33,7 @@ _KEYS = (*_POLICIES, *_DURATIONS, *_OTHERS)
 
 
 def read_qos_overrides(path: str) -> dict[str, QoSProfile]:
-    """The profiles in a file, by topic.
+    """Return the profiles in a file, by topic.
 
     Raises:
         RuntimeError: The file does not hold profiles.
@@ -53,7 +53,7 @@ def read_qos_overrides(path: str) -> dict[str, QoSProfile]:
 
 
 def qos_profile(topic: str, policies: Mapping[str, Any]) -> QoSProfile:
-    """A profile from the words of YAML.
+    """Return a profile from the words of YAML.
 
     Args:
         topic: Named in errors.

@@ -75,12 +75,12 @@ class Recorder:
 
     @property
     def topics(self) -> int:
-        """How many topics are recorded."""
+        """Number of recorded topics."""
         return len(self._subscriptions)
 
     @property
     def is_paused(self) -> bool:
-        """Whether messages are dropped at the moment."""
+        """True if messages are dropped at the moment."""
         return self._paused
 
     def start(self) -> None:
@@ -294,7 +294,7 @@ class Recorder:
         self._latched.clear()
 
     def _is_waiting(self) -> bool:
-        """Whether it is paused, or the simulation has not told its time yet."""
+        """Return True if it is paused, or the simulation has not told its time yet."""
         return self._paused or (self._options.use_sim_time and not self._simulated_ns())
 
     def _simulated_ns(self) -> int:

@@ -40,7 +40,7 @@ _LATCHED = {
 
 
 def subscription_qos(topic: str, offered: Sequence[QoS]) -> tuple[QoS, list[str]]:
-    """The strongest QoS that fits all publishers.
+    """Return the strongest QoS that fits all publishers.
 
     Args:
         topic: Name of the topic, for the warnings.

@@ -118,7 +118,7 @@ def _add_topics(inputs: Sequence[Bag], output: Output) -> set[str]:
 
 
 def _mistakes(known: set[str], chosen: set[str], output: Output) -> Iterator[str]:
-    """What the options name and the bags do not have, or that they choose nothing."""
+    """Yield names in the options that the bags do not have, or that nothing is chosen."""
     path, options = output.writer.path, output.options
     unknown = [name for name in (*options.topics, *options.services) if name not in known]
     for name in unknown:

@@ -19,12 +19,12 @@ EVENT_TOPIC, _EVENT_TYPE = "/_service_event", "_Event"
 
 
 def is_service_event(topic: str, type_name: str) -> bool:
-    """Whether a topic carries the introspection events of a service."""
+    """Return True if a topic carries the introspection events of a service."""
     return topic.endswith(EVENT_TOPIC) and type_name.endswith(_EVENT_TYPE)
 
 
 def pattern(text: str) -> re.Pattern[str] | None:
-    """A compiled pattern; None for an empty text.
+    """Return a compiled pattern; None for an empty text.
 
     Raises:
         RuntimeError: It is no regular expression.
@@ -64,7 +64,7 @@ class TopicFilter:
         self._told: set[str] = set()
 
     def takes(self, topic: str, types: Sequence[str], *, published: bool, heard: bool) -> bool:
-        """Whether a topic is recorded.
+        """Return True if a topic is recorded.
 
         Args:
             topic: Its name.

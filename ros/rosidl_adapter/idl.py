@@ -52,7 +52,7 @@ _EMPTY = "uint8 structure_needs_at_least_one_member;"
 
 
 def interface_to_idl(package: str, source: PurePath, text: str) -> str:
-    """The IDL of an interface file.
+    """Return the IDL of an interface file.
 
     Args:
         package: Name of the package.
@@ -77,7 +77,7 @@ def interface_to_idl(package: str, source: PurePath, text: str) -> str:
 
 
 def idl_text(kind: str, package: str, source: str, messages: Iterable[MessageSpecification]) -> str:
-    """The text of a file.
+    """Return the text of a file.
 
     Args:
         kind: ``msg``, ``srv`` or ``action``.
@@ -181,7 +181,7 @@ def get_idl_type(type_: BaseType | str) -> str:
 
 
 def to_idl_literal(idl_type: str, value: Any) -> str:
-    """A value in IDL; a list is a text of values in parentheses."""
+    """Return a value in IDL; a list is a text of values in parentheses."""
     if isinstance(value, (list, tuple)):
         return string_to_idl_string_literal(f"({', '.join(map(repr, value))})")
     if idl_type == "boolean":
@@ -194,11 +194,11 @@ def to_idl_literal(idl_type: str, value: Any) -> str:
 
 
 def string_to_idl_string_literal(string: str) -> str:
-    """A text in quotes."""
+    """Return a text in quotes."""
     escapes = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t", "\r": "\\r"}
     return f'"{"".join(escapes.get(character, character) for character in string)}"'
 
 
 def string_to_idl_wstring_literal(string: str) -> str:
-    """A text of wide characters in quotes."""
+    """Return a text of wide characters in quotes."""
     return f"L{string_to_idl_string_literal(string)}"

@@ -105,17 +105,17 @@ _UNIT = re.compile(r"\s*\[([^,\]]+)\]")
 
 
 def parse_message_file(pkg_name: str, interface_filename: str) -> MessageSpecification:
-    """A message from a file, whose name is that of the message."""
+    """Return a message from a file, whose name is that of the message."""
     return parse_message_string(pkg_name, *_read(interface_filename))
 
 
 def parse_service_file(pkg_name: str, interface_filename: str) -> ServiceSpecification:
-    """A service from a file, whose name is that of the service."""
+    """Return a service from a file, whose name is that of the service."""
     return parse_service_string(pkg_name, *_read(interface_filename))
 
 
 def parse_action_file(pkg_name: str, interface_filename: str) -> ActionSpecification:
-    """An action from a file, whose name is that of the action."""
+    """Return an action from a file, whose name is that of the action."""
     return parse_action_string(pkg_name, *_read(interface_filename))
 
 
@@ -125,7 +125,7 @@ def _read(path: str) -> tuple[str, str]:
 
 
 def parse_service_string(pkg_name: str, srv_name: str, message_string: str) -> ServiceSpecification:
-    """A service from a text.
+    """Return a service from a text.
 
     Raises:
         InvalidServiceSpecification: There is not exactly one line ``---``.
@@ -146,7 +146,7 @@ def parse_service_string(pkg_name: str, srv_name: str, message_string: str) -> S
 
 
 def parse_action_string(pkg_name: str, action_name: str, action_string: str) -> ActionSpecification:
-    """An action from a text.
+    """Return an action from a text.
 
     Raises:
         InvalidActionSpecification: There are not exactly two lines ``---``.
@@ -178,7 +178,7 @@ def _parts(text: str) -> list[str]:
 
 
 def parse_message_string(pkg_name: str, msg_name: str, message_string: str) -> MessageSpecification:
-    """A message from a text.
+    """Return a message from a text.
 
     A comment belongs to the field or constant behind it; an indented one to that before it. The
     lines at the beginning belong to the message.
@@ -231,7 +231,7 @@ def _named(pkg_name: str, line: str) -> Field | Constant:
 
 
 def extract_file_level_comments(message_string: str) -> tuple[list[str], list[str]]:
-    """The comment lines at the beginning, without their ``#``, and the lines behind them."""
+    """Return the comment lines at the beginning, without their ``#``, and the lines behind them."""
     lines = message_string.splitlines()
     count = len(list(itertools.takewhile(lambda line: line.startswith(COMMENT_DELIMITER), lines)))
     return [line.lstrip(COMMENT_DELIMITER) for line in lines[:count]], lines[count:]
@@ -272,7 +272,7 @@ def validate_field_types(spec: Any, known_msg_types: Collection[Any]) -> None:
 
 
 def parse_primitive_value_string(type_: BaseType, value_string: str) -> Any:
-    """The value of a text that is not a list.
+    """Return the value of a text that is not a list.
 
     Raises:
         InvalidValue: The text is none of the type.

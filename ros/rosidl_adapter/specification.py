@@ -83,24 +83,24 @@ class InvalidValue(Exception):
 
 
 def is_valid_package_name(name: str) -> bool:
-    """Whether it may be the name of a package."""
+    """Return True if it may be the name of a package."""
     return _LOWER_NAME.fullmatch(name) is not None
 
 
 def is_valid_field_name(name: str) -> bool:
-    """Whether it may be the name of a field."""
+    """Return True if it may be the name of a field."""
     return _LOWER_NAME.fullmatch(name) is not None
 
 
 def is_valid_message_name(name: str) -> bool:
-    """Whether it may be the name of a message, or of a part of a service or action."""
+    """Return True if it may be the name of a message, or of a part of a service or action."""
     for suffix in _SUFFIXES:
         name = name.removesuffix(suffix)
     return _MESSAGE_NAME.fullmatch(name.removeprefix("Sample_")) is not None
 
 
 def is_valid_constant_name(name: str) -> bool:
-    """Whether it may be the name of a constant."""
+    """Return True if it may be the name of a constant."""
     return _CONSTANT_NAME.fullmatch(name) is not None
 
 
@@ -142,7 +142,7 @@ class BaseType:
             raise InvalidResourceName(f"'{message}' is not a valid message name")
 
     def is_primitive_type(self) -> bool:
-        """Whether it is no message."""
+        """Return True if it is no message."""
         return self.pkg_name is None
 
     def __eq__(self, other: object) -> bool:
@@ -186,11 +186,11 @@ class Type(BaseType):
         super().__init__(base if self.is_array else type_string, context_package_name)
 
     def is_dynamic_array(self) -> bool:
-        """Whether the number of values varies."""
+        """Return True if the number of values varies."""
         return self.is_array and (self.array_size is None or self.is_upper_bound)
 
     def is_fixed_size_array(self) -> bool:
-        """Whether the number of values is fixed."""
+        """Return True if the number of values is fixed."""
         return self.is_array and not self.is_dynamic_array()
 
     def __eq__(self, other: object) -> bool:
@@ -206,7 +206,7 @@ class Type(BaseType):
 
 
 def parse_value_string(type_: Type, value_string: str) -> Any:
-    """The value of a text; an int for ``byte``.
+    """Return the value of a text; an int for ``byte``.
 
     Raises:
         InvalidValue: The text is none of the type.

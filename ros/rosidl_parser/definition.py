@@ -1,6 +1,6 @@
 """What an interface consists of: the types of fields, and structures, messages, services, actions.
 
-`SLOT_TYPES` of message classes consists of the types; they are those of the engine.
+`SLOT_TYPES` of message classes consists of the engine's types.
 """
 
 from __future__ import annotations
@@ -159,7 +159,7 @@ class Annotatable:
         """Value of the only annotation of a name.
 
         Raises:
-            ValueError: There is none, or there are several.
+            ValueError: No annotation has the name, or several have.
         """
         (value,) = self.get_annotation_values(name)
         return value
@@ -178,11 +178,11 @@ class Annotatable:
         return [line for text in texts for line in text.splitlines()]
 
     def has_annotation(self, name: str) -> bool:
-        """Whether there is exactly one annotation of a name."""
+        """Return True if there is exactly one annotation of a name."""
         return len(self.get_annotation_values(name)) == 1
 
     def has_annotations(self, name: str) -> bool:
-        """Whether there is an annotation of a name."""
+        """Return True if there is an annotation of a name."""
         return bool(self.get_annotation_values(name))
 
 
@@ -220,7 +220,7 @@ class Structure(Annotatable):
         self.members = list(members or ())
 
     def has_any_member_with_annotation(self, name: str) -> bool:
-        """Whether one of the fields has exactly one annotation of a name."""
+        """Return True if one of the fields has exactly one annotation of a name."""
         return any(member.has_annotation(name) for member in self.members)
 
 

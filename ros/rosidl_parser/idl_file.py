@@ -55,7 +55,7 @@ class IdlContent:
         self.elements: list[Any] = []
 
     def get_elements_of_type(self, type_: type[_Element]) -> list[_Element]:
-        """The elements of a class."""
+        """Return the elements of a class."""
         return [each for each in self.elements if isinstance(each, type_)]
 
 

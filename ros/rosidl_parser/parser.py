@@ -87,7 +87,7 @@ def parse_idl_file(locator: IdlLocator, png_file: str | None = None) -> IdlFile:
 
     Args:
         locator: Where it is.
-        png_file: ROS 2 draws its syntax tree there; here there is none, and this has no effect.
+        png_file: ROS 2 draws its syntax tree there; it has no effect here.
 
     Raises:
         InterfaceError: The file is no interface; its path is printed on stderr, too, as in ROS 2.
@@ -129,7 +129,7 @@ def parse_idl_string(idl_string: str, png_file: str | None = None) -> IdlContent
 
 
 def _whole(messages: list[Message]) -> Message | Service | Action:
-    """The interface that structures form by their names."""
+    """Return the interface that structures form by their names."""
     names = [message.structure.namespaced_type.name for message in messages]
     modules = {message.structure.namespaced_type.namespaces for message in messages}
     parts = {
@@ -190,7 +190,7 @@ class _Reader(IdlTokens):
             self._definition(())
 
     def messages(self) -> list[Message]:
-        """The structures with the constants of their modules."""
+        """Return the structures with the constants of their modules."""
         messages = []
         for structure in self._structures:
             try:
@@ -295,7 +295,7 @@ class _Reader(IdlTokens):
         return found
 
     def _annotation_value(self) -> Any:
-        """What stands in the parentheses: values by name, or one without a name."""
+        """Read the values in parentheses: by name, or one without a name."""
         values = {}
         while not self.take(")"):
             key = self.next("name").text if self.peek().kind == "name" else ""
@@ -308,7 +308,7 @@ class _Reader(IdlTokens):
         return values
 
     def _value(self) -> Any:
-        """A literal; texts that follow each other are one."""
+        """Return a literal; texts that follow each other are one."""
         token = self.next()
         if token.kind == "number":
             value = _number(token.text)
@@ -332,7 +332,7 @@ def _annotated(thing: _Annotated, notes: list[Annotation]) -> _Annotated:
 
 
 def _number(text: str) -> int | float | None:
-    """The value of a number as IDL writes it; None if it is none."""
+    """Return the value of a number as IDL writes it; None if it is none."""
     sign, digits = (text[0], text[1:]) if text[0] in "+-" else ("", text)
     octal = len(digits) > 1 and digits[0] == "0" and digits.isdigit()
     try:

@@ -31,11 +31,11 @@ def message_to_yaml(
     no_str: bool = False,
     flow_style: bool = False,
 ) -> str:
-    """A message as YAML.
+    """Return a message as YAML.
 
     Args:
         msg: The message.
-        truncate_length: Show at most so many elements of a sequence and characters of a string,
+        truncate_length: Largest number of elements of a sequence and characters of a string,
             then ``...``.
         no_arr: Show type and length of sequences and arrays in their place.
         no_str: Show the length of strings in their place.
@@ -70,9 +70,9 @@ def message_to_yaml(
 def message_to_ordereddict(
     msg: Message, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False
 ) -> OrderedDict[str, Any]:
-    """A message as an ordered dictionary of plain Python values.
+    """Return a message as an ordered dictionary of plain Python values.
 
-    The arguments are those of `message_to_yaml`.
+    See `message_to_yaml` for the arguments.
     """
 
     def convert(value: Any, type_: AbstractType | None) -> Any:
@@ -102,9 +102,9 @@ def message_to_ordereddict(
 def message_to_csv(
     msg: Message, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False
 ) -> str:
-    """A message as comma-separated values, nested ones flattened.
+    """Return a message as comma-separated values, nested ones flattened.
 
-    The arguments are those of `message_to_yaml`.
+    See `message_to_yaml` for the arguments.
     """
 
     def convert(value: Any, type_: AbstractType | None) -> str:

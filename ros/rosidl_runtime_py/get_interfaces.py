@@ -92,7 +92,7 @@ def get_interface_path(interface_name: str) -> str:
 
 
 def _in_share(path: str, package: str) -> str:
-    """The file of a package's share folder for a definition, or the definition itself."""
+    """Return the file of a package's share folder for a definition, or the definition itself."""
     from turtlewire_ros.prefix import share_directory
 
     share = share_directory(package)

@@ -107,17 +107,17 @@ def get_action(identifier: str) -> Any:
 
 
 def is_message(interface: Any) -> bool:
-    """Whether it is a message class."""
+    """Return True if it is a message class."""
     return isinstance(interface, type) and issubclass(interface, Message)
 
 
 def is_service(interface: Any) -> bool:
-    """Whether it is a service class."""
+    """Return True if it is a service class."""
     return isinstance(interface, type) and issubclass(interface, Service)
 
 
 def is_action(interface: Any) -> bool:
-    """Whether it is an action class."""
+    """Return True if it is an action class."""
     return isinstance(interface, type) and issubclass(interface, Action)
 
 

@@ -51,7 +51,7 @@ def main(args: list[str] | None = None) -> None:
 
 
 def _ignored(words: list[str]) -> str:
-    """What is said of words that mean nothing: a launch file must not fail because of them."""
+    """Return the notice about ignored words, which must not make a launch file fail."""
     files = [word for word in words if word.endswith(".rviz")]
     hint = f" To show a file: -d {files[0]}" if files else " See --help."
     return f"ignored: {' '.join(words)}.{hint}"

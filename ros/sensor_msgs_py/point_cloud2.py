@@ -86,7 +86,7 @@ def read_points(
 
 
 def _points(cloud: PointCloud2, dtype: np.dtype[np.void]) -> np.ndarray[Any, np.dtype[np.void]]:
-    """All points in one row, without the padding between rows."""
+    """Return all points in one row, without the padding between rows."""
     points: np.ndarray[Any, np.dtype[np.void]]
     if cloud.height > 1 and cloud.row_step > cloud.width * cloud.point_step:
         strides = (cloud.row_step, cloud.point_step)
@@ -107,7 +107,7 @@ def read_points_numpy(
 ) -> np.ndarray[Any, np.dtype[Any]]:
     """Points of a cloud whose fields have one type, as a plain array of shape (N, fields).
 
-    The arguments are those of `read_points`.
+    See `read_points` for the arguments.
 
     Raises:
         AssertionError: The fields are of several types, or a name is not a field of the cloud.
@@ -131,7 +131,7 @@ def read_points_list(
 ) -> list[Any]:
     """Points of a cloud as a list of named tuples; slow for large clouds.
 
-    The arguments are those of `read_points`.
+    See `read_points` for the arguments.
     """
     names = [field.name for field in cloud.fields] if field_names is None else list(field_names)
     point = namedtuple("Point", names)  # type: ignore[misc]  # noqa: PYI024
@@ -211,7 +211,7 @@ def create_cloud(
 
 
 def create_cloud_xyz32(header: Header, points: Any, point_step: int | None = None) -> PointCloud2:
-    """Make a cloud of float32 x, y, z; the arguments are those of `create_cloud`."""
+    """Make a cloud of float32 x, y, z; see `create_cloud` for the arguments."""
     fields = [
         PointField(name=name, offset=4 * index, datatype=PointField.FLOAT32, count=1)
         for index, name in enumerate("xyz")

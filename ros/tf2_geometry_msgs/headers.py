@@ -11,7 +11,7 @@ __all__ = ["copy_of", "header_of"]
 
 
 def header_of(transform: Any) -> Header:
-    """A header of its own with frame and stamp of a ``TransformStamped``.
+    """Return a header of its own with frame and stamp of a ``TransformStamped``.
 
     The data is now in that frame, and of that time.
     """
@@ -27,5 +27,5 @@ def header_of(transform: Any) -> Header:
 
 
 def copy_of(stamp: Any, frame_id: str) -> Header:
-    """A header with the values of a stamp."""
+    """Return a header with the values of a stamp."""
     return Header(stamp=Time(sec=stamp.sec, nanosec=stamp.nanosec), frame_id=frame_id)

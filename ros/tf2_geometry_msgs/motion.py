@@ -42,20 +42,20 @@ class Motion:
         )  # fmt: skip
 
     def vector(self, v: Any) -> Numbers3:
-        """A free vector (anything with x, y, z): turned, not moved."""
+        """Return a free vector (anything with x, y, z): turned, not moved."""
         a, b, c, d, e, f, g, h, i = self.rows
         x, y, z = v.x, v.y, v.z
         return a * x + b * y + c * z, d * x + e * y + f * z, g * x + h * y + i * z
 
     def point(self, p: Any) -> Numbers3:
-        """A point (anything with x, y, z): turned, and moved."""
+        """Return a point (anything with x, y, z): turned, and moved."""
         a, b, c, d, e, f, g, h, i = self.rows
         x, y, z = p.x, p.y, p.z
         tx, ty, tz = self.translation
         return a * x + b * y + c * z + tx, d * x + e * y + f * z + ty, g * x + h * y + i * z + tz
 
     def orientation(self, q: Any) -> Numbers4:
-        """An orientation (anything with x, y, z, w), as a unit quaternion with w >= 0."""
+        """Return an orientation (anything with x, y, z, w), as a unit quaternion with w >= 0."""
         x, y, z, w = self.quaternion
         i, j, k, r = unit_quaternion(q)
         qx, qy, qz = (
@@ -67,7 +67,7 @@ class Motion:
         return (qx, qy, qz, qw) if qw >= 0.0 else (-qx, -qy, -qz, -qw)
 
     def moment(self, about_origin: Any, free: Any) -> Numbers3:
-        """What depends on the point of reference: ``R m + t x (R f)``.
+        """Return the part that depends on the point of reference: ``R m + t x (R f)``.
 
         A torque with its force, or a velocity with its angular velocity: both are stated for the
         origin of their frame, and the origin of the target is another point of the same body.

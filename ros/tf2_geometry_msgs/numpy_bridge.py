@@ -56,13 +56,13 @@ def array_from_point(point: Point | Any) -> Array:
 
 
 def point_from_array(array: ArrayLike) -> Point:
-    """A Point of three numbers."""
+    """Return a Point of three numbers."""
     x, y, z = _numbers(array, 3, "a point")
     return Point(x=x, y=y, z=z)
 
 
 def array_from_points(points: Iterable[Point | Any]) -> Array:
-    """Shape ``(N, 3)`` of Points, Point32s or Vector3s, those of a polygon for example."""
+    """Convert Points, Point32s or Vector3s, for example a polygon's, to shape ``(N, 3)``."""
     return np.array([(p.x, p.y, p.z) for p in points], dtype=np.float64).reshape(-1, 3)
 
 
@@ -77,7 +77,7 @@ def array_from_vector3(vector3: Vector3) -> Array:
 
 
 def vector3_from_array(array: ArrayLike) -> Vector3:
-    """A Vector3 of three numbers."""
+    """Return a Vector3 of three numbers."""
     x, y, z = _numbers(array, 3, "a vector")
     return Vector3(x=x, y=y, z=z)
 
@@ -88,7 +88,7 @@ def array_from_quaternion(quaternion: Quaternion) -> Array:
 
 
 def quaternion_from_array(array: ArrayLike) -> Quaternion:
-    """A Quaternion of the four numbers x, y, z, w as they are."""
+    """Return a Quaternion of the four numbers x, y, z, w as they are."""
     x, y, z, w = _numbers(array, 4, "a quaternion")
     return Quaternion(x=x, y=y, z=z, w=w)
 
@@ -102,7 +102,7 @@ def euler_from_quaternion(quaternion: Quaternion, axes: str = "sxyz") -> Array:
 
 
 def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Quaternion:
-    """A Quaternion of three angles in the order that ``axes`` names.
+    """Return a Quaternion of three angles in the order that ``axes`` names.
 
     Unless it is given roll, pitch, yaw about static axes.
     """
@@ -115,7 +115,7 @@ def array_from_pose(pose: Pose) -> Array:
 
 
 def pose_from_array(array: ArrayLike) -> Pose:
-    """A Pose of seven numbers."""
+    """Return a Pose of seven numbers."""
     return _pose(_numbers(array, 7, "a pose"))
 
 
@@ -138,7 +138,7 @@ def matrix_from_pose(pose: Pose) -> Array:
 
 
 def pose_from_matrix(matrix: ArrayLike) -> Pose:
-    """The Pose of a homogeneous matrix."""
+    """Return the Pose of a homogeneous matrix."""
     return pose_from_array(conversions.pose_from_matrix(matrix))
 
 
@@ -151,7 +151,7 @@ def array_from_transform(transform: Transform | Any) -> Array:
 
 
 def transform_from_array(array: ArrayLike) -> Transform:
-    """A Transform of seven numbers."""
+    """Return a Transform of seven numbers."""
     x, y, z, qx, qy, qz, qw = _numbers(array, 7, "a transform")
     return Transform(
         translation=Vector3(x=x, y=y, z=z), rotation=Quaternion(x=qx, y=qy, z=qz, w=qw)
@@ -164,7 +164,7 @@ def matrix_from_transform(transform: Transform | Any) -> Array:
 
 
 def transform_from_matrix(matrix: ArrayLike) -> Transform:
-    """The Transform of a homogeneous matrix."""
+    """Return the Transform of a homogeneous matrix."""
     return transform_from_array(conversions.pose_from_matrix(matrix))
 
 

@@ -41,7 +41,7 @@ __all__ = [
 
 
 def do_transform_pose(pose: Pose, transform: TransformStamped | Any) -> Pose:
-    """A pose in the frame of a transform; its quaternion gets unit length and w >= 0."""
+    """Return a pose in the frame of a transform; its quaternion gets unit length and w >= 0."""
     if hasattr(pose, "pose"):
         raise _wrong_pose(
             "do_transform_pose",
@@ -53,19 +53,19 @@ def do_transform_pose(pose: Pose, transform: TransformStamped | Any) -> Pose:
 
 
 def do_transform_pose_stamped(pose: PoseStamped, transform: TransformStamped) -> PoseStamped:
-    """A pose in the frame of a transform, with stamp and frame of the transform."""
+    """Return a pose in the frame of a transform, with stamp and frame of the transform."""
     if not hasattr(pose, "pose"):
         raise _wrong_pose("do_transform_pose_stamped", "PoseStamped", pose, "do_transform_pose")
     return PoseStamped(header=header_of(transform), pose=_moved(pose.pose, Motion(transform)))
 
 
 def do_transform_pose_array(poses: PoseArray, transform: TransformStamped) -> PoseArray:
-    """All poses of an array, with stamp and frame of the transform."""
+    """Return all poses of an array, with stamp and frame of the transform."""
     return PoseArray(header=header_of(transform), poses=_all_moved(poses.poses, transform))
 
 
 def do_transform_path(path: Path, transform: TransformStamped) -> Path:
-    """A path in the frame of a transform.
+    """Return a path in the frame of a transform.
 
     One transform takes the whole path, whose header gets stamp and frame of it. The poses get the
     frame and keep their stamps: they are the times at which the poses are reached.
@@ -94,7 +94,7 @@ def do_transform_path(path: Path, transform: TransformStamped) -> Path:
 def do_transform_pose_with_covariance(
     pose: PoseWithCovariance, transform: TransformStamped | Any
 ) -> PoseWithCovariance:
-    """An uncertain pose in the frame of a transform that is certain."""
+    """Return an uncertain pose in the frame of a transform that is certain."""
     moved = _moved(pose.pose, Motion(transform))
     return PoseWithCovariance(
         pose=moved, covariance=transform_covariance(pose.covariance, transform)
@@ -104,14 +104,14 @@ def do_transform_pose_with_covariance(
 def do_transform_pose_with_covariance_stamped(
     pose: PoseWithCovarianceStamped, transform: TransformStamped
 ) -> PoseWithCovarianceStamped:
-    """An uncertain pose in the frame of an exact transform, with its stamp and frame."""
+    """Return an uncertain pose in the frame of an exact transform, with its stamp and frame."""
     return PoseWithCovarianceStamped(
         header=header_of(transform), pose=do_transform_pose_with_covariance(pose.pose, transform)
     )
 
 
 def do_transform_odometry(odometry: Odometry, transform: TransformStamped) -> Odometry:
-    """Where a body is, in the frame of a transform, with stamp and frame of that.
+    """Return an odometry's pose in a transform's frame, with its stamp and frame id.
 
     Its twist is one in the axes of ``child_frame_id``, the body, and stays as it is.
     """
@@ -125,7 +125,7 @@ def do_transform_odometry(odometry: Odometry, transform: TransformStamped) -> Od
 
 
 def do_transform_transform(inner: Transform, transform: TransformStamped | Any) -> Transform:
-    """A transform after another: ``target_from_x = target_from_source * source_from_x``."""
+    """Return a transform after another: ``target_from_x = target_from_source * source_from_x``."""
     motion = Motion(transform)
     x, y, z = motion.point(inner.translation)
     qx, qy, qz, qw = motion.orientation(inner.rotation)
@@ -145,7 +145,7 @@ def do_transform_transform_stamped(
 
 
 def transform_covariance(cov_in: ArrayLike, transform: TransformStamped | Any) -> NDArray[Any]:
-    """The covariance of a pose in the frame of a transform that is certain.
+    """Return the covariance of a pose in the frame of a transform that is certain.
 
     Args:
         cov_in: 36 numbers, row by row: x, y, z [m], then the rotations about the fixed axes x, y, z

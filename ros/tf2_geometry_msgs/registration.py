@@ -15,12 +15,12 @@ _M = TypeVar("_M")
 
 
 def to_msg_msg(msg: _M) -> _M:
-    """A message as a message: itself."""
+    """Return a message as a message: itself."""
     return msg
 
 
 def from_msg_msg(msg: _M) -> _M:
-    """A message of a message: itself."""
+    """Return a message of a message: itself."""
     return msg
 
 

@@ -46,7 +46,7 @@ __all__ = [
 
 
 def do_transform_twist(twist: Twist, transform: TransformStamped | Any) -> Twist:
-    """The same motion, stated for the origin of the target frame and in its axes."""
+    """Return the same motion, stated for the origin of the target frame and in its axes."""
     motion = Motion(transform)
     return Twist(
         linear=_vector3(motion.moment(twist.linear, twist.angular)),
@@ -97,7 +97,7 @@ def do_transform_twist_with_covariance_stamped(
 
 
 def do_transform_wrench(wrench: Wrench, transform: TransformStamped | Any) -> Wrench:
-    """The same load, stated for the origin of the target frame and in its axes."""
+    """Return the same load, stated for the origin of the target frame and in its axes."""
     motion = Motion(transform)
     return Wrench(
         force=_vector3(motion.vector(wrench.force)),
@@ -117,7 +117,7 @@ def do_transform_wrench_stamped(
 def transform_twist_covariance(
     cov_in: ArrayLike, transform: TransformStamped | Any
 ) -> NDArray[Any]:
-    """The covariance of a twist in the frame of a transform that is certain.
+    """Return the covariance of a twist in the frame of a transform that is certain.
 
     Args:
         cov_in: 36 numbers, row by row: the linear velocity [m/s], then the angular one [rad/s].

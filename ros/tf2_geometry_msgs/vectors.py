@@ -40,7 +40,7 @@ _V = TypeVar("_V", Vector3, Vector3Stamped)
 
 
 def do_transform_point(point: _P, transform: TransformStamped | Any) -> _P:
-    """A point in the frame of a transform.
+    """Return a point in the frame of a transform.
 
     Args:
         point: ``PointStamped`` or ``Point``, in the transform's source frame (``child_frame_id``).
@@ -57,7 +57,7 @@ def do_transform_point(point: _P, transform: TransformStamped | Any) -> _P:
 
 
 def do_transform_vector3(vector3: _V, transform: TransformStamped | Any) -> _V:
-    """A free vector in the frame of a transform: turned, not moved.
+    """Return a free vector in the frame of a transform: turned, not moved.
 
     Args:
         vector3: ``Vector3Stamped`` or ``Vector3``, in the transform's source frame.
@@ -74,7 +74,7 @@ def do_transform_vector3(vector3: _V, transform: TransformStamped | Any) -> _V:
 
 
 def do_transform_point32(point32: Point32, transform: TransformStamped | Any) -> Point32:
-    """A point of single precision; computed in double precision."""
+    """Return a point of single precision; computed in double precision."""
     x, y, z = Motion(transform).point(point32)
     return Point32(x=x, y=y, z=z)
 
@@ -82,7 +82,7 @@ def do_transform_point32(point32: Point32, transform: TransformStamped | Any) ->
 def do_transform_quaternion(
     quaternion: Quaternion, transform: TransformStamped | Any
 ) -> Quaternion:
-    """An orientation in the frame of a transform, of unit length and with w >= 0."""
+    """Return an orientation in the frame of a transform, of unit length and with w >= 0."""
     x, y, z, w = Motion(transform).orientation(quaternion)
     return Quaternion(x=x, y=y, z=z, w=w)
 
@@ -98,7 +98,7 @@ def do_transform_quaternion_stamped(
 
 
 def do_transform_polygon(polygon: Polygon, transform: TransformStamped | Any) -> Polygon:
-    """A polygon in the frame of a transform, corner by corner."""
+    """Return a polygon in the frame of a transform, corner by corner."""
     corner = Motion(transform).point
     return Polygon(points=[Point32(x=x, y=y, z=z) for x, y, z in map(corner, polygon.points)])
 

@@ -126,7 +126,7 @@ class BufferCore:
         return (int(not reason), reason)
 
     def get_latest_common_time(self, target_frame: str, source_frame: str, /) -> Time:
-        """The newest time that every link between the frames has reached."""
+        """Return the newest time that every link between the frames has reached."""
         from rclpy.time import Time
 
         return Time(nanoseconds=self.engine.latest_common_time(target_frame, source_frame))
@@ -188,7 +188,7 @@ class BufferCore:
         source_time: Time | Any,
         fixed_frame: str,
     ) -> list[str]:
-        """The frames from the source over the fixed frame to the target.
+        """Return the frames from the source over the fixed frame to the target.
 
         Raises:
             TransformException: They are not connected at these times.
@@ -210,19 +210,19 @@ class BufferCore:
         return self.engine.all_frames_as_string()
 
     def _allFramesAsDot(self, time: Time | Any | None = None) -> str:  # noqa: N802 -- ROS 2's name
-        """The tree as Graphviz text; ``time`` is the present, for ages."""
+        """Return the tree as Graphviz text; ``time`` is the present, for ages."""
         return self.engine.all_frames_as_dot(0.0 if time is None else to_nanoseconds(time) / 1e9)
 
     def _repr_svg_(self) -> str:
-        """The tree of frames as SVG, for notebooks."""
+        """Return the tree of frames as SVG, for notebooks."""
         return self.engine._repr_svg_()
 
     def _frameExists(self, frame_id: str, /) -> bool:  # noqa: N802 -- ROS 2's name
-        """Whether any transform has named the frame."""
+        """Return True if any transform has named the frame."""
         return self.engine.frame_exists(frame_id)
 
     def _getFrameStrings(self) -> list[str]:  # noqa: N802 -- ROS 2's name
-        """The names of all frames, in order of arrival."""
+        """Return the names of all frames, in order of arrival."""
         return self.engine.frame_strings()
 
 

@@ -73,7 +73,7 @@ def _timeout(timeout: Any) -> int:
 
 
 def to_message(transform: turtlewire.Transform) -> TransformStamped:
-    """A transform of the engine as ROS message."""
+    """Return a transform of the engine as ROS message."""
     from geometry_msgs.msg import TransformStamped
 
     message = TransformStamped()
@@ -89,7 +89,7 @@ def to_message(transform: turtlewire.Transform) -> TransformStamped:
 
 
 def message_lookup(buffer: turtlewire.Buffer) -> MessageLookup:
-    """The message lookup that fits the core in use."""
+    """Return the message lookup that fits the core in use."""
     if CORE == "python":
         return _PlainMessageLookup(buffer)
     from geometry_msgs.msg import TransformStamped

@@ -8,7 +8,7 @@ __all__ = ["to_nanoseconds"]
 
 
 def to_nanoseconds(value: Any, what: str = "time") -> int:
-    """The nanoseconds of a time or duration.
+    """Return the nanoseconds of a time or duration.
 
     Args:
         value: A builtin_interfaces message, or an rclpy ``Time`` or ``Duration``.

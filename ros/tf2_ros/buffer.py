@@ -86,7 +86,7 @@ class Buffer(BufferCore, BufferInterface):
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Any, timeout: Duration | Any = NO_TIMEOUT
     ) -> TransformStamped:
-        """The transform that takes data from ``source_frame`` into ``target_frame``.
+        """Return the transform that takes data from ``source_frame`` into ``target_frame``.
 
         It is the pose of the source frame, expressed in the target frame.
 
@@ -207,10 +207,10 @@ class Buffer(BufferCore, BufferInterface):
     def wait_for_transform_async(
         self, target_frame: str, source_frame: str, time: Any, *, timeout: Duration | Any = None
     ) -> Future:
-        """A future for the transform. Cancel it if you no longer need the transform.
+        """Return a future for the transform. Cancel it if you no longer need the transform.
 
         Its done-callbacks run on the thread that receives the data, and should be short. Arguments
-        and errors are those of :meth:`lookup_transform_async`.
+        and errors are the same as for :meth:`lookup_transform_async`.
         """
         leg = _Leg(target_frame, source_frame, to_nanoseconds(time))
         answer = functools.partial(self.lookup_transform_core, target_frame, source_frame, time)
@@ -258,7 +258,7 @@ class _Question(NamedTuple):
     answer: Callable[[], TransformStamped]
 
     def never(self, error: TransformException) -> bool:
-        """Whether no later data can bring the answer.
+        """Return True if no later data can bring the answer.
 
         That is so for invalid frame ids, and for a time that has left a link's cache. The latest
         time advances with the data.

@@ -127,7 +127,7 @@ class BufferClient(BufferInterface):
         fixed_frame: str,
         timeout: Duration | Any = NO_TIMEOUT,
     ) -> TransformStamped:
-        """The server's transform from one frame and time into another frame and time.
+        """Return the server's transform from one frame and time into another frame and time.
 
         Raises:
             TransformException: As :meth:`lookup_transform`.
@@ -146,7 +146,7 @@ class BufferClient(BufferInterface):
     def can_transform(
         self, target_frame: str, source_frame: str, time: Time, timeout: Duration | Any = NO_TIMEOUT
     ) -> bool:
-        """Whether :meth:`lookup_transform` succeeds."""
+        """Return True if :meth:`lookup_transform` succeeds."""
         try:
             self.lookup_transform(target_frame, source_frame, time, timeout)
         except TransformException:
@@ -162,7 +162,7 @@ class BufferClient(BufferInterface):
         fixed_frame: str,
         timeout: Duration | Any = NO_TIMEOUT,
     ) -> bool:
-        """Whether :meth:`lookup_transform_full` succeeds."""
+        """Return True if :meth:`lookup_transform_full` succeeds."""
         try:
             self.lookup_transform_full(
                 target_frame, target_time, source_frame, source_time, fixed_frame, timeout
@@ -193,7 +193,7 @@ class BufferClient(BufferInterface):
         }
 
     def _wait(self, future: Future, seconds: float, servers: set[bytes]) -> Any:
-        """The result of a future.
+        """Return the result of a future.
 
         Raises:
             TimeoutException: The time is over, or one of the servers has left the graph.
@@ -214,7 +214,7 @@ class BufferClient(BufferInterface):
 
 
 def _transform(response: Any) -> TransformStamped:
-    """The transform of a response.
+    """Return the transform of a response.
 
     Raises:
         TransformException: The response is an error.
@@ -232,7 +232,7 @@ def _transform(response: Any) -> TransformStamped:
 
 
 def _message(time: Time | Any) -> Any:
-    """A time as message.
+    """Return a time as message.
 
     Raises:
         TypeError: ``time`` is not a time.

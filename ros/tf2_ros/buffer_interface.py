@@ -178,13 +178,13 @@ class BufferInterface:
         fixed_frame: str,
         timeout: Any = NO_TIMEOUT,
     ) -> TransformStamped:
-        """The transform from one frame and time to another, by way of ``fixed_frame``."""
+        """Return the transform from one frame and time to another, by way of ``fixed_frame``."""
         raise NotImplementedException
 
     def can_transform(
         self, target_frame: str, source_frame: str, time: Any, timeout: Any = NO_TIMEOUT
     ) -> Any:
-        """Whether :meth:`lookup_transform` would succeed."""
+        """Return True if :meth:`lookup_transform` would succeed."""
         raise NotImplementedException
 
     def can_transform_full(
@@ -196,7 +196,7 @@ class BufferInterface:
         fixed_frame: str,
         timeout: Any = NO_TIMEOUT,
     ) -> Any:
-        """Whether :meth:`lookup_transform_full` would succeed."""
+        """Return True if :meth:`lookup_transform_full` would succeed."""
         raise NotImplementedException
 
 
@@ -222,7 +222,7 @@ class TransformRegistration:
         self._transforms[key] = callback
 
     def get(self, key: type) -> Callable[[Any, TransformStamped], Any]:
-        """The function for a type.
+        """Return the function for a type.
 
         Raises:
             TypeException: None is registered.
@@ -256,15 +256,15 @@ class ConvertRegistration:
         self._convert[key] = callback
 
     def get_from_msg(self, key: type) -> Callable[[Any], Any]:
-        """The function of :meth:`add_from_msg`; raises :class:`TypeException` if there is none."""
+        """The function of :meth:`add_from_msg`; raises :class:`TypeException` if unknown."""
         return self._get(self._from_msg, key)
 
     def get_to_msg(self, key: type) -> Callable[[Any], Any]:
-        """The function of :meth:`add_to_msg`; raises :class:`TypeException` if there is none."""
+        """The function of :meth:`add_to_msg`; raises :class:`TypeException` if unknown."""
         return self._get(self._to_msg, key)
 
     def get_convert(self, key: tuple[type, type]) -> Callable[[Any], Any]:
-        """The function of :meth:`add_convert`; raises :class:`TypeException` if there is none."""
+        """The function of :meth:`add_convert`; raises :class:`TypeException` if unknown."""
         return self._get(self._convert, key)
 
     @staticmethod

@@ -40,12 +40,12 @@ _NUMBERS: dict[type[TransformException], int] = {
 
 
 def error_number(error: TransformException) -> int:
-    """The number of an exception in ``tf2_msgs/msg/TF2Error``."""
+    """Return the number of an exception in ``tf2_msgs/msg/TF2Error``."""
     return next(number for kind, number in _NUMBERS.items() if isinstance(error, kind))
 
 
 def exception_for(error: TF2Error) -> TransformException:
-    """The exception of a ``tf2_msgs/msg/TF2Error``."""
+    """Return the exception of a ``tf2_msgs/msg/TF2Error``."""
     kinds = {number: kind for kind, number in _NUMBERS.items()}
     return kinds.get(error.error, TransformException)(error.error_string)
 

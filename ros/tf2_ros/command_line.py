@@ -19,7 +19,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def frame_id(text: str) -> str:
-    """A frame id; argparse prints the error of one that tf2 would refuse."""
+    """Return a frame id; argparse prints the error of one that tf2 would refuse."""
     if not text:
         raise argparse.ArgumentTypeError("in tf2 frame_ids cannot be empty")
     if text.startswith("/"):
@@ -31,7 +31,7 @@ def frame_id(text: str) -> str:
 
 
 def count(text: str) -> int:
-    """A count, in which 0 stands for no limit."""
+    """Return a count, in which 0 stands for no limit."""
     return _whole(text, 1_000_000_000, "a whole number, 0 or more")
 
 

@@ -125,7 +125,7 @@ class MessageFilter(SimpleFilter):
         self._ready.trigger()
 
     def getTargetFramesString(self) -> str:  # noqa: N802 -- as in C++
-        """The target frames in one line."""
+        """Return the target frames in one line."""
         return " ".join(self._targets)
 
     def setTolerance(self, tolerance: Duration) -> None:  # noqa: N802 -- as in C++
@@ -137,7 +137,7 @@ class MessageFilter(SimpleFilter):
         self._queue_size = queue_size
 
     def getQueueSize(self) -> int:  # noqa: N802 -- as in C++
-        """How many messages may wait."""
+        """Return the largest number of waiting messages."""
         return self._queue_size
 
     def clear(self) -> None:

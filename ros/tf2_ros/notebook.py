@@ -18,7 +18,7 @@ class _Pose(NamedTuple):
 
 
 def transform_html(message: TransformStamped) -> str | None:
-    """The numbers of a transform and the axes of its two frames.
+    """Return the numbers of a transform and the axes of its two frames.
 
     None, which makes a notebook show plain text, if the rotation is not set.
     """

@@ -35,7 +35,7 @@ class _Kept:
 
     @property
     def gone(self) -> bool:
-        """Whether nothing refers to the publisher any more."""
+        """True if nothing refers to the publisher any more."""
         return self._publisher() is None
 
     def publish(self) -> None:

@@ -184,7 +184,7 @@ class StaticTransformPublisher(Node):
         self.transform = transform
 
     def describe(self) -> str:
-        """The transform in ROS 2's words."""
+        """Return the transform in ROS 2's words."""
         t, q = self.transform.transform.translation, self.transform.transform.rotation
         return (
             "Spinning until stopped - publishing transform\n"

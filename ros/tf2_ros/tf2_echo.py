@@ -117,7 +117,7 @@ def _echo(node: Node, options: argparse.Namespace, period_s: float) -> None:
 
 
 def _hint(buffer: Buffer, source: str, target: str) -> str:
-    """The hint of a lookup that fails, on a line of its own."""
+    """Return the hint of a lookup that fails, on a line of its own."""
     try:
         buffer.lookup_transform(source, target, Time())
     except TransformException as error:
@@ -161,7 +161,7 @@ def describe(transform: TransformStamped, options: argparse.Namespace) -> str:
 
 
 def _matrix(t: Any, q: Any) -> list[list[float]]:
-    """The transform as a 4x4 matrix, on plain floats: a browser tab has no NumPy."""
+    """Return the transform as a 4x4 matrix, on plain floats: a browser tab has no NumPy."""
     squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w
     root = (
         math.sqrt(2.0 / squared) if squared > 0.0 else 0.0
@@ -176,7 +176,7 @@ def _matrix(t: Any, q: Any) -> list[list[float]]:
 
 
 def in_words(transform: TransformStamped, digits: int = 2) -> str:
-    """Where the child frame is in the header's frame; x is ahead, y to the left, z up."""
+    """Describe the child's position in the header's frame: x ahead, y left, z up."""
     t = transform.transform.translation
     parts = [
         f"{abs(number):.{digits}f} m {positive if number >= 0 else negative}"

@@ -103,7 +103,7 @@ class Statistics:
         return name
 
     def as_dict(self) -> dict[str, Any]:
-        """The statistics as plain data, in seconds and hertz."""
+        """Return the statistics as plain data, in seconds and hertz."""
         with self._lock:
             of_node: dict[str, tuple[Delays, list[float]]] = {}
             for gid, (delays, span) in self._publishers.items():
@@ -239,7 +239,7 @@ def _note_chain(frames: list[str], buffer: Buffer, net: Delays, clock: Any) -> N
 
 
 def chain(buffer: Buffer, source: str, target: str) -> list[str]:
-    """The frames from one frame to another, both included.
+    """Return the frames from one frame to another, both included.
 
     Raises:
         TransformException: They are not connected.
@@ -276,7 +276,7 @@ def _report(
 
 
 def _in_lines(frames: list[str], data: dict[str, Any]) -> str:
-    """A report in ROS 2's words."""
+    """Return a report in ROS 2's words."""
     lines = ["", ""]
     if frames:
         net = data["net_delay"]

@@ -21,11 +21,11 @@ if TYPE_CHECKING:
         """A lookup in a buffer."""
 
         def never(self, error: TransformException) -> bool:
-            """Whether no later data can bring the answer, judged by the present error."""
+            """Return True if no later data can bring the answer, judged by the present error."""
             ...
 
         def answer(self) -> TransformStamped:
-            """The transform; raises :class:`TransformException` while there is none."""
+            """Return the transform; raises :class:`TransformException` until it is available."""
             ...
 
 
@@ -59,7 +59,7 @@ class TransformFutures:
         self._stop_listening: Callable[[], None] | None = None
 
     def add(self, question: Question, timeout_ns: int | None = None) -> Future:
-        """A future for the answer.
+        """Return a future for the answer.
 
         It gets the exception of the lookup when the time is over, and at once if there can be no
         answer: a frame id is invalid, or the requested time has left the cache.

@@ -31,7 +31,7 @@ _BLOCK = 8192
 def do_transform_cloud(
     cloud: PointCloud2, transform: TransformStamped | Transform | Any
 ) -> PointCloud2:
-    """A cloud in the frame of a transform; the arguments stay unchanged.
+    """Return a cloud in the frame of a transform; the arguments stay unchanged.
 
     The fields x, y, z are transformed and normal_x, normal_y, normal_z are rotated, in double
     precision. All other bytes are copied.

@@ -14,7 +14,7 @@ __all__ = ["pdf_from_drawing"]
 
 
 def pdf_from_drawing(drawing: Drawing) -> bytes:
-    """A page of the size of the drawing."""
+    """Return a page of the size of the drawing."""
     operators = [_operators(shape, drawing.height) for shape in drawing.shapes]
     return pdf_file(drawing.width, drawing.height, operators)
 

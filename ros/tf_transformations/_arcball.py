@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def arcball_map_to_sphere(point: Sequence[float], center: Sequence[float], radius: float) -> Vector:
-    """The unit vector on the ball under a window position (y down).
+    """Return the unit vector on the ball under a window position (y down).
 
     Positions beside the ball go to its rim.
     """
@@ -46,7 +46,7 @@ def arcball_constrain_to_axis(point: ArrayLike, axis: ArrayLike) -> Vector:
 
 
 def arcball_nearest_axis(point: ArrayLike, axes: Sequence[ArrayLike]) -> ArrayLike | None:
-    """The one of ``axes`` whose plane is nearest to the point; None when there are none."""
+    """Return the one of ``axes`` whose plane is nearest to the point; None when there are none."""
     vector = np.asarray(point, dtype=np.float64)
     return max(
         axes, key=lambda axis: float(arcball_constrain_to_axis(vector, axis) @ vector), default=None
@@ -94,7 +94,7 @@ class Arcball:
         self._constrain = constrain is True
 
     def getconstrain(self) -> bool:
-        """Whether constrained rotation is on."""
+        """Return True if constrained rotation is on."""
         return self._constrain
 
     def down(self, point: Sequence[float]) -> None:
@@ -126,5 +126,5 @@ class Arcball:
         self._previous, self._now = self._now, ahead
 
     def matrix(self) -> NDArray[np.float64]:
-        """The orientation as a 4x4 matrix."""
+        """Return the orientation as a 4x4 matrix."""
         return quaternion_matrix(self._now.tolist())

@@ -34,7 +34,7 @@ def vector_norm(
 def unit_vector(
     data: ArrayLike, axis: int | None = None, out: NDArray[np.float64] | None = None
 ) -> Any:
-    """The array divided by its length along ``axis``.
+    """Return the array divided by its length along ``axis``.
 
     Written into ``out`` (and None returned) if given.
     """
@@ -53,7 +53,7 @@ def random_vector(size: int | tuple[int, ...]) -> Any:
 
 
 def random_quaternion(rand: Sequence[float] | None = None) -> NDArray[np.float64]:
-    """A unit quaternion ``(x, y, z, w)``, uniform over all rotations.
+    """Return a unit quaternion ``(x, y, z, w)``, uniform over all rotations.
 
     ``rand`` may give the three numbers in [0, 1) to make it of.
     """
@@ -111,7 +111,7 @@ def quaternion_slerp(
 def superimposition_matrix(
     v0: ArrayLike, v1: ArrayLike, scaling: bool = False, usesvd: bool = True
 ) -> NDArray[np.float64]:
-    """The matrix that lays points over points with the least squared distance.
+    """Return the matrix that lays points over points with the least squared distance.
 
     Args:
         v0: Points as columns, shape (3, n) or (4, n).

@@ -33,7 +33,7 @@ def _unit(vector: ArrayLike) -> Matrix:
 
 
 def affine_matrix(linear: ArrayLike, offset: ArrayLike = (0.0, 0.0, 0.0)) -> Matrix:
-    """The matrix of a linear map, shape (3, 3), followed by a translation."""
+    """Return the matrix of a linear map, shape (3, 3), followed by a translation."""
     matrix = np.identity(4)
     matrix[:3, :3] = linear
     matrix[:3, 3] = offset
@@ -41,7 +41,7 @@ def affine_matrix(linear: ArrayLike, offset: ArrayLike = (0.0, 0.0, 0.0)) -> Mat
 
 
 def _eigenvectors(matrix: ArrayLike, eigenvalue: float) -> list[Matrix]:
-    """The real eigenvectors of one eigenvalue."""
+    """Return the real eigenvectors of one eigenvalue."""
     values, vectors = np.linalg.eig(np.asarray(matrix, dtype=np.float64))
     return [
         np.real(vectors[:, i])
@@ -50,7 +50,7 @@ def _eigenvectors(matrix: ArrayLike, eigenvalue: float) -> list[Matrix]:
 
 
 def _fixed_point(matrix: ArrayLike) -> Matrix:
-    """A point ``(x, y, z, 1)`` that the matrix leaves where it is."""
+    """Return a point ``(x, y, z, 1)`` that the matrix leaves where it is."""
     vectors = _eigenvectors(matrix, 1.0)
     if not vectors:
         raise ValueError("no eigenvector corresponding to eigenvalue 1")
@@ -59,7 +59,7 @@ def _fixed_point(matrix: ArrayLike) -> Matrix:
 
 
 def identity_matrix() -> Matrix:
-    """The 4x4 matrix that changes nothing."""
+    """Return the 4x4 matrix that changes nothing."""
     return np.identity(4)
 
 
@@ -69,7 +69,7 @@ def translation_matrix(direction: Sequence[float]) -> Matrix:
 
 
 def translation_from_matrix(matrix: ArrayLike) -> Matrix:
-    """The three numbers by which ``matrix`` moves the origin."""
+    """Return the three numbers by which ``matrix`` moves the origin."""
     return np.array(matrix, dtype=np.float64)[:3, 3]
 
 
@@ -83,7 +83,7 @@ def reflection_matrix(point: Sequence[float], normal: Sequence[float]) -> Matrix
 
 
 def reflection_from_matrix(matrix: ArrayLike) -> tuple[Matrix, Matrix]:
-    """A point of the mirror's plane and its normal.
+    """Return a point of the mirror's plane and its normal.
 
     Raises:
         ValueError: The matrix is not a reflection.
@@ -301,12 +301,12 @@ def shear_from_matrix(matrix: ArrayLike) -> tuple[float, Matrix, Matrix, Matrix]
 
 
 def inverse_matrix(matrix: ArrayLike) -> Any:
-    """The matrix that undoes ``matrix``; any square one."""
+    """Return the matrix that undoes ``matrix``; any square one."""
     return np.linalg.inv(np.asarray(matrix))
 
 
 def concatenate_matrices(*matrices: ArrayLike) -> Matrix:
-    """The product of the matrices; the last one acts first."""
+    """Return the product of the matrices; the last one acts first."""
     product = np.identity(4)
     for matrix in matrices:
         product = product @ np.asarray(matrix, dtype=np.float64)
@@ -314,6 +314,6 @@ def concatenate_matrices(*matrices: ArrayLike) -> Matrix:
 
 
 def is_same_transform(matrix0: ArrayLike, matrix1: ArrayLike) -> bool:
-    """Whether both matrices do the same, to rounding; a common factor does not count."""
+    """Return True if both matrices do the same, to rounding; a common factor does not count."""
     first, second = np.asarray(matrix0, dtype=np.float64), np.asarray(matrix1, dtype=np.float64)
     return bool(np.allclose(first / first[3, 3], second / second[3, 3]))

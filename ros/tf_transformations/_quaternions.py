@@ -114,13 +114,13 @@ def quaternion_multiply(quaternion1: Sequence[float], quaternion0: Sequence[floa
 
 
 def quaternion_conjugate(quaternion: Sequence[float]) -> Quaternion:
-    """The opposite rotation of a unit quaternion."""
+    """Return the opposite rotation of a unit quaternion."""
     x, y, z, w = quaternion
     return -x, -y, -z, w
 
 
 def quaternion_inverse(quaternion: Sequence[float]) -> Quaternion:
-    """The quaternion whose product with this one is ``(0, 0, 0, 1)``, normalised or not."""
+    """Return the quaternion whose product with this one is ``(0, 0, 0, 1)``, normalised or not."""
     x, y, z, w = quaternion
     norm = x * x + y * y + z * z + w * w
     return -x / norm, -y / norm, -z / norm, w / norm

@@ -1,4 +1,4 @@
-"""A node that looks like a C++ node: those of turtlesim are written in C++ in ROS 2."""
+"""A node that looks like a C++ node, as turtlesim's are in ROS 2."""
 
 from __future__ import annotations
 

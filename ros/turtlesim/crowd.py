@@ -52,7 +52,7 @@ class CrowdTick(NamedTuple):
         return pixel_of(*self.places[index].tolist())
 
     def stroke_records(self) -> bytes:
-        """The lines as :mod:`turtlesim.drawing` packs them."""
+        """Return the lines as :mod:`turtlesim.drawing` packs them."""
         records = np.empty((len(self.lines), 5), dtype="<u4")
         records[:, 0] = self.shown_pens.view(">u4")[:, 0]
         records[:, 1:] = self.lines.astype("<f4").view("<u4")

@@ -32,7 +32,7 @@ class _Entry(NamedTuple):
         end: How many strokes there have been up to the last of these.
         size: How many these are.
         records: Their records.
-        origin: The one stroke and its turtle's name; None for those of a crowd, which are never
+        origin: The one stroke and its turtle's name; None for a crowd's strokes, which are never
             joined.
     """
 
@@ -75,7 +75,7 @@ class Drawing:
         self._cleared_at = self._next
 
     def since(self, position: int) -> tuple[bool, bytes, int]:
-        """The part that a reader has not received yet.
+        """Return the part that a reader has not received yet.
 
         Args:
             position: From the reader's last call, -1 for a new reader.

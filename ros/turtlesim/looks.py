@@ -27,7 +27,7 @@ _NUMBER = re.compile(r"[0-9]+\Z")
 
 
 def look_of(name: str) -> int:
-    """Which of the eight looks a turtle has, as ``lookOf`` in ``page/js/looks.js`` counts them."""
+    """Return a turtle's look, 0 to 7, as ``lookOf`` in ``page/js/looks.js`` does."""
     number = _NUMBER.search(name)
     if number and float(number[0]) > 0:
         return int((float(number[0]) - 1) % len(_TINTS))

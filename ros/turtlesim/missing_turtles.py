@@ -70,7 +70,7 @@ class MissingTurtles:
         self._set_names(tuple(missing for missing in self.names if missing != name))
 
     def hint(self, name: str) -> str:
-        """The command that spawns a missing turtle."""
+        """Return the command that spawns a missing turtle."""
         service = self._node.resolve_service_name("spawn")
         request = f"{{x: 4.0, y: 2.0, theta: 0.0, name: '{name}'}}"
         return (
@@ -119,7 +119,7 @@ def find_missing(
     Args:
         endpoints: The graph's publishers and subscriptions.
         namespace: The simulator's namespace.
-        turtles: Turtles that exist; those of other simulators are known by their publishers.
+        turtles: Turtles that exist; other simulators' are known by their publishers.
     """
     pattern = re.compile(re.escape(namespace.rstrip("/")) + r"/([^/]+)/(pose|color_sensor|cmd_vel)")
     wanted: set[str] = set()

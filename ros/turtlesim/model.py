@@ -103,7 +103,7 @@ class TurtleTick(NamedTuple):
         move_stroke: Drawn after the colour sensor has read the pixel; None when the pen is up or
             the turtle stands still.
         clamped_from: Where a wall stopped it, as ``(x, y_down)`` [m]; None when no wall did.
-        rotation: The rotation to a goal, finished or not; None when there is none.
+        rotation: The rotation to a goal, finished or not; None without a goal.
     """
 
     turtle: Turtle
@@ -199,7 +199,7 @@ class Turtle:
 
     @property
     def is_plain(self) -> bool:
-        """Whether the next tick only drives it: no teleport, no rotation to a goal."""
+        """True if the next tick only drives it: no teleport, no rotation to a goal."""
         return self.rotation is None and not self._teleports
 
     def drive(self, forward: float, lateral: float, turning: float) -> Rotation | None:
@@ -367,7 +367,7 @@ class World:
         return turtle
 
     def kill(self, name: str) -> Turtle | None:
-        """Remove a turtle and return it, or None when there is none of that name."""
+        """Remove a turtle and return it, or None for an unknown name."""
         self._order = None
         return self.turtles.pop(name, None)
 

@@ -47,14 +47,14 @@ class Pace:
         self.speed, self._clock_ns = speed, clock_ns
 
     def tick(self, clock_ns: int) -> int:
-        """The simulated time of the next tick, for which the clock shows ``clock_ns``."""
+        """Return the simulated time of the next tick, for which the clock shows ``clock_ns``."""
         self._simulated_ns += clock_ns - self._clock_ns if self.speed == 1.0 else TICK_NS
         self._clock_ns = clock_ns
         return self._simulated_ns
 
 
 def hold(turtles: Iterable[Turtle]) -> list[TurtleTick]:
-    """What is seen of turtles in a pause: they stand still, but for teleports."""
+    """Return the turtles' ticks in a pause: still, except for teleports."""
     ticks = []
     for turtle in turtles:
         strokes = turtle.land()

@@ -168,7 +168,7 @@ _COMMANDS = {kind.__name__.lower(): kind for kind in _KINDS}
 
 
 def parse_command(text: str | bytes) -> Command:
-    """The command in a message.
+    """Return the command in a message.
 
     An example: ``{"type": "drive", "turtle": "turtle1", "linear": 2.0, "angular": 0.0}``.
 

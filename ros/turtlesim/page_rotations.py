@@ -1,4 +1,4 @@
-"""Rotations that a page asks for, sent as goals like those of any other action client."""
+"""Rotations that a page asks for, sent as goals, as by any action client."""
 
 from __future__ import annotations
 

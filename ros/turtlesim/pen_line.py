@@ -41,7 +41,7 @@ def corners(
     along: tuple[_Number, _Number],
     floor: Callable[[_Number], _Number],
 ) -> list[tuple[_Number, _Number]]:
-    """The four corners (x, y) of a pen line, in order around it [pixels].
+    """Return the four corners (x, y) of a pen line, in order around it [pixels].
 
     Args:
         line: x0, y0, x1, y1 [pixels].
@@ -61,10 +61,10 @@ def corners(
 
 
 def boundary(edge: _Number, floor: Callable[[_Number], _Whole]) -> _Whole:
-    """The number of the first pixel after an edge, which is the end of those before it."""
+    """Return the number of the first pixel after an edge, which is the end of those before it."""
     return floor(edge + 0.5)
 
 
 def crossing(y: _Number, x0: _Number, y0: _Number, x1: _Number, y1: _Number) -> _Number:
-    """Where a line that is not level crosses the height y."""
+    """Return x where a line that is not level crosses the height y."""
     return x0 + (y - y0) * (x1 - x0) / (y1 - y0)

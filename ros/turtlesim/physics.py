@@ -56,7 +56,7 @@ _FLOAT32 = struct.Struct("<f")
 
 
 def float32(value: float) -> float:
-    """The nearest single-precision number."""
+    """Return the nearest single-precision number."""
     return float(_FLOAT32.unpack(_FLOAT32.pack(value))[0])
 
 
@@ -71,7 +71,7 @@ def normalize_angle(angle: _Number, floor: _Function = math.floor) -> _Number:
 
 
 def turn(theta: _Number, turning: _Number, floor: _Function = math.floor) -> _Number:
-    """The heading after a tick with the turning rate ``turning`` [rad/s]."""
+    """Return the heading after a tick with the turning rate ``turning`` [rad/s]."""
     return normalize_angle(theta + turning * _TICK_S, floor)
 
 
@@ -86,7 +86,7 @@ def move(
 
 
 def clamp(x: float, y_down: float) -> tuple[float, float]:
-    """The place in the field that is nearest to (x, y_down)."""
+    """Return the place in the field that is nearest to (x, y_down)."""
     return min(max(x, 0.0), FIELD_SIZE), min(max(y_down, 0.0), FIELD_SIZE)
 
 
@@ -99,7 +99,7 @@ def published(
     state: tuple[_Number, _Number, _Number, _Number, _Number, _Number],
     sqrt: _Function = math.sqrt,
 ) -> tuple[_Number, _Number, _Number, _Number, _Number]:
-    """A turtle's published pose: x, y (up), heading, speed (never negative), turning rate.
+    """Return a turtle's published pose: x, y (up), heading, speed (never negative), turning rate.
 
     Args:
         state: x, y_down, heading, speed ahead, speed to the left, turning rate.

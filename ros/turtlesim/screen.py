@@ -157,7 +157,7 @@ class Screen:
         self.transforms.close()
 
     def scene_since(self, version: int) -> tuple[int, str | None]:
-        """The scene as JSON if it changed after ``version``."""
+        """Return the scene as JSON if it changed after ``version``."""
         with self._lock:
             if version == self._version:
                 return version, None
@@ -166,7 +166,7 @@ class Screen:
             )
 
     def frame_since(self, position: int) -> tuple[int, bytes]:
-        """The newest poses and the strokes after ``position``."""
+        """Return the newest poses and the strokes after ``position``."""
         with self._lock:
             restart, strokes, position = self._drawing.since(position)
             # After a spawn or a kill, poses of the last tick do not belong to the new scene yet.

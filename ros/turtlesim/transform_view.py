@@ -87,7 +87,7 @@ class TransformView:
             self._stop()
 
     def frames(self) -> list[Frame]:
-        """All frames that have a parent, sorted by name."""
+        """Return all frames that have a parent, sorted by name."""
         now_s = self._now_ns() / 1e9
         return sorted(
             _read_frame(match, now_s)
@@ -113,7 +113,7 @@ class TransformView:
         }
 
     def axes(self, field: str, names: Sequence[str]) -> dict[str, list[float]]:
-        """Where frames are in the field now, seen from above.
+        """Return the frames' axes in the field now, seen from above.
 
         Args:
             field: The frame of the field.
@@ -141,7 +141,7 @@ class TransformView:
 
 
 def field_frames(frames: Sequence[Frame], turtles: Sequence[str]) -> tuple[str, list[str]]:
-    """The frame in which turtles are where the field shows them, and all frames of its tree.
+    """Return the frame in which turtles are where the field shows them, and all frames of its tree.
 
     That is ``world``, or without it the root of the tree of the first turtle that has a frame; an
     empty name without either. No more than :data:`MOST_AXES` frames are drawn.

@@ -158,5 +158,5 @@ class TurtleEndpoints:
 
 
 def are_finite(*numbers: float) -> bool:
-    """Whether none is NaN or too large for the arithmetic of a pose."""
+    """Return True if none is NaN or too large for the arithmetic of a pose."""
     return all(abs(number) <= _LARGEST for number in numbers)  # false for NaN, too

@@ -268,7 +268,7 @@ class TurtlesimNode(CppNode):
         return turtle.name
 
     def kill(self, name: str) -> None:
-        """Remove a turtle, or log an error if there is none of that name."""
+        """Remove a turtle, or log an error if the name is unknown."""
         if self.world.kill(name) is None:
             self.get_logger().error(
                 printable(f"Tried to kill turtle [{name}], which does not exist")

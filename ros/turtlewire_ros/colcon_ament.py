@@ -86,7 +86,7 @@ class AmentPackageIdentification(PackageIdentificationExtensionPoint):
 
 
 def _content_fault(manifest: Path) -> str | None:
-    """What makes catkin_pkg refuse a package.xml, on one line; None if nothing does.
+    """Return catkin_pkg's error about a package.xml on one line; None if it is valid.
 
     colcon-ros says nothing of it, and leaves the package to CMake or to setuptools.
     """
@@ -101,7 +101,7 @@ def _content_fault(manifest: Path) -> str | None:
 
 
 def _is_for_cmake(path: Path) -> bool:
-    """Whether a CMakeLists.txt compiles C++, and there is an ament_cmake to do it."""
+    """Return True if a CMakeLists.txt compiles C++, and there is an ament_cmake to do it."""
     text = path.read_text(encoding="utf-8", errors="replace")
     return bool(_COMPILES.search(text)) and PackageLookup(os.environ).has_ament_cmake()
 

@@ -17,7 +17,7 @@ __all__ = ["argv_for", "executable_paths", "is_python_script", "libexec_director
 
 
 def libexec_directory(prefix: str, package: str) -> str:
-    """The folder in which a prefix keeps the executables of a package."""
+    """Return the folder in which a prefix keeps the executables of a package."""
     return os.path.join(prefix, "lib", package)
 
 
@@ -39,7 +39,7 @@ def argv_for(path: str) -> list[str]:
 
 
 def is_python_script(path: str) -> bool:
-    """Whether the first line of the file is a shebang that names a Python."""
+    """Return True if the first line of the file is a shebang that names a Python."""
     try:
         with open(path, "rb") as file:
             first_line = file.readline(512)  # a binary may have no line feed for megabytes

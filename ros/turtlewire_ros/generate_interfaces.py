@@ -43,7 +43,7 @@ def main(argv: list[str] | None = None) -> int:
 
 
 def _unknown_types(package: str, folder: Path, source: Path) -> Iterator[str]:
-    """A line for each use of a type that is not found, in the order of files and lines."""
+    """Yield a line for each use of a type that is not found, in the order of files and lines."""
     for path in sorted(file for kind in KINDS for file in (folder / kind).glob(f"*.{kind}")):
         kind = path.parent.name
         # What is made of an .idl file has other lines than that file.

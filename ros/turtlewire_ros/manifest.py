@@ -60,7 +60,7 @@ def read_manifest(path: Path) -> Manifest:
 
 
 def manifest_fault(path: str | Path) -> str | None:
-    """The first error in the XML of a package.xml.
+    """Return the first error in the XML of a package.xml.
 
     Args:
         path: The file.

@@ -46,14 +46,14 @@ class PackageLookup:
         self._prefixes = [path for path in (*paths, own_prefix() or "") if path]
 
     def is_installed(self, name: str) -> bool:
-        """Whether a package is in one of the prefixes, or was installed by pip."""
+        """Return True if a package is in one of the prefixes, or was installed by pip."""
         return (
             any(os.path.isfile(os.path.join(prefix, MARKERS, name)) for prefix in self._prefixes)
             or editable_source(name) is not None
         )
 
     def is_known(self, name: str) -> bool:
-        """Whether ``find_package`` finds a package.
+        """Return True if ``find_package`` finds a package.
 
         Build tools, and packages that only C++ needs, count as found: none of them installs or
         generates anything here.
@@ -61,14 +61,14 @@ class PackageLookup:
         return _BUILD_ONLY.fullmatch(name) is not None or self.is_installed(name)
 
     def suggestion(self, name: str) -> str:
-        """The nearest names of installed packages in parentheses; empty if none is near."""
+        """Return the nearest names of installed packages in parentheses; empty if none is near."""
         folders = [os.path.join(prefix, MARKERS) for prefix in self._prefixes]
         known = {each for folder in folders if os.path.isdir(folder) for each in os.listdir(folder)}
         near = did_you_mean(name, sorted(known))
         return f" ({near})" if near else ""
 
     def config(self, name: str) -> Path | None:
-        """The file with the CMake extras of a package that turtlewire has built, or None."""
+        """Return the file with the CMake extras of a package that turtlewire has built, or None."""
         for prefix in self._prefixes:
             path = Path(prefix) / "share" / name / "cmake" / f"{name}Config.cmake"
             if path.is_file():
@@ -77,7 +77,7 @@ class PackageLookup:
         return None
 
     def has_ament_cmake(self) -> bool:
-        """Whether there is a real ament_cmake, with which CMake can build packages."""
+        """Return True if there is a real ament_cmake, with which CMake can build packages."""
         return any(
             (Path(prefix) / "share/ament_cmake/cmake/ament_cmakeConfig.cmake").is_file()
             for prefix in self._prefixes

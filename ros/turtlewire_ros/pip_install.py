@@ -52,7 +52,7 @@ def main(argv: list[str] | None = None) -> int:
 
 
 def _is_for_pip(folder: Path) -> bool:
-    """Whether pip installs a folder itself, such as an ament_python package."""
+    """Return True if pip installs a folder itself, such as an ament_python package."""
     return not (folder / "CMakeLists.txt").is_file() and any(
         (folder / name).is_file() for name in ("setup.py", "pyproject.toml")
     )

@@ -52,7 +52,7 @@ unset AMENT_CURRENT_PREFIX _turtlewire_value
 
 
 def build_commands(plan: Plan, build: Path, modules: Path) -> Iterator[tuple[list[str], str]]:
-    """What runs before the installation: commands, each with the folder in which it runs.
+    """Yield the commands to run before the installation, each with its folder.
 
     They generate interfaces, whose definitions are put into ``build``, and run the plan's steps.
 
@@ -323,7 +323,7 @@ class PlanInstaller:
 
 
 def _rule_for(path: str, rules: tuple[FileRule, ...]) -> FileRule | None:
-    """The rule that decides on a path: one that excludes wins over others."""
+    """Return the rule that decides on a path: one that excludes wins over others."""
     matching = [rule for rule in rules if re.search(rule.expression, path)]
     return next((rule for rule in matching if rule.excludes), matching[0] if matching else None)
 

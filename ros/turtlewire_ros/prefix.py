@@ -1,7 +1,7 @@
 """Finds ROS packages: in colcon workspaces, in this distribution's prefix, and installed by pip.
 
 A *prefix* is a folder with ``share/ament_index``, for example ``/opt/ros/jazzy``.
-``AMENT_PREFIX_PATH`` lists those of the workspaces that were sourced; the prefix this distribution
+``AMENT_PREFIX_PATH`` lists the sourced workspaces' prefixes; the prefix this distribution
 was installed into needs no sourcing and comes last.
 """
 
@@ -40,7 +40,7 @@ def own_prefix() -> str | None:
 
 
 def prefixes() -> list[str]:
-    """All prefixes that exist, in the order in which they are searched."""
+    """Return all prefixes that exist, in the order in which they are searched."""
     found = [
         path
         for path in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
@@ -53,18 +53,18 @@ def prefixes() -> list[str]:
 
 
 def package_prefix(package: str) -> str | None:
-    """The prefix of ``package``, the source folder of an editable install, or None."""
+    """Return the prefix of ``package``, the source folder of an editable install, or None."""
     return _indexed_prefix(package) or editable_source(package)
 
 
 def share_directory(package: str) -> str | None:
-    """The folder with package.xml, launch files and other data of ``package``, or None."""
+    """Return the folder with package.xml, launch files and other data of ``package``, or None."""
     prefix = _indexed_prefix(package)
     return editable_source(package) if prefix is None else os.path.join(prefix, "share", package)
 
 
 def package_names() -> dict[str, str]:
-    """Every installed package with its prefix, except for editable installs."""
+    """Return every installed package with its prefix, except for editable installs."""
     names: dict[str, str] = {}
     for prefix in prefixes():
         folder = os.path.join(prefix, MARKERS)
@@ -75,7 +75,7 @@ def package_names() -> dict[str, str]:
 
 
 def editable_source(package: str) -> str | None:
-    """The source folder of a package that was installed by ``pip install -e``, or None.
+    """Return the source folder of a package that was installed by ``pip install -e``, or None.
 
     Such an install has no data files. A folder with a package.xml stands in for the share folder;
     launch files have the same relative paths there.

@@ -34,7 +34,7 @@ class ProcessFamily:
         self._guardian: subprocess.Popen[bytes] | None = None
 
     def marked(self, environment: Mapping[str, str]) -> dict[str, str]:
-        """The environment for a child: ``environment`` and the mark of this family."""
+        """Return the environment for a child: ``environment`` and the mark of this family."""
         outer = os.environ.get(process_guardian.FAMILIES)
         # A launch inside a launch belongs to both families.
         names = self._name if outer is None else f"{outer}:{self._name}"

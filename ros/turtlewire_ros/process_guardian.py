@@ -38,7 +38,7 @@ def guard(family: str) -> None:
 
 
 def _members(family: str) -> list[int]:
-    """The processes of the family that have not ended."""
+    """Return the processes of the family that have not ended."""
     # A process is missed if it begins while /proc is read, or if it has no environment because it
     # is executing another program. The family has ended when a second search finds none, too.
     return _search(family) or _search(family)

@@ -94,7 +94,7 @@ def _pytest_status(status: int, words: list[str], result: Path, name: str) -> in
 
 
 def _has_cases(result: Path) -> bool:
-    """Whether the result file tells of a test, or of a file that was skipped as a whole."""
+    """Return True if the result file tells of a test, or of a file that was skipped as a whole."""
     return b"<testcase " in result.read_bytes()
 
 
@@ -110,7 +110,7 @@ def _command(kind: str, words: list[str], result: Path, name: str) -> list[str]:
 
 
 def _run(command: list[str], timeout: float) -> int | None:
-    """The command's exit status; None if it was stopped after ``timeout`` seconds."""
+    """Return the command's exit status; None if it was stopped after ``timeout`` seconds."""
     process = subprocess.Popen(command, start_new_session=True)  # noqa: S603 -- the user's own test
     try:
         return process.wait(timeout)

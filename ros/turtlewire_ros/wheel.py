@@ -75,7 +75,7 @@ def build_package_wheels(
 
 
 def _in_order_of_need(sources: Iterable[Path]) -> list[tuple[Path, Manifest]]:
-    """Folders and manifests of packages, each after those of them that its build needs."""
+    """Folders and manifests of packages, each after the packages that its build needs."""
     packages: dict[str, tuple[Path, Manifest]] = {}
     for source in sources:
         if not source.is_dir():
@@ -167,7 +167,7 @@ def _pack(manifest: Manifest, plan: Plan, prefix: Path, output: Path) -> Path:
 
 
 def _place(relative: Path, data: str) -> str:
-    """Where a file of the prefix is in the wheel; empty if it is left out."""
+    """Return the path in the wheel of a file of the prefix; empty if it is left out."""
     first, *rest = relative.parts
     if first == _MODULES:
         return "" if rest and rest[0].endswith(".egg-info") else "/".join(rest)

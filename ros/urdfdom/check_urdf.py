@@ -21,7 +21,7 @@ _USAGE = "Expect URDF xml file to parse. Use - for stdin"
 
 
 def tree_lines(robot: Robot) -> Iterator[str]:
-    """The tree in the words of urdfdom's check_urdf, children sorted by their joints."""
+    """Yield the tree in the words of urdfdom's check_urdf, children sorted by their joints."""
     children = robot.child_joints[robot.root]
     yield f"root Link: {printable(robot.root)} has {len(children)} child(ren)"
     left = [(1, number, joint) for number, joint in reversed([*enumerate(children, 1)])]

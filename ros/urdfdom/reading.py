@@ -11,7 +11,7 @@ __all__ = ["read_robot"]
 
 
 def read_robot(path: str) -> Robot:
-    """The robot in a file; ``-`` is stdin. Errors and warnings are printed on stderr.
+    """Return the robot in a file; ``-`` is stdin. Errors and warnings are printed on stderr.
 
     Raises:
         OSError: The file cannot be read.

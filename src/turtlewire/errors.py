@@ -61,7 +61,7 @@ class TurtlewireError(Exception):
         return self
 
     def in_one_line(self) -> str:
-        """The text and the hint, as sentences."""
+        """Return the text and the hint, as sentences."""
         text, hint = (" ".join(part.split()) for part in (str(self), self.hint))
         if not hint:
             return text
@@ -101,7 +101,7 @@ class TransformException(TurtlewireError):
 
     @property
     def hint(self) -> str:
-        """What exists and what to do, in one or two sentences; may be empty."""
+        """Advice in one or two sentences: what exists and what to do; may be empty."""
         if "_hint" not in self.__dict__:
             self.__dict__["_hint"] = self._make_hint()
         text: str = self.__dict__["_hint"]
@@ -113,7 +113,7 @@ class TransformException(TurtlewireError):
 
     @property
     def __notes__(self) -> list[str]:
-        """What a traceback shows below the message: the hint."""
+        """Lines below the message in a traceback: the hint."""
         if "_notes" not in self.__dict__:
             self.__dict__["_notes"] = [self.hint] if self.hint else []
         notes: list[str] = self.__dict__["_notes"]

@@ -12,7 +12,7 @@ _UNKNOWN = "turtlewire: TURTLEWIRE_CORE is {!r}; it can be 'native' or 'python'.
 
 
 def in_browser() -> bool:
-    """Whether Python runs in a browser tab (Pyodide).
+    """Return True if Python runs in a browser tab (Pyodide).
 
     There is one thread, no socket, no process to start and no compiled core; signals do not come.
     """
@@ -22,7 +22,7 @@ def in_browser() -> bool:
 
 @functools.cache
 def asked_core() -> str:
-    """The core that ``TURTLEWIRE_CORE`` asks for: ``native``, ``python`` or empty.
+    """Return the core that ``TURTLEWIRE_CORE`` asks for: ``native``, ``python`` or empty.
 
     The first call decides; it ignores any other value with one line on stderr.
     """

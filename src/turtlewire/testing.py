@@ -104,7 +104,7 @@ def isolated_domain() -> Iterator[int]:
 
 
 def filled_buffer(links: Iterable[Link], *, stamp_ns: int = 0) -> Buffer:
-    """A buffer with the given links.
+    """Return a buffer with the given links.
 
     Args:
         links: For each link the parent frame, the child frame, and where the child is in the

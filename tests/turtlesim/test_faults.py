@@ -100,7 +100,7 @@ def test_simulated_time_may_begin_later(scene):
     assert scene.simulation.node.get_clock().now().nanoseconds == 20_000_000_000
 
 
-def test_a_delay_is_as_long_as_it_says_and_ends_with_mend(scene):
+def test_a_delay_is_as_long_as_it_says_and_ends_when_faults_are_cleared(scene):
     scene.start()
     scene.simulation.inject(Delay(3.0, "robot"))
     scene.simulation.run(5.0)
@@ -108,7 +108,7 @@ def test_a_delay_is_as_long_as_it_says_and_ends_with_mend(scene):
     assert scene.x_of("robot")[0] == pytest.approx(now - 3.0, abs=2 * TICK_S)
     assert scene.x_of("other")[0] == pytest.approx(now, abs=2 * TICK_S)
     assert "The newest transform of 'robot' is 3.0 s old." in scene.doctor()
-    scene.simulation.mend()
+    scene.simulation.clear_faults()
     scene.simulation.run(0.1)
     assert scene.x_of("robot")[0] == pytest.approx(scene.simulation.now, abs=2 * TICK_S)
 
@@ -181,13 +181,13 @@ def test_a_missing_static_frame_is_missing_also_for_those_who_come_later(scene):
     assert "camera" not in Scene(scene.simulation).buffer.all_frames_as_yaml()
 
 
-def test_two_publishers_are_named_and_end_with_mend(scene):
+def test_two_publishers_are_named_and_end_when_faults_are_cleared(scene):
     scene.start()
     scene.simulation.inject(TwoPublishers("robot", x=-5.0))
     said = scene.doctor()
     assert "The frame 'robot' is published by /broadcaster and /second_broadcaster." in said
     assert "leaps by up to" in said
-    scene.simulation.mend()
+    scene.simulation.clear_faults()
     assert scene.doctor() == ""
 
 

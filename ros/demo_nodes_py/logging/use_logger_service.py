@@ -55,14 +55,14 @@ class TestNode(Node):
         self._set = self.create_client(SetLoggerLevels, f"{remote_node}/set_logger_levels")
 
     def set_logger_level(self, level: int) -> bool:
-        """Whether the level was set."""
+        """Return True if the level was set."""
         request = SetLoggerLevels.Request()
         request.levels = [LoggerLevel(name=self._remote_node, level=level)]
         results = self._ask(self._set, request).results
         return bool(results and results[0].successful)
 
     def get_logger_level(self) -> int:
-        """The level now."""
+        """Return the level now."""
         request = GetLoggerLevels.Request(names=[self._remote_node])
         level: int = self._ask(self._get, request).levels[0].level
         return level

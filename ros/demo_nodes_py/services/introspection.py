@@ -34,7 +34,7 @@ def check(name: str, parameters: Sequence[Parameter]) -> SetParametersResult:
 
 
 def state_of(name: str, parameters: Sequence[Parameter]) -> Iterator[ServiceIntrospectionState]:
-    """The states that values of the parameter ask for."""
+    """Yield the states that values of the parameter ask for."""
     for parameter in parameters:
         if parameter.name == name:
             yield _STATES[parameter.value]

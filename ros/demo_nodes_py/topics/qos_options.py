@@ -21,7 +21,7 @@ __all__ = ["profile", "run_cycles"]
 
 
 def profile(*, reliable: bool) -> QoSProfile:
-    """A queue of ten messages, reliable or best effort."""
+    """Return a queue of ten messages, reliable or best effort."""
     policy = ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT
     return QoSProfile(depth=10, reliability=policy)
 

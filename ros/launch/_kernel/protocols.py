@@ -39,7 +39,7 @@ class EventHandling(Protocol[Context_contra]):
     """An event handler."""
 
     def matches(self, event: Event) -> bool:
-        """Whether it handles the event."""
+        """Return True if it handles the event."""
 
     def handle(
         self, event: Event, context: Context_contra
@@ -56,7 +56,7 @@ class ProcessRunner(Protocol):
 
     @property
     def return_code(self) -> int | None:
-        """Exit status of the last run, negative for a signal; None if there is none yet."""
+        """Exit status of the last run, negative for a signal; None before the first run."""
 
     def get_stdout(self) -> bytes:
         """Return all that the process wrote to stdout, if that is kept."""

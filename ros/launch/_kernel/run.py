@@ -98,14 +98,14 @@ class Run(Generic[C]):
         self._handlers.remove(handler)
 
     def handlers(self) -> tuple[EventHandling[C], ...]:
-        """The registered handlers, in the order in which they get an event."""
+        """Return the registered handlers, in the order in which they get an event."""
         return tuple(self._handlers)
 
     # work that keeps the launch running
 
     @property
     def is_busy(self) -> bool:
-        """Whether an event is queued or a future is not done."""
+        """True if an event is queued or a future is not done."""
         return bool(self._events or self._futures)
 
     def keep_running_for(self, future: asyncio.Future[Any]) -> None:
@@ -124,7 +124,7 @@ class Run(Generic[C]):
     # processes
 
     def marked(self, environment: Mapping[str, str]) -> dict[str, str]:
-        """The environment for a child process, with a mark for it and its descendants."""
+        """Return the environment for a child process, with a mark for it and its descendants."""
         if self._processes is None:
             self._processes = ProcessFamily()
             self._processes.start()

@@ -63,16 +63,16 @@ class AppendEnvironmentVariable(SetVariableAction):
 
     @property
     def prepend(self) -> list[Substitution]:
-        """Whether the value comes before the others, as text."""
+        """True or false as text: the value comes before the others."""
         return self._prepend
 
     @property
     def separator(self) -> list[Substitution]:
-        """What stands between values."""
+        """Separator between values."""
         return self._separator
 
     def variables(self, context: LaunchContext) -> MutableMapping[str, str]:
-        """The environment of this process, which its children inherit."""
+        """Return the environment of this process, which its children inherit."""
         return context.environment
 
     def execute(self, context: LaunchContext) -> None:

@@ -100,7 +100,7 @@ class DeclareLaunchArgument(Action):
 
     @property
     def description(self) -> str:
-        """What it is for, and which values it may have."""
+        """Purpose and valid values."""
         return self._description
 
     @property

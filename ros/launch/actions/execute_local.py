@@ -108,22 +108,22 @@ class ExecuteLocal(ProcessAction):
 
     @property
     def process_description(self) -> Executable:
-        """What is run."""
+        """Process that is run."""
         return self._process_description
 
     @property
     def shell(self) -> bool:
-        """Whether a shell interprets the command line."""
+        """True if a shell interprets the command line."""
         return self._shell
 
     @property
     def emulate_tty(self) -> bool:
-        """Whether the process finds a terminal at its output."""
+        """True if the process finds a terminal at its output."""
         return self._emulate_tty
 
     @property
     def output(self) -> Any:
-        """Where its output goes."""
+        """Destination of the output."""
         return self._output.destination
 
     @property
@@ -138,7 +138,7 @@ class ExecuteLocal(ProcessAction):
 
     @property
     def cached_output(self) -> bool:
-        """Whether all output is kept."""
+        """True if all output is kept."""
         return self._output.cached
 
     @property
@@ -166,7 +166,7 @@ class ExecuteLocal(ProcessAction):
     def describe_conditional_sub_entities(
         self,
     ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
-        """What happens at the end of the process."""
+        """Return the actions at the end of the process."""
         if self._on_exit is None or callable(self._on_exit):
             return []
         return [(f"process '{self._process_description.cmd}' exits", entity_list(self._on_exit))]
@@ -292,7 +292,7 @@ class ExecuteLocal(ProcessAction):
         self._logger.info("process started with pid [%s]", pid)
 
     async def _respawns(self, runs: int) -> bool:
-        """Wait until the next start is due; False if there is none."""
+        """Wait until the next start is due; return False without a further start."""
         assert self._shutting_down is not None
         if 0 <= self._respawn_max_retries <= runs:
             return False

@@ -122,7 +122,7 @@ class ExecuteProcess(ExecuteLocal):
 
     @property
     def additional_env(self) -> Any:
-        """Variables beside those of the launch, or None."""
+        """Variables in addition to the launch's, or None."""
         return self.process_description.additional_env
 
 

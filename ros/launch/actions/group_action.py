@@ -78,7 +78,7 @@ class GroupAction(Action):
         return self.get_sub_entities()
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """The actions, between those that begin and end the scope."""
+        """Return the actions, between those that begin and end the scope."""
         settings = [
             SetLaunchConfiguration(name, value)
             for name, value in self._launch_configurations.items()

@@ -96,7 +96,7 @@ class IncludeLaunchDescription(Action):
         return f"IncludeLaunchDescription({self._source.location})"
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """The included description, when it can be read without a running launch."""
+        """Return the included description, when it can be read without a running launch."""
         description = self._source.try_get_launch_description_without_context()
         return [] if description is None else [description]
 

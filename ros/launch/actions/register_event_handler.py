@@ -40,6 +40,6 @@ class RegisterEventHandler(Action):
     def describe_conditional_sub_entities(
         self,
     ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
-        """What the handler returns, as far as it is known."""
+        """Return the handler's entities, as far as they are known."""
         entities = self._event_handler.describe()[1]
         return [(f"{self._event_handler.matcher_description}", entities)] if entities else []

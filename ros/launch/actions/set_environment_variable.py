@@ -26,5 +26,5 @@ class SetEnvironmentVariable(SetVariableAction):
     """
 
     def variables(self, context: LaunchContext) -> MutableMapping[str, str]:
-        """The environment of this process, which its children inherit."""
+        """Return the environment of this process, which its children inherit."""
         return context.environment

@@ -26,5 +26,5 @@ class SetLaunchConfiguration(SetVariableAction):
     """
 
     def variables(self, context: LaunchContext) -> MutableMapping[str, str]:
-        """The launch configurations."""
+        """Return the launch configurations."""
         return context.launch_configurations

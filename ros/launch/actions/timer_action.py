@@ -89,7 +89,7 @@ class TimerAction(Action):
     def describe_conditional_sub_entities(
         self,
     ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
-        """The actions, after the time."""
+        """Return the actions, after the time."""
         period = " + ".join(part.describe() for part in self._period)
         return [(f"after {period} sec", self._actions)]
 
@@ -106,7 +106,7 @@ class TimerAction(Action):
         self._timer = self._start_time(context, loop)
 
     def seconds(self, context: LaunchContext) -> float:
-        """The period."""
+        """Return the period."""
         return float(perform_substitutions(context, self._period))
 
     def _start_time(self, context: LaunchContext, loop: asyncio.AbstractEventLoop) -> Any:

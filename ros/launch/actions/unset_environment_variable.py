@@ -25,5 +25,5 @@ class UnsetEnvironmentVariable(UnsetVariableAction):
     """
 
     def variables(self, context: LaunchContext) -> MutableMapping[str, str]:
-        """The environment of this process, which its children inherit."""
+        """Return the environment of this process, which its children inherit."""
         return context.environment

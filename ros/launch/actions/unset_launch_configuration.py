@@ -25,5 +25,5 @@ class UnsetLaunchConfiguration(UnsetVariableAction):
     """
 
     def variables(self, context: LaunchContext) -> MutableMapping[str, str]:
-        """The launch configurations."""
+        """Return the launch configurations."""
         return context.launch_configurations

@@ -46,7 +46,7 @@ class VariableAction(Action):
         return self._name
 
     def variables(self, context: LaunchContext) -> MutableMapping[str, str]:
-        """The mapping that the action changes."""
+        """Return the mapping that the action changes."""
         raise NotImplementedError(f"{type(self).__name__} does not define variables()")
 
 

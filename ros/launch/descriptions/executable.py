@@ -76,7 +76,7 @@ class Executable:
 
     @property
     def prefix(self) -> list[Substitution]:
-        """What is put before the command."""
+        """Prefix of the command."""
         return self._prefix
 
     @property
@@ -96,7 +96,7 @@ class Executable:
 
     @property
     def additional_env(self) -> list[tuple[list[Substitution], list[Substitution]]] | None:
-        """Variables beside those of the launch."""
+        """Variables in addition to the launch's."""
         return self._additional_env
 
     @property

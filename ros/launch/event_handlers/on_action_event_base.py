@@ -70,14 +70,14 @@ class OnActionEventBase(BaseEventHandler):
 
     @property
     def matcher_description(self) -> str:
-        """Which events."""
+        """Short description of the events."""
         text = f"event == {self._target_event_cls.__name__}"
         if self._action_matcher is None:
             return text
         return f"{text} and event.action == {self._action_matcher!r}"
 
     def describe(self) -> tuple[str, list[Any]]:
-        """A text, and the fixed entities."""
+        """Return a text, and the fixed entities."""
         return super().describe()[0], list(self._entities)
 
     def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:

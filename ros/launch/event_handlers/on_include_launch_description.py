@@ -29,7 +29,7 @@ class OnIncludeLaunchDescription(EventHandler):
 
     @property
     def matcher_description(self) -> str:
-        """Which events."""
+        """Short description of the events."""
         return "event is IncludeLaunchDescription"
 
     def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:

@@ -36,5 +36,5 @@ class OnShutdown(EventHandler):
 
     @property
     def matcher_description(self) -> str:
-        """Which events."""
+        """Short description of the events."""
         return "event is Shutdown"

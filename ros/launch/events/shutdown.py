@@ -28,5 +28,5 @@ class Shutdown(Event):
 
     @property
     def due_to_sigint(self) -> bool:
-        """Whether Ctrl-C is the cause."""
+        """True if Ctrl-C is the cause."""
         return self._due_to_sigint

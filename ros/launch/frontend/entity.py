@@ -42,7 +42,7 @@ class Entity:
     def get_attr(
         self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True
     ) -> Any:
-        """The value of an attribute.
+        """Return the value of an attribute.
 
         Args:
             name: Its name.

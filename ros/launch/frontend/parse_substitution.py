@@ -22,7 +22,7 @@ _ESCAPABLE = "$'\"\\"
 
 
 def parse_substitution(string_value: str) -> list[Substitution]:
-    """The substitutions that a text consists of; plain stretches are text substitutions.
+    """Return the substitutions that a text consists of; plain stretches are text substitutions.
 
     Raises:
         SyntaxError: A substitution is not closed.

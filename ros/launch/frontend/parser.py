@@ -66,7 +66,7 @@ class Parser:
 
     @classmethod
     def get_parser_from_extension(cls, extension: str) -> type[Parser]:
-        """The parser of files with a suffix.
+        """Return the parser of files with a suffix.
 
         Raises:
             RuntimeError: No installed language has it.
@@ -82,7 +82,7 @@ class Parser:
 
     @classmethod
     def get_parsers_from_filename(cls, filename: str) -> list[type[Parser]]:
-        """The parsers that may read a file, judged by its name."""
+        """Return the parsers that may read a file, judged by its name."""
         return [parser for parser in cls._parsers() if parser.may_parse(filename)]
 
     @classmethod
@@ -92,12 +92,12 @@ class Parser:
 
     @classmethod
     def is_filename_valid(cls, filename: str) -> bool:
-        """Whether an installed language has files of such a name."""
+        """Return True if an installed language has files of such a name."""
         return bool(cls.get_parsers_from_filename(filename))
 
     @classmethod
     def may_parse(cls, filename: str) -> bool:
-        """Whether the file's suffix is one of this language."""
+        """Return True if the file's suffix is one of this language."""
         return os.path.splitext(filename)[1].removeprefix(".") in cls.get_file_extensions()
 
     @classmethod
@@ -141,11 +141,11 @@ class Parser:
 
     @classmethod
     def is_extension_valid(cls, extension: str) -> bool:
-        """Whether a language with that suffix is installed."""
+        """Return True if a language with that suffix is installed."""
         return extension.removeprefix(".") in cls.get_available_extensions()
 
     def parse_description(self, entity: Entity) -> LaunchDescription:
-        """The launch description of a root element.
+        """Return the launch description of a root element.
 
         Raises:
             RuntimeError: It is not a root element, or an element is unknown.
@@ -158,7 +158,7 @@ class Parser:
         return LaunchDescription(actions, deprecated_reason=reason)
 
     def parse_action(self, entity: Entity) -> LaunchDescriptionEntity:
-        """The action of an element.
+        """Return the action of an element.
 
         Raises:
             RuntimeError: There is no such action.
@@ -178,7 +178,7 @@ class Parser:
         return action
 
     def parse_substitution(self, value: str) -> list[Substitution]:
-        """The substitutions of a text."""
+        """Return the substitutions of a text."""
         self.load_launch_extensions()
         return parse_substitution(value)
 

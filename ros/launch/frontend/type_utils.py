@@ -14,7 +14,7 @@ _FALSE = ("no", "false", "off")
 
 
 def list_item_type(data_type: Any) -> Any:
-    """What the items of a list type are, or None for other types."""
+    """Return the item type of a list type; None for other types."""
     return (
         typing.get_args(data_type)[0]
         if typing.get_origin(data_type) is list and typing.get_args(data_type)
@@ -23,13 +23,13 @@ def list_item_type(data_type: Any) -> Any:
 
 
 def is_entity_list(data_type: Any) -> bool:
-    """Whether child elements are meant."""
+    """Return True if child elements are meant."""
     item = list_item_type(data_type)
     return isinstance(item, type) and issubclass(item, Entity)
 
 
 def coerce(text: str, data_type: Any) -> Any:
-    """The value that a text means.
+    """Return the value that a text means.
 
     Args:
         text: The text.
@@ -54,7 +54,7 @@ def coerce(text: str, data_type: Any) -> Any:
 
 
 def may_become(text: str, data_type: Any) -> bool:
-    """Whether a text may have a value of a type once its substitutions are performed.
+    """Return True if a text may have a value of a type once its substitutions are performed.
 
     Args:
         text: The text as it is in the launch file.

@@ -41,7 +41,7 @@ def load_python_launch_file_as_module(python_launch_file_path: str) -> ModuleTyp
 def get_launch_description_from_python_launch_file(
     python_launch_file_path: str,
 ) -> LaunchDescription:
-    """What the file's ``generate_launch_description()`` returns.
+    """Return the result of the file's ``generate_launch_description()``.
 
     Raises:
         InvalidPythonLaunchFileError: It does not define that function.

@@ -191,7 +191,7 @@ class LaunchConfig:
         self._log_handlers.clear()
 
     def get_screen_handler(self) -> logging.Handler:
-        """The handler that writes to stdout."""
+        """Return the handler that writes to stdout."""
         if self._screen_handler is None:
             self._screen_handler = _ScreenHandler()
             layout = _NAMED_FORMATS.get(self._screen_format, self._screen_format)
@@ -233,7 +233,7 @@ launch_config = LaunchConfig()
 
 
 def get_logger(name: str | None = None) -> logging.Logger:
-    """A logger whose lines go to the screen and to ``launch.log``."""
+    """Return a logger whose lines go to the screen and to ``launch.log``."""
     logger = logging.getLogger(name if name is not None else "launch")
     owner = logging.getLogger("launch")
     if not owner.handlers:
@@ -251,7 +251,7 @@ def get_logger(name: str | None = None) -> logging.Logger:
 def get_output_loggers(
     process_name: str, output_config: str | Mapping[str, Any]
 ) -> tuple[logging.Logger, logging.Logger]:
-    """The loggers of the two output streams of a process.
+    """Return the loggers of the two output streams of a process.
 
     Args:
         process_name: Names the process, and its own log files.
@@ -318,7 +318,7 @@ def _normalized(output_config: str | Mapping[str, Any]) -> dict[str, set[str]]:
 
 
 def _checked_style(layout: str, style: str | None) -> _Style:
-    """The style of a format, which must suit it; the style of named formats is ``{``."""
+    """Return the style of a format, which must suit it; the style of named formats is ``{``."""
     if layout in _NAMED_FORMATS:
         if style is not None:
             raise ValueError(f"the format '{layout}' has its own style: give it without '{style}'")

@@ -48,7 +48,7 @@ class AnonName(Substitution):
         return f"AnonName({' + '.join(part.describe() for part in self._name)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """The unique name."""
+        """Return the unique name."""
         base = perform_substitutions(context, self._name)
         key = f"anon{base}"
         if key not in context.launch_configurations:

@@ -51,7 +51,7 @@ class Command(Substitution):
 
     @property
     def on_stderr(self) -> list[Substitution]:
-        """What output to stderr means."""
+        """Meaning of output to stderr."""
         return self._on_stderr
 
     def describe(self) -> str:
@@ -97,7 +97,7 @@ class Command(Substitution):
 
 
 def _found(command: list[str]) -> list[str]:
-    """The command with the path of its program, if that lies beside this interpreter only.
+    """Return the command with the path of its program, if that lies beside this interpreter only.
 
     pip installs programs such as xacro there, and without an activated environment the folder is
     not in PATH.

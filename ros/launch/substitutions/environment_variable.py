@@ -59,7 +59,7 @@ class EnvironmentVariable(Substitution):
         return f"EnvVar({' + '.join(part.describe() for part in self._name)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """The value.
+        """Return the value.
 
         Raises:
             SubstitutionFailure: It is not set, and there is no default.

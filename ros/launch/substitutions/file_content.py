@@ -48,7 +48,7 @@ class FileContent(Substitution):
         return f"FileContent({' + '.join(part.describe() for part in self._path)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """The content.
+        """Return the content.
 
         Raises:
             SubstitutionFailure: It cannot be read.

@@ -49,7 +49,7 @@ class FindExecutable(Substitution):
         return f"FindExec({' + '.join(part.describe() for part in self._name)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """The path.
+        """Return the path.
 
         Raises:
             SubstitutionFailure: It is not on ``PATH``.

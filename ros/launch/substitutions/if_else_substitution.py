@@ -77,7 +77,7 @@ class IfElseSubstitution(Substitution):
         return f"IfElseSubstitution({', '.join(parts)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """The chosen text."""
+        """Return the chosen text."""
         return perform_substitutions(
             context, self._if_value if as_bool(context, self._condition) else self._else_value
         )

@@ -53,7 +53,7 @@ class LaunchConfiguration(Substitution):
         return f"LaunchConfig({' + '.join(part.describe() for part in self._variable_name)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """The value.
+        """Return the value.
 
         Raises:
             SubstitutionFailure: It is not set, and there is no default.

@@ -33,6 +33,6 @@ class LaunchLogDir(Substitution):
         return "LaunchLogDir()"
 
     def perform(self, context: LaunchContext) -> str:
-        """The folder."""
+        """Return the folder."""
         del context
         return logging.launch_config.log_dir

@@ -37,7 +37,7 @@ class LocalSubstitution(Substitution):
 
     @property
     def description(self) -> str | None:
-        """How it is shown, or None."""
+        """Description for messages, or None."""
         return self._description
 
     def describe(self) -> str:
@@ -45,7 +45,7 @@ class LocalSubstitution(Substitution):
         return f"LocalVar('{self._expression if self._description is None else self._description}')"
 
     def perform(self, context: LaunchContext) -> str:
-        """The value as text.
+        """Return the value as text.
 
         Raises:
             SubstitutionFailure: There is no such local.

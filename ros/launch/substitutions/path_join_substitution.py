@@ -39,11 +39,11 @@ class PathJoinSubstitution(Substitution):
         return f"PathJoin({', '.join(parts)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """The path."""
+        """Return the path."""
         return os.path.join(*(perform_substitutions(context, part) for part in self._substitutions))
 
     def __truediv__(self, part: SomeSubstitutionsType) -> PathJoinSubstitution:
-        """The path with another part."""
+        """Return the path with another part."""
         return PathJoinSubstitution([*self._substitutions, part])
 
 

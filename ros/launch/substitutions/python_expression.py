@@ -71,7 +71,7 @@ class PythonExpression(Substitution):
         return f"PythonExpr({expression}, [{modules}])"
 
     def perform(self, context: LaunchContext) -> str:
-        """The value as text.
+        """Return the value as text.
 
         Raises:
             Exception: What the expression raises, such as NameError; a ``hint`` names it.

@@ -32,7 +32,7 @@ class ThisLaunchFile(Substitution):
         return "ThisLaunchFile()"
 
     def perform(self, context: LaunchContext) -> str:
-        """The path.
+        """Return the path.
 
         Raises:
             SubstitutionFailure: No launch file is being read, only a script.

@@ -32,7 +32,7 @@ class ThisLaunchFileDir(Substitution):
         return "ThisLaunchFileDir()"
 
     def perform(self, context: LaunchContext) -> str:
-        """The path.
+        """Return the path.
 
         Raises:
             SubstitutionFailure: No launch file is being read, only a script.

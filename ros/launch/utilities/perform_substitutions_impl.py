@@ -14,5 +14,5 @@ __all__ = ["perform_substitutions"]
 
 
 def perform_substitutions(context: LaunchContext, subs: Iterable[Substitution]) -> str:
-    """The joined texts of the substitutions."""
+    """Return the joined texts of the substitutions."""
     return "".join(context.perform_substitution(sub) for sub in subs)

@@ -9,7 +9,7 @@ MODULE_NAME = "python_launch_file"
 
 
 def raised_in(error: BaseException) -> str:
-    """A line that names file and line, to be put behind a message.
+    """Return a line that names file and line, to be put behind a message.
 
     Args:
         error: What a launch file raised, or what reading it raised.

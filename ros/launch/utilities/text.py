@@ -34,10 +34,10 @@ class TextSubstitution(Substitution):
         return self._text
 
     def describe(self) -> str:
-        """The text in quotes."""
+        """Return the text in quotes."""
         return f"'{self._text}'"
 
     def perform(self, context: LaunchContext) -> str:
-        """The text."""
+        """Return the text."""
         del context
         return self._text

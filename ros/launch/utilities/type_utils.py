@@ -43,17 +43,17 @@ AllowedTypesTuple = (*ScalarTypesTuple, *ListTypesTuple)
 
 
 def is_typing_list(data_type: Any) -> bool:
-    """Whether a type is ``list``, ``List`` or one of them with a type of items."""
+    """Return True if a type is ``list``, ``List`` or one of them with a type of items."""
     return data_type in (list, typing.List) or typing.get_origin(data_type) is list  # noqa: UP006
 
 
 def is_valid_scalar_type(data_type: Any) -> bool:
-    """Whether a type is bool, int, float or str."""
+    """Return True if a type is bool, int, float or str."""
     return data_type in ScalarTypesTuple
 
 
 def extract_type(data_type: Any) -> tuple[Any, bool]:
-    """The type of a value or of a list's items (None for any), and whether it is a list.
+    """Return the type of a value or of a list's items (None for any), and whether it is a list.
 
     Raises:
         ValueError: It is none of the known types.
@@ -72,12 +72,12 @@ def extract_type(data_type: Any) -> tuple[Any, bool]:
 
 
 def is_instance_of_valid_type(value: Any, *, can_be_str: bool = False) -> bool:
-    """Whether a value is of one of the known types; see :func:`is_instance_of`."""
+    """Return True if a value is of one of the known types; see :func:`is_instance_of`."""
     return is_instance_of(value, can_be_str=can_be_str)
 
 
 def is_instance_of(value: Any, data_type: Any = None, *, can_be_str: bool = False) -> bool:
-    """Whether a value has a type.
+    """Return True if a value has a type.
 
     Args:
         value: The value.
@@ -188,7 +188,7 @@ def _list_in(value: str, data_type: Any, kind: Any, can_be_str: bool) -> Any:
 
 
 def is_substitution(x: Any) -> bool:
-    """Whether something is a substitution, or a list with at least one and else only text."""
+    """Return True for a substitution, or a list of text with at least one substitution."""
     if isinstance(x, Substitution):
         return True
     return (
@@ -199,12 +199,12 @@ def is_substitution(x: Any) -> bool:
 
 
 def is_normalized_substitution(x: Any) -> bool:
-    """Whether something is a list of nothing but substitutions, with at least one."""
+    """Return True if something is a list of nothing but substitutions, with at least one."""
     return isinstance(x, list) and bool(x) and all(isinstance(item, Substitution) for item in x)
 
 
 def normalize_typed_substitution(value: Any, data_type: Any) -> Any:
-    """A value of a type, or substitutions that give one, in the form for their performing.
+    """Return a value of a type, or substitutions that give one, in the form for their performing.
 
     Args:
         value: A value, a substitution, or a list of values or substitutions.
@@ -231,7 +231,7 @@ def normalize_typed_substitution(value: Any, data_type: Any) -> Any:
 
 
 def perform_typed_substitution(context: LaunchContext, value: Any, data_type: Any) -> Any:
-    """The value that :func:`normalize_typed_substitution` stands for, at run time.
+    """Return the value that :func:`normalize_typed_substitution` stands for, at run time.
 
     Raises:
         ValueError: The text of the substitutions is no value of the type.

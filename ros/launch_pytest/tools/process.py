@@ -119,7 +119,7 @@ async def wait_for_stderr(
     validate_output: Validate,
     timeout: float | None = None,
 ) -> bool:
-    """The same for stderr, where ROS nodes log."""
+    """Return the same for stderr, where ROS nodes log."""
     read = execute_process_action.get_stderr
     _require_cache(execute_process_action)
     return await _wait_for_text(

@@ -68,7 +68,7 @@ class NodeArguments:
         return f"{(self.namespace or '').rstrip('/')}/{self.name or '<node_name_unspecified>'}"
 
     def name_words(self) -> list[SomeSubstitutionsType]:
-        """The words for the name, which takes its place when the node starts."""
+        """Return the words for the name, which takes its place when the node starts."""
         if self.given_name is None:
             return []
         return ["-r", LocalSubstitution("ros_specific_arguments['name']", "node name")]
@@ -87,7 +87,7 @@ class NodeArguments:
             self.namespace = make_namespace_absolute(joined)
 
     def namespace_words(self) -> list[str]:
-        """The words for the namespace."""
+        """Return the words for the namespace."""
         return ["-r", f"__ns:={self.namespace}"] if self.namespace else []
 
     def expand_parameters(self, context: LaunchContext) -> list[str]:
@@ -103,7 +103,7 @@ class NodeArguments:
         return words
 
     def evaluated_parameters(self, context: LaunchContext) -> list[Any]:
-        """All parameters in their order: those of the scope, then the node's own."""
+        """Return all parameters in their order: the scope's, then the node's own."""
         evaluated: list[Any] = [
             dict([entry]) if isinstance(entry, tuple) else Path(str(entry))
             for entry in global_parameters(context)
@@ -116,7 +116,7 @@ class NodeArguments:
         return evaluated
 
     def expand_remappings(self, context: LaunchContext) -> list[tuple[str, str]]:
-        """``(from, to)`` pairs: those of the scope, then the node's own."""
+        """``(from, to)`` pairs: the scope's, then the node's own."""
         own = [
             (perform_substitutions(context, source), perform_substitutions(context, target))
             for source, target in self.remappings
@@ -171,7 +171,7 @@ class NodeArguments:
 
 
 def _yaml_text(value: Any) -> str:
-    """A value as YAML on one line, as it stands after ``:=``."""
+    """Return a value as YAML on one line, as it stands after ``:=``."""
     import yaml
 
     return (

@@ -26,7 +26,7 @@ _TYPES |= {
 def parse_remappings(
     entity: Entity, parser: Parser
 ) -> list[tuple[list[Substitution], list[Substitution]]]:
-    """The pairs of the ``remap`` elements in an element."""
+    """Return the pairs of the ``remap`` elements in an element."""
     pairs = []
     for rule in entity.get_attr("remap", data_type=list[Entity], optional=True) or ():
         pairs.append(
@@ -40,7 +40,7 @@ def parse_remappings(
 
 
 def parse_parameters(entity: Entity, parser: Parser) -> list[Any]:
-    """The ``param`` elements in an element.
+    """Return the ``param`` elements in an element.
 
     A file has ``from``, a value ``name`` and ``value``; elements may be nested.
 
@@ -52,7 +52,7 @@ def parse_parameters(entity: Entity, parser: Parser) -> list[Any]:
 
 
 def parse_parameter_elements(elements: Iterable[Entity], parser: Parser) -> list[Any]:
-    """The same of ``param`` elements that were found already."""
+    """Return the same of ``param`` elements that were found already."""
     parsed: list[Any] = []
     for parameter in elements:
         path = parameter.get_attr("from", optional=True)

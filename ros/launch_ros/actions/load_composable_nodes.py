@@ -29,7 +29,7 @@ __all__ = ["LoadComposableNodes", "get_composable_node_load_request"]
 def get_composable_node_load_request(
     composable_node_description: ComposableNode, context: LaunchContext
 ) -> Any:
-    """The request that loads a node, a ``composition_interfaces/srv/LoadNode.Request``.
+    """Return the request that loads a node, a ``composition_interfaces/srv/LoadNode.Request``.
 
     Args:
         composable_node_description: The node.

@@ -142,7 +142,7 @@ class Node(ExecuteProcess):
         return self._expanded_remappings
 
     def is_node_name_fully_specified(self) -> bool:
-        """Whether the launch file gives name and namespace."""
+        """Return True if the launch file gives name and namespace."""
         return self._ros.name is not None and self._ros.namespace is not None
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
@@ -175,7 +175,7 @@ class Node(ExecuteProcess):
         ]
 
     def command(self) -> list[str]:
-        """The command; a Python script is run by this interpreter."""
+        """Return the command; a Python script is run by this interpreter."""
         cmd = super().command()
         at = self.process_description.prefix_length
         return [*cmd[:at], *argv_for(cmd[at]), *cmd[at + 1 :]]

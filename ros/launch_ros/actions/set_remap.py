@@ -52,7 +52,7 @@ class SetRemap(Action):
 
     @property
     def dst(self) -> list[Substitution]:
-        """What it becomes."""
+        """New name."""
         return self._dst
 
     def execute(self, context: LaunchContext) -> None:

@@ -115,7 +115,7 @@ class ComposableNode:
 
     @property
     def extra_arguments(self) -> list[Any] | None:
-        """What only the container gets, normalized; None without any."""
+        """Arguments for the container alone, normalized; None without any."""
         return normalize_parameters(self._extra_arguments) if self._extra_arguments else None
 
     def condition(self) -> Condition | None:
@@ -123,7 +123,7 @@ class ComposableNode:
         return self._condition
 
     def is_wanted(self, context: LaunchContext) -> bool:
-        """Whether its condition holds."""
+        """Return True if its condition holds."""
         return self._condition is None or self._condition.evaluate(context)
 
     def load_request(self, context: LaunchContext) -> Any:

@@ -58,5 +58,5 @@ class OnStateTransition(EventHandler):
 
     @property
     def matcher_description(self) -> str:
-        """Which events."""
+        """Short description of the events."""
         return "event == StateTransition"

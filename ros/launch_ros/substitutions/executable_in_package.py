@@ -55,7 +55,7 @@ class ExecutableInPackage(Substitution):
         return self._package
 
     def find(self, package_name: str) -> str:
-        """The prefix that a package is installed in.
+        """Return the prefix that a package is installed in.
 
         Raises:
             PackageNotFoundError: It is not installed.
@@ -71,7 +71,7 @@ class ExecutableInPackage(Substitution):
         return f"ExecInPkg(pkg={package}, exec={executable})"
 
     def perform(self, context: LaunchContext) -> str:
-        """The path.
+        """Return the path.
 
         Raises:
             PackageNotFoundError: The package is not installed.

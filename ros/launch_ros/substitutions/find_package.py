@@ -43,7 +43,7 @@ class FindPackage(Substitution):
         return self._package
 
     def find(self, package_name: str) -> str:
-        """The folder."""
+        """Return the folder."""
         raise NotImplementedError(f"{type(self).__name__} does not define find()")
 
     def describe(self) -> str:
@@ -51,7 +51,7 @@ class FindPackage(Substitution):
         return f"{type(self).__name__}(pkg={' + '.join(part.describe() for part in self._package)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """The folder.
+        """Return the folder.
 
         Raises:
             PackageNotFoundError: The package is not installed.
@@ -68,7 +68,7 @@ class FindPackagePrefix(FindPackage):
     """
 
     def find(self, package_name: str) -> str:
-        """The prefix."""
+        """Return the prefix."""
         return get_package_prefix(package_name)
 
 
@@ -81,5 +81,5 @@ class FindPackageShare(FindPackage):
     """
 
     def find(self, package_name: str) -> str:
-        """The folder."""
+        """Return the folder."""
         return get_package_share_directory(package_name)

@@ -51,7 +51,7 @@ class Parameter(Substitution):
         return f"Parameter({' + '.join(part.describe() for part in self._name)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """The value as text.
+        """Return the value as text.
 
         Raises:
             SubstitutionFailure: It is not set, and there is no default.

@@ -40,7 +40,7 @@ def evaluate_parameter_dict(
 
 
 def evaluate_parameters(context: LaunchContext, parameters: Iterable[Any]) -> list[Any]:
-    """Each of several parameter sets, evaluated.
+    """Return each of several parameter sets, evaluated.
 
     Args:
         context: The launch.
@@ -63,7 +63,7 @@ def evaluate_parameters(context: LaunchContext, parameters: Iterable[Any]) -> li
 
 
 def evaluate_value(context: LaunchContext, value: Any, name: str = "") -> Any:
-    """The value of a parameter.
+    """Return the value of a parameter.
 
     Text stays text. Substitutions, and lists of text and substitutions, are joined and mean what
     YAML makes of them. Other sequences must hold values of one type.
@@ -101,7 +101,7 @@ def evaluate_value(context: LaunchContext, value: Any, name: str = "") -> Any:
 
 
 def typed(text: str, value_type: Any) -> Any:
-    """What a text means as a value of a type.
+    """Convert a text into a value of a type.
 
     Args:
         text: The text.

@@ -11,17 +11,17 @@ __all__ = [
 
 
 def is_root_namespace(ns: str) -> bool:
-    """Whether it is ``/``."""
+    """Return True if it is ``/``."""
     return ns == "/"
 
 
 def is_namespace_absolute(ns: str) -> bool:
-    """Whether it begins with a slash."""
+    """Return True if it begins with a slash."""
     return ns.startswith("/")
 
 
 def make_namespace_absolute(ns: str) -> str:
-    """The namespace with a leading slash; an empty one is the root."""
+    """Return the namespace with a leading slash; an empty one is the root."""
     return ns if is_namespace_absolute(ns) else f"/{ns}"
 
 

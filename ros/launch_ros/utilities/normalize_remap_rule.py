@@ -17,7 +17,7 @@ _Rule = tuple[tuple["Substitution", ...], tuple["Substitution", ...]]
 
 
 def normalize_remap_rule(remap_rule: Any) -> _Rule:
-    """A pair of text or substitutions as a pair of tuples of substitutions.
+    """Return a pair of text or substitutions as a pair of tuples of substitutions.
 
     Raises:
         TypeError: It is no pair, or not one of such parts.
@@ -33,5 +33,5 @@ def normalize_remap_rule(remap_rule: Any) -> _Rule:
 
 
 def normalize_remap_rules(remap_rules: Iterable[Any]) -> Iterator[_Rule]:
-    """Each of several rules, normalized."""
+    """Return each of several rules, normalized."""
     return (normalize_remap_rule(rule) for rule in remap_rules)

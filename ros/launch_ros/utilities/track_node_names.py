@@ -14,7 +14,7 @@ _KEY = "unique_ros_node_names"
 
 
 def get_node_name_count(context: LaunchContext, node_name: str) -> int:
-    """How many nodes of this full name the launch has started."""
+    """Return the number of nodes of this full name that the launch has started."""
     count: int = context.get_locals_as_dict().get(_KEY, {}).get(node_name, 0)
     return count
 

@@ -45,7 +45,7 @@ class SequentialTextChecker:
         self._position = start + len(msg)
 
     def get_nearby_lines(self) -> list[str]:
-        """The lines around the end of what was found last."""
+        """Return the lines around the end of what was found last."""
         before = self._text[: self._position].splitlines()
         after = self._text[self._position :].splitlines()
         return [*before[-5:], *after[:5]]

@@ -63,7 +63,7 @@ class LaunchTestFailureRepr:
 
     @property
     def reprcrash(self) -> ReprFileLocation:
-        """What pytest's summary shows."""
+        """Location for pytest's summary."""
         shown = [text for text, is_message in self._lines() if is_message]
         return ReprFileLocation("", 0, shown[0] if shown else "failed")
 
@@ -73,7 +73,7 @@ class LaunchTestFailureRepr:
             out.line(text, red=is_message, bold=is_message)
 
     def _lines(self) -> Iterator[tuple[str, bool]]:
-        """The lines, and whether they say what is wrong."""
+        """Yield the lines, and whether they say what is wrong."""
         for run, result in self._failures.items():
             if message := getattr(result, "message", ""):
                 yield f"{run}: {message}", True
@@ -143,7 +143,7 @@ class LaunchTestItem(pytest.Item):
     def repr_failure(  # type: ignore[override]
         self, excinfo: pytest.ExceptionInfo[BaseException]
     ) -> Any:
-        """What pytest shows of a failure."""
+        """Return pytest's description of a failure."""
         if isinstance(excinfo.value, LaunchTestFailure):
             return LaunchTestFailureRepr(excinfo.value.results)
         own = excinfo.traceback.cut(path=self.path)
@@ -165,7 +165,7 @@ class LaunchTestModule(pytest.File):
         return LaunchTestItem.from_parent(*args, **kwargs)
 
     def collect(self) -> Iterator[pytest.Item]:
-        """The module's one item."""
+        """Yield the module's one item."""
         module = importtestmodule(self.path, self.config)
         item = self.makeitem(
             self,
@@ -184,7 +184,7 @@ def _title(test: Any) -> str:
 
 
 def find_launch_test_entrypoint(path: Path, config: pytest.Config | None = None) -> Any:
-    """The function ``generate_test_description`` of a file, or None.
+    """Return the function ``generate_test_description`` of a file, or None.
 
     Args:
         path: The file.

@@ -37,7 +37,7 @@ def basic_output_filter(
     filtered_prefixes: Iterable[str] | None = None,
     filtered_patterns: Iterable[str] | None = None,
 ) -> Callable[[str], str]:
-    """A function that removes lines from a text.
+    """Return a function that removes lines from a text.
 
     Args:
         filtered_prefixes: Beginnings of the lines that are removed.
@@ -73,11 +73,11 @@ def expect_output(
     strip_ansi_escape_sequences: bool = True,
     strict: bool = False,
 ) -> bool:
-    """Whether a text, or lines, are as expected.
+    """Return True if a text, or lines, are as expected.
 
     Args:
         text: The text; without it ``lines``.
-        lines: The lines; without them those of ``text``.
+        lines: The lines; ``text`` is split if they are not given.
         expected_text: As for :func:`launch_testing.tools.text.build_text_match`.
         expected_lines: As for :func:`launch_testing.tools.text.build_line_match`.
         strip_ansi_escape_sequences: Whether colours and other sequences are removed before.
@@ -101,14 +101,14 @@ def expect_output(
 
 
 def _found(result: Any) -> bool:
-    """Whether a match function found something: its own ones return a span, others any truth."""
+    """Return True if a match function succeeded: ours return a span, others any true value."""
     return isinstance(result, tuple) or bool(result)
 
 
 def expected_text_matches(
     text: str, expected: Any, output_filter: Callable[[str], str] | None, *, strip: bool
 ) -> bool:
-    """Whether output has what an assertion expects.
+    """Return True if output has what an assertion expects.
 
     Args:
         text: The output.
@@ -127,7 +127,7 @@ def expected_text_matches(
 def expected_output_from_file(
     path: str | os.PathLike[str], encoding: str | None = None
 ) -> list[str] | list[re.Pattern[str]]:
-    """What a program is expected to write, from a file.
+    """Read a program's expected output from a file.
 
     Args:
         path: Path without extension. ``PATH.txt`` holds lines, ``PATH.regex`` a pattern in each

@@ -69,12 +69,12 @@ class ProcessProxy:
 
     @property
     def running(self) -> bool:
-        """Whether it has started and not ended."""
+        """True if it has started and not ended."""
         return self._action in self._proc_info.processes() and not self.terminated
 
     @property
     def terminated(self) -> bool:
-        """Whether it has ended."""
+        """True if it has ended."""
         return self._action in self._proc_info.processes() and isinstance(
             self._proc_info[self._action], ProcessExited
         )
@@ -86,17 +86,17 @@ class ProcessProxy:
 
     @property
     def stderr(self) -> str:
-        """What it has written to stderr."""
+        """Output to stderr so far."""
         return self._text(lambda event: event.from_stderr)
 
     @property
     def stdout(self) -> str:
-        """What it has written to stdout."""
+        """Output to stdout so far."""
         return self._text(lambda event: event.from_stdout)
 
     @property
     def output(self) -> str:
-        """What it has written to either."""
+        """Output to stdout and stderr so far."""
         return self._text(lambda _: True)
 
     def _text(self, wanted: Callable[[Any], bool]) -> str:

@@ -14,7 +14,7 @@ _Span = tuple[int, int]
 
 
 def normalize_lineseps(lines: str) -> str:
-    r"""The text with ``\n`` at the end of each line."""
+    r"""Return the text with ``\n`` at the end of each line."""
     return re.sub(r"\r\n|\n\r|\r", "\n", lines)
 
 

@@ -19,6 +19,6 @@ _WAIT_ON_WINDOWS = "import sys; sys.stdin.read()"
 
 
 def KeepAliveProc() -> ExecuteProcess:  # noqa: N802  ROS 2's name
-    """An action whose process waits until it is interrupted."""
+    """Return an action whose process waits until it is interrupted."""
     program = _WAIT_ON_WINDOWS if sys.platform == "win32" else _WAIT
     return ExecuteProcess(cmd=[sys.executable, "-c", program], name="keep_alive")

@@ -36,7 +36,7 @@ def basic_output_filter(
     filtered_patterns: Iterable[str] | None = None,
     filtered_rmw_implementation: str | None = None,
 ) -> Callable[[str], str]:
-    """A function that removes lines from a text, those of the middleware too.
+    """Return a function that removes lines from a text, the middleware's included.
 
     Args:
         filtered_prefixes: As for :func:`launch_testing.tools.basic_output_filter`.

@@ -18,11 +18,11 @@ class Arrivals(Protocol):
     """What handles the messages, such as :class:`turtlewire.tf.listener.TransformListener`."""
 
     def expect_message(self, call: Callable[[], None]) -> bool:
-        """Whether a message came since :meth:`take_arrivals`; if not, ``call()`` follows one."""
+        """Return True if a message came since :meth:`take_arrivals`; else call back at the next."""
         ...
 
     def take_arrivals(self) -> bool:
-        """Whether a message came since the last call."""
+        """Return True if a message came since the last call."""
         ...
 
 

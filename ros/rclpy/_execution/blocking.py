@@ -89,7 +89,7 @@ def _serve_responses(host: Host, future: Future[Any], call: Call, deadline: floa
 
 
 def _remaining_ns(*moments: float | None) -> int | None:
-    """Until the first of these moments; None if there is none."""
+    """Return the nanoseconds until the first of these moments; None for no limit."""
     known = [moment for moment in moments if moment is not None]
     return max(0, int((min(known) - time.monotonic()) * 1_000_000_000)) if known else None
 

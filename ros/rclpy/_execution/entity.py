@@ -57,11 +57,11 @@ class Host(Protocol):
         ...
 
     def is_spun(self) -> bool:
-        """Whether any thread spins the executor."""
+        """Return True if any thread spins the executor."""
         ...
 
     def is_spun_by_this_thread(self) -> bool:
-        """Whether this thread spins the executor, and so must not wait for it."""
+        """Return True if this thread spins the executor, and so must not wait for it."""
         ...
 
     def serving_responses(self, future: Future[Any]) -> AbstractContextManager[None]:
@@ -69,7 +69,7 @@ class Host(Protocol):
         ...
 
     def holds_up(self, service: str) -> bool:
-        """Whether a request for a service is here that cannot be answered at the moment."""
+        """Return True if a request for a service is here that cannot be answered at the moment."""
         ...
 
     def next(
@@ -133,7 +133,7 @@ class Entity:
         self._detach(host)
 
     def _serving_host(self) -> Host | None:
-        """The executor that serves it."""
+        """Return the executor that serves it."""
         reference = self._host  # one look: another thread may detach it at any moment
         return None if reference is None else reference()
 
@@ -189,7 +189,7 @@ class Entity:
         self._attach(host)
 
     def _work(self) -> Work | None:
-        """What has to run now; the executor calls it."""
+        """Return the work to run now; the executor calls this."""
         return self._take() if self._owner is None else self._owner._work_of(self)
 
     def _take(self) -> Work | None:
@@ -197,11 +197,11 @@ class Entity:
         raise NotImplementedError
 
     def _serves(self, service: str) -> bool:  # noqa: ARG002 - most entities serve none
-        """Whether it answers requests of this service."""
+        """Return True if it answers requests of this service."""
         return False
 
     def _awaits(self, service: str) -> bool:  # noqa: ARG002 - most entities call none
-        """Whether it has sent a request to this service that is not answered yet."""
+        """Return True if it has sent a request to this service that is not answered yet."""
         return False
 
 
@@ -209,5 +209,5 @@ class _Owner(Protocol):
     """What an entity is part of."""
 
     def _work_of(self, part: Entity) -> Work | None:
-        """What has to run when a part is ready."""
+        """Return the work to run when a part is ready."""
         ...

@@ -44,7 +44,7 @@ class PoolScheduler(Scheduler):
         self._failures: deque[BaseException] = deque()
 
     def check_alive(self) -> None:
-        """See :meth:`Scheduler.check_alive`; raises what a callback has raised, too."""
+        """Raise also what a callback has raised."""
         while self._failures:
             failure = self._failures.popleft()
             if not isinstance(failure, _QUIET):
@@ -52,11 +52,10 @@ class PoolScheduler(Scheduler):
         super().check_alive()
 
     def may_run(self, entity: Entity) -> bool:
-        """See :meth:`Scheduler.may_run`; a thread must be free."""
+        """Return True if the scheduler allows it and a thread is free."""
         return self._free_threads > 0 and super().may_run(entity)
 
     def run(self, source: Entity | Task[Any], work: Work | None) -> None:
-        """See :meth:`Scheduler.run`."""
         if isinstance(source, Entity) and not source._GATED:
             # Handing a response to its future takes no thread: all may be waiting for it.
             self.execute(source, work)
@@ -81,14 +80,13 @@ class PoolScheduler(Scheduler):
         self.resume_paused()
 
     def shutdown(self, timeout_sec: float | None) -> bool:
-        """See :meth:`Scheduler.shutdown`."""
         ended = super().shutdown(timeout_sec)
         with self.lock:
             self._pool.shutdown(wait=False)
         return ended
 
     def close(self) -> None:
-        """See :meth:`Scheduler.close`; ends the threads, too."""
+        """Close the scheduler and end the threads."""
         super().close()
         in_callback = self._running.of_this_thread() > 0  # then this thread may be one of them
         self._pool.shutdown(wait=not in_callback)

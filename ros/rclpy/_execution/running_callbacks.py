@@ -34,7 +34,7 @@ class RunningCallbacks:
                 self._changed.notify_all()
 
     def of_this_thread(self) -> int:
-        """How many run in this thread, one within the other."""
+        """Return the number of callbacks nested in this thread."""
         return self._counts.get(threading.get_ident(), 0)
 
     def wait_for_others(self, timeout_sec: float | None) -> bool:

@@ -81,7 +81,7 @@ class Scheduler:
     # Entities
 
     def adopt(self, entity: Entity, node_index: int = -1) -> None:
-        """Serve an entity of the node with this number; those of no node come first."""
+        """Serve an entity of the node with this number; entities without a node come first."""
         with self.lock:
             self._entities_made += 1
             if entity._join(self, node_index, self._entities_made):
@@ -142,11 +142,11 @@ class Scheduler:
             self._spinning_thread = outer
 
     def is_spun_by_this_thread(self) -> bool:
-        """Whether this thread spins, and so must not wait for what only spinning brings about."""
+        """Return True if this thread spins; waiting here for a callback would deadlock."""
         return self._spinning_thread == threading.get_ident()
 
     def is_spun(self) -> bool:
-        """Whether any thread spins."""
+        """Return True if any thread spins."""
         return self._spinning_thread is not None
 
     def next(
@@ -192,7 +192,7 @@ class Scheduler:
             raise ExternalShutdownException
 
     def _patience(self) -> int | None:
-        """Until when a spin may find nothing to run before that is warned of; None: for ever."""
+        """Return the deadline for the warning about an idle nested spin; None for no limit."""
         is_nested = bool(self._running.of_this_thread()) and self._response_awaited is None
         return time.monotonic_ns() + _PATIENCE_NS if is_nested else None
 
@@ -229,7 +229,7 @@ class Scheduler:
     def _claim(self, entity: Entity) -> Work | None:
         """Claim the entity's group and take its work.
 
-        None if there is none or the group is busy.
+        None if nothing is ready or the group is busy.
         """
         if entity not in self._served:
             return None  # destroyed, or moved to another executor meanwhile
@@ -248,7 +248,7 @@ class Scheduler:
         return work
 
     def may_run(self, entity: Entity) -> bool:
-        """Whether a callback of this entity may start now."""
+        """Return True if a callback of this entity may start now."""
         return self._response_awaited is None and entity.callback_group.can_execute(entity)
 
     def _pause(self, entity: Entity) -> None:
@@ -339,7 +339,7 @@ class Scheduler:
             self.resume_paused()
 
     def holds_up(self, service: str) -> bool:
-        """Whether a request for a service is here that cannot be answered at the moment."""
+        """Return True if a request for a service is here that cannot be answered at the moment."""
         return any(entity._serves(service) for entity in list(self._paused))
 
     # The end

@@ -48,7 +48,7 @@ class SelfWaits:
         self._due.pop(entity, None)
 
     def bounded(self, timeout_ns: int | None) -> int | None:
-        """How long to wait before :meth:`warn` is due."""
+        """Shorten a wait so that :meth:`warn` can be called in time."""
         if not self._due:
             return timeout_ns
         moments = [due for _, due in list(self._due.values())]

@@ -24,8 +24,8 @@ class TimerQueue(Generic[T]):
     newest ticket of a timer counts. Old entries are swept out before they outnumber the others.
 
     Args:
-        on_earlier: Called, without locks held, when the next moment came nearer: whoever waits for
-            it must wait anew.
+        on_earlier: Called, without locks held, when the next moment came nearer, so that a thread
+            that waits for it can wait again.
     """
 
     def __init__(self, on_earlier: Callable[[], None]) -> None:
@@ -58,7 +58,7 @@ class TimerQueue(Generic[T]):
         self.schedule(timer, None)
 
     def time_until_next(self) -> int | None:
-        """Nanoseconds until the next timer is due, 0 when one is, None when there is none."""
+        """Nanoseconds until the next timer is due, 0 if it is due, None without timers."""
         with self._lock:
             self._drop_stale()
             return max(0, self._heap[0][0] - time.monotonic_ns()) if self._heap else None

@@ -28,7 +28,7 @@ class ParameterCallbacks:
         self.after: list[Callable[[list[Parameter]], None]] = []
 
     def changed_list(self, parameters: list[Parameter]) -> list[Parameter]:
-        """What is set instead of ``parameters``; an empty list ends it."""
+        """Return the parameters that callbacks put in place of ``parameters``."""
         for callback in list(self.before):
             parameters = callback(parameters)
             if not parameters:

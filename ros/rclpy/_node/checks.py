@@ -46,7 +46,7 @@ def in_open_context(context: Context, what: str) -> Iterator[None]:
 
 
 def validate_qos(qos_or_depth: QoSProfile | int) -> QoSProfile:
-    """A profile as it is, a depth as the default profile with that depth.
+    """Return a profile as it is, a depth as the default profile with that depth.
 
     Raises:
         TypeError: It is neither.

@@ -16,7 +16,7 @@ __all__ = ["default", "new_descriptor", "override", "read_declaration", "yaml_hi
 
 
 def new_descriptor() -> ParameterDescriptor:
-    """An empty one."""
+    """Return an empty one."""
     from rcl_interfaces.msg import ParameterDescriptor
 
     return ParameterDescriptor()
@@ -25,7 +25,7 @@ def new_descriptor() -> ParameterDescriptor:
 def read_declaration(
     index: int, declaration: tuple[Any, ...]
 ) -> tuple[str, Any, ParameterDescriptor]:
-    """Name, default value (None when there is none) and descriptor with the type filled in.
+    """Name, default value (None without one) and descriptor with the type filled in.
 
     Raises:
         TypeError, ValueError: The declaration, the ``index``-th of a call, is malformed.
@@ -66,7 +66,7 @@ def read_declaration(
 
 
 def _type_of(value: Any) -> int:
-    """The number of a default value's type.
+    """Return the number of a default value's type.
 
     Raises:
         ValueError: It is a ``ParameterValue`` that is not set.
@@ -98,7 +98,7 @@ def _warn_of_name_alone(name: str) -> None:
 
 
 def default(name: str, value: Any) -> Parameter:
-    """The parameter with its default value, which may be a ``ParameterValue``."""
+    """Return the parameter with its default value, which may be a ``ParameterValue``."""
     from rcl_interfaces import msg
 
     if isinstance(value, msg.ParameterValue):
@@ -107,7 +107,7 @@ def default(name: str, value: Any) -> Parameter:
 
 
 def override(name: str, value: Any, descriptor: ParameterDescriptor) -> Parameter:
-    """The parameter that the command line gives.
+    """Return the parameter that the command line gives.
 
     Its empty list is one of the declared type, which YAML cannot tell.
     """
@@ -117,7 +117,7 @@ def override(name: str, value: Any, descriptor: ParameterDescriptor) -> Paramete
 
 
 def yaml_hint(parameter: Parameter, expected: Parameter.Type) -> str:
-    """How the command line says a value of the expected type."""
+    """Return a hint how to write a value of the expected type on the command line."""
     if expected is Parameter.Type.STRING:
         return f"YAML reads a string in quotes: -p {parameter.name}:='\"{parameter.value}\"'"
     if expected is Parameter.Type.DOUBLE and parameter.type_ is Parameter.Type.INTEGER:

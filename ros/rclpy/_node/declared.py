@@ -30,14 +30,14 @@ class DeclaredParameters:
         self._descriptors: dict[str, ParameterDescriptor] = {}
 
     def has_parameter(self, name: str) -> bool:
-        """Whether a parameter is declared."""
+        """Return True if a parameter is declared."""
         return name in self._parameters
 
     def get_parameter(self, name: str) -> Parameter:
         """One parameter.
 
         Raises:
-            ParameterNotDeclaredException: There is none of that name, and undeclared ones are not
+            ParameterNotDeclaredException: The name is not declared, and undeclared ones are not
                 allowed.
             ParameterUninitializedException: It was declared with a type alone, and was never set.
         """
@@ -68,7 +68,7 @@ class DeclaredParameters:
         )
 
     def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter]:
-        """The parameters below ``prefix``, by the rest of their names."""
+        """Return the parameters below ``prefix``, by the rest of their names."""
         start = f"{prefix}{PARAMETER_SEPARATOR_STRING}" if prefix else ""
         return {
             name[len(start) :]: parameter
@@ -77,10 +77,10 @@ class DeclaredParameters:
         }
 
     def get_parameter_type(self, name: str) -> int:
-        """The number of a parameter's type.
+        """Return the number of a parameter's type.
 
         Raises:
-            ParameterNotDeclaredException: There is none of that name, and undeclared ones are not
+            ParameterNotDeclaredException: The name is not declared, and undeclared ones are not
                 allowed.
         """
         if name not in self._parameters and not self._allow_undeclared:
@@ -88,13 +88,13 @@ class DeclaredParameters:
         return int(self.get_parameter_or(name).type_.value)
 
     def get_parameter_types(self, names: list[str]) -> list[int]:
-        """The types of several parameters; raises as :meth:`get_parameter_type`."""
+        """Return the types of several parameters; raises as :meth:`get_parameter_type`."""
         if not all(isinstance(name, str) for name in names):
             raise TypeError("All names must be instances of type str")
         return [self.get_parameter_type(name) for name in names]
 
     def list_parameters(self, prefixes: list[str], depth: int) -> ListParametersResult:
-        """The names of parameters, and the prefixes that they have.
+        """Return the names of parameters, and the prefixes that they have.
 
         Args:
             prefixes: Names or beginnings of names up to a dot; all parameters if empty.
@@ -114,10 +114,10 @@ class DeclaredParameters:
         return ListParametersResult(names=names, prefixes=prefixes_of(names))
 
     def describe_parameter(self, name: str) -> ParameterDescriptor:
-        """What was declared of a parameter, with its present type; nothing of an undeclared one.
+        """Return a parameter's descriptor with its present type, empty if it is undeclared.
 
         Raises:
-            ParameterNotDeclaredException: There is none of that name, and undeclared ones are not
+            ParameterNotDeclaredException: The name is not declared, and undeclared ones are not
                 allowed.
         """
         descriptor = self._descriptors.get(name)
@@ -135,7 +135,7 @@ class DeclaredParameters:
         return [self.describe_parameter(name) for name in names]
 
     def _hint(self, name: str) -> str:
-        """Which declared name is meant, perhaps."""
+        """Return a hint that names the most similar declared parameter."""
         import difflib
 
         near = difflib.get_close_matches(name, self._parameters, n=3)

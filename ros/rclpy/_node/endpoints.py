@@ -48,7 +48,7 @@ _Owned = TypeVar("_Owned")
 
 
 def endpoints_of(node: Any) -> NodeEndpoints:
-    """Those of a node, which programs derive from: the attribute is not for them."""
+    """Return a node's endpoints (internal)."""
     endpoints: NodeEndpoints = node._rclpy_endpoints
     return endpoints
 
@@ -60,7 +60,7 @@ class QosOverrides(NamedTuple):
     parameters: NodeParameters
 
     def apply(self, kind: str, profile: QoSProfile, resolve_topic: Callable[[], str]) -> QoSProfile:
-        """The profile with the parameters' values; ``kind`` is publisher or subscription."""
+        """Return the profile with the parameters' values; ``kind`` is publisher or subscription."""
         if self.options is None:
             return profile
         from rclpy.qos_overriding_options import overridden_profile
@@ -85,12 +85,12 @@ class NodeEndpoints:
         self.default_callback_group: CallbackGroup = MutuallyExclusiveCallbackGroup()
 
     def of(self, kind: type) -> list[Any]:
-        """Those of one class, in the order in which they were made."""
+        """Return the endpoints of one class in the order of their creation."""
         with self._lock:
             return list(self._owned.get(kind, ()))
 
     def entities(self) -> list[Entity]:
-        """Those that an executor serves."""
+        """Return the entities that an executor serves."""
         with self._lock:
             return [
                 owned
@@ -109,7 +109,6 @@ class NodeEndpoints:
         publisher_class: type[Publisher] = Publisher,
         overrides: QosOverrides | None = None,
     ) -> Publisher:
-        """See :meth:`rclpy.node.Node.create_publisher`."""
         profile = validate_qos(qos_profile)
         if overrides is not None:
             profile = overrides.apply("publisher", profile, lambda: self.names.resolve_topic(topic))
@@ -126,7 +125,7 @@ class NodeEndpoints:
         qos_profile: QoSProfile | int,
         publisher_class: type[Publisher] = Publisher,
     ) -> Publisher:
-        """A publisher that the caller owns."""
+        """Return a publisher that the caller owns."""
         check_is_valid_msg_type(msg_type)
         profile = validate_qos(qos_profile)
         name = self.names.resolve_topic(topic)
@@ -148,7 +147,7 @@ class NodeEndpoints:
         overrides: QosOverrides,
         sink: base.Sink | None = None,
     ) -> Subscription:
-        """See :meth:`rclpy.node.Node.create_subscription`.
+        """Create a subscription; see :meth:`rclpy.node.Node.create_subscription`.
 
         A sink may handle messages without Python; the callback gets those that it leaves.
         """
@@ -172,7 +171,7 @@ class NodeEndpoints:
         raw: bool = False,
         sink: base.Sink | None = None,
     ) -> Subscription:
-        """A subscription that the caller owns."""
+        """Return a subscription that the caller owns."""
         check_is_valid_msg_type(msg_type)
         profile = validate_qos(qos_profile)
         name = self.names.resolve_topic(topic)
@@ -205,7 +204,6 @@ class NodeEndpoints:
         qos_profile: QoSProfile,
         callback_group: CallbackGroup | None,
     ) -> Client:
-        """See :meth:`rclpy.node.Node.create_client`."""
         return self._own(Client, self.make_client(srv_type, srv_name, qos_profile, callback_group))
 
     def make_client(
@@ -215,7 +213,7 @@ class NodeEndpoints:
         qos_profile: QoSProfile,
         callback_group: CallbackGroup | None,
     ) -> Client:
-        """A client that the caller owns."""
+        """Return a client that the caller owns."""
         check_is_valid_srv_type(srv_type)
         name = self.names.resolve_service(srv_name)
         with in_open_context(self._core.context, "client"):
@@ -240,7 +238,6 @@ class NodeEndpoints:
         qos_profile: QoSProfile,
         callback_group: CallbackGroup | None,
     ) -> Service:
-        """See :meth:`rclpy.node.Node.create_service`."""
         return self._own(
             Service, self.make_service(srv_type, srv_name, callback, qos_profile, callback_group)
         )
@@ -254,7 +251,7 @@ class NodeEndpoints:
         callback_group: CallbackGroup | None,
         service_class: type[Service] = Service,
     ) -> Service:
-        """A service that the caller owns."""
+        """Return a service that the caller owns."""
         check_is_valid_srv_type(srv_type)
         check_callable(callback)
         name = self.names.resolve_service(srv_name)
@@ -281,7 +278,6 @@ class NodeEndpoints:
         clock: Clock,
         autostart: bool,
     ) -> Timer:
-        """See :meth:`rclpy.node.Node.create_timer`."""
         if callback is not None:
             check_callable(callback)
         group = callback_group or self.default_callback_group
@@ -294,7 +290,6 @@ class NodeEndpoints:
         )
 
     def create_rate(self, frequency: float, clock: Clock) -> Rate:
-        """See :meth:`rclpy.node.Node.create_rate`."""
         if frequency <= 0:
             raise ValueError("frequency must be > 0")
         # a group of its own: a callback that sleeps must not hold up the timer that wakes it
@@ -306,18 +301,15 @@ class NodeEndpoints:
     def create_guard_condition(
         self, callback: Callable[[], Any], callback_group: CallbackGroup | None
     ) -> GuardCondition:
-        """See :meth:`rclpy.node.Node.create_guard_condition`."""
         group = callback_group or self.default_callback_group
         return self._own(GuardCondition, GuardCondition(callback, group, self._core.context))
 
     def add_waitable(self, waitable: Waitable) -> None:
-        """See :meth:`rclpy.node.Node.add_waitable`."""
         from rclpy.waitable import Waitable
 
         self._own(Waitable, waitable)
 
     def remove_waitable(self, waitable: Waitable) -> None:
-        """See :meth:`rclpy.node.Node.remove_waitable`."""
         executor = waitable._serving_host()
         if executor is not None:
             executor.release(waitable)
@@ -352,7 +344,7 @@ class NodeEndpoints:
         return owned
 
     def attach(self, executor: Host, node_index: int) -> None:
-        """Have ``executor`` serve the entities, those of the future included.
+        """Have ``executor`` serve the entities, future ones included.
 
         Args:
             executor: What serves them.

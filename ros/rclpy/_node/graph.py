@@ -33,11 +33,9 @@ class NodeGraph:
         return self._core.context.wire.graph
 
     def topic_names_and_types(self, no_demangle: bool) -> NamesAndTypes:
-        """See :meth:`rclpy.node.Node.get_topic_names_and_types`."""
         return list(self._graph.topic_names_and_types(demangle=not no_demangle).items())
 
     def service_names_and_types(self) -> NamesAndTypes:
-        """See :meth:`rclpy.node.Node.get_service_names_and_types`."""
         return list(self._graph.service_names_and_types().items())
 
     def node_names(self) -> list[tuple[str, str, str]]:
@@ -115,7 +113,7 @@ class NodeGraph:
         return [(name, sorted(found[name])) for name in sorted(found)]
 
     def count_topic(self, kind: str, topic: str) -> int:
-        """How many publishers or subscriptions a topic has.
+        """Return the number of publishers or subscriptions of a topic.
 
         Raises:
             ValueError: The name breaks the rules.
@@ -124,7 +122,7 @@ class NodeGraph:
         return len(self._graph.endpoints_of(name, kind))
 
     def count_service(self, kind: str, service: str) -> int:
-        """How many servers (``kind`` "service") or clients ("client") a service has.
+        """Return the number of a service's servers (``kind`` "service") or clients ("client").
 
         Raises:
             ValueError: The name breaks the rules.
@@ -139,7 +137,7 @@ class NodeGraph:
         return expanded
 
     def endpoint_infos(self, kind: str, topic: str, *, no_mangle: bool) -> list[TopicEndpointInfo]:
-        """What is known of each publisher or subscription of a topic.
+        """Return information about each publisher or subscription of a topic.
 
         Raises:
             ValueError: The name breaks the rules.
@@ -158,7 +156,6 @@ class NodeGraph:
         ]
 
     def wait_for_node(self, fully_qualified_node_name: str, timeout_sec: float) -> bool:
-        """See :meth:`rclpy.node.Node.wait_for_node`."""
         wanted = (
             fully_qualified_node_name
             if fully_qualified_node_name.startswith("/")

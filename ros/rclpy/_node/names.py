@@ -21,7 +21,7 @@ class NodeNames:
         self._core = core
 
     def resolve_topic(self, topic: str, *, only_expand: bool = False) -> str:
-        """The fully qualified name of a topic, remapped unless ``only_expand``.
+        """Return the fully qualified name of a topic, remapped unless ``only_expand``.
 
         Raises:
             InvalidTopicNameException: The name breaks the rules.
@@ -33,7 +33,7 @@ class NodeNames:
         return self._core.arguments.remap_topic(expanded, self._core.name, self._core.namespace)
 
     def resolve_service(self, service: str, *, only_expand: bool = False) -> str:
-        """The fully qualified name of a service, remapped unless ``only_expand``.
+        """Return the fully qualified name of a service, remapped unless ``only_expand``.
 
         Raises:
             InvalidServiceNameException: The name breaks the rules.

@@ -51,7 +51,7 @@ class NodeParameters(DeclaredParameters):
 
     Args:
         node_fqn: Fully qualified name of the node, for events.
-        overrides: Values from the command line, which replace those of declarations.
+        overrides: Values from the command line, which replace the declared values.
         constructor_overrides: Values that the program gave to the node; they win over the command
             line's.
         allow_undeclared: Whether parameters may be read and set without a declaration.
@@ -170,7 +170,7 @@ class NodeParameters(DeclaredParameters):
         """Forget a parameter.
 
         Raises:
-            ParameterNotDeclaredException: There is none of that name.
+            ParameterNotDeclaredException: The parameter is not declared.
             ParameterImmutableException: It is read-only.
         """
         if name not in self._parameters:
@@ -293,7 +293,7 @@ class NodeParameters(DeclaredParameters):
             The value that the parameter has now.
 
         Raises:
-            ParameterNotDeclaredException: There is none of that name, and undeclared ones are not
+            ParameterNotDeclaredException: The name is not declared, and undeclared ones are not
                 allowed.
             ParameterImmutableException: It is read-only.
             InvalidParameterValueException: Neither value agrees with the descriptor.

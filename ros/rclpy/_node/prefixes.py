@@ -13,7 +13,7 @@ __all__ = ["is_listed", "prefixes_of"]
 
 
 def is_listed(name: str, prefixes: list[str], depth: int) -> bool:
-    """Whether a list of the names below ``prefixes`` has ``name``.
+    """Return True if a list of the names below ``prefixes`` has ``name``.
 
     Args:
         name: Of a parameter.
@@ -37,6 +37,6 @@ def is_listed(name: str, prefixes: list[str], depth: int) -> bool:
 
 
 def prefixes_of(names: Iterable[str]) -> list[str]:
-    """The longest prefix of each name that has one, each once, in their order."""
+    """Return the longest prefix of each name that has one, each once, in their order."""
     parents = (name.rpartition(PARAMETER_SEPARATOR_STRING)[0] for name in names)
     return list(dict.fromkeys(parent for parent in parents if parent))

@@ -42,7 +42,7 @@ class ParameterOwner(ServiceOwner, Protocol):
     """A node that has parameters, too."""
 
     def has_parameter(self, name: str) -> bool:
-        """Whether a parameter is declared."""
+        """Return True if a parameter is declared."""
         ...
 
     def declare_parameter(
@@ -52,15 +52,15 @@ class ParameterOwner(ServiceOwner, Protocol):
         ...
 
     def get_parameter(self, name: str) -> Parameter:
-        """A parameter."""
+        """Return a parameter."""
         ...
 
     def get_parameter_type(self, name: str) -> Any:
-        """The type of a parameter."""
+        """Return the type of a parameter."""
         ...
 
     def describe_parameter(self, name: str) -> ParameterDescriptor:
-        """The descriptor of a parameter."""
+        """Return the descriptor of a parameter."""
         ...
 
     def list_parameters(self, prefixes: list[str], depth: int) -> ListParametersResult:
@@ -76,7 +76,7 @@ class TimeSourceOwner(Protocol):
     """A node whose parameter says whether its clock follows ``/clock``."""
 
     def has_parameter(self, name: str) -> bool:
-        """Whether a parameter is declared."""
+        """Return True if a parameter is declared."""
         ...
 
     def declare_parameter(self, name: str, value: Any = None) -> Parameter:
@@ -84,7 +84,7 @@ class TimeSourceOwner(Protocol):
         ...
 
     def get_parameter_or(self, name: str, alternative_value: Parameter | None = None) -> Parameter:
-        """A parameter."""
+        """Return a parameter."""
         ...
 
     def add_on_set_parameters_callback(

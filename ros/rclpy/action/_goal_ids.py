@@ -12,12 +12,12 @@ __all__ = ["goal_key", "random_goal_id"]
 
 
 def goal_key(goal_id: Any) -> bytes:
-    """The 16 bytes of a ``unique_identifier_msgs/msg/UUID``, without NumPy."""
+    """Return the 16 bytes of a ``unique_identifier_msgs/msg/UUID``, without NumPy."""
     return array_content(goal_id, "uuid")
 
 
 def random_goal_id() -> Any:
-    """A random UUID, version 4."""
+    """Return a random UUID, version 4."""
     value = bytearray(os.urandom(16))
     value[6] = value[6] & 0x0F | 0x40
     value[8] = value[8] & 0x3F | 0x80

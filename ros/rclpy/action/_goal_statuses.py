@@ -60,14 +60,14 @@ class GoalStatuses:
         self._places = {goal: index * size for index, (goal, _) in enumerate(kept)}
 
     def cdr(self) -> bytes:
-        """The serialized ``action_msgs/msg/GoalStatusArray``."""
+        """Return the serialized ``action_msgs/msg/GoalStatusArray``."""
         records = bytes(self._records)
         first, rest = records[: _FIRST_PADDING.start], records[_FIRST_PADDING.stop :]
         return b"".join((_HEADER.pack(_LITTLE_ENDIAN, len(self._places)), first, rest))
 
 
 def read_statuses(cdr: bytes, goals: Collection[bytes]) -> list[tuple[bytes, int]]:
-    """Id and state of those of ``goals`` that are in a serialized ``GoalStatusArray``.
+    """Id and state of the ``goals`` that a serialized ``GoalStatusArray`` has.
 
     Raises:
         CdrError: The bytes are malformed.
@@ -82,7 +82,7 @@ def read_statuses(cdr: bytes, goals: Collection[bytes]) -> list[tuple[bytes, int
 
 
 def _records_of(cdr: bytes) -> bytes | None:
-    """The records; None if they are big endian or not as many as they say."""
+    """Return the records; None if they are big endian or not as many as they say."""
     if len(cdr) < _HEADER.size or not cdr.startswith(_LITTLE_ENDIAN[:2]):
         return None
     size = _HEADER.unpack_from(cdr)[1] * _RECORD.size
@@ -92,7 +92,7 @@ def _records_of(cdr: bytes) -> bytes | None:
 
 
 def _decoded(cdr: bytes, goals: Collection[bytes]) -> list[tuple[bytes, int]]:
-    """Of unusual bytes: big endian, longer than they say, or malformed."""
+    """Decode unusual bytes: big endian, longer than announced, or malformed."""
     message: Any = deserialize(get_message("action_msgs/msg/GoalStatusArray"), cdr)
     states = ((goal_key(state.goal_info.goal_id), state.status) for state in message.status_list)
     return [(goal, state) for goal, state in states if goal in goals]

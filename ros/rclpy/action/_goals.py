@@ -40,7 +40,7 @@ class Goal:
 
     @property
     def is_active(self) -> bool:
-        """Whether it is not finished."""
+        """True if it is not finished."""
         return self.status in ACTIVE_STATES
 
 
@@ -80,11 +80,11 @@ class Goals:
             self._statuses.add(goal.key, stamp.sec, stamp.nanosec, goal.status)
 
     def find(self, key: bytes) -> Goal | None:
-        """The goal with this id, unless it is unknown or has expired."""
+        """Return the goal with this id, unless it is unknown or has expired."""
         return self._goals.get(key)
 
     def all(self) -> list[tuple[Goal, Any]]:
-        """All goals with their handles."""
+        """Return all goals with their handles."""
         with self._lock:
             return [(goal, self._handles[key]) for key, goal in self._goals.items()]
 
@@ -134,7 +134,7 @@ class Goals:
             self._publish(self._statuses.cdr())
 
     def first_end_ns(self) -> int | None:
-        """When the first of the finished goals ended; None if none has."""
+        """Return the time at which the first finished goal ended; None without one."""
         with self._lock:
             return self._finished[0][0] if self._finished else None
 

@@ -70,12 +70,12 @@ class ClientGoalHandle:
 
     @property
     def stamp(self) -> Any:
-        """When the server accepted it (``builtin_interfaces/msg/Time``)."""
+        """Time of acceptance by the server (``builtin_interfaces/msg/Time``)."""
         return self._goal_response.stamp
 
     @property
     def accepted(self) -> bool:
-        """Whether the server accepted it."""
+        """True if the server accepted it."""
         return bool(self._goal_response.accepted)
 
     @property
@@ -102,7 +102,7 @@ class ClientGoalHandle:
         return self._action_client._get_result(self)
 
     def get_result_async(self) -> Future:
-        """A future of the response, which has ``status`` and ``result``."""
+        """Return a future of the response, which has ``status`` and ``result``."""
         return self._action_client._get_result_async(self)
 
 
@@ -199,7 +199,7 @@ class ActionClient(Waitable, Generic[ActionT_co]):
         )
 
     def server_is_ready(self) -> bool:
-        """Whether an action server is there."""
+        """Return True if an action server is there."""
         return (
             self._goal_client.service_is_ready()
             and self._cancel_client.service_is_ready()
@@ -223,7 +223,7 @@ class ActionClient(Waitable, Generic[ActionT_co]):
         return self._node.context.wait_for_graph(self._look_for_server, timeout_ns)
 
     def _look_for_server(self) -> bool:
-        """Whether a server is there; logs once why one that is there is not called."""
+        """Return True if a server is there; logs once why one that is there is not called."""
         return self._goal_client._look_for_server() and self.server_is_ready()
 
     def send_goal_async(

@@ -44,7 +44,7 @@ def state_name(state: int) -> str:
 
 
 def next_state(state: int, event: GoalEvent) -> int:
-    """The state that ``event`` leads to.
+    """Return the state that ``event`` leads to.
 
     Raises:
         RCLError: It is not possible in this state.

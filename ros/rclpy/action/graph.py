@@ -21,7 +21,7 @@ NamesAndTypes = list[tuple[str, list[str]]]
 
 
 def get_action_names_and_types(node: Node) -> NamesAndTypes:
-    """All actions with the names of their types, as ``node`` knows them."""
+    """Return all actions with the names of their types, as ``node`` knows them."""
     return _actions(node.get_topic_names_and_types())
 
 

@@ -106,7 +106,7 @@ class ActionServer(Waitable):
         cancel_service_qos_profile: Quality of service of cancel requests.
         feedback_pub_qos_profile: Quality of service of feedback.
         status_pub_qos_profile: Quality of service of the goals' states.
-        result_timeout: Seconds for which the result of a finished goal is kept; negative: for ever.
+        result_timeout: Seconds for which the result of a finished goal is kept; negative: no limit.
     """
 
     def __init__(

@@ -41,12 +41,12 @@ class ServerGoalHandle:
 
     @property
     def is_active(self) -> bool:
-        """Whether it is not finished."""
+        """True if it is not finished."""
         return self._goal.is_active
 
     @property
     def is_cancel_requested(self) -> bool:
-        """Whether a client wants it cancelled, and the cancel callback agreed."""
+        """True if a client wants it cancelled, and the cancel callback agreed."""
         return self._goal.status == 3
 
     @property

@@ -25,7 +25,7 @@ class Shown(NamedTuple):
 
     Attributes:
         line: Whether it shows the line.
-        help: A further line below it; empty if there is none.
+        help: A further line below it; may be empty.
     """
 
     line: bool = True

@@ -57,7 +57,7 @@ class LineFormat:
         self._parts = _compile(DEFAULT_FORMAT if text is None else text)
 
     def line(self, record: LogRecord) -> str:
-        """The text of ``record``, without a newline at its end."""
+        """Return the text of ``record``, without a newline at its end."""
         if self._is_default:
             return (
                 f"[{_SEVERITY_NAMES[record.severity]}] [{_time(record)}] [{record.name}]: "

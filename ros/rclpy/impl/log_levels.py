@@ -36,12 +36,12 @@ def set_level(name: str, level: int) -> None:
 
 
 def own(name: str) -> int:
-    """The level that was set for exactly this logger, or UNSET."""
+    """Return the level that was set for exactly this logger, or UNSET."""
     return _own.get(name, LoggingSeverity.UNSET.value)
 
 
 def effective(name: str) -> int:
-    """The level that decides about a message of this logger."""
+    """Return the level that decides about a message of this logger."""
     level = _effective.get(name)
     return _find(name) if level is None else level
 

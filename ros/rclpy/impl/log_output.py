@@ -220,7 +220,7 @@ def remove_rosout_sink(name: str) -> None:
 
 
 def logging_directory() -> Path:
-    """The directory of log files.
+    """Return the directory of log files.
 
     It is ROS_LOG_DIR, else the folder ``log`` in ROS_HOME, else ``~/.ros/log``.
     """
@@ -244,7 +244,7 @@ def _sink_of(name: str) -> Callable[[LogRecord], None] | None:
 
 
 def _flag(variable: str) -> bool | None:
-    """A variable that is 0, 1 or unset (None)."""
+    """Return a variable that is 0, 1 or unset (None)."""
     value = os.environ.get(variable, "")
     if value not in {"", "0", "1"}:
         _write_line(

@@ -48,15 +48,15 @@ class Lexer:
 
     @property
     def rest(self) -> str:
-        """What has not been read yet."""
+        """Text that has not been read yet."""
         return self.text[self.index :]
 
     def peek(self) -> Lexeme:
-        """The kind of the next lexeme."""
+        """Return the kind of the next lexeme."""
         return self._lexeme_at(self.index)[0]
 
     def peek2(self) -> tuple[Lexeme, Lexeme]:
-        """The kinds of the next two lexemes."""
+        """Return the kinds of the next two lexemes."""
         first, end = self._lexeme_at(self.index)
         return first, self._lexeme_at(end)[0]
 

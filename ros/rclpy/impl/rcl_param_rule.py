@@ -37,7 +37,7 @@ def parse_parameter_rule(text: str) -> tuple[str, str, ParameterValue]:
 
 
 def _name_token(lexer: Lexer) -> None:
-    """What stands between two dots.
+    """Read the name between two dots.
 
     Slashes are part of it (``qos_overrides./chatter.publisher.depth``).
     """

@@ -38,7 +38,7 @@ class RemapRule(NamedTuple):
     replacement: str
 
     def applies_to(self, kind: RemapKind, name: str, node_name: str, namespace: str) -> bool:
-        """Whether it renames ``name`` (fully qualified) of this node."""
+        """Return True if it renames ``name`` (fully qualified) of this node."""
         if not self.kind & kind or (self.node_name is not None and self.node_name != node_name):
             return False
         return not self.match or names.expand_topic_name(self.match, node_name, namespace) == name
@@ -47,7 +47,7 @@ class RemapRule(NamedTuple):
 def remap(
     rules: list[RemapRule], kind: RemapKind, name: str, node_name: str, namespace: str
 ) -> str:
-    """The new name by the first rule that applies, or ``name`` itself.
+    """Return the new name by the first rule that applies, or ``name`` itself.
 
     Args:
         rules: Those that win first.

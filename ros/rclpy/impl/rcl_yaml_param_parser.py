@@ -43,7 +43,7 @@ _TYPE_NAMES = {bool: "bool", int: "integer", float: "double", str: "string"}
 
 
 def parse_value(text: str) -> ParameterValue:
-    """The value that a rule ``name:=text`` gives.
+    """Return the value that a rule ``name:=text`` gives.
 
     Raises:
         RuleError: ``text`` is no scalar and no sequence of scalars of one type.
@@ -120,7 +120,7 @@ class _Parser:
         self._depth -= 1
 
     def _keys(self) -> Iterator[str]:
-        """The keys of the mapping that has begun.
+        """Yield the keys of the mapping that has begun.
 
         The caller reads the value after each key.
         """
@@ -215,7 +215,7 @@ def _plain_scalar(text: str) -> bool | int | float | str:
 
 
 def _float(text: str) -> float | str:
-    """A number, or the text when it is too large for a double, as C's strtod reports."""
+    """Return a number, or the text when it is too large for a double, as C's strtod reports."""
     try:
         value = float.fromhex(text) if "x" in text.lower() else float(text)
     except OverflowError:

@@ -56,7 +56,7 @@ class LoggingFilter:
 
     @classmethod
     def initialize_context(cls, context: dict[str, Any], **kwargs: Any) -> None:
-        """Store the parameters in what is kept of a calling line.
+        """Store the parameters in the state of a calling line.
 
         Args:
             context: What is kept of the line, to which a filter adds its state.
@@ -67,7 +67,7 @@ class LoggingFilter:
 
     @staticmethod
     def should_log(context: dict[str, Any]) -> bool:
-        """Whether the next message of the line is written; called once for each."""
+        """Return True if the next message of the line is written; called once for each."""
         raise NotImplementedError
 
 
@@ -78,13 +78,11 @@ class Once(LoggingFilter):
 
     @classmethod
     def initialize_context(cls, context: dict[str, Any], **kwargs: Any) -> None:
-        """See :meth:`LoggingFilter.initialize_context`."""
         super().initialize_context(context, **kwargs)
         context["has_been_logged_once"] = False
 
     @staticmethod
     def should_log(context: dict[str, Any]) -> bool:
-        """See :meth:`LoggingFilter.should_log`."""
         logged, context["has_been_logged_once"] = context["has_been_logged_once"], True
         return not logged
 
@@ -99,7 +97,7 @@ class Throttle(LoggingFilter):
 
     @classmethod
     def initialize_context(cls, context: dict[str, Any], **kwargs: Any) -> None:
-        """See :meth:`LoggingFilter.initialize_context`; ValueError for what is no clock."""
+        """Initialize the context; raise ValueError if the clock is not a clock."""
         super().initialize_context(context, **kwargs)
         clock = context["throttle_time_source_type"]
         if not callable(getattr(clock, "now", None)):
@@ -110,7 +108,6 @@ class Throttle(LoggingFilter):
 
     @staticmethod
     def should_log(context: dict[str, Any]) -> bool:
-        """See :meth:`LoggingFilter.should_log`."""
         now_ns = int(context["throttle_time_source_type"].now().nanoseconds)
         last_ns = context["throttle_last_logged"]
         period_ns = int(context["throttle_duration_sec"] * 1e9)
@@ -129,13 +126,11 @@ class SkipFirst(LoggingFilter):
 
     @classmethod
     def initialize_context(cls, context: dict[str, Any], **kwargs: Any) -> None:
-        """See :meth:`LoggingFilter.initialize_context`."""
         super().initialize_context(context, **kwargs)
         context["first_has_been_skipped"] = False
 
     @staticmethod
     def should_log(context: dict[str, Any]) -> bool:
-        """See :meth:`LoggingFilter.should_log`."""
         skipped, context["first_has_been_skipped"] = context["first_has_been_skipped"], True
         return bool(skipped)
 
@@ -147,7 +142,7 @@ supported_filters: OrderedDict[str, type[LoggingFilter]] = OrderedDict(
 
 
 def get_filters_from_kwargs(**kwargs: Any) -> list[str]:
-    """The names of the filters that keyword arguments ask for.
+    """Return the names of the filters that keyword arguments ask for.
 
     Raises:
         TypeError: An argument belongs to no filter, or one that its filter needs is missing.
@@ -190,7 +185,7 @@ class CallerId(_Place):
     __slots__ = ()
 
     def __new__(cls, frame: FrameType | None = None) -> Self:
-        """See the class."""
+        """Create the context of a call site."""
         frame = _caller() if frame is None else frame
         code = frame.f_code
         return super().__new__(cls, code.co_name, code.co_filename, frame.f_lineno, frame.f_lasti)
@@ -254,7 +249,7 @@ class RcutilsLogger:
         self._call_sites: dict[CallerId, _CallSite] = {}
 
     def get_child(self, name: str) -> RcutilsLogger:
-        """The logger ``<this name>.<name>``, which inherits the level.
+        """Return the logger ``<this name>.<name>``, which inherits the level.
 
         Raises:
             ValueError: The name is empty.
@@ -268,11 +263,11 @@ class RcutilsLogger:
         log_levels.set_level(self.name, LoggingSeverity(level))
 
     def get_effective_level(self) -> LoggingSeverity:
-        """The level that decides about messages: its own or inherited."""
+        """Return the level that decides about messages: its own or inherited."""
         return LoggingSeverity(log_levels.effective(self.name))
 
     def is_enabled_for(self, severity: LoggingSeverity | int) -> bool:
-        """Whether a message of ``severity`` would be written."""
+        """Return True if a message of ``severity`` would be written."""
         return LoggingSeverity(severity) >= log_levels.effective(self.name)
 
     def log(self, message: Any, severity: LoggingSeverity | int, **kwargs: Any) -> bool:
@@ -341,7 +336,7 @@ def _encodable(text: str) -> str:
 
 
 def _caller() -> FrameType:
-    """The frame of the program's line that logs."""
+    """Return the frame of the program's line that logs."""
     frame = sys._getframe(1)
     while frame.f_code.co_filename == __file__ and frame.f_back is not None:
         frame = frame.f_back

@@ -18,27 +18,27 @@ class ManagedEntity:
 
     # The signature of a callback.
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
-        """The node is to be configured."""
+        """Configure the node."""
         return TransitionCallbackReturn.SUCCESS
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
-        """The node is to be unconfigured."""
+        """Clean the node up."""
         return TransitionCallbackReturn.SUCCESS
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
-        """The node is to be shut down."""
+        """Shut the node down."""
         return TransitionCallbackReturn.SUCCESS
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
-        """The node is to be activated."""
+        """Activate the node."""
         return TransitionCallbackReturn.SUCCESS
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
-        """The node is to be deactivated."""
+        """Deactivate the node."""
         return TransitionCallbackReturn.SUCCESS
 
     def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
-        """A transition failed."""
+        """Return a transition failed."""
         return TransitionCallbackReturn.SUCCESS
 
 
@@ -60,7 +60,7 @@ class SimpleManagedEntity(ManagedEntity):
 
     @property
     def is_activated(self) -> bool:
-        """Whether the node is active."""
+        """True if the node is active."""
         return self._enabled
 
     @staticmethod

@@ -230,9 +230,9 @@ class LifecycleNodeMixin(ManagedEntity):
         self._managed_entities.append(entity)
 
     def create_lifecycle_publisher(self, *args: Any, **kwargs: Any) -> LifecyclePublisher:
-        """A publisher that is silent while the node is not active.
+        """Return a publisher that is silent while the node is not active.
 
-        The arguments are those of ``create_publisher``.
+        The arguments are the same as for ``create_publisher``.
         """
         if "publisher_class" in kwargs:
             raise TypeError(

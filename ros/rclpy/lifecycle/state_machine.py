@@ -124,7 +124,7 @@ class StateMachine:
         return [transition for transition in TRANSITIONS if transition.start == self.current_state]
 
     def by_label(self, label: str) -> Transition:
-        """The way of this name.
+        """Return the way of this name.
 
         Raises:
             RCLError: None leads on from here.
@@ -135,7 +135,7 @@ class StateMachine:
         )
 
     def by_id(self, transition_id: int) -> Transition:
-        """The way of this number; raises as :meth:`by_label`."""
+        """Return the way of this number; raises as :meth:`by_label`."""
         ways = [
             transition
             for transition in self.available_transitions

@@ -114,7 +114,7 @@ def add_subparsers_on_demand(
         group_name: The group, for example ``ros2topic.verb``.
         hide_extensions: Names that the help leaves out.
         required: Whether one has to be chosen.
-        argv: The words behind ``cli_name``; those of this process by default.
+        argv: The words after ``cli_name``; this process's by default.
     """
     group = _group(parser, cli_name, required=required)
     words = _words_after(cli_name) if argv is None else argv
@@ -145,7 +145,7 @@ def _group(
 
 
 def _words_after(cli_name: str) -> list[str]:
-    """The words of this process behind the last one of ``cli_name``."""
+    """Return the words of this process behind the last one of ``cli_name``."""
     import sys
 
     command = cli_name.rpartition(" ")[2]

@@ -9,6 +9,6 @@ __all__ = ["DaemonCommand"]
 
 
 class DaemonCommand(BuiltinCommand, CommandExtension):
-    """Status of the daemon (there is none, and none is needed)."""
+    """Status of the daemon, which does not exist and is not needed."""
 
     _module = "daemon"

@@ -1,4 +1,4 @@
-"""The kinds of commands and verbs, under the names that ROS 2 gives them, and those of others."""
+"""The kinds of commands and verbs, under ROS 2's names, and other packages'."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class ExtensionPoint(NamedTuple):
 
 
 def extension_points() -> list[ExtensionPoint]:
-    """Those of this distribution, and those that other packages declare.
+    """Return the extension points of this distribution and of other packages.
 
     The latter are loaded; one that cannot be loaded is one line on stderr.
     """
@@ -63,7 +63,7 @@ def extension_points() -> list[ExtensionPoint]:
 def extensions(point: ExtensionPoint) -> dict[str, tuple[str, str]]:
     """Summary and module of each extension of a point, by name.
 
-    Those of other packages are loaded; one that cannot be loaded is one line on stderr.
+    Other packages' are loaded; one that cannot be loaded is one line on stderr.
     """
     own = point.own
     found = {name: (summary, f"{point.module}.{name}") for name, summary in own.items()}

@@ -240,7 +240,7 @@ def _looks_like_a_path(word: str) -> bool:
 
 
 def _no_file(path: str) -> str:
-    """That there is no launch file, and which there are in that folder."""
+    """Return the error for a missing launch file, with those in the same folder."""
     if os.path.isdir(path):
         return f"'{path}' is a folder{_list(_files_in(path))}"
     from ros2cli.suggestion import did_you_mean
@@ -251,7 +251,7 @@ def _no_file(path: str) -> str:
 
 
 def _files_of(package: str) -> str:
-    """A line with the launch files of a package, or with the package that was meant."""
+    """Return a line with the launch files of a package, or with the package that was meant."""
     from ros2cli.suggestion import package_meant
     from turtlewire_ros.prefix import share_directory
 
@@ -309,7 +309,7 @@ def parsed_arguments(words: list[str]) -> list[tuple[str, str]]:
 
 
 def description_of(path: str) -> LaunchDescription:
-    """The description in a launch file; errors get a hint with the place in the file."""
+    """Return the description in a launch file; errors get a hint with the place in the file."""
     from launch import LaunchContext
     from launch.launch_description_sources import AnyLaunchDescriptionSource
     from launch.utilities.raised_in import raised_in

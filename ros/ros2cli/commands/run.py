@@ -55,7 +55,7 @@ def main(args: argparse.Namespace) -> int | str:
 
 
 def named(paths: list[str], executable: str) -> list[str]:
-    """Those paths whose file has the name of the executable."""
+    """Return the paths whose file name is the executable's."""
     names = (executable, f"{executable}.exe")
     return [path for path in paths if os.path.basename(path) in names]
 

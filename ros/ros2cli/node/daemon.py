@@ -1,7 +1,7 @@
 """ROS 2's daemon, which keeps the graph for other commands: here it never runs.
 
 Each command discovers the nodes by itself, in about the time in which a daemon would answer.
-Programs that ask for the daemon learn that there is none, and use a direct node as they do with
+Programs that ask for the daemon learn that none runs, and use a direct node as they do with
 ``--no-daemon``.
 """
 
@@ -28,7 +28,7 @@ class DaemonNode:
 
     @property
     def connected(self) -> bool:
-        """Whether there is a daemon: no."""
+        """True if there is a daemon: no."""
         return False
 
     @property
@@ -53,7 +53,7 @@ class DaemonNode:
 
 
 def is_daemon_running(args: argparse.Namespace | None) -> bool:  # noqa: ARG001
-    """Whether the daemon runs: no."""
+    """Return True if the daemon runs: no."""
     return False
 
 
@@ -61,7 +61,7 @@ def shutdown_daemon(
     args: argparse.Namespace | None,  # noqa: ARG001
     timeout: float | None = None,  # noqa: ARG001
 ) -> bool:
-    """Whether a daemon was stopped: there was none."""
+    """Return True if a daemon was stopped: there was none."""
     return False
 
 
@@ -70,7 +70,7 @@ def spawn_daemon(
     timeout: float | None = None,  # noqa: ARG001
     debug: bool = False,  # noqa: ARG001
 ) -> bool:
-    """Whether a daemon was started: none is, and none is needed."""
+    """Return True if a daemon was started: none is, and none is needed."""
     return False
 
 

@@ -17,6 +17,6 @@ class LocalXMLRPCServer(SimpleXMLRPCServer):
     allow_reuse_address = False
 
     def verify_request(self, request: Any, client_address: Any) -> bool:  # noqa: ARG002
-        """Whether a request comes from this host."""
+        """Return True if a request comes from this host."""
         host = client_address[0]
         return host.startswith("127.") or host in get_local_ipaddrs()

@@ -1,4 +1,4 @@
-"""Checks and reports of ``ros2 doctor``, and those of other packages.
+"""Checks and reports of ``ros2 doctor``, and of other packages.
 
 A package adds a check by an entry point in the group ``ros2doctor.checks``, and a report by one in
 ``ros2doctor.report``: `run_checks`, `generate_reports` and ``ros2 doctor`` include them. One that
@@ -41,7 +41,7 @@ class DoctorCheck:
     """Base of checks."""
 
     def category(self) -> str:
-        """What is checked, for example ``network``."""
+        """Return the checked category, for example ``network``."""
         raise NotImplementedError
 
     def check(self) -> Result:
@@ -53,7 +53,7 @@ class DoctorReport:
     """Base of reports."""
 
     def category(self) -> str:
-        """What is reported, for example ``network``."""
+        """Return the reported category, for example ``network``."""
         raise NotImplementedError
 
     def report(self) -> Report | list[Report]:
@@ -102,7 +102,7 @@ def run_checks(
     include_warnings: bool = False,
     exclude_packages: bool = False,
 ) -> tuple[set[str], int, int]:
-    """Run the checks of ``ros2 doctor`` and those of other packages.
+    """Run the checks of ``ros2 doctor`` and of other packages.
 
     Each fault and each warning that ``ros2 doctor`` would print is printed to stderr.
 
@@ -128,7 +128,7 @@ def generate_reports(
     categories: Collection[str] | None = None,
     exclude_packages: bool = False,
 ) -> list[Report]:
-    """What ``ros2 doctor --report`` prints, and the reports of other packages.
+    """Return the reports of ``ros2 doctor --report``, with other packages'.
 
     Args:
         categories: Only these: the titles of the own ones, and what the others say; None for all.
@@ -146,7 +146,7 @@ def generate_reports(
 
 
 def reports_of_others(categories: Collection[str] | None = None) -> list[Report]:
-    """The reports of other packages; of these categories, or all."""
+    """Return the reports of other packages; of these categories, or all."""
 
     def reports(extension: DoctorReport) -> list[Report]:
         if categories is not None and extension.category() not in categories:
@@ -190,7 +190,7 @@ def _failed(
 
 
 def _called(group: str, function: Callable[[Any], _T]) -> Iterator[_T]:
-    """What a function returns for each extension of a group; a failure is one line on stderr."""
+    """Call a function for each extension of a group; print a failure as one line on stderr."""
     from ros2cli.output import tell
     from ros2cli.plugin_system import instantiate_extensions
 

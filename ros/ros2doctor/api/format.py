@@ -41,7 +41,7 @@ def custom_warning_format(
     file: Any = None,
     line: str | None = None,
 ) -> str:
-    """The text of a warning, with the place from which it came."""
+    """Return the text of a warning, with the place from which it came."""
     return f"{filename}: {linenum}: {msg}\n"
 
 

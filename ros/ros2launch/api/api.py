@@ -75,7 +75,7 @@ def get_launch_file_paths(*, path: str) -> list[str]:
 
 
 def is_launch_file(path: str) -> bool:
-    """Whether the name is one of a launch file: in Python, XML or YAML."""
+    """Return True if the name is one of a launch file: in Python, XML or YAML."""
     return path.endswith(command.SUFFIXES)
 
 

@@ -35,7 +35,7 @@ def get_package_names() -> Any:
 
 
 def get_prefix_path(package_name: str) -> str | None:
-    """The prefix in which a package is installed; None if there is no such package."""
+    """Return the prefix in which a package is installed; None if there is no such package."""
     from turtlewire_ros.prefix import package_prefix
 
     return package_prefix(package_name)

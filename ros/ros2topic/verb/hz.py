@@ -66,7 +66,7 @@ class ROSTopicHz:
         return self._of.setdefault(topic, _Arrivals())
 
     def get_last_printed_tn(self, topic: str | None = None) -> int:
-        """When the last message had come at the last `get_hz`."""
+        """Return the last message's time at the last `get_hz`."""
         return self._arrivals(topic).last_printed_tn
 
     def set_last_printed_tn(self, value: int, topic: str | None = None) -> None:
@@ -74,7 +74,7 @@ class ROSTopicHz:
         self._arrivals(topic).last_printed_tn = value
 
     def get_msg_t0(self, topic: str | None = None) -> int:
-        """When the first message came; -1 before."""
+        """Return the first message's time; -1 before it."""
         return self._arrivals(topic).msg_t0
 
     def set_msg_t0(self, value: int, topic: str | None = None) -> None:
@@ -82,7 +82,7 @@ class ROSTopicHz:
         self._arrivals(topic).msg_t0 = value
 
     def get_msg_tn(self, topic: str | None = None) -> int:
-        """When the last message came; 0 before."""
+        """Return the last message's time; 0 before the first."""
         return self._arrivals(topic).msg_tn
 
     def set_msg_tn(self, value: int, topic: str | None = None) -> None:

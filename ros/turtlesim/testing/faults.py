@@ -6,7 +6,7 @@
         ...
         simulation.inject(Delay(1.5, frame="turtle1"))
         simulation.run(5.0)  # turtle2 follows where turtle1 was
-        simulation.mend()
+        simulation.clear_faults()
 
 Every fault acts on the way between the broadcasters and the listeners: no node is changed, and each
 run is the same.
@@ -74,7 +74,7 @@ class Fault:
         """The fault is switched off."""
 
     def concerns(self, transform: Any, topic: str) -> bool:
-        """Whether it is about this transform."""
+        """Return True if it is about this transform."""
         return topic == "/tf" and self.frame in {None, transform.child_frame_id}
 
     def delay_s(self, transform: Any) -> float | None:
@@ -95,7 +95,6 @@ class Delay(Fault):
         self._seconds = seconds
 
     def delay_s(self, transform: Any) -> float:  # noqa: ARG002 - all alike
-        """See :meth:`Fault.delay_s`."""
         return self._seconds
 
 
@@ -116,7 +115,6 @@ class Loss(Fault):
         self._random = random.Random(seed)  # noqa: S311 - a test's
 
     def delay_s(self, transform: Any) -> float | None:  # noqa: ARG002 - all alike
-        """See :meth:`Fault.delay_s`."""
         return None if self._random.random() < self._share else 0.0
 
 
@@ -133,7 +131,6 @@ class WrongFrame(Fault):
         self._parent = parent
 
     def delay_s(self, transform: Any) -> float:
-        """See :meth:`Fault.delay_s`."""
         transform.header.frame_id = self._parent
         return 0.0
 
@@ -152,7 +149,6 @@ class WrongTime(Fault):
         self._offset_ns = round(seconds * 1e9)
 
     def delay_s(self, transform: Any) -> float:
-        """See :meth:`Fault.delay_s`."""
         stamp = transform.header.stamp
         total = stamp.sec * 1_000_000_000 + stamp.nanosec + self._offset_ns
         stamp.sec, stamp.nanosec = divmod(max(0, total), 1_000_000_000)
@@ -170,11 +166,10 @@ class MissingStatic(Fault):
     """
 
     def concerns(self, transform: Any, topic: str) -> bool:
-        """See :meth:`Fault.concerns`."""
         return topic == _STATIC and self.frame in {None, transform.child_frame_id}
 
     def delay_s(self, transform: Any) -> None:
-        """See :meth:`Fault.delay_s`."""
+        """Return the delay of a transform [s]; None if it never arrives."""
 
 
 class TwoPublishers(Fault):
@@ -217,7 +212,7 @@ class TwoPublishers(Fault):
             self._node = None
 
     def concerns(self, transform: Any, topic: str) -> bool:  # noqa: ARG002 - of none
-        """See :meth:`Fault.concerns`; the transforms of others stay as they are."""
+        """Return True for transforms of this frame; others stay as they are."""
         return False
 
 
@@ -270,7 +265,7 @@ class FaultyTransforms:
                 sender.deliver(changed)
 
     def _delay(self, transform: Any, topic: str) -> float | None:
-        """How much later a transform arrives, after all faults [s]; None if it never does."""
+        """Return a transform's delay after all faults [s]; None if it never arrives."""
         total = 0.0
         for fault in self.faults:
             if fault.concerns(transform, topic):

@@ -16,6 +16,6 @@ __all__ = ["simulation"]
 
 @pytest.fixture
 def simulation() -> Iterator[Simulation]:
-    """A fresh simulation with turtle1 in the middle; ends with the test."""
+    """Yield a fresh simulation with turtle1 in the middle; ends with the test."""
     with Simulation() as fresh:
         yield fresh

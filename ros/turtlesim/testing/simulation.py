@@ -102,7 +102,7 @@ class Simulation(Stage):
         self.come_to_rest()
 
     def pose(self, turtle: str) -> Pose:
-        """Where a turtle is at this moment.
+        """Return a turtle's pose now.
 
         Raises:
             KeyError: There is no turtle of that name; the text lists those there are.
@@ -127,7 +127,7 @@ class Simulation(Stage):
         self._faulty.faults.append(fault)
         fault.begin(self)
 
-    def mend(self) -> None:
+    def clear_faults(self) -> None:
         """Switch all faults off; transforms that are delayed still arrive."""
         faults, self._faulty.faults = self._faulty.faults, []
         for fault in faults:

@@ -166,7 +166,7 @@ def _middleware_of_this_process() -> Iterator[None]:
 
 
 def _as_arguments(parameters: dict[str, object]) -> list[str]:
-    """The arguments after ``--ros-args`` that set these parameters and simulated time."""
+    """Return the arguments after ``--ros-args`` that set these parameters and simulated time."""
     name = parameters.pop("name", None)
     renamed = [] if name is None else ["-r", f"__node:={name}"]
     values = {"use_sim_time": True, **parameters}

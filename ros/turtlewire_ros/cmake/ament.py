@@ -193,7 +193,7 @@ def _generate_interfaces(run: Interpreter, call: Call) -> None:
 
 
 def _definition(run: Interpreter, word: str, call: Call) -> tuple[str, Path]:
-    """A definition's path in the package, and on disk; ``<folder>:msg/A.msg`` names both."""
+    """Return a definition's path in the package, and on disk; ``<folder>:msg/A.msg`` names both."""
     base, colon, relative = word.rpartition(":")
     if colon and len(base) > 1:  # not the drive of C:/a
         path = Path(run.source_path(os.path.join(base, relative)))
@@ -245,13 +245,13 @@ def _add_test(run: Interpreter, call: Call, kind: str, name: str, words: tuple[s
     if "SKIP_TEST" in parsed.options:
         return
     lines = parsed.lists.get("ENV", []) + parsed.lists.get("APPEND_ENV", [])
-    # CMake's own command runs tests in the build folder, those of ament in the source folder.
+    # CMake's own command runs tests in the build folder, ament's commands in the source folder.
     plain = call.name == "add_test"
     default = "CMAKE_CURRENT_BINARY_DIR" if plain else "CMAKE_SOURCE_DIR"
     folder = parsed.values.get("WORKING_DIRECTORY", run.variables[default])
     environment = dict(line.split("=", 1) for line in lines)
     timeout = float(parsed.values.get("TIMEOUT", _CMAKE_TIMEOUT if plain else _TIMEOUT))
-    # The runner, and the commands that use it, are those of ament_cmake_ros.
+    # The runner, and the commands that use it, come from ament_cmake_ros.
     runner = parsed.values.get("RUNNER", "")
     isolated = runner.endswith("run_test_isolated.py") or "_ros_isolated_" in call.name
     run.plan.tests.append(

@@ -24,7 +24,7 @@ _REFERENCE = re.compile(r"@(\w+)@|\$\{(\w+)\}")
 
 
 def configured(run: Interpreter, text: str, *, at_only: bool = False) -> str:
-    """A text with its ``@VARIABLES@`` and ``${VARIABLES}`` replaced."""
+    """Return a text with its ``@VARIABLES@`` and ``${VARIABLES}`` replaced."""
 
     def value(match: re.Match[str]) -> str:
         if at_only and match[2]:

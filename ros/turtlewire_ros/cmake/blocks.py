@@ -39,7 +39,7 @@ Node = Command | Block
 
 
 def build_tree(commands: Sequence[Command]) -> tuple[Node, ...]:
-    """The tree of the commands of a file.
+    """Return the tree of the commands of a file.
 
     Raises:
         CMakeError: A block is not closed, or closed without having been opened.

@@ -36,12 +36,12 @@ _BINARY = frozenset(
 
 
 def is_true(text: str) -> bool:
-    """Whether a text is one of CMake's true constants: ``ON``, or a number but 0."""
+    """Return True if a text is one of CMake's true constants: ``ON``, or a number but 0."""
     return text.upper() in _TRUE or (_is_number(text) and float(text) != 0)
 
 
 def is_false(text: str) -> bool:
-    """Whether a text is one of CMake's false constants: empty, ``OFF``, ``X-NOTFOUND``."""
+    """Return True if a text is one of CMake's false constants: empty, ``OFF``, ``X-NOTFOUND``."""
     upper = text.upper()
     return upper in _FALSE or upper.endswith("-NOTFOUND")
 
@@ -54,10 +54,10 @@ class Surroundings(Protocol):
     plan: Plan
 
     def knows(self, name: str) -> bool:
-        """Whether there is a command of this name."""
+        """Return True if there is a command of this name."""
 
     def source_path(self, text: str) -> str:
-        """A path, relative to the folder of the CMakeLists.txt."""
+        """Return a path, relative to the folder of the CMakeLists.txt."""
 
 
 class Condition:
@@ -76,7 +76,7 @@ class Condition:
         self._at = 0
 
     def holds(self) -> bool:
-        """Whether the condition holds.
+        """Return True if the condition holds.
 
         Raises:
             CMakeError: It is no condition.

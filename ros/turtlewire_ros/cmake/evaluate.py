@@ -37,7 +37,7 @@ def evaluate_package(
     environment: Mapping[str, str] = os.environ,
     cmake_arguments: Iterable[str] = (),
 ) -> tuple[Plan, Interpreter]:
-    """What the package in a folder installs, generates and tests.
+    """Evaluate the CMakeLists.txt in a folder: what it installs, generates and tests.
 
     Args:
         source: The folder with CMakeLists.txt and package.xml.

@@ -68,7 +68,7 @@ def _glob(run: Interpreter, words: list[str], *, recursive: bool) -> None:
     found: set[str] = set()
     for pattern in parsed.rest:
         folder, _, name = run.source_path(pattern).rpartition("/")
-        # CMake's wildcards may stand in folders, too; glob begins where there is none.
+        # CMake's wildcards may stand in folders, too; glob begins above the first one.
         paths = Path(folder).rglob(name) if recursive else _matches(folder, name)
         found.update(str(path) for path in paths if not recursive or path.is_file())
     base = parsed.values.get("RELATIVE")
@@ -88,7 +88,7 @@ def _matches(folder: str, name: str) -> list[Path]:
 
 
 def _writable(run: Interpreter, text: str, call: Call) -> Path:
-    """The path of a file to write; its folder exists afterwards."""
+    """Return the path of a file to write; its folder exists afterwards."""
     path = Path(run.binary_path(text))
     folders = (run.variables["CMAKE_BINARY_DIR"], run.variables["CMAKE_INSTALL_PREFIX"])
     if not any(path.is_relative_to(folder) for folder in folders):

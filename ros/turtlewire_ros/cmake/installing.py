@@ -76,7 +76,7 @@ def _install(run: Interpreter, call: Call) -> None:
 
 
 def destination(run: Interpreter, text: str, call: Call) -> str:
-    """A folder of the prefix, relative to it.
+    """Return a folder of the prefix, relative to it.
 
     Raises:
         CMakeError: It lies outside.
@@ -94,7 +94,7 @@ def _source(run: Interpreter, word: str) -> str:
 
 
 def _split_rules(words: list[str], call: Call) -> tuple[list[str], list[FileRule]]:
-    """The words before the first ``PATTERN`` or ``REGEX``, and these rules."""
+    """Return the words before the first ``PATTERN`` or ``REGEX``, and these rules."""
     starts = [at for at, word in enumerate(words) if word in ("PATTERN", "REGEX")]
     rules = []
     for start, end in pairwise([*starts, len(words)]):

@@ -90,15 +90,15 @@ class Interpreter:
         self._call_body(build_tree(parse_commands(text, place.file)), "return")
 
     def knows(self, name: str) -> bool:
-        """Whether there is a command or a function of this name."""
+        """Return True if there is a command or a function of this name."""
         return name in self._commands or name in self._functions
 
     def source_path(self, text: str) -> str:
-        """A path as commands mean it: relative to the folder of the CMakeLists.txt."""
+        """Return a path as commands mean it: relative to the folder of the CMakeLists.txt."""
         return os.path.normpath(os.path.join(self.variables["CMAKE_CURRENT_SOURCE_DIR"], text))
 
     def binary_path(self, text: str) -> str:
-        """The path of a file that a command writes."""
+        """Return the path of a file that a command writes."""
         return os.path.normpath(os.path.join(self.variables["CMAKE_CURRENT_BINARY_DIR"], text))
 
     def set_outside(self, name: str, value: str | None) -> None:
@@ -120,7 +120,7 @@ class Interpreter:
             self.variables = self._outer.pop()
 
     def expand(self, argument: Argument) -> list[str]:
-        """The words of an argument: a plain one is split at semicolons."""
+        """Return the words of an argument: a plain one is split at semicolons."""
         if argument.kind == "bracket":
             return [argument.text]
         text = self._replace(argument.text)
@@ -317,7 +317,7 @@ def _loop_items(run: Interpreter, items: list[str], place: Place) -> list[str]:
 
 
 def _with_arguments(node: Node, given: dict[str, str]) -> Node:
-    """A node of a macro's body, with the macro's arguments written into it."""
+    """Return a node of a macro's body, with the macro's arguments written into it."""
     if isinstance(node, Command):
         return _command_with(node, given)
     return Block(

@@ -155,7 +155,7 @@ class Plan:
         missing: One line for each required package that is not there.
         warnings: Messages of the file itself.
         targets: Names of targets that exist, those without a result included.
-        custom_targets: Those of ``add_custom_target``.
+        custom_targets: Targets of ``add_custom_target``.
         steps: Programs that make files.
         install_code: Commands of ``install(CODE …)``, which run last.
     """
@@ -180,7 +180,7 @@ class Plan:
     install_code: list[tuple[str, Place]] = field(default_factory=list)
 
     def has_python(self) -> bool:
-        """Whether there is something to install that needs no compiler and is no mere data."""
+        """Return True if the package installs Python code, not only data."""
         return bool(
             self.python_packages
             or self.python_modules

@@ -87,7 +87,7 @@ def _add_steps(run: Interpreter, call: Call, commands: list[list[str]], folder: 
 
 
 def _shell(words: list[str]) -> tuple[str, ...]:
-    """A command; one that redirects its output needs a shell, as under make."""
+    """Return a command; one that redirects its output needs a shell, as under make."""
     if not _OPERATORS & {*words}:
         return tuple(words)
     text = " ".join(word if word in _OPERATORS else shlex.quote(word) for word in words)
@@ -95,7 +95,7 @@ def _shell(words: list[str]) -> tuple[str, ...]:
 
 
 def _commands(words: list[str]) -> tuple[list[list[str]], list[str]]:
-    """The commands among the words, and the other words."""
+    """Return the commands among the words, and the other words."""
     commands: list[list[str]] = []
     rest: list[str] = []
     keywords = {*_OPTIONS, *_VALUES, *_LISTS} - {"ARGS"}

@@ -75,7 +75,7 @@ class Command(NamedTuple):
 
 
 def parse_commands(text: str, file: str) -> list[Command]:
-    """The commands of a CMake file.
+    """Return the commands of a CMake file.
 
     Args:
         text: What the file holds.

@@ -66,7 +66,7 @@ def _expand_file(run: Interpreter, call: Call, name: str, output: str, remap: li
 
 
 def _index_of_sources(run: Interpreter) -> Path:
-    """A prefix in which ``$(find …)`` finds the package's sources before it is installed."""
+    """Return a prefix in which ``$(find …)`` finds the package's sources before it is installed."""
     index = Path(run.variables["CMAKE_BINARY_DIR"]) / "ament_cmake_index"
     name = run.variables["PROJECT_NAME"]
     marker = index / "share" / "ament_index" / "resource_index" / "packages" / name

@@ -51,7 +51,7 @@ def learn_types(type_name: str, text: str) -> None:
 
 
 def has_interface(type_name: str) -> bool:
-    """Whether a file defines the type, installed or among ours; nothing is parsed."""
+    """Return True if a file defines the type, installed or among ours; nothing is parsed."""
     try:
         interface_path(_owner(type_name))
     except (InterfaceError, ValueError):  # names of damaged bags are no names of types
@@ -73,13 +73,13 @@ def _full_name(name: str) -> str:
 
 
 def _owner(full_name: str) -> str:
-    """The interface that a file defines: a service for its request, response and event."""
+    """Return the interface that a file defines: a service for its request, response and event."""
     package, kind, name = full_name.split("/")
     return full_name if kind == "msg" else f"{package}/{kind}/{name.partition('_')[0]}"
 
 
 def definition_text(type_name: str) -> str:
-    """The definition of a type with those of all types that it uses, for a bag.
+    """Return the definition of a type, followed by all types that it uses, for a bag.
 
     Raises:
         InterfaceError: The type or one of those that it uses is not known.

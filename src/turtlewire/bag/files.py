@@ -14,14 +14,14 @@ __all__ = ["joined", "overlapping", "storage_files"]
 
 
 def storage_files(folder: str) -> list[str]:
-    """The storage files of a folder without metadata, in the order of their numbers."""
+    """Return the storage files of a folder without metadata, in the order of their numbers."""
     endings = (".mcap", ".db3", ".mcap.zstd", ".db3.zstd")
     names = [name for name in os.listdir(folder) if name.endswith(endings)]
     return sorted(names, key=lambda name: (_number(name), name))
 
 
 def _number(name: str) -> int:
-    """The number at the end of ``my_bag_12.mcap``; -1 without one."""
+    """Return the number at the end of ``my_bag_12.mcap``; -1 without one."""
     number = name.split(".", maxsplit=1)[0].rpartition("_")[2]
     return int(number) if number.isdecimal() else -1
 
@@ -45,7 +45,7 @@ def overlapping(metadata: BagMetadata) -> Iterator[list[str]]:
 
 
 def joined(paths: list[str], parts: list[BagMetadata]) -> BagMetadata:
-    """The metadata of a bag that consists of these files."""
+    """Return the metadata of a bag that consists of these files."""
     files = [
         FileInfo(path.removesuffix(".zstd"), part.start_ns, part.duration_ns, part.message_count)
         for path, part in zip(paths, parts, strict=True)

@@ -123,7 +123,7 @@ class McapFile:
     def messages_in(
         self, records: bytes, chunk: ChunkIndex, wanted: Container[int] | None = None
     ) -> Iterator[tuple[int, int, int, bytes]]:
-        """The same of a chunk's records, as `records` returns them."""
+        """Yield the same of a chunk's records, as `records` returns them."""
         unpack, unpack_message = OPCODE_AND_LENGTH.unpack_from, _MESSAGE.unpack_from
         position, end = 0, len(records)
         while position < end:
@@ -150,7 +150,7 @@ class McapFile:
                     raise BagError(f"{self.cut(chunk, body - _PREFIX)}: {error}") from None
 
     def cut(self, chunk: ChunkIndex, position: int) -> BagError:
-        """The error of a chunk whose records end at a position in the middle of one."""
+        """Return the error of a chunk whose records end at a position in the middle of one."""
         return BagError(
             f"{self.path}: chunk at byte {chunk.offset}: "
             f"its records are damaged at byte {position} of their decompressed bytes"
@@ -168,7 +168,7 @@ class McapFile:
     # -- the summary
 
     def _read_summary(self) -> bool:
-        """Read the summary section; False if there is none or it is damaged."""
+        """Read the summary section; False if it is missing or damaged."""
         data = self._bytes
         footer = len(data) - len(MAGIC) - _FOOTER_SIZE
         if footer < len(MAGIC) or data[-len(MAGIC) :] != MAGIC or data[footer] != Op.FOOTER:
@@ -193,7 +193,7 @@ class McapFile:
         return True
 
     def _summary_is_complete(self) -> bool:
-        """Whether it tells all that is needed: writers may leave out each kind of record."""
+        """Return True if it tells all that is needed: writers may leave out each kind of record."""
         used = self.statistics.channel_counts.keys()
         return (
             self._has_statistics
@@ -365,7 +365,7 @@ def _chunk_records(content: memoryview) -> bytes | memoryview:
 
 
 def _end_of_the_whole(records: bytes | memoryview) -> int:
-    """Where the last record ends that is not cut off."""
+    """Return the end of the last whole record."""
     end = 0
     while end + _PREFIX <= len(records):
         _, length = OPCODE_AND_LENGTH.unpack_from(records, end)

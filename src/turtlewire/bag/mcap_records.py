@@ -144,19 +144,19 @@ class RecordReader:
         return number
 
     def u16(self) -> int:
-        """An unsigned number of two bytes."""
+        """Return an unsigned number of two bytes."""
         return self._number(_U16)
 
     def u32(self) -> int:
-        """An unsigned number of four bytes."""
+        """Return an unsigned number of four bytes."""
         return self._number(_U32)
 
     def u64(self) -> int:
-        """An unsigned number of eight bytes."""
+        """Return an unsigned number of eight bytes."""
         return self._number(_U64)
 
     def take(self, length: int) -> memoryview:
-        """The next ``length`` bytes."""
+        """Return the next ``length`` bytes."""
         end = self.position + length
         if end > len(self._content):
             raise BagError("a field is longer than its record")
@@ -165,14 +165,14 @@ class RecordReader:
         return part
 
     def string(self) -> str:
-        """A string."""
+        """Return a string."""
         try:
             return str(self.take(self.u32()), "utf-8")
         except UnicodeDecodeError:
             raise BagError("a text is not UTF-8") from None
 
     def text_map(self) -> dict[str, str]:
-        """A map of strings to strings."""
+        """Return a map of strings to strings."""
         end = self.u32() + self.position
         entries = {}
         while self.position < end:
@@ -181,7 +181,7 @@ class RecordReader:
         return entries
 
     def number_map(self) -> dict[int, int]:
-        """A map of u16 to u64."""
+        """Return a map of u16 to u64."""
         end = self.u32() + self.position
         entries = {}
         while self.position < end:
@@ -190,39 +190,39 @@ class RecordReader:
         return entries
 
     def schema(self) -> Schema:
-        """The content of a Schema record."""
+        """Return the content of a Schema record."""
         return Schema(self.u16(), self.string(), self.string(), bytes(self.take(self.u32())))
 
     def channel(self) -> Channel:
-        """The content of a Channel record."""
+        """Return the content of a Channel record."""
         return Channel(self.u16(), self.u16(), self.string(), self.string(), self.text_map())
 
     def chunk_index(self) -> ChunkIndex:
-        """The content of a ChunkIndex record."""
+        """Return the content of a ChunkIndex record."""
         start, end, offset, length = self.u64(), self.u64(), self.u64(), self.u64()
         indexes = self.number_map()
         # Without message indexes the map is empty although the chunk has messages.
         return ChunkIndex(start, end, offset, length, frozenset(indexes) if indexes else None)
 
     def statistics(self) -> Statistics:
-        """The content of a Statistics record."""
+        """Return the content of a Statistics record."""
         count = self.u64()
         self.take(2 + 4 * 4)  # numbers of schemas, channels, attachments, metadata and chunks
         return Statistics(count, self.u64(), self.u64(), self.number_map())
 
 
 def pack_string(text: str) -> bytes:
-    """A string as its length and UTF-8 bytes."""
+    """Return a string as its length and UTF-8 bytes."""
     data = text.encode()
     return _U32.pack(len(data)) + data
 
 
 def pack_map(entries: dict[str, str]) -> bytes:
-    """A map of strings to strings."""
+    """Return a map of strings to strings."""
     data = b"".join(pack_string(key) + pack_string(value) for key, value in entries.items())
     return _U32.pack(len(data)) + data
 
 
 def record(opcode: int, content: bytes) -> bytes:
-    """A whole record."""
+    """Return a whole record."""
     return OPCODE_AND_LENGTH.pack(opcode, len(content)) + content

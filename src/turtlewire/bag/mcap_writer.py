@@ -235,7 +235,7 @@ class McapWriter:
         self._put(record(Op.DATA_END, bytes(4)) + self._summary() + MAGIC)
 
     def _summary(self) -> bytes:
-        """The summary section with its offsets and the footer."""
+        """Return the summary section with its offsets and the footer."""
         start = self.file_bytes + OPCODE_AND_LENGTH.size + 4  # behind the DataEnd record
         schemas = [part for part in self._definitions if part[0] == Op.SCHEMA]
         channels = [part for part in self._definitions if part[0] == Op.CHANNEL]
@@ -282,7 +282,7 @@ class McapWriter:
 
 
 def _message_indexes(index: dict[int, list[int]], offset: int) -> tuple[bytes, bytes]:
-    """The MessageIndex records that follow a chunk, and the map of where each lies."""
+    """Return the MessageIndex records that follow a chunk, and the map of where each lies."""
     records, offsets = [], []
     for channel, entries in index.items():
         data = struct.pack(f"<{len(entries)}Q", *entries)

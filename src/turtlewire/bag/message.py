@@ -31,7 +31,7 @@ class BagMessage(NamedTuple):
     data: bytes
 
     def decode(self) -> Message:
-        """The message object.
+        """Return the message object.
 
         Raises:
             CdrError: The bytes are malformed.

@@ -44,7 +44,7 @@ class PlayClock:
         self._since_ns = monotonic_ns()
 
     def now_ns(self) -> int:
-        """The time of the bag, nanoseconds since 1970."""
+        """Return the time of the bag, nanoseconds since 1970."""
         if self.is_paused:
             return self._shown_ns
         return self._shown_ns + int((self._monotonic_ns() - self._since_ns) * self.rate)
@@ -100,12 +100,12 @@ class ReadAhead:
         self._thread.start()
 
     def wait_until_ready(self) -> None:
-        """Wait until the first message is read, or there is none."""
+        """Wait until the first message is read, or the end is reached."""
         with self._changed:
             self._changed.wait_for(lambda: self._ready or self._ended)
 
     def peek(self) -> BagMessage | None:
-        """The next message, which stays the next one; None at the end.
+        """Return the next message, which stays the next one; None at the end.
 
         Raises:
             BagError: The bag is damaged; after all messages that can be read.
@@ -128,7 +128,7 @@ class ReadAhead:
                 self._changed.notify_all()
 
     def _has_room(self) -> bool:
-        """Whether half of what is kept ready is gone."""
+        """Return True if half of what is kept ready is gone."""
         return (
             len(self._ready) <= self._size // 2
             and self._read_bytes - self._popped_bytes <= self._size_bytes // 2

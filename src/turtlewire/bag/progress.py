@@ -17,7 +17,7 @@ _WIDTH = 30
 
 
 def progress_line(what: str) -> Callable[[float], None]:
-    """A function that is called with the share that is done, from 0 to 1.
+    """Return a function that is called with the share that is done, from 0 to 1.
 
     On a terminal it draws a bar with the time that is left, once a second has passed, and removes
     it at the end (1). Elsewhere it does nothing.

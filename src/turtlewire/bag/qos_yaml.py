@@ -57,7 +57,7 @@ def _check_depth(text: str, loader: Any) -> None:
 
 
 def profiles_from_yaml(offered: str | list[dict[str, Any]] | None, where: str) -> list[QoS]:
-    """The profiles of a topic's publishers.
+    """Return the profiles of a topic's publishers.
 
     Args:
         offered: YAML as text (sqlite3, MCAP, metadata up to version 8) or what it holds; empty or
@@ -103,7 +103,7 @@ def profiles_to_text(profiles: Iterable[QoS], version: int) -> str:
 
 
 def qos_to_yaml(qos: QoS, version: int) -> dict[str, Any]:
-    """A profile as this version of the metadata writes it: numbers up to 8, then words."""
+    """Return a profile as this version of the metadata writes it: numbers up to 8, then words."""
 
     def policy(value: IntEnum) -> str | int:
         return value.name.lower() if version >= _WORDS_SINCE else int(value)

@@ -157,7 +157,7 @@ class Bag:
                 learn_types(name, text)
 
     def files(self) -> Iterator[StorageFile]:
-        """The bag's files in their order, opened when they are reached.
+        """Yield the bag's files in their order, opened when they are reached.
 
         Raises:
             BagError: One is missing or not what it should be.
@@ -173,7 +173,7 @@ class Bag:
         start_ns: int = 0,
         end_ns: int = _FOREVER,
     ) -> Iterator[BagMessage]:
-        """The messages in order of their log time.
+        """Yield the messages in order of their log time.
 
         Args:
             topics: A topic or several; None takes all.
@@ -182,7 +182,7 @@ class Bag:
             end_ns: The last log time that is taken.
 
         Yields:
-            The messages; those of one time in the order of the file.
+            The messages; at equal times in the order of the file.
 
         Raises:
             BagError: A topic does not exist; or, after all messages that can be read, a part of the
@@ -200,7 +200,7 @@ class Bag:
             raise damage[0]
 
     def _present(self, paths: list[str], damage: list[BagError]) -> list[StorageFile]:
-        """The files that can be opened; the others go to the problems and the damage."""
+        """Return the files that can be opened; the others go to the problems and the damage."""
         files = []
         for path in paths:
             try:
@@ -294,7 +294,7 @@ class Bag:
         return file
 
     def _plain_file(self, path: str) -> str:
-        """The file itself, or a decompressed copy that lives as long as the bag is open."""
+        """Return the file itself, or a decompressed copy that lives as long as the bag is open."""
         full = os.path.join(self._folder, path)
         if not full.endswith(".zstd"):
             return full
@@ -324,7 +324,7 @@ class Bag:
 
 
 def window(start_ns: int, end_ns: int) -> tuple[int, int]:
-    """The two times of a window in nanoseconds; ``datetime64`` is taken, too.
+    """Return the two times of a window in nanoseconds; ``datetime64`` is taken, too.
 
     Raises:
         ValueError: It ends before it begins.
@@ -372,7 +372,7 @@ def reindex(
 
 
 def _without(error: BagError | OSError, bag: str) -> BagError:
-    """The error of a file that is left out."""
+    """Return the error of a file that is left out."""
     if isinstance(error, BagError):
         return error
     left_out = BagError(f"{error}; the other files were read")

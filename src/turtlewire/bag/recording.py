@@ -87,7 +87,7 @@ class Recording:
 
     @property
     def status(self) -> RecordingStatus:
-        """How it goes."""
+        """Recording's progress."""
         with self._changed:
             return RecordingStatus(self._messages, self._data_bytes, sum(self.lost.values()))
 

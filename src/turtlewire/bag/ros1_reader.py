@@ -51,7 +51,7 @@ class Ros1Storage:
         self._reader.close()
 
     def summary(self) -> BagMetadata:
-        """What the file holds."""
+        """Return the file's metadata."""
         topics: dict[str, TopicInfo] = {}
         for connection in self._reader.connections:
             kind = self._type(connection)
@@ -78,7 +78,7 @@ class Ros1Storage:
         end_ns: int,
         damaged: Callable[[BagError], None],
     ) -> Iterator[BagMessage]:
-        """See `StorageFile.messages`; bags of ROS 1 have no publish time."""
+        """Yield messages; bags of ROS 1 have no publish time."""
         topics = {topic.name: topic for topic in self.summary().topics}
         connections = [each for each in self._reader.connections if wanted(topics[each.topic])]
         if not connections:

@@ -1,6 +1,6 @@
 """Reads one ``.db3`` file of rosbag2, of schema versions 1 to 4.
 
-Versions differ in what they lack: without the table ``schema`` it is version 2 or 1, without the
+Versions differ in missing tables: without the table ``schema`` it is version 2 or 1, without the
 column ``offered_qos_profiles`` version 1; definitions and embedded metadata exist since version 4.
 
 Of a file that was cut, the rows up to the first one that is lost are read: they lie in the order in
@@ -89,7 +89,7 @@ class SqliteFile:
         return topics
 
     def _missing_bytes(self) -> int:
-        """How many bytes the file lacks of what its header says; 0 while a log lies beside it."""
+        """Return the number of bytes missing by the header; 0 while a log file is present."""
         with open(self.path, "rb") as file:
             header = file.read(32)
         page = int.from_bytes(header[16:18], "big")
@@ -100,7 +100,7 @@ class SqliteFile:
         return max(0, told - os.path.getsize(self.path))
 
     def _counts(self, missing: int) -> dict[int, int]:
-        """How many messages of each topic can be read."""
+        """Return the number of readable messages of each topic."""
         if not missing:
             with suppress(sqlite3.DatabaseError):
                 query = "SELECT topic_id, COUNT(*) FROM messages GROUP BY topic_id"

@@ -54,7 +54,7 @@ class StorageFile(Protocol):
         end_ns: int,
         damaged: Callable[[BagError], None],
     ) -> Iterator[BagMessage]:
-        """The messages in order of log time; bounds are included.
+        """Return the messages in order of log time; bounds are included.
 
         Args:
             wanted: Decides of a topic whether its messages are read.
@@ -99,7 +99,7 @@ class McapStorage:
         self.file.close()
 
     def topic(self, channel_id: int) -> TopicInfo:
-        """The topic of a channel.
+        """Return the topic of a channel.
 
         Raises:
             BagError: The file does not say which topic it is.
@@ -124,7 +124,7 @@ class McapStorage:
         )
 
     def summary(self) -> BagMetadata:
-        """The file's topics and times; channels of one topic count together."""
+        """Return the file's topics and times; channels of one topic count together."""
         topics: dict[str, TopicInfo] = {}
         for channel_id in sorted(self.file.channels):
             topic = self._read_topic(channel_id)
@@ -164,7 +164,7 @@ class McapStorage:
     def chunks(
         self, wanted: Callable[[TopicInfo], bool], start_ns: int, end_ns: int
     ) -> list[ChunkIndex]:
-        """The chunks that may hold wanted messages, in order of their first log time."""
+        """Return the chunks that may hold wanted messages, in order of their first log time."""
         channels = self._wanted_channels(wanted)
         return sorted(
             (
@@ -187,7 +187,7 @@ class McapStorage:
         end_ns: int,
         damaged: Callable[[BagError], None],
     ) -> Iterator[BagMessage]:
-        """See `StorageFile.messages`; only chunks whose times overlap are held together."""
+        """Yield messages; only chunks whose times overlap are in memory together."""
         channels = self._wanted_channels(wanted)
         waiting: list[_Raw] = []
         lacking = self.told(channels, start_ns, end_ns)
@@ -208,14 +208,14 @@ class McapStorage:
             damaged(self.lack(lacking))
 
     def told(self, channels: Container[int], start_ns: int, end_ns: int) -> int:
-        """How many messages of the channels the file says it has; 0 for a part of its time."""
+        """Return the channels' message count by the statistics; 0 for a part of the file's time."""
         statistics = self.file.statistics
         if start_ns > statistics.start_ns or end_ns < statistics.end_ns:
             return 0
         return sum(n for number, n in statistics.channel_counts.items() if number in channels)
 
     def lack(self, count: int) -> BagError:
-        """The error of a file that holds fewer messages than its statistics say."""
+        """Return the error of a file that holds fewer messages than its statistics say."""
         return BagError(f"{self.path}: damaged: {count:,} of the messages that it tells of lack")
 
     def _messages_of(
@@ -226,7 +226,7 @@ class McapStorage:
         end_ns: int,
         damaged: Callable[[BagError], None],
     ) -> list[_Raw]:
-        """The wanted messages of a chunk; of a damaged one those before the damage."""
+        """Return the wanted messages of a chunk; of a damaged one those before the damage."""
         messages: list[_Raw] = []
         try:
             # extend() keeps what came before an error.
@@ -263,7 +263,7 @@ class SqliteStorage:
         self.file.close()
 
     def summary(self) -> BagMetadata:
-        """What the file holds."""
+        """Return the file's metadata."""
         start, end = self.file.times()
         embedded = self.file.embedded_metadata()
         topics = list(self.file.topics.values())
@@ -298,7 +298,7 @@ class SqliteStorage:
         end_ns: int,
         damaged: Callable[[BagError], None],
     ) -> Iterator[BagMessage]:
-        """See `StorageFile.messages`; sqlite3 bags have no publish time."""
+        """Yield messages; sqlite3 bags have no publish time."""
         topics = {number: topic for number, topic in self.file.topics.items() if wanted(topic)}
         try:
             for log_time, number, data in self.file.messages(topics, start_ns, end_ns):

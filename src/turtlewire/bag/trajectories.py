@@ -72,7 +72,7 @@ def load_trajectory(
 
 
 def pose_topics(bag: Bag) -> list[str]:
-    """The topics of a bag that `load_trajectory` reads."""
+    """Return the topics of a bag that `load_trajectory` reads."""
     return sorted(name for name, topic in bag.topics.items() if topic.type in POSE_TYPES)
 
 

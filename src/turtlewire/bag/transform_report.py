@@ -105,7 +105,7 @@ class TransformReport:
         return often + list(dict.fromkeys(each.child_frame for each in self.new_parents))
 
     def complaints(self) -> list[str]:
-        """What looks wrong, one line each."""
+        """Return the problems, one line each."""
         lines = [f"problem: {text}" for text in self.problems]
         if self.part_of:
             lines.append(
@@ -123,12 +123,12 @@ class TransformReport:
         return [printable(line) for line in lines]
 
     def _steps_without_jumps(self) -> list[tuple[str, StepsBack]]:
-        """The frames that step back otherwise than by their jumps."""
+        """Return the frames that step back otherwise than by their jumps."""
         jumps = Counter(child for jump in self.jumps for child in jump.frames)
         return [each for each in self.steps_back.items() if each[1].times > jumps[each[0]]]
 
     def headline(self) -> str:
-        """What was read, in one line."""
+        """Return a one-line summary."""
         topics = ", ".join(f"{topic} ({_publishers(n)})" for topic, n in self.publishers.items())
         return printable(f"{self.name}: {self.messages:,} messages of {topics}")
 
@@ -213,7 +213,7 @@ def _seconds(stamp_ns: int) -> str:
 
 
 def _jump_lines(jumps: list[Jump]) -> list[str]:
-    """A line for each of the first jumps, and one for all the others."""
+    """Return a line for each of the first jumps, and one for all the others."""
     lines = [_jump_line(jump) for jump in jumps[:_MOST_SHOWN]]
     if rest := jumps[_MOST_SHOWN:]:
         largest = max(jump.back_ns for jump in rest) / 1e9

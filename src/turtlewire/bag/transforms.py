@@ -123,7 +123,7 @@ def fill_buffer(
 
 
 def _empty_window(bag: Bag, start_ns: int, end_ns: int) -> list[str]:
-    """A complaint if no message of the bag lies in the window."""
+    """Return a complaint if no message of the bag lies in the window."""
     if not len(bag) or (start_ns <= bag.end_ns and end_ns >= bag.start_ns):
         return []
     asked = f"{start_ns} to {end_ns}" if end_ns < _FOREVER else f"{start_ns} on"
@@ -228,7 +228,7 @@ class _Reader:
     def _decompressed(
         file: McapStorage, chunks: list[ChunkIndex]
     ) -> Iterator[tuple[ChunkIndex, bytes | memoryview | BagError]]:
-        """Each chunk with its records, which another thread decompresses one chunk ahead."""
+        """Yield each chunk with its records, which another thread decompresses one chunk ahead."""
 
         def load(chunk: ChunkIndex) -> bytes | memoryview | BagError:
             try:

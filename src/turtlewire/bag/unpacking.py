@@ -59,7 +59,7 @@ def _check_room(folder: str, path: str, least_free: int) -> None:
 def unpacked(
     messages: Iterator[BagMessage], compression: str, path: str, damage: list[BagError]
 ) -> Iterator[BagMessage]:
-    """The messages decompressed; those that are damaged are left out and go to ``damage``."""
+    """Yield the messages decompressed; those that are damaged are left out and go to ``damage``."""
     for message in messages:
         try:
             data = decompress(compression, message.data)

@@ -65,7 +65,7 @@ class BagWriter:
         checksums: Whether chunks of an MCAP file carry a CRC-32.
         custom_data: Texts to keep in the metadata.
         ros_distro: Name of the distribution in the metadata.
-        metadata_version: 1 to 9; those of an older ROS 2 lack keys and write QoS as numbers.
+        metadata_version: 1 to 9; older versions lack keys and write QoS as numbers.
 
     Attributes:
         path: The folder, absolute.
@@ -355,7 +355,7 @@ class BagWriter:
             file.write_metadata("rosbag2", {"serialized_metadata": text})
 
     def _whole_metadata(self) -> BagMetadata:
-        """The metadata with the totals of the files that are finished."""
+        """Return the metadata with the totals of the files that are finished."""
         filled = [file for file in self.metadata.files if file.message_count]
         start = min((file.start_ns for file in filled), default=0)
         end = max((file.start_ns + file.duration_ns for file in filled), default=0)
@@ -366,7 +366,7 @@ class BagWriter:
 
 
 def _stamp(time: Any, argument: str) -> int:
-    """A time as an integer, which can be written."""
+    """Return a time as an integer, which can be written."""
     stamp = as_nanoseconds(time, argument)
     if stamp < 0:
         raise ValueError(f"{argument} is {stamp}: bags have no times before 1970")

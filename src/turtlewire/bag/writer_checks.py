@@ -93,7 +93,7 @@ def known_definition(type_name: str) -> tuple[str, str]:
 
 
 def as_cdr(topic: str, type_name: str, data: Any) -> bytes:
-    """The bytes of a message for a topic.
+    """Return the bytes of a message for a topic.
 
     Raises:
         TypeError: It is a message of another type, or neither a message nor bytes.

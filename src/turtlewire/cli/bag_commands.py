@@ -203,7 +203,7 @@ def _positive(text: str) -> float:
 def reporting_errors(
     command: str, run: Callable[[argparse.Namespace], int]
 ) -> Callable[[argparse.Namespace], int]:
-    """The function, but what it cannot read is one line on stderr and the exit status 2."""
+    """Return the function, but what it cannot read is one line on stderr and the exit status 2."""
 
     def guarded(args: argparse.Namespace) -> int:
         from turtlewire.errors import BagError, TransformException
@@ -222,7 +222,7 @@ def reporting_errors(
 
 
 def _text_of(error: Exception) -> str:
-    """The error's text; of the system's errors without their number."""
+    """Return the error's text; of the system's errors without their number."""
     if isinstance(error, OSError) and error.strerror and error.filename:
         return f"{error.filename}: {error.strerror}"
     return str(error)

@@ -91,7 +91,7 @@ def _tf_topics(bag: Bag) -> list[str]:
 
 
 def _other_transforms(bag: Bag, path: str, read: set[str]) -> list[Finding]:
-    """A note of the topics with transforms that are not examined, and how they are."""
+    """Return a note of the topics with transforms that are not examined, and how they are."""
     others = [name for name in _tf_topics(bag) if name not in read]
     if not others:
         return []
@@ -148,7 +148,7 @@ def _report_findings(report: TransformReport) -> list[Finding]:
 
 
 def _traffic(buffer: Buffer, report: TransformReport, end_ns: int) -> TfTraffic:
-    """What a listener would have noted."""
+    """Return the traffic that a listener would have noted."""
     traffic = TfTraffic()
     traffic.ended_ns = end_ns
     for link in report.links:
@@ -167,7 +167,7 @@ def _traffic(buffer: Buffer, report: TransformReport, end_ns: int) -> TfTraffic:
 
 
 def _largest_leap(buffer: Buffer, child: str) -> float:
-    """The largest step within one parent that was faster than any robot, in metres."""
+    """Return the largest step within one parent that was faster than any robot, in metres."""
     largest = 0.0
     for _, stamps, poses in buffer.samples(child):
         steps = np.linalg.norm(np.diff(poses[:, :3], axis=0), axis=1)

@@ -20,7 +20,7 @@ __all__ = ["show_transforms"]
 def show_transforms(
     path: str, topics: str | list[str], static_topics: str | list[str], *, as_json: bool
 ) -> str:
-    """The transforms of a bag, as text or as one JSON object.
+    """Return the transforms of a bag, as text or as one JSON object.
 
     Args:
         path: The bag.
@@ -61,7 +61,7 @@ def _lines(picture: Picture, report: TransformReport, fixed: set[str]) -> list[s
 
 
 def _rate(link: LinkInfo, fixed: set[str]) -> str:
-    """The rate of a moving link, and whether it is sent on a static topic, too."""
+    """Return the rate of a moving link, and whether it is sent on a static topic, too."""
     rate = f"{link.rate_hz:.1f} Hz" if link.rate_hz else "one stamp"
     both = any(sender.name in fixed for sender in link.senders)
     return f"static and {rate}" if both else rate

@@ -82,7 +82,7 @@ def _ape(args: argparse.Namespace, comparison: Comparison) -> Errors:
 
 
 def _rpe(args: argparse.Namespace, comparison: Comparison) -> tuple[Errors | None, str]:
-    """The relative error; or None, and why there is none."""
+    """Return the relative error; or None and the reason."""
     try:
         found = comparison.rpe(
             args.relation, delta=args.delta, unit=args.delta_unit, all_pairs=args.all_pairs
@@ -114,7 +114,7 @@ def _figures(
 
 
 def _left_out(pairs: int, poses: tuple[int, int]) -> str:
-    """A line about the poses that have no partner; nothing if all have one."""
+    """Return a line about the poses that have no partner; nothing if all have one."""
     if poses == (pairs, pairs):
         return ""
     return (

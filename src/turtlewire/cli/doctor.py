@@ -86,7 +86,7 @@ def _verdict(findings: list[Finding]) -> str:
 
 
 def report(findings: list[Finding]) -> str:
-    """The findings as text, problems first."""
+    """Return the findings as text, problems first."""
     if not findings:
         return "No problems found."
     lines = []
@@ -97,7 +97,7 @@ def report(findings: list[Finding]) -> str:
 
 
 def as_json(findings: list[Finding]) -> str:
-    """The findings as a JSON object in one line, problems first."""
+    """Return the findings as a JSON object in one line, problems first."""
     return json.dumps({"findings": [finding._asdict() for finding in _by_weight(findings)]})
 
 

@@ -22,10 +22,10 @@ class Finding(NamedTuple):
 
 
 def problem(text: str, remedy: str) -> Finding:
-    """A finding that keeps something from working."""
+    """Return a finding that keeps something from working."""
     return Finding(True, text, remedy)
 
 
 def note(text: str, remedy: str) -> Finding:
-    """A finding that is only worth knowing."""
+    """Return a finding that is only worth knowing."""
     return Finding(False, text, remedy)

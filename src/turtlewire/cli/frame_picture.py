@@ -59,7 +59,7 @@ class Picture(NamedTuple):
     """A buffer at one moment.
 
     Attributes:
-        now_ns: The time that ages refer to: system time, or the newest stamp if stamps are those of
+        now_ns: The time that ages refer to: system time, or the newest stamp if stamps come from
             a simulation.
         rows: The frames, each below its parent; siblings in the order of their names, so that a
             frame keeps its place.
@@ -89,7 +89,7 @@ class Picture(NamedTuple):
         return json.dumps({"now_ns": self.now_ns, "frames": frames, "loops": self.loops})
 
     def as_text(self, *, coloured: bool = False, columns: int | None = None) -> list[str]:
-        """A header and a line for each frame, cut at ``columns``."""
+        """Return a header and a line for each frame, cut at ``columns``."""
         if not self.rows:
             return [self.missing[:columns]]
         names = [row.branch + printable(row.frame) for row in self.rows]
@@ -118,7 +118,7 @@ def _figures(row: Row) -> str:
 
 
 def take_picture(buffer: Buffer, wall_ns: int, top: str | None = None) -> Picture:
-    """The tree of a buffer at a system time.
+    """Return the tree of a buffer at a system time.
 
     Args:
         buffer: What to look at.
@@ -141,7 +141,7 @@ def take_picture(buffer: Buffer, wall_ns: int, top: str | None = None) -> Pictur
 
 
 def _walk(tree: FrameTree, top: str | None) -> Iterator[tuple[str, str]]:
-    """Every frame after its parent, with the lines before its name.
+    """Yield every frame after its parent, with the lines before its name.
 
     Without recursion, for a tree may be deep.
     """
@@ -163,7 +163,7 @@ def _by_name(frames: Iterable[str]) -> list[str]:
 
 
 def _natural(name: str) -> list[tuple[int, str]]:
-    """A key by which numbers in names are ordered as numbers."""
+    """Return a key by which numbers in names are ordered as numbers."""
     return [
         (int(part), "") if part.isascii() and part.isdigit() else (-1, part)
         for part in _NUMBER.split(name)

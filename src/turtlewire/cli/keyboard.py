@@ -46,7 +46,7 @@ class Keyboard:
     """No keys: for a program whose input is no terminal of its own."""
 
     def read(self, seconds: float) -> str:
-        """The name of the next key, or an empty string after so many seconds."""
+        """Return the name of the next key, or an empty string after a number of seconds."""
         threading.Event().wait(seconds)  # nothing sets it: a signal or the time ends the wait
         return ""
 
@@ -124,7 +124,7 @@ def open_keyboard(*, wanted: bool) -> Iterator[Keyboard]:
 
 
 def _in_foreground() -> bool:
-    """Whether keys can be read; a process in the background would be stopped for trying."""
+    """Return True if keys can be read; a process in the background would be stopped for trying."""
     if sys.platform == "win32" or sys.stdin is None or not sys.stdin.isatty():
         return False
     return os.tcgetpgrp(sys.stdin.fileno()) == os.getpgrp()

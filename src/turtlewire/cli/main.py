@@ -27,7 +27,7 @@ def main(argv: list[str] | None = None) -> int:
     """Run a command line.
 
     Args:
-        argv: The words after ``turtlewire``; None takes those of this process.
+        argv: The words after ``turtlewire``; None for this process's.
 
     Returns:
         The exit status: of ``doctor``, 1 if it found a problem; of ``frames``, 1 if there was no

@@ -21,7 +21,7 @@ _GROUP = "239.255.0.1"  # the one that DDS announces itself to
 
 
 def udp_ports() -> set[int]:
-    """The UDP ports that are in use on this host; empty on systems that do not tell."""
+    """Return the UDP ports that are in use on this host; empty on systems that do not tell."""
     ports: set[int] = set()
     for table in ("/proc/net/udp", "/proc/net/udp6"):
         try:
@@ -36,7 +36,7 @@ def udp_ports() -> set[int]:
 
 
 def domains_of(ports: Iterable[int]) -> set[int]:
-    """The ROS domains that UDP ports belong to."""
+    """Return the ROS domains that UDP ports belong to."""
     found = set()
     for port in ports:
         domain, offset = divmod(port - _FIRST_PORT, _PORTS_OF_DOMAIN)
@@ -46,7 +46,7 @@ def domains_of(ports: Iterable[int]) -> set[int]:
 
 
 def multicast_works(limit_s: float = 1.0) -> bool:
-    """Whether a datagram to the group of DDS comes back to a socket of this host."""
+    """Return True if a datagram to the group of DDS comes back to a socket of this host."""
     with (
         socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver,
         socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender,

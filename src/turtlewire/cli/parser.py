@@ -45,7 +45,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def seconds(text: str) -> float:
-    """A duration on the command line, above 0 and up to an hour."""
+    """Return a duration on the command line, above 0 and up to an hour."""
     try:
         value = float(text)
     except ValueError:
@@ -74,5 +74,5 @@ def add_tf_topics(parser: argparse.ArgumentParser) -> None:
 
 
 def tf_topics(args: argparse.Namespace) -> tuple[str | list[str], str | list[str]]:
-    """Where transforms and where static ones are; a text is the name that stands by default."""
+    """Return the topics of moving and of static transforms, by option or default."""
     return args.topic or "/tf", args.static_topic or "/tf_static"

@@ -73,7 +73,7 @@ def setup_findings(environment: Mapping[str, str], path: Iterable[str]) -> list[
 
 
 def _security_findings(environment: Mapping[str, str]) -> list[Finding]:
-    """Which settings of SROS 2 have no effect; if they are enforced, nothing starts at all."""
+    """Report settings of SROS 2 that have no effect, or that keep everything from starting."""
     if value := misspelt_enable(environment):
         text = f"ROS_SECURITY_ENABLE is {value!r}, which ROS 2 takes for off."
         return [note(text, "ROS 2 compares it with 'true'. turtlewire does not support SROS 2.")]
@@ -83,7 +83,7 @@ def _security_findings(environment: Mapping[str, str]) -> list[Finding]:
 
 
 def _library_findings() -> list[Finding]:
-    """Which libddsc is taken, if it is not the usual one."""
+    """Return a finding if an unusual libddsc is used."""
     library, refused = find_libddsc()
     found = [note(f"{sentence}.", _OTHER_LIBRARY) for sentence in refused]
     if library is not None and library.origin != "the cyclonedds wheel":
@@ -102,10 +102,10 @@ def network_findings() -> list[Finding]:
 
 
 def only_this_host() -> bool:
-    """Whether discovery stays on this host."""
+    """Return True if discovery stays on this host."""
     return discovery().range in (Range.LOCALHOST, Range.OFF)
 
 
 def looks_for_others() -> bool:
-    """Whether this process looks for nodes on other hosts."""
+    """Return True if this process looks for nodes on other hosts."""
     return bool(discovery().static_peers) or not only_this_host()

@@ -76,7 +76,7 @@ def find_gaps(stamps_ns: Sequence[int]) -> Gaps | None:
 
 
 def _turns(steps: Sequence[int], period: float) -> list[int] | None:
-    """How many periods each step is long, shortest first; None if they are no multiples.
+    """Return each step in periods, shortest first; None if they are not multiples.
 
     The period is corrected with each step, so that it is good enough for the long ones.
     """
@@ -92,7 +92,7 @@ def _turns(steps: Sequence[int], period: float) -> list[int] | None:
 
 
 def _is_random(turns: Sequence[int], share: float) -> bool:
-    """Whether so many gaps, and of such different lengths, come from loss at random."""
+    """Return True if random loss explains the number and the lengths of the gaps."""
     mean = fmean(turns)
     singles = sum(turn == 1 for turn in turns)
     gaps = len(turns) - singles

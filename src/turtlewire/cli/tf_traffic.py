@@ -135,7 +135,7 @@ class TfListener:
         self._node.create_subscription("/clock", kind, qos, keep)
 
     def wait(self, seconds: float, wanted: Mapping[bytes, int] | None = None) -> None:
-        """Listen for so many seconds, or until so many messages of each publisher (gid) came."""
+        """Listen for a time [s], or until each publisher (gid) has sent a number of messages."""
 
         def heard_all() -> bool:
             return wanted is not None and all(
@@ -146,7 +146,7 @@ class TfListener:
             self._news.wait_for(heard_all, seconds)
 
     def gather(self, graph: Graph, seconds: float) -> bool:
-        """Listen for so many seconds, but no longer than needed.
+        """Listen for at most a time [s].
 
         A static publisher sends all of its transforms at once to a new subscription. Others were
         heard for long enough after fifty messages.
@@ -169,7 +169,7 @@ class TfListener:
         return self.traffic()
 
     def traffic(self) -> TfTraffic:
-        """What was heard until now."""
+        """Return the traffic received so far."""
         traffic = TfTraffic()
         traffic.ended_ns = time.time_ns()
         with self._news:
@@ -185,7 +185,7 @@ class TfListener:
 
 
 def _time_of(cdr: bytes) -> int | None:
-    """The time of a Clock message [ns]; None if a foreign publisher sent something else."""
+    """Return the time of a Clock message [ns]; None if a foreign publisher sent something else."""
     try:
         clock: Any = msg.deserialize(msg.get_message(_CLOCK_TYPE), cdr)
     except CdrError:
@@ -194,14 +194,14 @@ def _time_of(cdr: bytes) -> int | None:
 
 
 def tf_publishers(graph: Graph) -> list[EndpointInfo]:
-    """The publishers of /tf and /tf_static."""
+    """Return the publishers of /tf and /tf_static."""
     return [
         end for topic in ("/tf", "/tf_static") for end in graph.endpoints_of(topic, "publisher")
     ]
 
 
 def _sends_at_once(publisher: EndpointInfo) -> bool:
-    """Whether a new subscription gets all transforms of the publisher."""
+    """Return True if a new subscription gets all transforms of the publisher."""
     return (
         publisher.topic == "/tf_static"
         and publisher.type_name == _TYPE

@@ -33,7 +33,7 @@ class Source(NamedTuple):
 
     @property
     def is_transform(self) -> bool:
-        """Whether it is a chain of transforms, which answers at any time."""
+        """True if it is a chain of transforms, which answers at any time."""
         return len(self.names) == 2
 
 
@@ -70,7 +70,7 @@ class TrajectoryReader:
     def read(
         self, source: Source, like: Trajectory | None = None, rate_hz: float | None = None
     ) -> Trajectory:
-        """The trajectory.
+        """Return the trajectory.
 
         Args:
             source: Where it is.

@@ -115,7 +115,7 @@ def _source(bag: str | None, max_frames: int | None) -> Source:
 
 
 def _frame_count(text: str) -> int:
-    """A number of frames on the command line."""
+    """Return a number of frames on the command line."""
     import argparse
 
     if not (text.isdecimal() and int(text) > 1):
@@ -124,7 +124,7 @@ def _frame_count(text: str) -> int:
 
 
 def _port_number(text: str) -> int:
-    """A TCP port on the command line."""
+    """Return a TCP port on the command line."""
     import argparse
 
     if not (text.isdecimal() and int(text) < 65536):

@@ -32,7 +32,7 @@ def share_folder(package: str) -> str | None:
 
 
 def read_asset(uri: str, allowed: Patterns, find_share: Callable[[str], str | None]) -> bytes:
-    """The file of a ``package://PACKAGE/PATH`` address.
+    """Return the file of a ``package://PACKAGE/PATH`` address.
 
     Nothing outside of the package's share folder is read, except what links in it point to:
     ``colcon build --symlink-install`` makes such links.
@@ -61,7 +61,7 @@ def read_asset(uri: str, allowed: Patterns, find_share: Callable[[str], str | No
 
 
 def _is_plain(part: str) -> bool:
-    """Whether this is the name of a file or folder, and no way to another one."""
+    """Return True if this is the name of a file or folder, and no way to another one."""
     return part not in {"", ".", ".."} and not any(letter in part for letter in "/\\\0:")
 
 

@@ -49,7 +49,7 @@ class Client(Protocol):
 
     @property
     def follows_parameters(self) -> bool:
-        """See above."""
+        """True if clients can subscribe to parameters."""
         ...
 
     def channels_gone(self, numbers: set[int]) -> None:
@@ -57,7 +57,7 @@ class Client(Protocol):
         ...
 
     def wants_parameter(self, name: str) -> bool:
-        """Whether it follows this parameter."""
+        """Return True if it follows this parameter."""
         ...
 
 
@@ -102,7 +102,7 @@ class Bridge:
 
     @property
     def capabilities(self) -> list[str]:
-        """What clients are offered."""
+        """Capabilities offered to clients."""
         wanted = self.options.capabilities
         return [
             name
@@ -111,7 +111,7 @@ class Bridge:
         ]
 
     def now_ns(self) -> int:
-        """The time of the simulation; 0 if there is none."""
+        """Return the simulation's time; 0 without one."""
         return 0 if self._time is None else self._time.now_ns
 
     def add(self, client: Client) -> None:

@@ -63,7 +63,7 @@ class Caller:
     async def call(
         self, service: str, type_name: str, request: bytes, limit_s: float | None = None
     ) -> bytes:
-        """The response of a service, as CDR.
+        """Return the response of a service, as CDR.
 
         Args:
             service: Fully qualified name.

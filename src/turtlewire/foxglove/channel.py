@@ -34,7 +34,7 @@ class Channel:
         type_id: The type.
         schema: The type's definition.
         node: Whose subscriptions it makes.
-        now_ns: The time of the simulation; 0 if there is none.
+        now_ns: The simulation's time; 0 without one.
     """
 
     def __init__(
@@ -62,7 +62,7 @@ class Channel:
         self._own: dict[Outbox, Subscription] = {}
 
     def advertisement(self) -> dict[str, Any]:
-        """What clients learn of it."""
+        """Return the announcement for clients."""
         return {
             "id": self.number,
             "topic": self.topic,
@@ -155,7 +155,7 @@ class Channel:
 
 
 def _fitting(publishers: list[EndpointInfo], durability: Durability) -> QoS | None:
-    """The QoS of a subscription that matches all publishers; None if there are none."""
+    """Return the QoS of a subscription that matches all publishers; None if there are none."""
     if not publishers:
         return None
     reliable = all(end.qos.reliability == Reliability.RELIABLE for end in publishers)

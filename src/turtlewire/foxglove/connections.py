@@ -26,7 +26,7 @@ class Connections(NamedTuple):
 
 
 def connections_of(endpoints: Iterable[EndpointInfo]) -> Connections:
-    """The connections that these endpoints make."""
+    """Return the connections that these endpoints make."""
     published: dict[str, set[str]] = {}
     subscribed: dict[str, set[str]] = {}
     served: dict[str, set[str]] = {}
@@ -43,7 +43,7 @@ def connections_of(endpoints: Iterable[EndpointInfo]) -> Connections:
 
 
 def difference(before: Connections, now: Connections) -> dict[str, Any]:
-    """What a client that knows `before` has to learn, by field."""
+    """Return the fields that changed since `before`."""
     topics_before = before.published.keys() | before.subscribed.keys()
     topics_now = now.published.keys() | now.subscribed.keys()
     # A topic that has lost all publishers, but not all subscriptions, must be told of as empty.

@@ -12,7 +12,7 @@ _KINDS = {dict: "objects", int: "numbers", str: "texts"}
 
 
 def items(request: dict[str, Any], field: str, kind: type = dict) -> list[Any]:
-    """A list of objects, numbers or texts.
+    """Return a list of objects, numbers or texts.
 
     Raises:
         ProtocolError: The field is no such list.
@@ -24,7 +24,7 @@ def items(request: dict[str, Any], field: str, kind: type = dict) -> list[Any]:
 
 
 def names(request: dict[str, Any]) -> list[str]:
-    """The names of parameters; no field stands for none.
+    """Return the names of parameters; no field stands for none.
 
     Raises:
         ProtocolError: The field is no list of texts.
@@ -33,7 +33,7 @@ def names(request: dict[str, Any]) -> list[str]:
 
 
 def integer(item: dict[str, Any], field: str) -> int:
-    """A number that fits into 32 bits without a sign.
+    """Return a number that fits into 32 bits without a sign.
 
     Raises:
         ProtocolError: The field is none.
@@ -45,7 +45,7 @@ def integer(item: dict[str, Any], field: str) -> int:
 
 
 def required_text(item: dict[str, Any], field: str) -> str:
-    """A text.
+    """Return a text.
 
     Raises:
         ProtocolError: The field is none.
@@ -57,7 +57,7 @@ def required_text(item: dict[str, Any], field: str) -> str:
 
 
 def text_or_none(item: dict[str, Any], field: str) -> str | None:
-    """A text, or None if there is no such field.
+    """Return a text, or None if there is no such field.
 
     Raises:
         ProtocolError: The field is something else.

@@ -33,7 +33,7 @@ _BYTES = {"octet", "uint8"}
 
 
 def cdr_from_json(type_name: str, payload: bytes) -> bytes:
-    """The bytes of a message, from a JSON object with some or all of its fields.
+    """Return the bytes of a message, from a JSON object with some or all of its fields.
 
     Raises:
         CdrError: It is no such object; the text names the field.
@@ -46,7 +46,7 @@ def cdr_from_json(type_name: str, payload: bytes) -> bytes:
 
 
 def json_from_message(message: Message) -> bytes:
-    """A message as a JSON object with all of its fields."""
+    """Return a message as a JSON object with all of its fields."""
     return json.dumps(_plain(message), separators=(",", ":"), allow_nan=False).encode()
 
 
@@ -121,7 +121,7 @@ def _integer(typename: str, value: Any, path: str) -> Any:
 
 
 def _plain(value: Any) -> Any:
-    """A field's value as JSON has it."""
+    """Return a field's value as JSON has it."""
     if hasattr(value, "_DEFINITION"):
         return {
             field.name: _plain(getattr(value, field.name)) for field in value._DEFINITION.fields

@@ -31,7 +31,7 @@ class Offers:
     Args:
         node: Whose subscriptions the channels make.
         options: What of it is offered.
-        now_ns: The time of the simulation; 0 if there is none.
+        now_ns: The simulation's time; 0 without one.
         warn: Takes a line about a topic or service that cannot be offered.
 
     Attributes:

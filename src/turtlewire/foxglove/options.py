@@ -37,7 +37,7 @@ class Patterns:
         self._compiled = [_compiled(pattern, what) for pattern in patterns]
 
     def match(self, name: str) -> bool:
-        """Whether one of the expressions matches the whole name."""
+        """Return True if one of the expressions matches the whole name."""
         return any(pattern.fullmatch(name) for pattern in self._compiled)
 
 
@@ -53,7 +53,7 @@ _ALL = (".*",)
 
 @dataclass(frozen=True)
 class Options:
-    """The settings of a server; names and defaults are those of ROS 2's foxglove_bridge.
+    """The settings of a server; names and defaults follow ROS 2's foxglove_bridge.
 
     The exception is `address`, which is 0.0.0.0 there.
 
@@ -69,10 +69,10 @@ class Options:
             begins with an underscore.
         send_buffer_limit: How many bytes of messages may wait for a client before it loses old
             ones.
-        use_sim_time: Whether times are those of ``/clock``.
+        use_sim_time: Take times from ``/clock``.
         capabilities: What is offered of :data:`.protocol.CAPABILITIES`.
         asset_uri_allowlist: Regular expressions of the files that clients may read.
-        origins: Web pages that may connect, besides Foxglove's and those of this machine: what
+        origins: Web pages that may connect, besides Foxglove's and this machine's: what
             their browser sends as ``Origin``.
     """
 
@@ -116,12 +116,12 @@ class Options:
 
     @property
     def is_local(self) -> bool:
-        """Whether only programs of this machine reach the server."""
+        """True if only programs of this machine reach the server."""
         return self.address in {"localhost", "::1"} or self.address.startswith("127.")
 
     @property
     def warning(self) -> str:
-        """What it means that others reach the server, for its user."""
+        """Warning to the user that other computers reach the server."""
         rights = ["read all topics"]
         if "clientPublish" in self.capabilities:
             rights.append("publish")
@@ -130,5 +130,5 @@ class Options:
         return f"Everybody who reaches {self.address} can {', '.join(rights)}."
 
     def patterns(self, name: str) -> Patterns:
-        """The compiled expressions of one of the lists."""
+        """Return the compiled expressions of one of the lists."""
         return Patterns(getattr(self, name), name)

@@ -24,7 +24,7 @@ def refusal(origins: list[str], allowed: Iterable[str]) -> str | None:
 
     Args:
         origins: All ``Origin`` headers. Programs other than browsers send none.
-        allowed: Origins that may connect, besides Foxglove's and those of this machine. ``*``
+        allowed: Origins that may connect, besides Foxglove's and this machine's. ``*``
             stands for all.
     """
     known = {*FOXGLOVE, *(origin.lower().rstrip("/") for origin in allowed)}

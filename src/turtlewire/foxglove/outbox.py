@@ -37,7 +37,7 @@ class Outbox:
         limit: How many bytes of messages may wait.
         wake: Called when there is something to take after there was nothing; for any thread.
         on_loss: Called with the number of a subscription when it loses its first message.
-        on_flood: Called once when so many other frames wait that the client cannot be reading.
+        on_flood: Called once when too many other frames wait for the client to be reading.
     """
 
     def __init__(
@@ -65,12 +65,12 @@ class Outbox:
 
     @property
     def is_crowded(self) -> bool:
-        """Whether so much waits besides messages that the client should ask for no more."""
+        """True if so much waits besides messages that the client should ask for no more."""
         return self._frame_bytes >= _CROWD_BYTES or len(self._frames) >= _CROWD
 
     @property
     def is_empty(self) -> bool:
-        """Whether nothing waits."""
+        """True if nothing waits."""
         return not (self._frames or self._messages) and self._time is None
 
     def send(self, frame: str | bytes) -> None:
@@ -115,7 +115,7 @@ class Outbox:
             self._losing.discard(subscription_id)
 
     def take(self) -> str | bytes | None:
-        """The next frame; None if there is none, and `wake` is called for the next one."""
+        """Return the next frame; None if no frame waits, and `wake` is called for the next one."""
         with self._lock:
             if self._frames:
                 frame = self._frames.popleft()

@@ -32,7 +32,7 @@ _JSON_TYPES = {_DOUBLE: "float64", 8: "float64_array", _BYTES: "byte_array"}
 
 
 def to_json(name: str, value: Any) -> dict[str, Any]:
-    """A parameter as clients read it; one that is not set has no value.
+    """Return a parameter as clients read it; one that is not set has no value.
 
     JSON's numbers do not tell 2 from 2.0, so that a type stands beside floating-point ones.
 
@@ -57,7 +57,7 @@ def to_json(name: str, value: Any) -> dict[str, Any]:
 
 
 def from_json(value: Any, type_name: str | None, present_type: int) -> Any:
-    """A ``rcl_interfaces/msg/ParameterValue`` of a client's value; None unsets a parameter.
+    """Return a ``rcl_interfaces/msg/ParameterValue`` of a client's value; None unsets a parameter.
 
     Args:
         value: The value.
@@ -87,7 +87,7 @@ def from_json(value: Any, type_name: str | None, present_type: int) -> Any:
 
 
 def _typed(value: Any, as_double: bool, present_type: int) -> tuple[int, Any]:
-    """The number of a value's type, and the value as Python has it."""
+    """Return the number of a value's type, and the value as Python has it."""
     if not isinstance(value, list):
         return _scalar(value, as_double)
     items = [_scalar(item, as_double) for item in value]

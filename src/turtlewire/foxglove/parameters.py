@@ -46,7 +46,7 @@ class Parameters:
         self._services = services
 
     async def read(self, names: list[str]) -> tuple[list[dict[str, Any]], list[str]]:
-        """The values of parameters, in JSON, and the reasons why others were not read.
+        """Return the values of parameters, in JSON, and the reasons why others were not read.
 
         Those that are not set are left out.
 

@@ -78,7 +78,7 @@ class ServiceRequest(NamedTuple):
 
 
 def text(op: str, **fields: Any) -> str:
-    """A text frame; fields that are None are left out."""
+    """Return a text frame; fields that are None are left out."""
     return json.dumps(
         {"op": op, **{name: value for name, value in fields.items() if value is not None}},
         separators=(",", ":"),
@@ -87,28 +87,28 @@ def text(op: str, **fields: Any) -> str:
 
 
 def status(level: int, message: str, *, status_id: str | None = None) -> str:
-    """A line for the client's user; one with an id replaces the former of that id."""
+    """Return a line for the client's user; one with an id replaces the former of that id."""
     return text("status", level=level, message=message, id=status_id)
 
 
 def message_data(subscription_id: int, time_ns: int, cdr: bytes) -> bytes:
-    """A message of a subscription, with the time at which it was received."""
+    """Return a message of a subscription, with the time at which it was received."""
     return _MESSAGE_DATA.pack(1, subscription_id, time_ns) + cdr
 
 
 def time_data(time_ns: int) -> bytes:
-    """The time of the simulation."""
+    """Return the time of the simulation."""
     return _TIME.pack(2, time_ns)
 
 
 def service_response(service_id: int, call_id: int, encoding: str, payload: bytes) -> bytes:
-    """The response of a service."""
+    """Return the response of a service."""
     encoded = encoding.encode(errors="replace")
     return _SERVICE.pack(3, service_id, call_id, len(encoded)) + encoded + payload
 
 
 def asset(request_id: int, data: bytes) -> bytes:
-    """A file that a client asked for."""
+    """Return a file that a client asked for."""
     return _ASSET.pack(4, request_id, 0, 0) + data
 
 
@@ -119,7 +119,7 @@ def asset_error(request_id: int, message: str) -> bytes:
 
 
 def parse_text(frame: str) -> dict[str, Any]:
-    """The object of a client's text frame; its ``op`` is a string.
+    """Return the object of a client's text frame; its ``op`` is a string.
 
     Raises:
         ProtocolError: The frame is no such object, or too long.
@@ -138,7 +138,7 @@ def parse_text(frame: str) -> dict[str, Any]:
 
 
 def parse_binary(frame: bytes) -> ClientMessage | ServiceRequest:
-    """What a client's binary frame holds.
+    """Parse a client's binary frame.
 
     Raises:
         ProtocolError: The frame is none, or ends too early.

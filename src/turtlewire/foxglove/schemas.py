@@ -40,7 +40,7 @@ def full_name(type_name: str) -> str:
 
 
 def schema(type_name: str) -> str:
-    """The definition of a message, or of a part of a service or an action.
+    """Return the definition of a message, or of a part of a service or an action.
 
     Raises:
         InterfaceError: The type or one of those that it uses is not known.
@@ -89,7 +89,7 @@ def _constant(constant: Constant) -> str:
 
 
 def _spelled(type_: AbstractType) -> str:
-    """A type as a .msg file spells it."""
+    """Return a type as a .msg file spells it."""
     if isinstance(type_, AbstractNestedType):
         size = ""
         if isinstance(type_, Array):

@@ -244,12 +244,12 @@ async def _receive(connection: ServerConnection, session: Session) -> None:
 
 
 def _subprotocol(_connection: ServerConnection, offered: list[str]) -> str | None:
-    """The first of the client's protocols that is ours, as browsers demand exactly one."""
+    """Return the first of the client's protocols that is ours, as browsers demand exactly one."""
     return next((name for name in offered if name in SUBPROTOCOLS), None)
 
 
 def _listening(options: Options) -> socket.socket:
-    """A socket that listens, or an error with a sentence for the user."""
+    """Return a socket that listens, or an error with a sentence for the user."""
     try:
         return _listen(options.address, options.port)
     except OSError as error:
@@ -279,7 +279,7 @@ def _listen(address: str, port: int) -> socket.socket:
 
 
 def _quiet_logger() -> logging.Logger:
-    """The library's log: reports of clients that do not speak HTTP are left out."""
+    """Return the library's log: reports of clients that do not speak HTTP are left out."""
     logger = logging.getLogger("turtlewire.foxglove")
     logger.addFilter(_is_ours)
     return logger

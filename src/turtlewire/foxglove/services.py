@@ -36,7 +36,7 @@ class OfferedService(NamedTuple):
     response_schema: str
 
     def advertisement(self) -> dict[str, Any]:
-        """What clients learn of it; the last two fields are for older ones."""
+        """Return the announcement for clients; the last two fields are for older ones."""
         return {
             "id": self.number,
             "name": self.name,
@@ -48,7 +48,7 @@ class OfferedService(NamedTuple):
         }
 
     async def call(self, caller: Caller, encoding: str, request: bytes) -> bytes:
-        """The response, in the encoding of the request.
+        """Return the response, in the encoding of the request.
 
         Raises:
             ServiceCallError: The request is wrong, or the service cannot be called.
@@ -87,7 +87,7 @@ class OfferedService(NamedTuple):
 
 
 def offered_service(number: int, name: str, type_name: str) -> OfferedService:
-    """A service with the definitions of its type.
+    """Return a service with the definitions of its type.
 
     Raises:
         InterfaceError: The type is not known.

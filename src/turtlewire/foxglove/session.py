@@ -112,11 +112,11 @@ class Session:
 
     @property
     def follows_parameters(self) -> bool:
-        """Whether the client follows any parameter."""
+        """True if the client follows any parameter."""
         return self._follows_all or bool(self._followed)
 
     def wants_parameter(self, name: str) -> bool:
-        """Whether the client follows this parameter."""
+        """Return True if the client follows this parameter."""
         return self._follows_all or name in self._followed
 
     def close(self) -> None:
@@ -134,7 +134,7 @@ class Session:
     # -- frames
 
     def _operations(self) -> dict[str, tuple[str, Callable[[dict[str, Any]], None]]]:
-        """What clients may ask for in text frames, with the capability that it needs."""
+        """Return the operations of text frames, each with the capability that it needs."""
         return {
             "subscribe": ("", self._subscribe),
             "unsubscribe": ("", self._unsubscribe),

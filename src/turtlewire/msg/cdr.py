@@ -41,7 +41,7 @@ def serialize(message: Message) -> bytes:
 
 
 def encode(message: Message) -> Cdr:
-    """What :func:`serialize` returns, without copying long sequences of numbers.
+    """Serialize a message without copying long sequences of numbers.
 
     For a caller that hands the result on at once: the parts are the message's own.
     """

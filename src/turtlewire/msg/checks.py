@@ -122,7 +122,7 @@ def _check_values(name: str, type_: AbstractNestedType, value: Any) -> None:
 
 
 def _is_native_storage(name: str, type_: AbstractNestedType, value: Any) -> bool:
-    """Whether the value is the array.array or NumPy array of the field.
+    """Return True if the value is the array.array or NumPy array of the field.
 
     An array must have the right element type and size.
     """

@@ -115,5 +115,5 @@ def _finish(message: Message, unknown: dict[str, Any]) -> None:
 
 
 def _checks_are_on() -> bool:
-    """Whether ``ROS_PYTHON_CHECK_FIELDS=1`` asks for ROS 2's checks at every assignment."""
+    """Return True if ``ROS_PYTHON_CHECK_FIELDS=1`` asks for ROS 2's checks at every assignment."""
     return os.environ.get("ROS_PYTHON_CHECK_FIELDS") == "1"

@@ -56,7 +56,7 @@ def make_decoder(
 
 
 def numbers(code: str, data: memoryview, swap: bool) -> array[Any]:
-    """A sequence of numbers from its bytes."""
+    """Return a sequence of numbers from its bytes."""
     values = array(code)
     values.frombytes(data)
     if swap:

@@ -177,7 +177,7 @@ class ActionDefinition:
         )
 
     def messages(self) -> tuple[MessageDefinition, ...]:
-        """All messages of the action, those of its services included."""
+        """Return all messages of the action, its services' included."""
         return (
             self.goal,
             self.result,

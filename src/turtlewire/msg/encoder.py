@@ -86,14 +86,14 @@ def make_encoder(cls: type) -> Callable[[Any], Cdr]:
 
 
 def as_bool(value: Any) -> bool:
-    """A bool of what equals one: 0, 1, NumPy's bools."""
+    """Return a bool of what equals one: 0, 1, NumPy's bools."""
     if value in (0, 1):
         return bool(value)
     raise TypeError("expected a bool")
 
 
 def byte_string(values: Any) -> bytes:
-    """The content of a sequence of ``byte``.
+    """Return the content of a sequence of ``byte``.
 
     A list of one-byte ``bytes``, or ``bytes`` as they are.
     """
@@ -106,7 +106,7 @@ def byte_string(values: Any) -> bytes:
 
 
 def array_bytes(value: Any, dtype: str, size: int) -> bytes:
-    """The content of a fixed array of numbers."""
+    """Return the content of a fixed array of numbers."""
     if type(value) is bytes:  # nobody has looked at it
         return value
     import numpy as np
@@ -119,14 +119,14 @@ def array_bytes(value: Any, dtype: str, size: int) -> bytes:
 
 
 def swapped(values: Any) -> Any:
-    """A sequence of numbers as little endian, on a big endian host."""
+    """Return a sequence of numbers as little endian, on a big endian host."""
     values = values[:]
     values.byteswap()
     return values
 
 
 def _has_numbers(definition: MessageDefinition) -> bool:
-    """Whether there is a sequence of numbers in it at any depth."""
+    """Return True if there is a sequence of numbers in it at any depth."""
     for field in definition.fields:
         type_ = field.type
         if isinstance(type_, AbstractSequence) and element_code(type_):

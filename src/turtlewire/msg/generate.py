@@ -58,7 +58,7 @@ def generate_package(source: Path, output: Path, package: str = "") -> Path:
         The folder of the generated package.
 
     Raises:
-        InterfaceError: A definition is wrong, or there is none; or the package would be the folder
+        InterfaceError: A definition is wrong or missing; or the package would be the folder
             of the interfaces itself.
     """
     package = package or package_name(source)

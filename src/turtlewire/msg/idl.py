@@ -123,7 +123,7 @@ class _Reader(IdlTokens):
         lines.append(f"{type_} {name} = {self._literal()}")
 
     def _type(self) -> tuple[str, str]:
-        """A type, and the brackets that follow it in a .msg file."""
+        """Return a type, and the brackets that follow it in a .msg file."""
         word = self.next("name")
         name = word.text
         while name in ("unsigned", "long", "unsigned long") and self.peek().text in (
@@ -183,7 +183,7 @@ class _Reader(IdlTokens):
         return found
 
     def _literal(self) -> str:
-        """A value as written; texts that follow each other are one."""
+        """Return a value as written; texts that follow each other are one."""
         token = self.next()
         if token.kind not in ("text", "number", "name"):
             raise self.error(f"expected a value, got '{token.text}'", token.line)
@@ -198,5 +198,5 @@ def _unquoted(text: str) -> str:
 
 
 def _value(type_: str, default: str) -> str:
-    """A default as .msg files have it: lists stand in quotes in IDL."""
+    """Return a default as .msg files have it: lists stand in quotes in IDL."""
     return _unquoted(default) if type_.endswith("]") and default.startswith('"') else default

@@ -56,14 +56,14 @@ class IdlTokens:
         self._tokens = self._split(text)
 
     def peek(self) -> IdlToken:
-        """The next token, which stays the next one."""
+        """Return the next token, which stays the next one."""
         return self._tokens[self._at]
 
     def next(self, kind: str = "") -> IdlToken:
         """Take the next token.
 
         Raises:
-            InterfaceError: There is none, or it is of another kind.
+            InterfaceError: The token is missing or of another kind.
         """
         token = self.peek()
         if token.kind == "end" or (kind and token.kind != kind):
@@ -89,7 +89,7 @@ class IdlTokens:
             raise self.error(f"expected '{symbol}', got '{token.text}'", token.line)
 
     def error(self, text: str, line: int) -> InterfaceError:
-        """An error that names the file and a line."""
+        """Return an error that names the file and a line."""
         return InterfaceError(f"{self._label}, line {line}: {text}")
 
     def _split(self, text: str) -> list[IdlToken]:

@@ -136,7 +136,7 @@ def _parts(full_name: str, text: str, count: int) -> list[str]:
 
 
 def without_comment(line: str) -> str:
-    """A line up to the ``#`` that is not within quotes.
+    """Return a line up to the ``#`` that is not within quotes.
 
     Quotes begin a value; the apostrophe in ``don't`` does not, nor does a quote without an end.
     """
@@ -208,7 +208,7 @@ def _is_type_name(name: str) -> bool:
 
 
 def parse_type(package: str, text: str) -> AbstractType:
-    """The type that a text names, for example ``string<=3[]``.
+    """Return the type that a text names, for example ``string<=3[]``.
 
     Args:
         package: Where messages are that are named without a package.
@@ -255,7 +255,7 @@ def _parse_size(text: str) -> int:
 
 
 def parse_value(type_: AbstractType, text: str) -> Any:
-    """The value that a text means, for defaults and constants.
+    """Return the value that a text means, for defaults and constants.
 
     Raises:
         ValueError: It is no value of the type.

@@ -114,7 +114,7 @@ def interface_path(full_name: str) -> str:
 
 
 def interface_names() -> dict[str, dict[str, list[str]]]:
-    """All interfaces that can be found without importing anything.
+    """Return all interfaces that can be found without importing anything.
 
     ``{package: {"msg": [...], "srv": [...], "action": [...]}}``, sorted.
     """
@@ -180,7 +180,7 @@ def _parents() -> list[str]:
 
 
 def _installed() -> dict[str, str]:
-    """The packages with interfaces that pip put into the environment of turtlewire, by name.
+    """Return the packages with interfaces that pip put into the environment of turtlewire, by name.
 
     Such an environment needs no sourcing.
     """

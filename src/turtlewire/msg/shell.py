@@ -16,7 +16,7 @@ __all__ = ["lazy_classes"]
 
 
 def lazy_classes(home: str) -> Callable[[str], type]:
-    """The ``__getattr__`` of a module of interfaces.
+    """Return the ``__getattr__`` of a module of interfaces.
 
     ROS 2's generator has a private module for each interface, ``geometry_msgs.msg._twist``, and
     some programs import from there; they are put into ``sys.modules`` and the module.

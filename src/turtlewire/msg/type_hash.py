@@ -110,7 +110,7 @@ def members(definition: Definition) -> list[tuple[str, AbstractType]]:
 
 
 def field_type_parts(type_: AbstractType) -> tuple[int, int, int, str]:
-    """A type as ``type_description_interfaces/msg/FieldType`` has it.
+    """Return a type as ``type_description_interfaces/msg/FieldType`` has it.
 
     Type_id, capacity, string_capacity, nested_type_name.
     """

@@ -121,7 +121,7 @@ class NamespacedType(AbstractNestableType):
         return cls(tuple(namespaces), name)
 
     def namespaced_name(self) -> tuple[str, ...]:
-        """All parts of the name, ``("geometry_msgs", "msg", "Vector3")``."""
+        """Return all parts of the name, ``("geometry_msgs", "msg", "Vector3")``."""
         return (*self.namespaces, self.name)
 
     @property
@@ -139,7 +139,7 @@ class AbstractGenericString(AbstractNestableType):
     __slots__ = ()
 
     def has_maximum_size(self) -> bool:
-        """Whether the length is limited."""
+        """Return True if the length is limited."""
         return hasattr(self, "maximum_size")
 
 
@@ -218,7 +218,7 @@ class AbstractNestedType(AbstractType):
         self.value_type = value_type
 
     def has_maximum_size(self) -> bool:
-        """Whether the number of values is limited."""
+        """Return True if the number of values is limited."""
         return hasattr(self, "maximum_size")
 
 

@@ -87,7 +87,7 @@ def scalar_default(type_: AbstractType) -> Any:
 
 
 def converter(type_: AbstractType) -> Callable[[Any], Any] | None:
-    """What turns an assigned value into the storage of a numeric sequence or array.
+    """Return the converter of assigned values for a numeric sequence or array.
 
     None where values are stored as given.
     """
@@ -125,7 +125,7 @@ def to_array(code: str, value: Iterable[Any]) -> array[Any]:
 
 
 def array_values(code: str, values: Iterable[Any]) -> bytes:
-    """The bytes of a fixed array from its values."""
+    """Return the bytes of a fixed array from its values."""
     content = array(code, values)
     if sys.byteorder == "big":
         content.byteswap()
@@ -133,7 +133,7 @@ def array_values(code: str, values: Iterable[Any]) -> bytes:
 
 
 def array_of_bytes(dtype: str, content: bytes) -> Any:
-    """The NumPy array of a fixed array from its bytes; it shares no memory with them."""
+    """Return the NumPy array of a fixed array from its bytes; it shares no memory with them."""
     import numpy as np
 
     return np.frombuffer(content, np.dtype(dtype).newbyteorder("<")).astype(dtype)

@@ -12,7 +12,7 @@ UNIT_SIZE = 4
 
 
 def units_of_text(text: str) -> bytes:
-    """The code units of ``text``, little endian.
+    """Return the code units of ``text``, little endian.
 
     Raises:
         UnicodeEncodeError: It has a lone surrogate.
@@ -24,7 +24,7 @@ def units_of_text(text: str) -> bytes:
 
 
 def text_of_units(units: bytes, order: str) -> str:
-    """The text of code units in byte order ``order`` (``"<"`` or ``">"``).
+    """Return the text of code units in byte order ``order`` (``"<"`` or ``">"``).
 
     Raises:
         UnicodeDecodeError: They are not UTF-16.

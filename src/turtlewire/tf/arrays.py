@@ -30,14 +30,14 @@ class HasPose(Protocol):
 def pose_array(
     transform: HasPose, dtype: DTypeLike | None = None, copy: bool | None = None
 ) -> NDArray[Any]:
-    """The seven numbers ``x, y, z, qx, qy, qz, qw`` of a transform, shape ``(7,)``."""
+    """Return the seven numbers ``x, y, z, qx, qy, qz, qw`` of a transform, shape ``(7,)``."""
     if copy is False:
         raise ValueError("a Transform has no array to share; its array is always a copy")
     return np.array((*transform.translation, *transform.rotation), dtype=dtype)
 
 
 def pose_matrix(transform: HasPose) -> NDArray[np.float64]:
-    """The homogeneous matrix of a transform, shape ``(4, 4)``.
+    """Return the homogeneous matrix of a transform, shape ``(4, 4)``.
 
     It multiplies column vectors from the left.
     """

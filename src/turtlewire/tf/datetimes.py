@@ -17,7 +17,7 @@ __all__ = ["as_nanoseconds", "nanoseconds", "nanoseconds_array"]
 
 
 def nanoseconds(time: Any, argument: str) -> int:
-    """A ``datetime64``, or a pandas ``Timestamp``, in nanoseconds since 1970.
+    """Return a ``datetime64``, or a pandas ``Timestamp``, in nanoseconds since 1970.
 
     Raises:
         TypeError: It is something else; ``argument`` names it.
@@ -31,7 +31,7 @@ def nanoseconds(time: Any, argument: str) -> int:
 
 
 def as_nanoseconds(time: Any, argument: str) -> int:
-    """An integer of Python or NumPy as an int; anything else as `nanoseconds` takes it."""
+    """Return an integer of Python or NumPy as an int; anything else as `nanoseconds` takes it."""
     try:
         return operator.index(time)
     except TypeError:

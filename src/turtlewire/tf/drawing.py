@@ -66,7 +66,7 @@ class Drawing(NamedTuple):
 
 
 def text_width(text: str, size: float, *, bold: bool = False) -> float:
-    """How wide a line of text is; at most a little less than it is in any sans-serif font."""
+    """Return the width of a line of text, a lower estimate for any sans-serif font."""
     thousandths = sum(
         _WIDTHS[ord(letter) - 32] if " " <= letter <= "~" else _WIDE for letter in text
     )
@@ -74,7 +74,7 @@ def text_width(text: str, size: float, *, bold: bool = False) -> float:
 
 
 def svg_from_drawing(drawing: Drawing) -> str:
-    """The drawing as a complete SVG document, which may stand in a page as it is."""
+    """Return the drawing as a complete SVG document, which may stand in a page as it is."""
     width, height = f"{drawing.width:.0f}", f"{drawing.height:.0f}"
     opening = (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '

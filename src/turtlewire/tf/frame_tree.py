@@ -73,7 +73,7 @@ class FrameTree:
 
 
 def read_frame_tree(buffer: HasLinks, most: int = sys.maxsize) -> FrameTree:
-    """The tree of a buffer as it is now; of its first ``most`` links."""
+    """Return the tree of a buffer as it is now; of its first ``most`` links."""
     return FrameTree(_link(info) for info in links(buffer, most) if info.samples)
 
 

@@ -74,7 +74,7 @@ class Conflict(NamedTuple):
 
 
 def refusals(buffer: Buffer) -> dict[str, Refused]:
-    """What was refused, by child frame; beyond 1000 frames, the rest under ``(others)``."""
+    """Return the rejected transforms by child frame; beyond 1000, the rest is ``(others)``."""
     return {
         child: Refused(counts, last)
         for child, (counts, last) in buffer._describe_refusals().items()
@@ -82,7 +82,7 @@ def refusals(buffer: Buffer) -> dict[str, Refused]:
 
 
 def malformed(buffer: Buffer) -> Malformed:
-    """How many messages could not be decoded, and what was wrong with the last one."""
+    """Return the number of malformed messages, and the last one's error."""
     return Malformed(*buffer._describe_malformed())
 
 
@@ -127,7 +127,7 @@ def save(buffer: Buffer, path: str | PathLike[str]) -> None:
 
 
 def dumps(buffer: Buffer) -> bytes:
-    """The bytes that :func:`save` writes."""
+    """Return the bytes that :func:`save` writes."""
     import io
 
     file = io.BytesIO()
@@ -158,7 +158,7 @@ def _write(buffer: Buffer, file: BinaryIO) -> None:
 
 
 def load(path: str | PathLike[str]) -> Buffer:
-    """A new buffer with what ``save`` wrote.
+    """Return a new buffer with what ``save`` wrote.
 
     Memory and time stay in proportion to the size of the file, whatever it contains.
 
@@ -170,7 +170,7 @@ def load(path: str | PathLike[str]) -> Buffer:
 
 
 def loads(data: bytes) -> Buffer:
-    """A new buffer with what ``dumps`` returned; see `load`."""
+    """Return a new buffer with what ``dumps`` returned; see `load`."""
     import io
 
     return _read(io.BytesIO(data), "this")

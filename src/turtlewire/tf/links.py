@@ -22,7 +22,7 @@ class HasLinks(Protocol):
     """A Buffer of either core, as far as its links are concerned."""
 
     def frame_strings(self) -> list[str]:
-        """The names of all frames."""
+        """Return the names of all frames."""
         ...
 
     def _describe_links(self, most: int) -> list[LinkRow]: ...
@@ -60,12 +60,12 @@ class LinkInfo(NamedTuple):
         return (self.samples - 1) * 1e9 / span if span else 0.0
 
     def age_ns(self, now_ns: int) -> int:
-        """How old the newest sample is; 0 for a static link."""
+        """Return the age of the newest sample; 0 for a static link."""
         return 0 if self.static else now_ns - self.newest_ns
 
 
 def links(buffer: HasLinks, most: int = sys.maxsize) -> list[LinkInfo]:
-    """The first ``most`` links, in the order in which their frames were first heard of."""
+    """Return the first ``most`` links, in the order in which their frames were first heard of."""
     return [LinkInfo(*row[:8], _senders(row[8])) for row in buffer._describe_links(most)]
 
 

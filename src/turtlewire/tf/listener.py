@@ -85,7 +85,7 @@ class _Arrivals:
         self._calls: dict[Callable[[], None], None] = {}
 
     def total(self, intake: Intake | None) -> int:
-        """The number of messages so far."""
+        """Return the number of messages so far."""
         return self._count + (0 if intake is None else intake.stored())
 
     def expect(self, call: Callable[[], None], intake: Intake | None) -> None:
@@ -139,7 +139,7 @@ class _Feed:
 
     @property
     def members(self) -> tuple[_Member, ...]:
-        """Those who are fed."""
+        """Members whose buffers are filled."""
         return self._members
 
     @members.setter
@@ -204,7 +204,7 @@ class _Feed:
 
 
 def _most_kept(qos: QoS) -> int:
-    """How many messages a subscription keeps for a reader thread that is busy."""
+    """Return the number of messages a subscription keeps while the reader thread is busy."""
     return 0 if qos.history == History.KEEP_ALL else qos.depth
 
 
@@ -233,7 +233,7 @@ class _Channel:
                 self._feed.members = members
 
     def total(self) -> int:
-        """The number of messages so far."""
+        """Return the number of messages so far."""
         feed = self._feed
         return self._arrivals.total(None if feed is None else feed.intake)
 
@@ -292,7 +292,7 @@ class _Channels:
         )
 
     def get(self, context: base.Context, topic: str, qos: QoS, *, static: bool) -> _Channel:
-        """The channel of a topic, made when it is asked for first."""
+        """Return the channel of a topic, made when it is asked for first."""
         with self._lock:
             channels = self._of_context.setdefault(context, {})
             return channels.setdefault((topic, qos, static), _Channel(topic, qos, static=static))
@@ -302,7 +302,7 @@ _channels = _Channels()
 
 
 def new_node_name() -> str:
-    """A node name for a listener that no other process has, as in ROS 2."""
+    """Return a node name for a listener that no other process has, as in ROS 2."""
     return f"transform_listener_impl_{os.urandom(6).hex()}"
 
 
@@ -353,7 +353,7 @@ class TransformListener:
             self._joined.append(channel)
 
     def expect_message(self, call: Callable[[], None]) -> bool:
-        """Whether a message was stored since :meth:`take_arrivals`.
+        """Return True if a message was stored since :meth:`take_arrivals`.
 
         If not, ``call()`` is called once after the next one, on a thread of the wire; it may also
         be called without one.
@@ -364,7 +364,7 @@ class TransformListener:
         return any(channel.total() != seen for channel, seen in self._seen.items())
 
     def take_arrivals(self) -> bool:
-        """Whether a message was stored since the last call."""
+        """Return True if a message was stored since the last call."""
         former = self._seen
         self._seen = {channel: channel.total() for channel in former}
         return self._seen != former

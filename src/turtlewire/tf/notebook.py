@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
         @property
         def stamp_ns(self) -> int:
-            """Of the pose."""
+            """Stamp of the pose."""
             ...
 
 
@@ -128,7 +128,7 @@ def _axes_of_both(transform: Stamped) -> Drawing:
 
 
 def _ends(matrix: NDArray[np.float64], length: float) -> list[tuple[float, float]]:
-    """The origin and the tips of the axes of a frame as one sees them; y downwards."""
+    """Return the origin and the tips of the axes of a frame as one sees them; y downwards."""
     x, y, z = matrix[:3, 3, None] + length * matrix[:3, [3, 0, 1, 2]] * (0, 1, 1, 1)
     towards = x * math.cos(_AZIMUTH) + y * math.sin(_AZIMUTH)
     right = y * math.cos(_AZIMUTH) - x * math.sin(_AZIMUTH)

@@ -56,7 +56,7 @@ def from_bag(  # noqa: D417 - cls is the class
     cache_time_ns: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> AnyBuffer:
-    """A buffer with all transforms of a bag; `bag_report` tells what was found.
+    """Return a buffer with all transforms of a bag; `bag_report` tells what was found.
 
     Args:
         path: A folder of rosbag2, or a ``.mcap`` or ``.db3`` file, compressed or not.
@@ -88,7 +88,7 @@ def from_bag(  # noqa: D417 - cls is the class
 
 
 def bag_report(self: Buffer) -> Any:
-    """What `from_bag` found: a `turtlewire.bag.TransformReport`; None for other buffers."""
+    """Return the `turtlewire.bag.TransformReport` of `from_bag`; None for other buffers."""
     return _REPORTS.get(self)
 
 
@@ -101,7 +101,7 @@ def trajectory(  # noqa: D417 - self is the buffer
     rate_hz: float | None = None,
     max_gap_ns: int | None = None,
 ) -> Any:
-    """The poses of a frame in another over time: a `turtlewire.trajectory.Trajectory`.
+    """Return the poses of a frame in another over time: a `turtlewire.trajectory.Trajectory`.
 
     Args:
         target_frame: The frame in which the poses are given.
@@ -123,7 +123,7 @@ def trajectory(  # noqa: D417 - self is the buffer
 
 
 def _length(self: Buffer) -> int:
-    """The number of frames."""
+    """Return the number of frames."""
     return len(self.frame_strings())
 
 
@@ -133,12 +133,12 @@ def _truth(_self: Buffer) -> bool:
 
 
 def _frames(self: Buffer) -> Iterator[str]:
-    """The names of the frames."""
+    """Return the names of the frames."""
     return iter(self.frame_strings())
 
 
 def _contains(self: Buffer, frame: object) -> bool:
-    """Whether the buffer has heard of a frame."""
+    """Return True if the buffer has heard of a frame."""
     return isinstance(frame, str) and self.frame_exists(frame)
 
 
@@ -168,7 +168,7 @@ def _reduce(self: Buffer) -> tuple[Callable[[bytes, Any], Buffer], tuple[bytes, 
 
 
 def _restore(data: bytes, report: Any) -> Buffer:
-    """A pickled buffer."""
+    """Return a pickled buffer."""
     buffer: Buffer = import_module("turtlewire.tf.inspection").loads(data)
     if report is not None:
         _REPORTS[buffer] = report
@@ -202,7 +202,7 @@ def _compose(self: Transform, other: Transform) -> Transform:
 def _interpolate(  # noqa: D417 - self is the transform
     self: Transform, other: Transform, stamp_ns: int
 ) -> Transform:
-    """The transform at a time between two of the same frames: lerp and slerp, as tf2 does.
+    """Return the transform at a time between two of the same frames: lerp and slerp, as tf2 does.
 
     Args:
         other: The transform at another time.

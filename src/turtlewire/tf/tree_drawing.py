@@ -132,7 +132,7 @@ def _heading(title: Sequence[str]) -> tuple[list[Text], float]:
 def _rows(
     cards: dict[str, _Card], across: dict[str, tuple[float, int]], *, sideways: bool
 ) -> list[float]:
-    """Where each row begins: after the largest card of the row before."""
+    """Return the start of each row: after the largest card of the row before."""
     largest: dict[int, float] = {}
     for frame, (_, row) in across.items():
         size = cards[frame].width if sideways else cards[frame].height

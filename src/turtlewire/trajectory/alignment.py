@@ -36,7 +36,7 @@ class Alignment(NamedTuple):
     scale: float
 
     def apply(self, trajectory: Trajectory) -> Trajectory:
-        """The trajectory with this transform applied."""
+        """Return the trajectory with this transform applied."""
         positions = (
             self.scale * quaternions.rotate(self.rotation, trajectory.positions) + self.translation
         )
@@ -108,7 +108,7 @@ def _no_pairs(
 
 
 def align(reference: Trajectory, estimate: Trajectory, how: str) -> Alignment:
-    """The transform that brings the estimate onto the reference.
+    """Return the transform that brings the estimate onto the reference.
 
     Args:
         reference: The reference.

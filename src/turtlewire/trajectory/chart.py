@@ -97,7 +97,7 @@ def page(panels: Sequence[Panel], width: float, legend: Iterable[tuple[str, str]
 
 
 def colour_of(share: float) -> str:
-    """A colour for a number from 0 (dark blue) to 1 (red)."""
+    """Return a colour for a number from 0 (dark blue) to 1 (red)."""
     place = min(max(share, 0.0), 1.0) * (len(_SCALE) - 1)
     first = min(int(place), len(_SCALE) - 2)
     mixed = _SCALE[first] + (place - first) * (_SCALE[first + 1] - _SCALE[first])
@@ -152,16 +152,16 @@ class Panel:
         self._x, self._y = around(self._x, width), around(self._y, height)
 
     def parts(self) -> list[str]:
-        """The elements of the SVG document."""
+        """Return the elements of the SVG document."""
         return [*self._parts, *self._front]
 
     def x(self, number: float) -> float:
-        """Where a number of the horizontal axis lies on the page."""
+        """Return the page coordinate of a number on the horizontal axis."""
         left, _, width, _ = self._box
         return left + width * (number - self._x[0]) / (self._x[1] - self._x[0])
 
     def y(self, number: float) -> float:
-        """Where a number of the vertical axis lies on the page."""
+        """Return the page coordinate of a number on the vertical axis."""
         _, top, _, height = self._box
         return top + height * (self._y[1] - number) / (self._y[1] - self._y[0])
 
@@ -236,7 +236,7 @@ class Panel:
 
 
 def _widened(low: float, high: float) -> tuple[float, float]:
-    """The range with a margin, so that lines do not lie on the frame."""
+    """Return the range with a margin, so that lines do not lie on the frame."""
     margin = 0.04 * (high - low) or 0.5 + 0.001 * abs(low)
     return low - margin, high + margin
 

@@ -63,7 +63,7 @@ class Comparison:
         )
 
     def plot(self, relation: str = "trans_part", plane: str = "xy") -> Plot:
-        """The path of the estimate, coloured by its APE, on the dashed reference."""
+        """Return the path of the estimate, coloured by its APE, on the dashed reference."""
         return plot_error_path(self.reference, self.estimate, self.ape(relation), plane)
 
     def _repr_html_(self) -> str:
@@ -95,7 +95,7 @@ def compare(
             `turtlewire.trajectory.align`.
         max_diff_ns: Poses whose stamps differ by more do not belong together.
         offset_ns: Added to the stamps of the estimate, for clocks that differ.
-        poses_to_align: Align by the first so many poses only; None takes all.
+        poses_to_align: Align by this number of first poses only; None for all.
 
     Returns:
         The pairs, for APE, RPE and plots.

@@ -66,7 +66,7 @@ def plot_error_path(
     *,
     percentile: float = 100.0,
 ) -> Plot:
-    """The path of the estimate, coloured by its error, on the dashed reference.
+    """Return the path of the estimate, coloured by its error, on the dashed reference.
 
     Args:
         reference: Associated with the estimate.
@@ -113,7 +113,7 @@ def plot_box(errors: Mapping[str, Errors]) -> Plot:
 
 
 def plot_histogram(errors: Mapping[str, Errors], bins: int = 40) -> Plot:
-    """How often errors of each size occur, of several on top of one another."""
+    """Plot histograms of several errors on top of one another."""
     labels, top = _labels(errors)
     edges = np.linspace(0.0, top or 1.0, bins + 1)
     counts = {name: np.histogram(each.values, edges)[0] for name, each in errors.items()}

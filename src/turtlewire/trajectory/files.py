@@ -134,7 +134,7 @@ def write_kitti(
 
 
 def kitti_times(path: str | os.PathLike[str]) -> str:
-    """The file beside KITTI's poses that has their times."""
+    """Return the file beside KITTI's poses that has their times."""
     return os.path.splitext(os.fspath(path))[0] + "_times.txt"
 
 
@@ -238,7 +238,7 @@ def _seconds(stamp_ns: int) -> str:
 
 
 def _nanoseconds(text: str, unit: int) -> int:
-    """A time in nanoseconds, ``unit`` of which make 1; without going through float."""
+    """Return a time in nanoseconds, ``unit`` of which make 1; without going through float."""
     try:
         stamp_ns = int(Decimal(text) * unit)
     except (InvalidOperation, ValueError, OverflowError):

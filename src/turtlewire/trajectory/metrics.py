@@ -1,7 +1,7 @@
 """Errors of an estimated trajectory against a reference: APE, RPE and their statistics.
 
 Source: Sturm et al., "A Benchmark for the Evaluation of RGB-D SLAM Systems", IROS 2012; names and
-definitions of the variants are those of the program evo, so that figures can be compared.
+definitions of the variants are the program evo's, so that figures can be compared.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ class Errors(NamedTuple):
         )
 
     def table(self) -> str:
-        """The statistics as evo prints them: name and value a line, separated by a tab."""
+        """Return the statistics as evo prints them: name and value a line, separated by a tab."""
         return "".join(f"{k:>10}\t{v:.6f}\n" for k, v in self.statistics._asdict().items())
 
 
@@ -177,13 +177,13 @@ def _rpe_of_distances(
 
 
 def _move(trajectory: Trajectory, i: NDArray[np.intp], j: NDArray[np.intp]) -> NDArray[np.float64]:
-    """The position of pose j as pose i sees it."""
+    """Return the position of pose j as pose i sees it."""
     back = quaternions.conjugate(trajectory.rotations[i])
     return quaternions.rotate(back, trajectory.positions[j] - trajectory.positions[i])
 
 
 def _turn(trajectory: Trajectory, i: NDArray[np.intp], j: NDArray[np.intp]) -> NDArray[np.float64]:
-    """The rotation of pose j as pose i sees it."""
+    """Return the rotation of pose j as pose i sees it."""
     return quaternions.multiply(
         quaternions.conjugate(trajectory.rotations[i]), trajectory.rotations[j]
     )
@@ -192,7 +192,7 @@ def _turn(trajectory: Trajectory, i: NDArray[np.intp], j: NDArray[np.intp]) -> N
 def _value(
     relation: str, distance: NDArray[np.float64], turn: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """The error of each difference, given the length of its translation and its rotation."""
+    """Return the error of each difference, given the length of its translation and its rotation."""
     if relation.startswith("angle"):
         angles = quaternions.angle(turn)
         return np.degrees(angles) if relation == "angle_deg" else angles

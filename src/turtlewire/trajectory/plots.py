@@ -74,7 +74,7 @@ _AXES = "xyz"
 def plot_path(
     trajectories: Drawable | Named, reference: Drawable | None = None, plane: str = "xy"
 ) -> Plot:
-    """The paths, with a ring at the start and a cross at the end.
+    """Return the paths, with a ring at the start and a cross at the end.
 
     Args:
         trajectories: One, or several by name.
@@ -116,7 +116,7 @@ def plot_angles(trajectories: Drawable | Named, reference: Drawable | None = Non
 
 
 def plot_speeds(trajectories: Drawable | Named, reference: Drawable | None = None) -> Plot:
-    """The speed over time; at each pose that of the way to the next."""
+    """Return the speed over time; at each pose that of the way to the next."""
 
     def speeds(trajectory: Drawable) -> Numbers:
         values = np.append(trajectory.speeds, 0.0)
@@ -137,20 +137,20 @@ def _named(trajectories: Drawable | Named) -> dict[str, Drawable]:
 
 
 def colours() -> Iterator[str]:
-    """The colours of the first trajectory, the second …, for ever."""
+    """Yield the colours of the first trajectory, the second …, without end."""
     while True:
         yield from COLOURS
 
 
 def columns_of(plane: str) -> tuple[int, int]:
-    """The columns of positions that are the two axes of a plane such as ``xy``."""
+    """Return the columns of positions that are the two axes of a plane such as ``xy``."""
     if len(plane) != 2 or not set(plane) <= set(_AXES) or plane[0] == plane[1]:
         raise ValueError(f"'{plane}' is no plane; known are xy, xz, yz, yx, zx and zy")
     return _AXES.index(plane[0]), _AXES.index(plane[1])
 
 
 def runs_of(trajectory: Drawable) -> list[slice]:
-    """The rows between the gaps."""
+    """Return the rows between the gaps."""
     starts = [end for _, end in trajectory.gaps]
     cuts = np.unique(np.searchsorted(trajectory.stamps_ns, np.array(starts, np.int64)))
     ends = [0, *(int(cut) for cut in cuts if 0 < cut < len(trajectory)), len(trajectory)]

@@ -23,7 +23,7 @@ __all__ = [
 
 
 def multiply(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The rotations ``a`` after ``b``; shapes (N, 4) or (4,), broadcast."""
+    """Return the rotations ``a`` after ``b``; shapes (N, 4) or (4,), broadcast."""
     ax, ay, az, aw = np.moveaxis(a, -1, 0)
     bx, by, bz, bw = np.moveaxis(b, -1, 0)
     return np.stack(
@@ -38,13 +38,13 @@ def multiply(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float
 
 
 def conjugate(q: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The inverse rotations."""
+    """Return the inverse rotations."""
     inverse: NDArray[np.float64] = q * np.array((-1.0, -1.0, -1.0, 1.0))
     return inverse
 
 
 def rotate(q: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The vectors ``v`` (N, 3) turned by ``q`` (N, 4)."""
+    """Return the vectors ``v`` (N, 3) turned by ``q`` (N, 4)."""
     axis, w = q[..., :3], q[..., 3:]
     t = 2.0 * _cross(axis, v)
     turned: NDArray[np.float64] = v + w * t + _cross(axis, t)
@@ -52,14 +52,14 @@ def rotate(q: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.float64
 
 
 def _cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The cross products; `numpy.cross` takes three times as long."""
+    """Return the cross products; `numpy.cross` takes three times as long."""
     ax, ay, az = np.moveaxis(a, -1, 0)
     bx, by, bz = np.moveaxis(b, -1, 0)
     return np.stack((ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx), axis=-1)
 
 
 def lengths(v: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The lengths (N,) of vectors (N, K): `numpy.linalg.norm` takes four times as long."""
+    """Return the lengths (N,) of vectors (N, K): `numpy.linalg.norm` takes four times as long."""
     squares: NDArray[np.float64] = np.einsum("ij,ij->i", v, v)
     return np.sqrt(squares, out=squares)
 
@@ -74,7 +74,7 @@ def distances(p: NDArray[np.float64], q: NDArray[np.float64]) -> NDArray[np.floa
 
 
 def angle(q: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The angle of each rotation in radians, from 0 to pi."""
+    """Return the angle of each rotation in radians, from 0 to pi."""
     sine = np.linalg.norm(q[..., :3], axis=-1)
     half: NDArray[np.float64] = np.arctan2(sine, np.abs(q[..., 3]))
     return 2.0 * half

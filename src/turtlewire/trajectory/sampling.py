@@ -34,7 +34,7 @@ def sample_trajectory(
     rate_hz: float | None = None,
     max_gap_ns: int | None = None,
 ) -> Trajectory:
-    """The poses of a frame in another over time.
+    """Return the poses of a frame in another over time.
 
     Args:
         buffer: Where the transforms are.
@@ -94,7 +94,7 @@ def find_gaps(stamps_ns: NDArray[np.int64], max_gap_ns: int | None = None) -> li
 
 
 def moving_links(buffer: Buffer, target: str, source: str) -> list[str]:
-    """The children of the moving links between two frames.
+    """Return the children of the moving links between two frames.
 
     Raises:
         TransformException: The frames are unknown or not connected.

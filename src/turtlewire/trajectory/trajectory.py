@@ -34,7 +34,7 @@ class Trajectory:
         frame_id: The frame in which the poses are given; empty if it is not known.
         child_frame_id: The frame that moves; empty if it is not known.
         gaps: Times without data; there are no poses within them.
-        timed: False if the stamps only count the poses, as those of a KITTI file without times.
+        timed: False if the stamps only count the poses, as in a KITTI file without times.
 
     Raises:
         ValueError: The arrays do not fit together, or hold no unit quaternions.
@@ -65,7 +65,7 @@ class Trajectory:
         return len(self.stamps_ns)
 
     def __getitem__(self, rows: slice | NDArray[Any]) -> Trajectory:
-        """The poses of a slice or of an index array.
+        """Return the poses of a slice or of an index array.
 
         Raises:
             TypeError: It is a single number: ``stamps_ns[i]`` and ``poses[i]`` are that pose.
@@ -129,7 +129,7 @@ class Trajectory:
         return matrices
 
     def plot(self, kind: str = "path", reference: Trajectory | None = None) -> Plot:
-        """A picture: ``path`` (x and y), ``positions``, ``angles`` or ``speeds`` over time.
+        """Return a picture: ``path`` (x and y), ``positions``, ``angles`` or ``speeds`` over time.
 
         Args:
             kind: What is drawn.
@@ -154,7 +154,7 @@ class Trajectory:
         return self.plot().svg if len(self) else None
 
     def to_pandas(self) -> Any:
-        """A pandas ``DataFrame``: index UTC time, columns x y z qx qy qz qw roll pitch yaw.
+        """Return a pandas ``DataFrame``: index UTC time, columns x y z qx qy qz qw roll pitch yaw.
 
         Raises:
             ImportError: pandas is not installed.

@@ -58,7 +58,7 @@ def read_link(element: Element, warnings: list[UrdfWarning]) -> Link:
 
 
 def read_material(element: Element, warnings: list[UrdfWarning]) -> Material:
-    """A ``material`` element; without colour or texture it is a reference to another one.
+    """Return a ``material`` element; without colour or texture it is a reference to another one.
 
     Args:
         element: The element.

@@ -40,19 +40,19 @@ class Element:
         self.children: list[Element] = []
 
     def get(self, name: str) -> str | None:
-        """The value of an attribute, or None."""
+        """Return the value of an attribute, or None."""
         return self.attributes.get(name)
 
     def first(self, tag: str) -> Element | None:
-        """The first child of this name, or None."""
+        """Return the first child of this name, or None."""
         return next((child for child in self.children if child.tag == tag), None)
 
     def all(self, tag: str) -> Iterator[Element]:
-        """All children of this name, in the order of the file."""
+        """Return all children of this name, in the order of the file."""
         return (child for child in self.children if child.tag == tag)
 
     def described(self) -> str:
-        """The start tag with its name, within the nearest element that has a name."""
+        """Return the start tag with its name, within the nearest element that has a name."""
         text = self._start_tag()
         around = self.parent
         while "name" not in self.attributes and around is not None:
@@ -62,7 +62,7 @@ class Element:
         return text
 
     def error(self, text: str) -> UrdfError:
-        """An error at this element."""
+        """Return an error at this element."""
         return UrdfError(text, self.line, self.described())
 
     def _start_tag(self) -> str:
@@ -106,7 +106,7 @@ class _Builder:
 
 
 def parse_xml(text: str | bytes) -> Element:
-    """The root element of an XML document.
+    """Return the root element of an XML document.
 
     Args:
         text: The document; bytes are in the encoding that the XML declaration names, or UTF-8.

@@ -73,7 +73,7 @@ class UrdfWarning:
 
 
 def log_lines(fault: UrdfError | UrdfWarning) -> Iterator[str]:
-    """What urdfdom prints on stderr; the line number is one of the description, not of C++ code."""
+    """Yield urdfdom's lines on stderr; line numbers are the description's, not the C++ code's."""
     if isinstance(fault, UrdfWarning) and not fault.errors:
         first, others = f"Warning: {_line(fault.text)}", []
     else:

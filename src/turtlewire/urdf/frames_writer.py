@@ -62,7 +62,7 @@ class FramesWriter:
         )
 
     def message(self, joint_state: bytes, positions: int) -> bytes:
-        """A TFMessage in CDR.
+        """Return a TFMessage in CDR.
 
         Args:
             joint_state: A JointState in CDR, whose stamp the transforms get.
@@ -96,7 +96,6 @@ class PlainFrames:
         self._factors, self._offsets = np.array(factors), np.array(offsets)
 
     def message(self, joint_state: bytes, positions: int) -> bytes:
-        """See :meth:`FramesWriter.message`."""
         import numpy as np
 
         from turtlewire.urdf.kinematics import transforms_at
@@ -124,7 +123,7 @@ def _native_frames() -> type[PlainFrames | JointFrames] | None:
 
 
 def _template(joints: Sequence[Moving]) -> tuple[bytes, list[int], list[int]]:
-    """The message without stamps and poses, and where they begin."""
+    """Return the message without stamps and poses, and where they begin."""
     out = bytearray(_ENCAPSULATION + struct.pack("<I", len(joints)))
     stamps, poses = [], []
     for moving in joints:

@@ -64,7 +64,7 @@ class Layout:
         )
 
     def fits(self, cdr: bytes) -> bool:
-        """Whether a message has this layout, and all of its positions."""
+        """Return True if a message has this layout, and all of its positions."""
         return cdr.startswith(self._head, _FRAME_ID) and len(cdr) >= self._end
 
     def transforms(self, cdr: bytes) -> bytes:
@@ -93,7 +93,7 @@ class JointMessages:
         self._layouts: list[Layout] = []  # the latest one first
 
     def layout_of(self, cdr: bytes) -> Layout:
-        """The layout of a JointState in CDR.
+        """Return the layout of a JointState in CDR.
 
         Raises:
             CdrError: The bytes are no JointState.
@@ -115,13 +115,13 @@ class JointMessages:
 
 
 def stamp_of(cdr: bytes) -> int:
-    """The stamp of a message whose first field is a header, in nanoseconds."""
+    """Return the stamp of a message whose first field is a header, in nanoseconds."""
     seconds, nanoseconds = _STAMP.unpack_from(cdr, 4)
     return int(seconds) * 1_000_000_000 + int(nanoseconds)
 
 
 def _names_of(cdr: bytes) -> tuple[tuple[str, ...], int]:
-    """The names, and where the number of positions is."""
+    """Return the names, and where the number of positions is."""
     if cdr[1:2] != b"\x01":
         raise struct.error("it is not in little-endian CDR")
     _, at = _string(cdr, _FRAME_ID)
@@ -146,7 +146,7 @@ def _string(cdr: bytes, at: int) -> tuple[str, int]:
 
 
 def _moved_joints(robot: Robot, names: tuple[str, ...]) -> list[tuple[Joint, _Drive]]:
-    """The moving joints that follow from these names, sorted, and what drives them."""
+    """Return the moving joints that follow from these names, sorted, and what drives them."""
     drives: dict[str, _Drive | None] = {}
     for source, name in enumerate(names):
         drives.setdefault(name, _Drive(source, 1.0, 0.0))  # of equal names the first one counts
@@ -159,7 +159,7 @@ def _moved_joints(robot: Robot, names: tuple[str, ...]) -> list[tuple[Joint, _Dr
 
 
 def _drive(robot: Robot, joint: Joint, drives: dict[str, _Drive | None]) -> _Drive | None:
-    """What drives a joint, through all joints that it follows; ``drives`` gets them all."""
+    """Return a joint's drive through all joints that it mimics; ``drives`` collects them."""
     chain = []
     name = joint.name
     while name not in drives:

@@ -19,7 +19,7 @@ NUMBER_OF_CONSTANTS = 15
 
 
 def quaternion_from_rpy(rpy: Vector) -> tuple[float, float, float, float]:
-    """The unit quaternion x y z w of roll, pitch and yaw about fixed axes, in radians."""
+    """Return the unit quaternion x y z w of roll, pitch and yaw about fixed axes, in radians."""
     roll, pitch, yaw = (angle / 2.0 for angle in rpy)
     sr, cr = math.sin(roll), math.cos(roll)
     sp, cp = math.sin(pitch), math.cos(pitch)
@@ -33,7 +33,7 @@ def quaternion_from_rpy(rpy: Vector) -> tuple[float, float, float, float]:
 
 
 def unit_axis(axis: Vector) -> Vector:
-    """The axis with length 1; the parser has refused axes of length 0."""
+    """Return the axis with length 1; the parser has refused axes of length 0."""
     largest = max(abs(part) for part in axis)  # so that squares neither vanish nor overflow
     x, y, z = (part / largest for part in axis)
     length = math.sqrt(x * x + y * y + z * z)
@@ -41,7 +41,7 @@ def unit_axis(axis: Vector) -> Vector:
 
 
 def joint_constants(joint: Joint) -> tuple[float, ...]:
-    """The 15 numbers that make the transform of a joint out of its position q.
+    """Return the 15 numbers that make the transform of a joint out of its position q.
 
     Translation at 0, and its change by q; the quaternion x y z w that cos(q/2) multiplies, and the
     one that sin(q/2) multiplies; 1 if the joint turns, else 0. Joints that are neither revolute nor
@@ -59,7 +59,7 @@ def joint_constants(joint: Joint) -> tuple[float, ...]:
 def _times_axis(
     rotation: tuple[float, float, float, float], axis: Vector
 ) -> tuple[float, float, float, float]:
-    """The product of a quaternion and a vector, which is a quaternion with w = 0."""
+    """Return the product of a quaternion and a vector, which is a quaternion with w = 0."""
     a, b, c, d = rotation
     x, y, z = axis
     return (

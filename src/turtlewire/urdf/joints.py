@@ -35,7 +35,7 @@ _NO_LIMITS = {
 
 
 def read_joint(element: Element) -> Joint:
-    """A ``joint`` element.
+    """Return a ``joint`` element.
 
     Raises:
         UrdfError: urdfdom refuses the joint, or it moves along an axis of no direction.

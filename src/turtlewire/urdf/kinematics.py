@@ -104,7 +104,7 @@ class Kinematics:
         return np.clip(self.joint_states(positions), self.lower, self.upper)
 
     def within_limits(self, positions: Mapping[str, ArrayLike] | ArrayLike) -> NDArray[np.bool_]:
-        """Whether each position of (N, joints) is within its joint's limits; False for NaN."""
+        """Return which positions of (N, joints) are within their joint's limits; False for NaN."""
         states = self.joint_states(positions)
         return (states >= self.lower) & (states <= self.upper)
 

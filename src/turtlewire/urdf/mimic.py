@@ -29,7 +29,7 @@ class Follower:
 
 
 def followers_of(robot: Robot) -> dict[str, Follower]:
-    """The moving joints that follow others, by name, in the order of the file.
+    """Return the moving joints that follow others, by name, in the order of the file.
 
     A joint that follows one that does not exist or does not move is missing: it is free.
 
@@ -56,7 +56,7 @@ def _behind(mimic: Mimic, leader: Follower | None) -> Follower:
 
 
 def _unresolved_chain(robot: Robot, joint: Joint, found: dict[str, Follower]) -> list[Joint]:
-    """The joint, the one that it follows, and so on, as far as they are not in ``found``."""
+    """Return the joint, the one that it follows, and so on, as far as they are not in ``found``."""
     chain: dict[str, Joint] = {}
     while joint.name not in found and (leader := _leader_of(robot, joint)) is not None:
         if joint.name in chain:

@@ -93,7 +93,7 @@ class Material:
     Attributes:
         name: Name of the material.
         rgba: Red, green, blue and alpha, from 0 to 1; None if the file gives no colour.
-        texture: Path or URI of an image; None if there is none.
+        texture: Path or URI of an image; None without one.
     """
 
     name: str
@@ -224,7 +224,7 @@ class Joint:
 
     @property
     def moves(self) -> bool:
-        """Whether one number is the joint's position: revolute, continuous or prismatic."""
+        """True if one number is the joint's position: revolute, continuous or prismatic."""
         return self.type in MOVING_TYPES
 
 

@@ -25,7 +25,7 @@ _LIMITED = frozenset({"revolute", "prismatic"})
 
 
 def load_urdf(path: str | os.PathLike[str]) -> Robot:
-    """The robot that a file describes.
+    """Return the robot that a file describes.
 
     Raises:
         OSError: The file cannot be read.
@@ -36,7 +36,7 @@ def load_urdf(path: str | os.PathLike[str]) -> Robot:
 
 
 def parse_urdf(text: str | bytes) -> Robot:
-    """The robot that a URDF describes.
+    """Return the robot that a URDF describes.
 
     Elements that urdfdom does not know (``gazebo``, ``transmission``, ``ros2_control``) are
     ignored.
@@ -131,7 +131,7 @@ def _with_material(
     materials: dict[str, Material],
     warnings: list[UrdfWarning],
 ) -> Visual:
-    """The visual with the colour of the material of that name; its own material wins."""
+    """Return the visual with the colour of the material of that name; its own material wins."""
     material = visual.material
     if material is None:
         return visual

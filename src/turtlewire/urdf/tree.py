@@ -14,7 +14,7 @@ __all__ = ["root_of"]
 
 
 def root_of(robot: Element, links: dict[str, Link], joints: dict[str, Joint]) -> str:
-    """The name of the root link.
+    """Return the name of the root link.
 
     Raises:
         UrdfError: A joint has an end that does not exist; there is no root, or there are two; a

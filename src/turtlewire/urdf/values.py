@@ -19,7 +19,7 @@ _NUMBER = re.compile(r"[ \t\n\r\f\v]*[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-
 
 
 def as_number(text: str) -> float | None:
-    """The number that ``text`` is, or None: no number, or too large for a double."""
+    """Return the number that ``text`` is, or None: no number, or too large for a double."""
     if _NUMBER.fullmatch(text) is None:
         return None
     value = float(text)
@@ -27,7 +27,7 @@ def as_number(text: str) -> float | None:
 
 
 def number_of(element: Element, attribute: str, refusal: str) -> float | None:
-    """The number in an attribute; None if the attribute is missing.
+    """Return the number in an attribute; None if the attribute is missing.
 
     Args:
         element: The element.
@@ -47,7 +47,7 @@ def number_of(element: Element, attribute: str, refusal: str) -> float | None:
 
 
 def vector_of(element: Element, attribute: str, before: str = "") -> Vector | None:
-    """The three numbers in an attribute; None if the attribute is missing.
+    """Return the three numbers in an attribute; None if the attribute is missing.
 
     Args:
         element: The element.

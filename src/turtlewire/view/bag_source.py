@@ -67,12 +67,12 @@ class BagSource:
         self._thread.start()
 
     def now_ns(self) -> int:
-        """The time of the bag that is shown."""
+        """Return the time of the bag that is shown."""
         with self._news:
             return min(self._clock.now_ns(), self._end_ns)
 
     def new_timeline(self) -> BagSource:
-        """The bag itself: all pages share its time, which begins with the first of them."""
+        """Return the bag itself: all pages share its time, which begins with the first of them."""
         with self._news:
             was_seen, self._was_seen = self._was_seen, True
         if not was_seen:
@@ -80,7 +80,7 @@ class BagSource:
         return self
 
     def topics(self) -> list[Topic]:
-        """The topics of the bag."""
+        """Return the topics of the bag."""
         return self._topics
 
     def subscribe(
@@ -104,7 +104,7 @@ class BagSource:
     def ask_parameter(
         self, node: str, name: str, on_answer: Callable[[ParameterAnswer], None]
     ) -> Callable[[], None]:
-        """A bag has messages only."""
+        """Answer at once that a bag has no parameters."""
         problem = f"a bag has no parameters, so '{name}' of {node} is not known; take the topic"
         on_answer(ParameterAnswer(problem=problem))
         return _nothing
@@ -125,12 +125,12 @@ class BagSource:
         """The bag has one time only."""
 
     def stamp_ns(self) -> int:
-        """The time of the bag, or what its transforms' stamps were then; never 0."""
+        """Return the time of the bag, or what its transforms' stamps were then; never 0."""
         now_ns = self.now_ns()
         return max(1, now_ns if self._stamps is None else self._stamps.at(now_ns))
 
     def state(self) -> TimelineState:
-        """The bag's time."""
+        """Return the bag's time."""
         with self._news:
             now = min(self._clock.now_ns(), self._end_ns)
             playing, speed = not self._clock.is_paused, self._clock.rate
@@ -178,7 +178,7 @@ class BagSource:
         return Buffer.from_bag(self._path)
 
     def _has_other_stamps(self) -> bool:
-        """Whether the transforms lie outside the time in which the bag was recorded."""
+        """Return True if the transforms lie outside the time in which the bag was recorded."""
         found = stamp_range_ns(self.buffer)
         return found is not None and (found[1] < self._start_ns or found[0] > self._end_ns)
 
@@ -243,7 +243,7 @@ class BagSource:
             _give(sinks[message.topic], message.data)
 
     def _wait(self, wanted: int) -> None:
-        """Until the next picture; while nothing moves, until something is asked for."""
+        """Wait for the next frame, or for a request while nothing moves."""
         with self._news:
             if self._clock.now_ns() >= self._end_ns and not self._clock.is_paused:
                 self._clock.pause()

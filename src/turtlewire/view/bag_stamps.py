@@ -41,13 +41,13 @@ class StampsOfLog:
                     self._stamps_ns.append(stamp_ns)
 
     def at(self, log_time_ns: int) -> int:
-        """The last stamp that was received until then; 0 before the first."""
+        """Return the last stamp that was received until then; 0 before the first."""
         count = bisect_right(self._log_ns, log_time_ns)
         return self._stamps_ns[count - 1] if count else 0
 
 
 def _first_stamp_ns(data: bytes) -> int | None:
-    """The stamp of the first transform of a serialized message; None if it has none."""
+    """Return the stamp of the first transform of a serialized message; None if it has none."""
     if len(data) < _AFTER_ENCAPSULATION + _HEAD[1].size:
         return None
     count, seconds, nanoseconds = _HEAD[data[1] & 1].unpack_from(data, _AFTER_ENCAPSULATION)

@@ -52,11 +52,11 @@ class Base:
         self.origin = origin
 
     def same_place(self, other: Base) -> bool:
-        """Whether poses in both are equal."""
+        """Return True if poses in both are equal."""
         return self.fixed == other.fixed and self.origin == other.origin
 
     def arrays(self, content: Content) -> dict[str, NDArray[Any]]:
-        """The arrays of a content, with those that depend on where it is.
+        """Return the arrays of a content, with those that depend on where it is.
 
         Raises:
             TransformException: A transform that they need is not known.
@@ -72,7 +72,7 @@ class Base:
         return {**content.arrays, **content.placed.arrays(matrices)}
 
     def pose(self, content: Content) -> list[float]:
-        """The pose of a content's anchor: x, y, z, and the quaternion xyzw.
+        """Return the pose of a content's anchor: x, y, z, and the quaternion xyzw.
 
         Raises:
             TransformException: It is not known.
@@ -145,7 +145,7 @@ class DisplayFeed:
 
     @property
     def waits(self) -> bool:
-        """Whether new transforms may make something visible."""
+        """True if new transforms may make something visible."""
         return bool(self._waiting)
 
     def take_message(self, topic: str, cdr: bytes) -> None:
@@ -174,7 +174,7 @@ class DisplayFeed:
             self._end_asking = self.ask(*wanted, self._take_answer)
 
     def take_packets(self) -> list[bytes]:
-        """What the page does not have yet; a newer content of a part replaces an older one."""
+        """Return the packets that the page lacks, with only the newest content of each part."""
         with self._lock:
             ready, self._ready = self._ready, {}
             self._told |= self._shown.keys() & ready.keys()
@@ -316,7 +316,7 @@ class DisplayFeed:
                 self._ready[f"pose {part}"] = encode_packet(packet)
 
     def _pose(self, content: Content, base: Base) -> list[float] | None:
-        """The pose; None if it is not known, and the status then says why."""
+        """Return the pose; None if it is not known, and the status then says why."""
         try:
             return base.pose(content)
         except TransformException as error:
@@ -366,12 +366,12 @@ def _nothing(_: object) -> None:
 
 
 def _is_live(content: Content) -> bool:
-    """Whether it needs no transform at a stamp."""
+    """Return True if it needs no transform at a stamp."""
     return not content.event and (content.frame_id is None or content.locked)
 
 
 def _is_too_old(error: TransformException, content: Content, base: Base) -> bool:
-    """Whether no transform that comes can make it visible."""
+    """Return True if no transform that comes can make it visible."""
     if not isinstance(error, ExtrapolationException):
         return False
     assert content.frame_id is not None

@@ -50,7 +50,7 @@ class Frames(NamedTuple):
 
     Attributes:
         structure: The frames.
-        fixed: The frame in which poses of its tree are given; those of other trees are given in
+        fixed: The frame in which poses of its tree are given; poses of other trees are given in
             their roots.
         origin: What was subtracted from the positions in the fixed frame's tree [m].
         poses: (N, 7) x, y, z, and the quaternion xyzw, 32-bit.
@@ -67,7 +67,7 @@ class Frames(NamedTuple):
     known: NDArray[np.uint8]
 
     def arrays(self) -> dict[str, NDArray[Any]]:
-        """What a packet carries."""
+        """Return a packet's arrays."""
         return {"poses": self.poses, "stamps": self.stamps, "known": self.known}
 
 

@@ -93,11 +93,11 @@ class LiveSource:
         return time.time_ns() if newest is None or newest >= _WALL_TIME_FROM_NS else newest
 
     def new_timeline(self) -> LiveTimeline:
-        """A page's own time, which follows the wire until the page is paused."""
+        """Return a page's own time, which follows the wire until the page is paused."""
         return LiveTimeline(self)
 
     def topics(self) -> list[Topic]:
-        """All topics of the graph."""
+        """Return all topics of the graph."""
         endpoints = self._context.graph.endpoints()
         counts = Counter(
             (each.topic, each.type_name) for each in endpoints if each.kind == "publisher"
@@ -189,7 +189,7 @@ class LiveTimeline:
 
     @property
     def buffer(self) -> Buffer:
-        """What is shown: the source's buffer, or its copy."""
+        """Shown buffer: the source's, or its copy."""
         return self._kept or self._source.buffer
 
     def stamp_ns(self) -> int:
@@ -197,7 +197,7 @@ class LiveTimeline:
         return self._stamp_ns
 
     def state(self) -> TimelineState:
-        """The history that there is."""
+        """Return the history that there is."""
         with self._lock:
             oldest, newest = self._range()
             live = self._kept is None
@@ -284,13 +284,13 @@ class _FittedSubscription:
 
 
 def newest_stamp_ns(buffer: Buffer) -> int | None:
-    """The newest stamp of a link that is not static."""
+    """Return the newest stamp of a link that is not static."""
     found = stamp_range_ns(buffer)
     return None if found is None else found[1]
 
 
 def stamp_range_ns(buffer: Buffer) -> tuple[int, int] | None:
-    """The oldest and the newest stamp of links that are not static."""
+    """Return the oldest and the newest stamp of links that are not static."""
     moving = [link for link in inspection.links(buffer) if link.samples and not link.static]
     if not moving:
         return None

@@ -66,7 +66,7 @@ class MeshAddress(NamedTuple):
     packages: tuple[str, ...] = ()
 
     def header(self) -> dict[str, str]:
-        """What the page is told: ``url`` or ``problem``."""
+        """Return the header for the page: ``url`` or ``problem``."""
         return {"problem": self.problem} if self.url is None else {"url": self.url}
 
 
@@ -78,7 +78,7 @@ class MeshFile(NamedTuple):
 
 
 def mesh_address(uri: str, *, texture: bool = False) -> MeshAddress:
-    """The URL path of a ``package://`` address, or of a ``file://`` one below a package.
+    """Return the URL path of a ``package://`` address, or of a ``file://`` one below a package.
 
     It is refused if there is no such file.
 
@@ -121,7 +121,7 @@ class MeshLibrary:
         self._permitted.update(packages)
 
     def answer(self, url_path: str) -> Content | None:
-        """The file that the page asks for, as :class:`turtlewire.web.Server` wants it."""
+        """Return the file that the page asks for, as :class:`turtlewire.web.Server` wants it."""
         if not url_path.startswith(_PREFIX):
             return None
         found = self.find(url_path)
@@ -132,7 +132,7 @@ class MeshLibrary:
             return Content(file.read(), found.media_type)
 
     def find(self, url_path: str) -> MeshFile | str:
-        """The file of ``/mesh/<package>/<path>``, or the line that says why there is none.
+        """Return the file of ``/mesh/<package>/<path>``, or the line with the reason.
 
         Args:
             url_path: The path, its escapes decoded.
@@ -152,7 +152,7 @@ class MeshLibrary:
 
 
 def _share_folder(package: str) -> str | None:
-    """The share folder of a package, from the first prefix that has it."""
+    """Return the share folder of a package, from the first prefix that has it."""
     for prefix in _prefixes():
         if os.path.isfile(os.path.join(prefix, _MARKERS, package)):
             return os.path.normpath(os.path.join(prefix, "share", package))
@@ -186,7 +186,7 @@ def _problem(package: str, path: str) -> str:
 
 
 def _file_of(package: str, path: str) -> str:
-    """Where the file of a package would be; empty if there is no such package."""
+    """Return the path of a package's file; empty if the package does not exist."""
     share = _share_folder(package)
     return "" if share is None else os.path.join(share, *path.split("/"))
 

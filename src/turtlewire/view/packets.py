@@ -1,6 +1,6 @@
 """Packets for the page: a JSON header and arrays that the browser uses without copying them.
 
-A packet is a 32-bit little-endian length, so many bytes of JSON (UTF-8, padded with spaces so that
+A packet is a 32-bit little-endian length, its bytes of JSON (UTF-8, padded with spaces so that
 the first array begins at a multiple of eight), and the arrays, each padded to a multiple of eight.
 The header's ``arrays`` names them in order: ``{"poses": ["f4", [1000, 7]]}``.
 """
@@ -25,7 +25,7 @@ _ALIGNMENT = 8
 def encode_packet(
     header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]] | None = None
 ) -> bytes:
-    """The bytes of one packet.
+    """Return the bytes of one packet.
 
     Args:
         header: What JSON can hold; numbers must be finite.

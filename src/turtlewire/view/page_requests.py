@@ -28,10 +28,10 @@ class RequestError(ValueError):
 def message_of_tool(
     command: Mapping[str, Any], fixed: str, origin: Sequence[float], now_ns: int
 ) -> ToolMessage:
-    """The message that a ``publish`` command asks for.
+    """Return the message that a ``publish`` command asks for.
 
     Args:
-        command: Its ``position`` is in the page's coordinates, those of ``fixed`` less ``origin``.
+        command: Its ``position`` is in the page's coordinates: ``fixed``'s less ``origin``.
         fixed: The fixed frame.
         origin: What the server subtracts of all coordinates.
         now_ns: The time now.
@@ -55,7 +55,7 @@ def message_of_tool(
 def text_of_view(
     command: Mapping[str, Any], types: Mapping[str, str], former: SavedView | None = None
 ) -> str:
-    """The ``.rviz`` file that a ``save`` command asks for.
+    """Return the ``.rviz`` file that a ``save`` command asks for.
 
     Args:
         command: ``fixed``, ``displays``, ``show`` and ``camera`` as in the ``view`` packet; a

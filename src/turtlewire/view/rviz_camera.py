@@ -39,7 +39,7 @@ class Camera(TypedDict):
 
 
 def camera_from(views: object) -> Camera | None:
-    """The camera of the value of ``Views``; None if it has none that the page has, too."""
+    """Return the camera of the value of ``Views``; None if it has none that the page has, too."""
     current = _mapping(_mapping(views).get("Current"))
     kind = str(current.get("Class") or "").rpartition("/")[2]
     frame = str(current.get("Target Frame") or _FIXED_FRAME)
@@ -67,7 +67,7 @@ def camera_from(views: object) -> Camera | None:
 
 
 def camera_properties(camera: Camera) -> dict[str, Any]:
-    """The value of ``Current`` in ``Views``."""
+    """Return the value of ``Current`` in ``Views``."""
     frame = camera["frame"] or _FIXED_FRAME
     properties: dict[str, Any] = {"Name": "Current View", "Target Frame": frame}
     x, y, z = camera["focus"]
@@ -85,7 +85,7 @@ def camera_properties(camera: Camera) -> dict[str, Any]:
 
 
 def is_camera(value: object) -> bool:
-    """Whether a page's answer describes a camera."""
+    """Return True if a page's answer describes a camera."""
     if not isinstance(value, Mapping) or value.get("kind") not in ("orbit", "top"):
         return False
     focus, scale = value.get("focus"), value.get("scale")

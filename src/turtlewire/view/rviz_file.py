@@ -83,7 +83,7 @@ class SavedView:
     camera: Camera | None = None
 
     def header(self) -> dict[str, Any]:
-        """The packet that tells the page."""
+        """Return the packet that tells the page."""
         displays = [
             {
                 "kind": each.kind,
@@ -106,7 +106,7 @@ class SavedView:
 
 
 def load_rviz(path: str | os.PathLike[str]) -> SavedView:
-    """The view in a ``.rviz`` file.
+    """Return the view in a ``.rviz`` file.
 
     Raises:
         RvizFileError: It cannot be read, or is no such file; the text names it.
@@ -123,7 +123,7 @@ def load_rviz(path: str | os.PathLike[str]) -> SavedView:
 
 
 def read_rviz(text: str) -> SavedView:
-    """The view in the text of a ``.rviz`` file, of ROS 2 or ROS 1.
+    """Return the view in the text of a ``.rviz`` file, of ROS 2 or ROS 1.
 
     Raises:
         RvizFileError: The text is no such file.
@@ -177,7 +177,7 @@ def _parsed(text: str) -> dict[str, Any]:
 
 
 def numbered_displays(manager: dict[str, Any]) -> Iterator[tuple[int, dict[str, Any]]]:
-    """All displays with their numbers, those in groups that are switched on included."""
+    """Yield all displays with their numbers, those in groups that are switched on included."""
     left = [(each, 0) for each in reversed(_list(manager.get("Displays")))]
     count = 0
     while left and count < _MOST_DISPLAYS:

@@ -29,7 +29,7 @@ class _Option(NamedTuple):
     names: tuple[str, ...] = ()
 
     def wanted(self, entry: Option) -> str:
-        """What RViz's option takes of what the page has, in words."""
+        """Describe the values that the page supports of RViz's option."""
         if entry.type == "color":
             return "a colour as '255; 255; 255'"
         return f"one of {', '.join(self.names)}" if self.names else entry.wanted()
@@ -115,7 +115,7 @@ def _write_namespaces(value: object) -> object:
 
 
 def _read_links(value: object) -> object:
-    """Of each link whether it is shown, and its alpha."""
+    """Read each link's visibility and alpha."""
     if not isinstance(value, dict):
         return None
     links = {str(name): each for name, each in value.items() if isinstance(each, dict)}
@@ -308,7 +308,7 @@ def from_rviz(name: str, properties: dict[str, Any]) -> tuple[str, dict[str, obj
 
 
 def to_rviz(name: str, topic: str, options: dict[str, object]) -> dict[str, Any]:
-    """The properties of a display of RViz."""
+    """Return the properties of a display of RViz."""
     kind, known = CLASSES[name]
     latched = kind in {"robot_model", "occupancy_grid"}
     address = {
@@ -331,7 +331,7 @@ def to_rviz(name: str, topic: str, options: dict[str, object]) -> dict[str, Any]
 
 
 def _topic(properties: dict[str, Any]) -> str:
-    """The topic, which ROS 1's files give as a text and ROS 2's with its QoS."""
+    """Return the topic, which ROS 1's files give as a text and ROS 2's with its QoS."""
     for name in ("Topic", "Description Topic", "Marker Topic", "Image Topic"):
         value = properties.get(name)
         if isinstance(value, dict):

@@ -27,7 +27,7 @@ _TOOLS = ("MoveCamera", "Measure", "SetInitialPose", "SetGoal", "PublishPoint")
 
 
 def write_rviz(view: SavedView, types: Mapping[str, str], former: SavedView | None = None) -> str:
-    """The text of a ``.rviz`` file.
+    """Return the text of a ``.rviz`` file.
 
     Args:
         view: What to save.
@@ -89,7 +89,7 @@ def _looked_at(views: object, camera: Camera) -> dict[str, Any]:
 
 
 def _entry(display: SavedDisplay, types: Mapping[str, str]) -> dict[str, Any] | None:
-    """A display that no file had before; None if RViz has none for it."""
+    """Return a display that no file had before; None if RViz has none for it."""
     name = class_for(display.kind, types.get(display.topic, ""))
     if name is None:
         return None
@@ -114,7 +114,7 @@ def _merge(kept: dict[str, Any], ours: Mapping[str, Any]) -> None:
 
 
 def _without(displays: object, gone: list[int]) -> list[Any]:
-    """A list of displays and groups of them, without those whose identities are given."""
+    """Return a list of displays and groups of them, without those whose identities are given."""
     left = []
     for each in displays if isinstance(displays, list) else []:
         if id(each) in gone:

@@ -44,15 +44,15 @@ class Host(Protocol):
         ...
 
     def hello(self) -> bytes:
-        """The first packet of a page."""
+        """Return the first packet of a page."""
         ...
 
     def first_view(self) -> list[bytes]:
-        """What the page shows first, if a file says so."""
+        """Return the packets of the first view, if a file defines one."""
         ...
 
     def topics(self) -> list[dict[str, Any]]:
-        """What can be shown."""
+        """Return the topics that can be shown."""
         ...
 
     def new_feed(self, name: str, kind: str, topic: str, options: dict[str, object]) -> DisplayFeed:
@@ -112,7 +112,7 @@ class Session:
 
     @property
     def base(self) -> Base:
-        """What poses refer to; for any thread."""
+        """Base that poses refer to; for any thread."""
         return self._base
 
     @property
@@ -121,7 +121,7 @@ class Session:
         return list(self._feeds.values())
 
     def outgoing(self) -> list[str | bytes]:
-        """What the page does not have yet."""
+        """Return the messages that the page does not have yet."""
         packets, self._answers = self._answers, []
         if self._is_due("tree", _TREE_S):
             packets += self._tree()
@@ -224,7 +224,7 @@ class Session:
         return encode_packet({"type": "relation", **answer, "path": path})
 
     def _if_new(self, what: str, header: dict[str, Any]) -> list[bytes]:
-        """The packet, if it is not the last one of its kind."""
+        """Return the packet, if it is not the last one of its kind."""
         if self._said.get(what) == header:
             return []
         self._said[what] = header

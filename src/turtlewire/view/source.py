@@ -21,14 +21,14 @@ class Topic(NamedTuple):
 
 
 class ParameterAnswer(NamedTuple):
-    """The text of a parameter, or in one line why there is none."""
+    """The text of a parameter, or the reason in one line."""
 
     text: str = ""
     problem: str = ""
 
 
 class TimelineState(NamedTuple):
-    """What the time bar shows; times in seconds, None where there is none.
+    """What the time bar shows; times in seconds, None if unknown.
 
     Attributes:
         now: The time that is shown.
@@ -54,15 +54,15 @@ class Timeline(Protocol):
 
     @property
     def buffer(self) -> Buffer:
-        """Where the frames are looked up."""
+        """Buffer of the frames."""
         ...
 
     def stamp_ns(self) -> int:
-        """The time of the frames to show; 0 for the newest of each."""
+        """Return the time of the frames to show; 0 for the newest of each."""
         ...
 
     def state(self) -> TimelineState:
-        """What the time bar shows."""
+        """Return the state of the time bar."""
         ...
 
     def pause(self) -> None:
@@ -95,7 +95,7 @@ class Source(Protocol):
 
     @property
     def problem(self) -> str:
-        """What is wrong with it, in one line; mostly empty."""
+        """Problem of the source in one line, mostly empty."""
         ...
 
     @property
@@ -104,15 +104,15 @@ class Source(Protocol):
         ...
 
     def now_ns(self) -> int:
-        """The time that ages refer to."""
+        """Return the time that ages refer to."""
         ...
 
     def new_timeline(self) -> Timeline:
-        """The time of one more page; pages of a bag share theirs."""
+        """Return the time of one more page; pages of a bag share theirs."""
         ...
 
     def topics(self) -> list[Topic]:
-        """What there is, sorted by name."""
+        """Return the topics, sorted by name."""
         ...
 
     def subscribe(

@@ -33,7 +33,7 @@ class ToolMessage(NamedTuple):
 def tool_message(
     tool: str, position: Sequence[float], yaw: float, frame_id: str, stamp_ns: int, topic: str = ""
 ) -> ToolMessage:
-    """The message of a tool.
+    """Return the message of a tool.
 
     Args:
         tool: ``point``, ``pose_estimate`` or ``goal``.

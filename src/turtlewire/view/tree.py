@@ -34,7 +34,7 @@ class TreeTable:
         self._newest_ns: dict[str, int] = {}
 
     def rows(self, buffer: Buffer, now_ns: int) -> list[dict[str, Any]]:
-        """A row for each frame with a parent, in no order.
+        """Return a row for each frame with a parent, in no order.
 
         Its rate is in Hz, its times in seconds; a static link has neither rate, age nor delay.
         """
@@ -65,7 +65,7 @@ class TreeTable:
 
 
 def relation(buffer: Buffer, target: str, source: str, stamp_ns: int) -> dict[str, Any]:
-    """Where ``source`` is as ``target`` sees it, in numbers and words, or why that is unknown.
+    """Describe the pose of ``source`` in ``target``, or why it is unknown.
 
     Translations are in metres, rotations xyzw, rpy in radians about fixed axes; numbers that are
     not finite are None.
@@ -95,7 +95,7 @@ def relation(buffer: Buffer, target: str, source: str, stamp_ns: int) -> dict[st
 
 
 def _lookup(buffer: Buffer, target: str, source: str, stamp_ns: int) -> Any:
-    """The transform at a stamp, or the last one before as long as the picture shows that."""
+    """Return the transform at a stamp, or the last one before as long as the picture shows that."""
     try:
         return buffer.lookup_transform(target, source, stamp_ns)
     except ExtrapolationException:
@@ -106,7 +106,7 @@ def _lookup(buffer: Buffer, target: str, source: str, stamp_ns: int) -> Any:
 
 
 def _ended_link(buffer: Buffer, error: TransformException) -> str:
-    """Which link ended so long ago that no others are kept from then; or nothing."""
+    """Name the link that ended before the others' kept history, or return an empty string."""
     if not isinstance(error, ExtrapolationException) or error.reason != "past":
         return ""
     ended = [
@@ -128,7 +128,7 @@ def _ended_link(buffer: Buffer, error: TransformException) -> str:
 def path_between(
     names: Sequence[str], parents: Sequence[int], target: str, source: str
 ) -> list[str]:
-    """The frames from ``source`` up to the common ancestor and down to ``target``.
+    """Return the frames from ``source`` up to the common ancestor and down to ``target``.
 
     Empty if they are not in one tree.
     """

@@ -104,13 +104,13 @@ class Viewer:
         self.source.close()
 
     def hello(self) -> bytes:
-        """The first packet of a page."""
+        """Return the first packet of a page."""
         return encode_packet(
             {"type": "hello", "source": {"kind": self.source.kind, "name": self.source.name}}
         )
 
     def first_view(self) -> list[bytes]:
-        """What a page shows first, if a file says so."""
+        """Return the packets of a page's first view, if a file defines one."""
         if self._saved is None:
             return []
         return [encode_packet({**self._saved.header(), "first": True})]
@@ -122,7 +122,7 @@ class Viewer:
             del self.documents[next(iter(self.documents))]
 
     def topics(self) -> list[dict[str, Any]]:
-        """What there is, each with the kind of display that shows it, or None."""
+        """Return the topics, each with the kind of display that shows it, or None."""
         return [
             {**topic._asdict(), "kind": each.kind if (each := display_for(*topic[:2])) else None}
             for topic in self.source.topics()

@@ -13,7 +13,7 @@ DEFAULT_PORT = 7070
 
 
 def desktop_is_there() -> bool:
-    """Whether the user has a desktop, on which a browser can open."""
+    """Return True if the user has a desktop, on which a browser can open."""
     if sys.platform in ("darwin", "win32"):
         return True
     return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
@@ -28,7 +28,7 @@ def open_browser(url: str) -> None:
 
 
 def wanted_lan() -> bool:
-    """Whether TURTLEWIRE_LAN=1 asks for pages that other devices reach, as the option --lan does.
+    """Return True if TURTLEWIRE_LAN=1 opens pages to other devices, as --lan does.
 
     It is for programs that a launch file or another program starts.
     """
@@ -36,7 +36,7 @@ def wanted_lan() -> bool:
 
 
 def wanted_port() -> int:
-    """The port to try first.
+    """Return the port to try first.
 
     Raises:
         ValueError: TURTLEWIRE_PORT is no port number.

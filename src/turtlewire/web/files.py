@@ -94,7 +94,7 @@ def policy(files: Mapping[str, File], sources: Mapping[str, str]) -> str:
 
 
 def _hash(script: bytes) -> str:
-    """The source expression that allows a script by its text."""
+    """Return the source expression that allows a script by its text."""
     import base64
     import hashlib
 
@@ -102,7 +102,7 @@ def _hash(script: bytes) -> str:
 
 
 def headers(policy: str, *, immutable: bool) -> dict[str, str]:
-    """The headers of every answer; an ``immutable`` one is never asked for again."""
+    """Return the headers of every answer; an ``immutable`` one is never asked for again."""
     return {
         "Content-Security-Policy": policy,
         "X-Content-Type-Options": "nosniff",

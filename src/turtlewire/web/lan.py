@@ -34,7 +34,7 @@ _QUIET_ZONE = 2
 
 
 def new_token() -> str:
-    """A token for one run of a server, which nobody can guess."""
+    """Return a token for one run of a server, which nobody can guess."""
     import secrets
 
     return "".join(secrets.choice(_LETTERS) for _ in range(_TOKEN_LENGTH))
@@ -73,7 +73,7 @@ def interface_addresses() -> list[str]:
 def lan_addresses() -> list[str]:
     """IPv4 addresses under which others may reach this computer, the likeliest one first.
 
-    That is the address of the default route. The others can be those of a second network, a VPN or
+    That is the address of the default route. The others can belong to a second network, a VPN or
     a container bridge.
     """
     found = []

@@ -1,4 +1,4 @@
-"""Which requests are answered: those of this machine's browsers for a page of this server.
+"""Answer only requests of this machine's browsers for a page of this server.
 
 A browser sends in ``Host`` the name that it looked up and in ``Origin`` the page that makes the
 request. A foreign page can make the user's browser connect to 127.0.0.1, also under a name of its
@@ -35,7 +35,7 @@ def refusal(hosts: list[str], origins: list[str], *, lan: bool = False) -> str |
 
 
 def _name(host: str) -> str:
-    """The name in ``name``, ``name:port``, ``[v6]`` or ``[v6]:port``."""
+    """Return the name in ``name``, ``name:port``, ``[v6]`` or ``[v6]:port``."""
     end = host.find("]") + 1 if host.startswith("[") else host.find(":")
     name, port = (host[:end], host[end:]) if end > 0 else (host, "")
     return name.lower() if not port or port[1:].isdecimal() else ""
@@ -46,7 +46,7 @@ def _is_loopback(name: str) -> bool:
 
 
 def _is_of_this_computer(name: str) -> bool:
-    """Whether this is an IPv4 address, or this computer's name in whatever domain."""
+    """Return True if this is an IPv4 address, or this computer's name in whatever domain."""
     own = socket.gethostname().lower().partition(".")[0]
     return name.partition(".")[0] == own or _is_ipv4(name)
 

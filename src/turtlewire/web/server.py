@@ -41,7 +41,7 @@ class Session(Protocol):
     """One browser's connection. The server's thread calls all methods, so they must be short."""
 
     def outgoing(self) -> list[str | bytes]:
-        """What this browser does not have yet.
+        """Return the messages that this browser does not have yet.
 
         Called after :meth:`Server.notify`, and only when the browser has taken the last messages:
         values that became outdated in between are never sent, so a slow browser sees fewer frames,
@@ -119,7 +119,7 @@ class Server:
 
     @property
     def watched(self) -> bool:
-        """Whether any browser has its WebSocket open."""
+        """True if any browser has its WebSocket open."""
         return bool(self._wake_ups)
 
     def notify(self) -> None:

@@ -125,7 +125,7 @@ class Publisher(Entity):
         """
 
     def outlet(self) -> Outlet | None:
-        """What native code sends with, without Python; None where there is none.
+        """Return the sender for native code; None if the middleware has none.
 
         It may be used for longer than the publisher lives. It blocks only if the publisher keeps
         all messages.
@@ -134,10 +134,10 @@ class Publisher(Entity):
 
     @abstractmethod
     def subscription_count(self) -> int:
-        """How many matching subscriptions are known at the moment."""
+        """Return the number of matching subscriptions that are known now."""
 
     def is_heard(self) -> bool:
-        """Whether a message may have a receiver; cheaper than :meth:`subscription_count`.
+        """Return True if a message may have a receiver; cheaper than :meth:`subscription_count`.
 
         Never False while a matching subscription is known; may be True for a moment after the last
         one has left.
@@ -181,11 +181,11 @@ class Subscription(Entity):
 
     @abstractmethod
     def publisher_count(self) -> int:
-        """How many matching publishers are known at the moment."""
+        """Return the number of matching publishers that are known now."""
 
     @abstractmethod
     def create_event(self, kind: EventKind) -> Event:
-        """The event of this kind (one per kind and endpoint); it closes with the endpoint.
+        """Return the event of this kind (one per kind and endpoint); it closes with the endpoint.
 
         Raises:
             WireError: The middleware cannot report it.
@@ -219,7 +219,7 @@ class Client(Entity):
 
     @abstractmethod
     def is_ready(self) -> bool:
-        """Whether a server is there that gets a request and whose response arrives here."""
+        """Return True if a server is there that gets a request and whose response arrives here."""
 
 
 class Service(Entity):
@@ -322,11 +322,11 @@ class Graph(ABC):
 
     @abstractmethod
     def nodes(self) -> list[NodeInfo]:
-        """All known nodes, duplicates (two nodes of one name) included."""
+        """Return all known nodes, duplicates (two nodes of one name) included."""
 
     @abstractmethod
     def endpoints(self) -> list[EndpointInfo]:
-        """All known endpoints, also those of services (as ``rq/…`` names unless asked below)."""
+        """All known endpoints, services' included (as ``rq/…`` names unless asked below)."""
 
     @abstractmethod
     def endpoints_of(self, topic: str, kind: str) -> list[EndpointInfo]:
@@ -349,7 +349,7 @@ class Graph(ABC):
         """Service name to sorted type names (``turtlesim/srv/Spawn``)."""
 
     def foreign_servers(self) -> list[ForeignServer]:
-        """The servers that would misread requests of this process, so that it sends none.
+        """Return the servers that would misread requests of this process, so that it sends none.
 
         A service that has such a server is not called at all, even if another server of it
         understands requests: a request reaches all servers.
@@ -370,7 +370,7 @@ class Graph(ABC):
 
     @abstractmethod
     def is_complete(self) -> bool:
-        """Whether everything on this host is known.
+        """Return True if everything on this host is known.
 
         Its participants, where the system tells how many there are, and what they announced.
 
@@ -419,7 +419,7 @@ class Context(ABC):
 
     @abstractmethod
     def create_wait_set(self) -> WaitSet:
-        """A new, empty wait set."""
+        """Return a new, empty wait set."""
 
     @abstractmethod
     def call_soon(self, call: Callable[[], None]) -> None:

@@ -75,12 +75,12 @@ class EndpointTypes:
 
 
 def _is_of_action(name: str, kind: str) -> bool:
-    """Whether it is a client of an action, whose subscription to the feedback is compared."""
+    """Return True for a client of an action, whose feedback subscription is compared."""
     return kind == "client" and "/_action/" in name
 
 
 def as_compared(dds_topic: str, kind: str, type_name: str) -> tuple[str, str, str] | None:
-    """How :class:`EndpointTypes` counts a publisher or subscription of DDS: name, kind and type.
+    """Return the name, kind and type under which :class:`EndpointTypes` counts an endpoint.
 
     None for the replies of a service, because its requests are counted, and for topics that are
     not of ROS.

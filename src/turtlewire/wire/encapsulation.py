@@ -30,12 +30,12 @@ LITTLE_ENDIAN = b"\x00\x01"
 
 
 def joined(cdr: Cdr) -> bytes:
-    """The bytes of a serialized message."""
+    """Return the bytes of a serialized message."""
     return b"".join(cdr if isinstance(cdr, tuple) else (cdr,))
 
 
 def is_message(cdr: bytes) -> bool:
-    """Whether these bytes are little endian CDR with fields after the header."""
+    """Return True if these bytes are little endian CDR with fields after the header."""
     return len(cdr) > HEADER_SIZE and cdr.startswith(LITTLE_ENDIAN)
 
 

@@ -108,7 +108,7 @@ def middleware_name() -> str:
 
 
 def compares_qos() -> bool:
-    """Whether endpoints of one topic and type can fail to match because of their QoS.
+    """Return True if endpoints of one topic and type can fail to match because of their QoS.
 
     They can with DDS; with Zenoh, every publisher reaches every subscription.
     """
@@ -116,7 +116,7 @@ def compares_qos() -> bool:
 
 
 def is_installed(middleware: str) -> bool:
-    """Whether the library that a middleware stands on is there."""
+    """Return True if the library that a middleware stands on is there."""
     if middleware == "rmw_cyclonedds_cpp":
         # What is loaded stays: it needs no file, of which a process may have no more left.
         return _CYCLONE in sys.modules or find_libddsc().library is not None
@@ -124,7 +124,7 @@ def is_installed(middleware: str) -> bool:
 
 
 def middleware_library(middleware: str) -> str:
-    """What a middleware stands on, and why it was taken, for people."""
+    """Describe a middleware's library and why it was chosen."""
     if middleware == "local":
         return "none: it stays inside the process"
     if middleware == "rmw_cyclonedds_cpp":
@@ -139,7 +139,7 @@ def middleware_library(middleware: str) -> str:
 
 
 def discovery() -> Discovery:
-    """What ``ROS_AUTOMATIC_DISCOVERY_RANGE``, ``ROS_LOCALHOST_ONLY`` and ``ROS_STATIC_PEERS`` say.
+    """Read ``ROS_AUTOMATIC_DISCOVERY_RANGE``, ``ROS_LOCALHOST_ONLY``, ``ROS_STATIC_PEERS``.
 
     ``LOCALHOST`` when they say nothing.
     """

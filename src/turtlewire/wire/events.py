@@ -29,7 +29,7 @@ class EventWatcher:
         self.wake()
 
     def ready_events(self) -> list[StatusEvent]:
-        """The events that have something to take."""
+        """Return the events that have something to take."""
         if not self._happened:
             return []
         for event in list(self._happened):
@@ -67,7 +67,6 @@ class StatusEvent(Event):
             watcher.happened(self)
 
     def take(self) -> EventStatus | None:
-        """See :meth:`Event.take`."""
         with self._lock:
             if not self.pending:
                 return None
@@ -91,7 +90,6 @@ class StatusEvent(Event):
         watcher.forget(self)
 
     def close(self) -> None:
-        """See :meth:`Entity.close`."""
         with self._lock:
             watchers = list(self._watchers)
         for watcher in watchers:

@@ -116,7 +116,7 @@ class _DiscoveryInfoReader:
         return tuple(self._bytes(_GID_SIZE) for _ in range(self._count(_GID_SIZE)))
 
     def _count(self, item_size: int) -> int:
-        """A sequence length, refused when not even ``item_size`` bytes per item are left."""
+        """Return a sequence length, refused when not even ``item_size`` bytes per item are left."""
         self._at += -self._at % 4
         (count,) = _U32.unpack(self._bytes(4))
         if count * item_size > len(self._cdr) - self._at:
@@ -165,7 +165,6 @@ class GraphView(Graph):
         self._listeners: list[Callable[[], None]] = []
 
     def endpoints_of(self, topic: str, kind: str) -> list[EndpointInfo]:
-        """See :meth:`Graph.endpoints_of`."""
         return [
             endpoint
             for endpoint in self.endpoints()
@@ -173,7 +172,6 @@ class GraphView(Graph):
         ]
 
     def topic_names_and_types(self, *, demangle: bool = True) -> dict[str, list[str]]:
-        """See :meth:`Graph.topic_names_and_types`."""
         pairs = []
         for endpoint in self.endpoints():
             if not demangle:
@@ -183,7 +181,6 @@ class GraphView(Graph):
         return _grouped(pairs)
 
     def service_names_and_types(self) -> dict[str, list[str]]:
-        """See :meth:`Graph.service_names_and_types`."""
         pairs = []
         for endpoint in self.endpoints():
             service = names.service_from_dds(endpoint.topic)
@@ -192,7 +189,6 @@ class GraphView(Graph):
         return _grouped(pairs)
 
     def wait_for(self, predicate: Callable[[], bool], timeout_ns: int | None = None) -> bool:
-        """See :meth:`Graph.wait_for`."""
         deadline = None if timeout_ns is None else time.monotonic() + timeout_ns / 1e9
         while True:
             seen = self._version
@@ -208,20 +204,19 @@ class GraphView(Graph):
         return predicate()
 
     def is_complete(self) -> bool:
-        """See :meth:`Graph.is_complete`.
+        """Return True once all announced endpoints are known.
 
         Always true here: without discovery there is nothing to wait for.
         """
         return True
 
     def hurry(self) -> None:
-        """See :meth:`Graph.hurry`.
+        """Do nothing.
 
         Does nothing here: without discovery there is nothing to ask for.
         """
 
     def add_listener(self, on_change: Callable[[], None]) -> Callable[[], None]:
-        """See :meth:`Graph.add_listener`."""
         with self._change:
             self._listeners.append(on_change)
 

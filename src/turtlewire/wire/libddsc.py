@@ -101,7 +101,7 @@ class Search(NamedTuple):
     """What a search for the library found.
 
     Attributes:
-        library: The one to take; None if there is none.
+        library: The one to take; None without one.
         refused: Sentences about those that come before it and are not taken.
     """
 
@@ -164,7 +164,7 @@ def _below(prefix: str, origin: str) -> Iterator[Libddsc]:
 
 
 def _inside(folder: str, origin: str) -> Iterator[Libddsc]:
-    """The libraries in a folder, each once, whatever links to it."""
+    """Yield the libraries in a folder, each once, whatever links to it."""
     pattern = re.compile(_NAMES.get(sys.platform, _NAME))
     names = filter(pattern.fullmatch, _listed(folder))
     for path in sorted({os.path.realpath(os.path.join(folder, name)) for name in names}):

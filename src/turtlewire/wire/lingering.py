@@ -29,5 +29,5 @@ def leaving_at_once() -> Iterator[None]:
 
 
 def lingers() -> bool:
-    """Whether a domain that is joined now is left only after waiting."""
+    """Return True if a domain that is joined now is left only after waiting."""
     return not _leaving

@@ -227,7 +227,7 @@ def fully_qualified_node_name(node_name: str, namespace: str) -> str:
 
 
 def is_hidden(name: str) -> bool:
-    """Whether tools leave this topic, service or node out by default.
+    """Return True if tools leave this topic, service or node out by default.
 
     One of its tokens starts with an underscore.
     """

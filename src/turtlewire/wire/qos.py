@@ -28,7 +28,7 @@ BEST_AVAILABLE_NS = INFINITE_NS - 1
 
 
 class History(IntEnum):
-    """How many samples are kept."""
+    """History policy: which samples are kept."""
 
     SYSTEM_DEFAULT = 0
     KEEP_LAST = 1
@@ -37,7 +37,7 @@ class History(IntEnum):
 
 
 class Reliability(IntEnum):
-    """Whether lost samples are sent again."""
+    """Reliability policy: RELIABLE sends lost samples again."""
 
     SYSTEM_DEFAULT = 0
     RELIABLE = 1
@@ -47,7 +47,7 @@ class Reliability(IntEnum):
 
 
 class Durability(IntEnum):
-    """Whether late joiners receive earlier samples."""
+    """Durability policy: TRANSIENT_LOCAL sends earlier samples to late joiners."""
 
     SYSTEM_DEFAULT = 0
     TRANSIENT_LOCAL = 1
@@ -84,7 +84,7 @@ class QoS(NamedTuple):
 
     @property
     def has_best_available(self) -> bool:
-        """Whether a policy is to be chosen after the endpoints that are there."""
+        """True if a policy is to be chosen after the endpoints that are there."""
         return (
             self.reliability == Reliability.BEST_AVAILABLE
             or self.durability == Durability.BEST_AVAILABLE

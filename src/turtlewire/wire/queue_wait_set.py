@@ -29,7 +29,7 @@ class Queued(Entity):
 
     @property
     def is_waiting(self) -> bool:
-        """Whether something waits to be taken."""
+        """True if something waits to be taken."""
         raise NotImplementedError
 
 
@@ -50,7 +50,6 @@ class QueueWaitSet(EventWatcher, WaitSet):
         self._closed = False
 
     def attach(self, entity: Waitable) -> None:
-        """See :meth:`WaitSet.attach`."""
         if isinstance(entity, StatusEvent):
             entity.attach(self)
             return
@@ -61,7 +60,6 @@ class QueueWaitSet(EventWatcher, WaitSet):
             self._condition.notify_all()
 
     def detach(self, entity: Waitable) -> None:
-        """See :meth:`WaitSet.detach`."""
         if isinstance(entity, StatusEvent):
             entity.detach(self)
             return
@@ -75,7 +73,6 @@ class QueueWaitSet(EventWatcher, WaitSet):
         self._condition.notify_all()
 
     def wait(self, timeout_ns: int | None = None) -> list[Entity]:
-        """See :meth:`WaitSet.wait`."""
         with self._condition:
             self._condition.wait_for(
                 self._has_news, None if timeout_ns is None else timeout_ns / 1e9
@@ -94,13 +91,11 @@ class QueueWaitSet(EventWatcher, WaitSet):
         )
 
     def wake(self) -> None:
-        """See :meth:`WaitSet.wake`."""
         with self._condition:
             self._woken = True
             self._condition.notify_all()
 
     def close(self) -> None:
-        """See :meth:`Entity.close`."""
         self._on_closing(self)
         with self._condition:
             self._closed = True

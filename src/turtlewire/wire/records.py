@@ -51,7 +51,7 @@ class ServiceTypes(NamedTuple):
     hash_of: Callable[[str], str]
 
     def service_id(self) -> TypeId:
-        """The service itself, with its hash."""
+        """Return the service itself, with its hash."""
         return TypeId(self.name, self.hash_of(self.name))
 
 

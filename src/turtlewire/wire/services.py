@@ -56,7 +56,7 @@ def split_header(payload: bytes) -> tuple[RequestId, bytes] | None:
 
 
 def not_callable(service: str, middleware: str) -> UncallableServiceError:
-    """The error that says why a service is not called.
+    """Return the error that says why a service is not called.
 
     Args:
         service: Name of the service.
@@ -82,7 +82,7 @@ def require_callable(graph: Graph, service: str) -> None:
 
 
 def advice(other: str) -> str:
-    """What makes the two ends of a service understand each other.
+    """Return advice on how the two ends of a service can understand each other.
 
     Args:
         other: The end on another middleware, for example ``server``.
@@ -105,13 +105,11 @@ class TopicClient(Client):
         self.replies = replies
 
     def send_request(self, cdr: bytes) -> int:
-        """See :meth:`Client.send_request`."""
         sequence_number = next(_sequence)
         self.requests.publish(join_header(RequestId(self.client_id, sequence_number), cdr))
         return sequence_number
 
     def take(self, limit: int = 32) -> list[tuple[int, bytes]]:
-        """See :meth:`Client.take`."""
         responses = []
         for payload, _ in self.replies.take(limit):
             split = split_header(payload)
@@ -122,11 +120,9 @@ class TopicClient(Client):
         return responses
 
     def is_ready(self) -> bool:
-        """See :meth:`Client.is_ready`."""
         return self.requests.subscription_count() > 0 and self.replies.publisher_count() > 0
 
     def close(self) -> None:
-        """See :meth:`Entity.close`."""
         self.requests.close()
         self.replies.close()
 
@@ -140,7 +136,6 @@ class TopicService(Service):
         self.replies = replies
 
     def take(self, limit: int = 32) -> list[tuple[RequestId, bytes]]:
-        """See :meth:`Service.take`."""
         requests = []
         for payload, _ in self.requests.take(limit):
             split = split_header(payload)
@@ -155,11 +150,9 @@ class TopicService(Service):
         _warn_short(self.service, what)
 
     def send_response(self, request_id: RequestId, cdr: bytes) -> None:
-        """See :meth:`Service.send_response`."""
         self.replies.publish(join_header(request_id, cdr))
 
     def close(self) -> None:
-        """See :meth:`Entity.close`."""
         self.requests.close()
         self.replies.close()
 

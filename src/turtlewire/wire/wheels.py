@@ -36,18 +36,18 @@ class Platform(NamedTuple):
 
     @property
     def has_cyclone(self) -> bool:
-        """Whether there is a wheel of ``cyclonedds`` 11.0.1."""
+        """True if there is a wheel of ``cyclonedds`` 11.0.1."""
         old_enough = self.version < _TOO_NEW_FOR_CYCLONE
         return self.usual and old_enough and (self.system, self.machine) in _BOTH
 
     @property
     def has_zenoh(self) -> bool:
-        """Whether there is a wheel of ``eclipse-zenoh``."""
+        """True if there is a wheel of ``eclipse-zenoh``."""
         return self.usual and (self.system, self.machine) in _BOTH | _ZENOH_ONLY
 
 
 def this_platform() -> Platform:
-    """The one that this process runs on."""
+    """Return the one that this process runs on."""
     musl = "musl" in getattr(sys.implementation, "_multiarch", "")
     cpython = sys.implementation.name == "cpython"
     usual = cpython and not musl and not sysconfig.get_config_var("Py_GIL_DISABLED")
@@ -55,7 +55,7 @@ def this_platform() -> Platform:
 
 
 def advice(here: Platform) -> str:
-    """What to install for a middleware, and what works without."""
+    """Return advice on installing a middleware, and what works without one."""
     ways = []
     if here.has_cyclone:
         ways.append("type: pip install cyclonedds==11.0.1")

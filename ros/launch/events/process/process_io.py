@@ -32,15 +32,15 @@ class ProcessIO(RunningProcessEvent):
 
     @property
     def from_stdin(self) -> bool:
-        """Whether they were read from the launch's input for the process."""
+        """True if they were read from the launch's input for the process."""
         return self._from == "stdin"
 
     @property
     def from_stdout(self) -> bool:
-        """Whether the process wrote them to stdout."""
+        """True if the process wrote them to stdout."""
         return self._from == "stdout"
 
     @property
     def from_stderr(self) -> bool:
-        """Whether the process wrote them to stderr."""
+        """True if the process wrote them to stderr."""
         return self._from == "stderr"

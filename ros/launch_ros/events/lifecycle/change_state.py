@@ -65,7 +65,7 @@ class ChangeState(Event):
 
     @property
     def lifecycle_node_matcher(self) -> Callable[[NamedNode], bool]:
-        """Which nodes."""
+        """Matcher of the nodes."""
         return self._matcher
 
     @property

@@ -33,12 +33,12 @@ class StateTransition(Event):
 
     @property
     def msg(self) -> Any:
-        """What the node said."""
+        """Transition event of the node."""
         return self._msg
 
     @property
     def timestamp(self) -> int:
-        """When, in nanoseconds."""
+        """Time of the transition in nanoseconds."""
         return int(self._msg.timestamp)
 
     @property

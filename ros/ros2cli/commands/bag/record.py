@@ -228,7 +228,7 @@ def main(args: argparse.Namespace) -> str | None:
 
 
 def _wrong_combination(args: argparse.Namespace) -> str | None:
-    """What of the command line does not fit together; prints what overrides what."""
+    """Return the conflict between options, if any; print which options override others."""
     topics, services = args.all or args.all_topics, args.all or args.all_services
     chosen = (args.regex, args.topics, args.topic_types, args.services)
     if not (topics or services or any(chosen)):

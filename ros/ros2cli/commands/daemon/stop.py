@@ -11,5 +11,5 @@ __all__ = ["main"]
 
 
 def main(_args: argparse.Namespace) -> None:
-    """Say that there is none."""
+    """Say that no daemon exists."""
     print("The daemon is not running")

@@ -101,7 +101,7 @@ class _Hello:
             self._heard[way][host] += 1
 
     def table(self) -> str:
-        """Who was heard since the last table."""
+        """Return a table of the messages received since the last one."""
         args: Any = self._args
         titles = {"topic": f"Topic {args.topic}", "group": f"Group {args.group}:{args.port}"}
         lines = [f"Greetings sent: {self._sent}"]

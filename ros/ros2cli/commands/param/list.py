@@ -107,7 +107,7 @@ def _told(error: RuntimeError) -> str:
 
 
 def _serving(direct: DirectNode, nodes: Collection[str], service: str, timeout: float) -> set[str]:
-    """Those of the nodes that have a service.
+    """Return the nodes that have a service.
 
     As ROS 2 does, it waits for those that have none: a node that has just started may be known
     before its services are.

@@ -174,10 +174,10 @@ class _Printer:
 
 
 def _field(message: Any, path: str | None) -> Any:
-    """A field of a message: names joined by dots, with indices in brackets.
+    """Return a field of a message: names joined by dots, with indices in brackets.
 
     Raises:
-        RuntimeError: There is none.
+        RuntimeError: The field does not exist.
     """
     for name, index in re.findall(r"([^.\[\]]+)|\[(\d+)\]", path or ""):
         try:
@@ -196,7 +196,7 @@ def _check_field(kind: Any, path: str | None) -> None:
 
 
 def make_filter(expression: str | None) -> Callable[[Any], bool] | None:
-    """A predicate over messages from a Python expression in ``m``.
+    """Return a predicate over messages from a Python expression in ``m``.
 
     Raises:
         RuntimeError: It is no expression.

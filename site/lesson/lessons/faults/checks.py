@@ -28,7 +28,7 @@ def check_survives(exercise: Exercise) -> None:
     simulation = exercise.simulation
     simulation.inject(WrongFrame("turtle1", "wolrd"))
     simulation.run(3.0)
-    simulation.mend()
+    simulation.clear_faults()
     simulation.run(15.0)
     left = simulation.distance("turtle1", "turtle2")
     exercise.expect(

@@ -46,7 +46,7 @@ def _drive_off(exercise: Exercise) -> tuple[float, float]:
 
 
 def check_waits(exercise: Exercise) -> None:
-    """When turtle1 drives off, turtle2 does not know it for three seconds."""
+    """Check that turtle2 learns three seconds later that turtle1 drives off."""
     start = _drive_off(exercise)
     exercise.simulation.run(2.5)
     pose = exercise.simulation.pose("turtle2")

@@ -70,7 +70,7 @@ class Exercise:
         self._observer.create_timer(0.5, call)
 
     def place(self, target: str, source: str, hint: str = "") -> Place:
-        """Where ``source`` is as ``target`` sees it, at the latest time that is known.
+        """Return the pose of ``source`` in ``target`` at the latest known time.
 
         Raises:
             NotYet: TF does not know; tf2 says why. The hint is this, or the buffer's.
@@ -86,7 +86,7 @@ class Exercise:
         return Place(found.translation.x, found.translation.y, yaw)
 
     def stamp(self, target: str, source: str) -> float:
-        """The newest time at which the two are known [s].
+        """Return the newest time at which the two are known [s].
 
         Raises:
             NotYet: TF does not know; tf2 says why.
@@ -96,13 +96,13 @@ class Exercise:
         return float(stamp.sec + stamp.nanosec / 1e9)
 
     def another_buffer(self) -> Buffer:
-        """A buffer that listens from now on."""
+        """Return a buffer that listens from now on."""
         buffer = Buffer(node=self._observer)
         self._late = TransformListener(buffer, self._observer)
         return buffer
 
     def frames(self) -> dict[str, str]:
-        """Each frame's parent."""
+        """Return each frame's parent."""
         import yaml
 
         told = yaml.safe_load(self.buffer.all_frames_as_yaml())

@@ -40,7 +40,7 @@ class Result(NamedTuple):
 
 
 def check_name(check: Callable[[Exercise], None]) -> str:
-    """What a check is about: the first line of its docstring."""
+    """Return a check's name: the first line of its docstring."""
     return (check.__doc__ or check.__name__).strip().splitlines()[0].removesuffix(".")
 
 
@@ -54,7 +54,7 @@ def grade(
 ) -> Iterator[Result]:
     """Run the checks in their order; ends after the first that is not passed.
 
-    Later checks build on earlier ones, and one thing to mend at a time is enough.
+    Later checks build on earlier ones, and one thing to fix at a time is enough.
 
     Args:
         lesson: The lesson.

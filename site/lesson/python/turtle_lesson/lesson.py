@@ -57,7 +57,7 @@ class Lesson(NamedTuple):
     folder: Path
 
     def sources(self, kind: str) -> dict[str, str]:
-        """The files of `starter` or `solution`, by name."""
+        """Return the files of `starter` or `solution`, by name."""
         folder = self.folder / kind
         return {file: (folder / file).read_text(encoding="utf-8") for file in self.files}
 

@@ -105,7 +105,7 @@ def mistake_of(error: BaseException, files: Collection[str]) -> Mistake:
 
 
 def _place(error: BaseException, files: Collection[str]) -> tuple[str, int]:
-    """The innermost line of the student's files."""
+    """Return the innermost line of the student's files."""
     place = ("", 0)
     for frame in traceback.extract_tb(error.__traceback__):
         if frame.filename in files:

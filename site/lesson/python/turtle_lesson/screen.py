@@ -77,14 +77,14 @@ class LessonScreen:
         return self._names
 
     def take_scene(self) -> str | None:
-        """The scene as JSON if it has changed since the last call."""
+        """Return the scene as JSON if it has changed since the last call."""
         if self._scene is None or self._scene == self._shown_scene:
             return None
         self._shown_scene = self._scene
         return json.dumps({"type": "scene", "version": self._version, **self._scene._asdict()})
 
     def take_frame(self) -> bytes:
-        """The newest poses, and the strokes since the last call."""
+        """Return the newest poses, and the strokes since the last call."""
         restart, strokes, self._position = self._drawing.since(self._position)
         current = self._scene is not None and self._names == self._scene.turtles
         poses = self._poses if current else b""

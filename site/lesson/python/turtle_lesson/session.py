@@ -111,7 +111,7 @@ class Session:
         return self._texts(wanted)
 
     def frame(self) -> bytes:
-        """The picture, as turtlesim's page understands it."""
+        """Return the picture, as turtlesim's page understands it."""
         return self._screen.take_frame()
 
     def examine(self) -> None:

@@ -48,7 +48,7 @@ class TopicEcho:
         self._newest: Any = None
 
     def text(self, topic: str) -> str:
-        """The newest message; empty until one has come."""
+        """Return the newest message; empty until one has come."""
         if topic != self._topic:
             self._change(topic)
         return "" if self._newest is None else f"{message_to_yaml(self._newest)}---"
@@ -84,7 +84,7 @@ class TransformEcho:
         self._listener = TransformListener(self._buffer, node)
 
     def text(self, target: str, source: str) -> str:
-        """The newest transform, or why there is none, with the hint."""
+        """Return the newest transform, or the error with its hint."""
         try:
             return describe(self._buffer.lookup_transform(target, source, Time()), _ECHO_OPTIONS)
         except TransformException as error:

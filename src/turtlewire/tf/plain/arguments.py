@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def times_of(stamps: int | ArrayLike) -> tuple[list[int], bool]:
-    """The stamps, and whether a single one was given instead of an array."""
+    """Return the stamps, and whether a single one was given instead of an array."""
     import numpy as np
 
     if isinstance(stamps, (int, np.integer, np.datetime64)) or hasattr(stamps, "to_datetime64"):
@@ -57,7 +57,7 @@ def check_shape(array: NDArray[Any] | None, shape: tuple[int, ...], name: str) -
 
 
 def output_array(out: NDArray[np.float64] | None, shape: tuple[int, ...]) -> NDArray[np.float64]:
-    """The caller's ``out``, checked, or a new array of this shape."""
+    """Return the caller's ``out``, checked, or a new array of this shape."""
     import numpy as np
 
     if out is None:
@@ -74,7 +74,7 @@ def output_array(out: NDArray[np.float64] | None, shape: tuple[int, ...]) -> NDA
 
 
 def point_arrays(points: ArrayLike, out: NDArray[Any] | None) -> tuple[NDArray[Any], NDArray[Any]]:
-    """The points to read, as float32 or float64, and the array to write to."""
+    """Return the points to read, as float32 or float64, and the array to write to."""
     import numpy as np
 
     given = np.asarray(points)

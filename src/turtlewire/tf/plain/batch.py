@@ -58,7 +58,7 @@ def lookup_batch(
 def lookup_all(
     self: SharedTree, target_frame: str, stamp_ns: int = 0
 ) -> tuple[list[str], NDArray[np.float64], NDArray[np.int64]]:
-    """The poses of all frames in one frame at one time."""
+    """Return the poses of all frames in one frame at one time."""
     import numpy as np
 
     check_frames(target_frame=target_frame)
@@ -143,7 +143,7 @@ def lookup_velocity(
     out: NDArray[np.float64] | None = None,
     status: NDArray[np.uint8] | None = None,
 ) -> NDArray[np.float64]:
-    """The velocity of a body: vx, vy, vz in m/s and wx, wy, wz in rad/s.
+    """Return the velocity of a body: vx, vy, vz in m/s and wx, wy, wz in rad/s.
 
     Shape (6,), or (N, 6) for an array of stamps.
     """
@@ -178,7 +178,7 @@ def lookup_velocity(
 
 
 def _interval_start(end: int, interval_ns: int) -> int:
-    """Where an interval begins that ends there.
+    """Return the start of an interval that ends there.
 
     As in ROS 2, one that would begin before time 0, or at 0, which means the latest time, begins 10
     microseconds after it.
@@ -239,7 +239,7 @@ def _attempt(ask: Callable[[], Any]) -> Any:
 def _with_status(
     self: SharedTree, ask: Callable[[], Any], status: NDArray[np.uint8] | None, i: int
 ) -> Any:
-    """The answer, or None with the reason noted in ``status``.
+    """Return the answer, or None with the reason noted in ``status``.
 
     Without ``status`` the failure raises.
     """

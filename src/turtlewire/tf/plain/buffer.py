@@ -53,17 +53,17 @@ class Buffer(SharedTree):
 
     @property
     def cache_time_ns(self) -> int | None:
-        """How long samples are kept; None: forever."""
+        """Time for which samples are kept; None for no limit."""
         return None if self._tree.keep == FOREVER else self._tree.keep
 
     @property
     def max_frames(self) -> int | None:
-        """How many frames it takes; None: no limit."""
+        """Largest number of frames; None for no limit."""
         return self._tree.max_frames
 
     @property
     def is_full(self) -> bool:
-        """Whether a frame was refused because of max_frames, since frames were last removed."""
+        """True if a frame was refused because of max_frames, since frames were last removed."""
         return self._tree.is_full
 
     lookup_batch = batch.lookup_batch
@@ -162,7 +162,7 @@ class Buffer(SharedTree):
     def lookup_transform(
         self, target_frame: str, source_frame: str, stamp_ns: int = 0, timeout_ns: int = 0
     ) -> Transform:
-        """The pose of source_frame in target_frame at one time: ``target_from_source``.
+        """Return the pose of source_frame in target_frame at one time: ``target_from_source``.
 
         A stamp of 0 asks for the latest time that all links have reached.
 
@@ -189,7 +189,7 @@ class Buffer(SharedTree):
         fixed_frame: str,
         timeout_ns: int = 0,
     ) -> Transform:
-        """The pose of source_frame at one time in target_frame at another time.
+        """Return the pose of source_frame at one time in target_frame at another time.
 
         ``fixed_frame`` is a frame that did not move between the two times.
         """
@@ -202,13 +202,13 @@ class Buffer(SharedTree):
     def can_transform(
         self, target_frame: str, source_frame: str, stamp_ns: int = 0, timeout_ns: int = 0
     ) -> bool:
-        """Whether lookup_transform with the same arguments gives an answer."""
+        """Return True if lookup_transform with the same arguments gives an answer."""
         return not self.can_transform_reason(target_frame, source_frame, stamp_ns, timeout_ns)
 
     def can_transform_reason(
         self, target_frame: str, source_frame: str, stamp_ns: int = 0, timeout_ns: int = 0
     ) -> str:
-        """An empty string if can_transform is true, else tf2's text of why it is not."""
+        """Return an empty string if can_transform is true, else tf2's text of why it is not."""
         check_frames(target_frame=target_frame, source_frame=source_frame)
         (stamp_ns,) = nanoseconds(stamp_ns=stamp_ns)
         return self._reason(
@@ -225,7 +225,7 @@ class Buffer(SharedTree):
         fixed_frame: str,
         timeout_ns: int = 0,
     ) -> bool:
-        """Whether lookup_transform_full with the same arguments gives an answer."""
+        """Return True if lookup_transform_full with the same arguments gives an answer."""
         return not self.can_transform_full_reason(
             target_frame, target_stamp_ns, source_frame, source_stamp_ns, fixed_frame, timeout_ns
         )
@@ -269,12 +269,12 @@ class Buffer(SharedTree):
     # -- descriptions
 
     def frame_strings(self) -> list[str]:
-        """The names of all frames ever heard of, in order of arrival."""
+        """Return the names of all frames ever heard of, in order of arrival."""
         with self._changed:
             return list(self._tree.frames)
 
     def frame_exists(self, frame: str) -> bool:
-        """Whether the frame was ever heard of."""
+        """Return True if the frame was ever heard of."""
         with self._changed:
             return frame in self._tree.frames or frame == NO_PARENT
 
@@ -297,7 +297,7 @@ class Buffer(SharedTree):
             return frames_as_dot(list(self._tree.frames), self._tree.links_in_order(), now)
 
     def _repr_svg_(self) -> str:
-        """The tree of frames as SVG, for notebooks."""
+        """Return the tree of frames as SVG, for notebooks."""
         from turtlewire.tf.notebook import buffer_svg
 
         return buffer_svg(self)
@@ -339,7 +339,7 @@ class Buffer(SharedTree):
 
 
 def _escaped(name: bytes) -> str:
-    """A name as the tree judges it: bytes that are no UTF-8 become surrogates."""
+    """Return a name as the tree judges it: bytes that are no UTF-8 become surrogates."""
     return name.removeprefix(b"/").decode(errors="surrogateescape")
 
 

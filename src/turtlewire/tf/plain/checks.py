@@ -21,7 +21,7 @@ def check_frames(**frames: object) -> None:
 
 
 def nanoseconds(**times: Any) -> list[int]:
-    """The times, integers or ``datetime64``, as Python's integers.
+    """Return the times, integers or ``datetime64``, as Python's integers.
 
     Raises:
         TypeError: A time is a float, which cannot hold a present stamp exactly.
@@ -40,7 +40,7 @@ def _nanoseconds(argument: str, time: Any) -> int:
 
 
 def numbers(argument: str, values: Any, count: int) -> tuple[float, ...]:
-    """A given count of floats."""
+    """Return a given count of floats."""
     items = tuple(values)
     if len(items) != count:
         raise ValueError(f"{argument} must have {count} numbers")

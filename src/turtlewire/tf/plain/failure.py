@@ -67,7 +67,7 @@ _REASONS = {
 
 
 def name_failure(status: LookupStatus, name: str, question: Question, argument: str) -> Failure:
-    """A frame id that cannot be asked for."""
+    """Return a frame id that cannot be asked for."""
     why = {
         LookupStatus.EMPTY_NAME: "cannot be empty",
         LookupStatus.SLASH_NAME: "cannot start with a '/'",
@@ -101,7 +101,7 @@ def connection_failure(target: str, source: str, target_root: str, source_root: 
 
 
 def loop_failure(frames: str) -> Failure:
-    """A walk that does not end."""
+    """Return a walk that does not end."""
     return Failure(
         f"The tf tree is invalid because it contains a loop.\n{frames}\n", LookupStatus.LOOP
     )
@@ -110,7 +110,7 @@ def loop_failure(frames: str) -> Failure:
 def time_failure(
     status: LookupStatus, child: str, link: Link, stamp: int, target: str, source: str, keep: int
 ) -> Failure:
-    """A link whose data does not reach a time."""
+    """Return a link whose data does not reach a time."""
     asked, oldest, newest = (f"{seconds(t):.6f}" for t in (stamp, link.oldest, link.newest))
     if status == LookupStatus.FUTURE:
         text = (

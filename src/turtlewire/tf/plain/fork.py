@@ -1,7 +1,7 @@
 """fork() waits for the locks of all buffers.
 
 It copies only the thread that calls it: a lock that another thread holds at that moment would stay
-locked in the child for ever, and what it guards half changed.
+locked in the child forever, and what it guards half changed.
 """
 
 from __future__ import annotations

@@ -99,7 +99,7 @@ def stamps(self: SharedTree, child_frame: str) -> NDArray[np.int64]:
 def samples(
     self: SharedTree, child_frame: str
 ) -> list[tuple[str, NDArray[np.int64], NDArray[np.float64]]]:
-    """The whole history of one frame, oldest first.
+    """Return the whole history of one frame, oldest first.
 
     For each run of samples with one parent: the parent, the stamps and the poses.
     """
@@ -196,13 +196,13 @@ def describe_malformed(self: SharedTree) -> tuple[int, str, str]:
 
 
 def rename_sender(self: SharedTree, name: str, shown: str) -> None:
-    """Show another name for a sender, in what it has sent already as well."""
+    """Show another name for a sender, also for what it has sent already."""
     with self._changed:
         self._tree.rename_sender(name, shown)
 
 
 def fault(self: SharedTree) -> str:
-    """What is wrong with the buffer's own state; for tests."""
+    """Return a description of a broken invariant, or an empty string; for tests."""
     with self._changed:
         for child, link in self._tree.links.items():
             if child not in self._tree.frames or (

@@ -41,7 +41,7 @@ class Link:
 
     @property
     def has_data(self) -> bool:
-        """Whether the link has a pose at any time."""
+        """True if the link has a pose at any time."""
         return bool(self.samples) or self.fixed is not None
 
     @property
@@ -68,17 +68,17 @@ class Link:
 
     @property
     def length(self) -> int:
-        """How many values tf2 would hold."""
+        """Number of values that tf2 would hold."""
         return (1 if self.fixed else len(self.stamps)) + sum(self.dropped.values())
 
     @property
     def sender(self) -> str:
-        """Who sent the last accepted sample."""
+        """Authority of the last accepted sample."""
         return next(reversed(self.senders), ("no recorded authority", ""))[0]
 
     @property
     def parent_changes(self) -> int:
-        """How often the parent changes in the history kept."""
+        """Number of changes of parent in the kept history."""
         return sum(a.parent != b.parent for a, b in pairwise(self.samples))
 
     def count_sender(self, name: str, parent: str, stamp: int) -> None:
@@ -142,7 +142,7 @@ class Link:
             self.dropped = {stamp: count for stamp, count in self.dropped.items() if stamp >= limit}
 
     def read(self, stamp: int) -> Sample | LookupStatus:
-        """The pose at a time, 0 being the newest; or why there is none: NO_DATA, FUTURE or PAST."""
+        """The pose at a time (0: newest), or NO_DATA, FUTURE or PAST."""
         if self.fixed is not None:
             return self.fixed
         if not self.samples or (len(self.samples) == 1 and stamp not in {0, self.newest}):
@@ -183,12 +183,12 @@ class Link:
         return self._mix(i, stamp)
 
     def read_newest(self, now: int, max_age: int) -> Sample | LookupStatus:
-        """The newest pose, unless it is older than ``max_age`` (0: any age)."""
+        """Return the newest pose, unless it is older than ``max_age`` (0: any age)."""
         if max_age and not self.static and now - self.newest > max_age:
             return LookupStatus.FUTURE  # the data would have to reach further into the future
         return self.read(0)
 
 
 def is_nan(pose: Pose) -> bool:
-    """Whether any of the seven numbers is not a number."""
+    """Return True if any of the seven numbers is not a number."""
     return any(map(math.isnan, pose))

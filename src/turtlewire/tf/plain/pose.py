@@ -16,7 +16,7 @@ IDENTITY: Pose = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
 def multiply(a: Quaternion, b: Quaternion) -> Quaternion:
-    """The rotation that does ``b`` first, then ``a``."""
+    """Return the rotation that does ``b`` first, then ``a``."""
     ax, ay, az, aw = a
     bx, by, bz, bw = b
     return (
@@ -28,7 +28,7 @@ def multiply(a: Quaternion, b: Quaternion) -> Quaternion:
 
 
 def conjugate(q: Quaternion) -> Quaternion:
-    """The opposite rotation of a unit quaternion."""
+    """Return the opposite rotation of a unit quaternion."""
     return (-q[0], -q[1], -q[2], q[3])
 
 
@@ -57,7 +57,7 @@ def between(a: Pose, b: Pose) -> Pose:
 
 
 def canonical(pose: Pose) -> Pose:
-    """The pose with its quaternion converted to a rotation matrix and back.
+    """Return the pose with its quaternion converted to a rotation matrix and back.
 
     tf2 does so with every result, which fixes the sign and the last bits of the quaternion.
     """
@@ -65,7 +65,7 @@ def canonical(pose: Pose) -> Pose:
 
 
 def through_matrix(q: Quaternion) -> Quaternion:
-    """A quaternion of any length as tf2 stores it: by way of the 3x3 matrix.
+    """Return a quaternion of any length as tf2 stores it: by way of the 3x3 matrix.
 
     The result is unit, and one of ``q`` and ``-q`` was chosen: the one whose ``w`` is positive if
     the trace is, else the one whose largest of ``x, y, z`` is. A length beyond the range of floats

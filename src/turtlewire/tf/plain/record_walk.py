@@ -46,7 +46,7 @@ class RecordWalk:
     """Walks the records of MCAP chunks and adds the TFMessages among them to a buffer.
 
     One thread at a time may use it. Messages that are no TFMessages are counted by the buffer, as
-    those of ``ingest`` are.
+    in ``ingest``.
 
     Args:
         start_ns: The first log time of the messages that are taken.
@@ -144,7 +144,7 @@ class RecordWalk:
 
 
 def _skip(data: bytes, at: int) -> int:
-    """Where the record behind the one at ``at`` begins, or -1 - at if that one is cut off."""
+    """Return the start of the record after the one at ``at``; -1 - at if that one is cut off."""
     if at + _PREFIX.size > len(data):
         return -1 - at
     opcode, length = _PREFIX.unpack_from(data, at)
@@ -154,7 +154,7 @@ def _skip(data: bytes, at: int) -> int:
 
 
 def _first_child(data: bytes) -> bytes:
-    """The child frame of the first transform of a message."""
+    """Return the child frame of the first transform of a message."""
     layout = struct.Struct("<I" if data[1] else ">I")
     (length,) = layout.unpack_from(data, _NAMES_AT)
     at = (_NAMES_AT + 4 + length + 3) // 4 * 4

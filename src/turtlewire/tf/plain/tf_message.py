@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def decode_tf_message(data: bytes) -> list[tuple[int, bytes, bytes, Pose]]:
-    """The transforms of a message: (stamp in ns, parent, child, pose).
+    """Return the transforms of a message: (stamp in ns, parent, child, pose).
 
     Raises:
         CdrError: The bytes are no TFMessage.

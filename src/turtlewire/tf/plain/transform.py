@@ -70,12 +70,12 @@ class Transform:
         return self._pose[3:]
 
     def inverse(self) -> Transform:
-        """The transform the other way round: source_from_target."""
+        """Return the transform the other way round: source_from_target."""
         back = canonical(between(self._pose, IDENTITY))
         return Transform(self.child_frame_id, self.frame_id, self.stamp_ns, back[:3], back[3:])
 
     def as_matrix(self) -> NDArray[np.float64]:
-        """The 4x4 matrix that acts on column vectors from the left."""
+        """Return the 4x4 matrix that acts on column vectors from the left."""
         from turtlewire.tf.arrays import pose_matrix
 
         return pose_matrix(self)

@@ -110,7 +110,7 @@ class Tree:
         return list(removed)
 
     def links_in_order(self) -> dict[str, Link]:
-        """The links by child, in the order in which the frames were first named."""
+        """Return the links by child, in the order in which the frames were first named."""
         return {frame: self.links[frame] for frame in self.frames if frame in self.links}
 
     def clear(self) -> None:
@@ -131,7 +131,7 @@ class Tree:
             raise name_failure(status, name, question, argument)
 
     def lookup(self, target: str, source: str, stamp: int, question: Question) -> tuple[int, Pose]:
-        """The time and the pose ``target_from_source``.
+        """Return the time and the pose ``target_from_source``.
 
         A frame in itself is the identity, also for a frame that does not exist, as in tf2.
         """
@@ -224,7 +224,7 @@ class Tree:
             raise loop_failure(frames_as_string(self.links_in_order()))
 
     def latest_common_time(self, target: str, source: str) -> int:
-        """The oldest of the links' newest stamps between the frames.
+        """Return the oldest of the links' newest stamps between the frames.
 
         The newest parent of each link counts; a stamp of 0 counts as static.
         """
@@ -267,7 +267,7 @@ def _is_frame_name(name: str) -> bool:
 
 
 def judge_names(parent: str, child: str) -> Verdict:
-    """What is wrong with the names; bytes that are no UTF-8 stand in them as surrogates."""
+    """Judge the names of a transform; invalid UTF-8 is in them as surrogates."""
     if child == parent:
         return Verdict.SELF_TRANSFORM
     if not child:

@@ -36,7 +36,7 @@ __all__ = ["display_for", "display_types"]
 
 
 def display_types() -> dict[str, type[Display]]:
-    """The display of each message type."""
+    """Return the display of each message type."""
     from turtlewire.view.displays.image import CompressedImageDisplay, ImageDisplay
     from turtlewire.view.displays.laser_scan import LaserScanDisplay
     from turtlewire.view.displays.marker import MarkerDisplay

@@ -50,7 +50,7 @@ def picked_points(message: Any, budget: int, warn: Callable[[str], None]) -> NDA
 
 
 def _layout(message: Any, warn: Callable[[str], None]) -> np.dtype[np.void]:
-    """The record of one point; a field with several elements counts as its first one."""
+    """Return the record of one point; a field with several elements counts as its first one."""
     step = message.point_step
     if step > _LARGEST_STEP:
         raise UnusableMessageError(f"a point_step of {step} bytes is too large")

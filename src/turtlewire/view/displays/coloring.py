@@ -38,7 +38,7 @@ def by_axis(places: NDArray[np.float64], options: Options) -> NDArray[np.uint8]:
 
 
 def flat(count: int, color: tuple[int, int, int]) -> NDArray[np.uint8]:
-    """The same colour ``count`` times, as ``(n, 4)``."""
+    """Return the same colour ``count`` times, as ``(n, 4)``."""
     return np.tile(np.array([*color, 255], dtype=np.uint8), (count, 1))
 
 
@@ -66,12 +66,12 @@ def _ramp(place: NDArray[np.float64], options: Options) -> NDArray[np.uint8]:
 def _place(
     values: NDArray[Any], options: Options, bounds: tuple[str, str] | None
 ) -> NDArray[np.float64]:
-    """Where values lie between their bounds, from 0 to 1; what is not finite lies at 0.
+    """Scale values between their bounds to 0..1; values that are not finite become 0.
 
     Args:
         values: Any numbers.
         options: The user's choices.
-        bounds: The options with the bounds; None takes those of the values.
+        bounds: The options with the bounds; None for the values' own.
     """
     numbers = values.astype(np.float64)
     finite = numbers[np.isfinite(numbers)]

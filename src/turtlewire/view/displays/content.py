@@ -70,7 +70,7 @@ class Content:
         event: The content changes what came before it and replaces nothing: it is sent once, after
             all that came before it and is not gone, and not kept.
         packages: Packages whose meshes and textures the page will ask for.
-        placed: Makes those of the arrays that depend on the fixed frame.
+        placed: Makes the arrays that depend on the fixed frame.
     """
 
     header: dict[str, Any]
@@ -107,7 +107,7 @@ class Status:
 
     @classmethod
     def of(cls, level: Level, text: str) -> Status:
-        """A status of one printable line, however long names in it are."""
+        """Return a status of one printable line, however long names in it are."""
         line = printable(text)
         return cls(level, line if len(line) <= _LONGEST_STATUS else line[:_LONGEST_STATUS] + "…")
 
@@ -163,22 +163,22 @@ class Display:
         return None
 
     def take_parameter(self, text: str) -> list[Output]:
-        """What to send for the value of :attr:`parameter`; a status comes last."""
+        """Return the outputs for a value of :attr:`parameter`; a status comes last."""
         raise NotImplementedError
 
     def start(self) -> list[Output]:
-        """What to send before the first message, and again with each choice of options."""
+        """Return the outputs before the first message and after each change of options."""
         return []
 
     def content(self, message: Any) -> list[Output]:
-        """What to send for a message, in this order. A status comes last, each time.
+        """Return the outputs for a message, in this order; a status comes last.
 
         Never raises for what a message holds: what cannot be drawn is said in the status.
         """
         return self._answer(lambda: self._outputs(message))
 
     def _answer(self, make: Callable[[], list[Output]]) -> list[Output]:
-        """What ``make`` gives, and the status.
+        """Return the outputs of ``make`` and the status.
 
         NumPy is silent meanwhile: displays look for numbers that are not finite, and already the
         conversion of a signalling NaN would be warned of on the console.
@@ -203,7 +203,7 @@ class Display:
 
 
 def frame_of(message: Any) -> str:
-    """The frame of a message with a header.
+    """Return the frame of a message with a header.
 
     Raises:
         UnusableMessageError: It names none.
@@ -217,6 +217,6 @@ def frame_of(message: Any) -> str:
 
 
 def stamp_ns_of(message: Any) -> int:
-    """The stamp of a message with a header, in nanoseconds."""
+    """Return the stamp of a message with a header, in nanoseconds."""
     stamp = message.header.stamp
     return int(stamp.sec) * 10**9 + int(stamp.nanosec)

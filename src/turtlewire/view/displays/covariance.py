@@ -16,7 +16,7 @@ _LARGEST = 1e9
 
 
 def covariance_shape(covariance: Any, warn: Callable[[str], None]) -> dict[str, Any] | None:
-    """The shape of a 6x6 covariance: x, y, z, roll, pitch, yaw.
+    """Return the shape of a 6x6 covariance: x, y, z, roll, pitch, yaw.
 
     Args:
         covariance: 36 numbers, row by row.

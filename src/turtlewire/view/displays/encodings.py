@@ -43,7 +43,7 @@ ENCODINGS = (*_COLORS, *_GREY, *_YUV422, "bayer_*8", "bayer_*16")
 
 
 def rgba_of(message: Any, options: Options, largest: int) -> NDArray[np.uint8]:
-    """The picture of an Image message, ``(height, width, 4)``.
+    """Return the picture of an Image message, ``(height, width, 4)``.
 
     It is made coarser so that neither side is longer than ``largest``; a Bayer pattern gives one
     pixel for each of its blocks.
@@ -71,7 +71,7 @@ def rgba_of(message: Any, options: Options, largest: int) -> NDArray[np.uint8]:
 
 
 def _pixels(message: Any, code: str, channels: int) -> NDArray[Any]:
-    """The pixels without the padding of rows, ``(height, width, channels)``."""
+    """Return the pixels without the padding of rows, ``(height, width, channels)``."""
     size = int(code[1])
     height, width, row = message.height, message.width, message.step
     used = width * channels * size

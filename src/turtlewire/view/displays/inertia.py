@@ -44,7 +44,7 @@ def pose_of_origin(pose: Pose) -> list[float] | None:
 
 
 def _box(inertial: Inertial, origin: list[float]) -> dict[str, Any] | None:
-    """The box along the principal axes; None for moments that no body has."""
+    """Return the box along the principal axes; None for moments that no body has."""
     each = inertial
     tensor = np.array(
         [

@@ -31,16 +31,16 @@ class LaserScanDisplay(PointsDisplay):
 
     Beam *i* is transformed at its own time, ``stamp + i * time_increment``, as laser_geometry does
     in a moving fixed frame; it takes the transforms at both ends of the scan and what lies between
-    on a line, this one takes those of each beam.
+    on a line, this one takes each beam's.
 
-    Options: ``color`` (``auto``, ``intensity``, ``axis``, ``flat``), and those of
+    Options: ``color`` (``auto``, ``intensity``, ``axis``, ``flat``), and the options of
     :class:`turtlewire.view.displays.point_cloud.PointCloudDisplay`.
     """
 
     kind = "laser_scan"
 
     def points(self, message: Any, budget: int, part: str, header: dict[str, Any]) -> Content:
-        """The hits, in the scanner's frame at the stamp."""
+        """Return the hits, in the scanner's frame at the stamp."""
         ranges = np.asarray(message.ranges, dtype=np.float64)
         angles = self._angles(message, len(ranges))
         index = self._hits(message, ranges)[0]
@@ -67,7 +67,7 @@ class LaserScanDisplay(PointsDisplay):
     def _placed(
         self, matrices: NDArray[np.float64], hits: NDArray[np.float64], *, by_axis: bool
     ) -> dict[str, NDArray[Any]]:
-        """What depends on where the scanner was at the stamp and at each beam."""
+        """Return the arrays that depend on the scanner's pose at each beam."""
         first, each = matrices[:1], matrices[1:] if len(matrices) > 1 else matrices
         in_fixed = moved(each, hits)
         arrays: dict[str, NDArray[Any]] = {}
@@ -105,7 +105,7 @@ class LaserScanDisplay(PointsDisplay):
         return start + step * np.arange(count)
 
     def _offsets_ns(self, message: Any, index: NDArray[np.intp]) -> NDArray[np.int64]:
-        """How long after the stamp each beam was measured; all 0 for a scan without a stamp."""
+        """Return each beam's time after the stamp; all 0 for a scan without a stamp."""
         step = float(message.time_increment)
         longest = step * max(1, len(message.ranges))
         if not 0 <= longest <= _LONGEST_SCAN:
@@ -120,7 +120,7 @@ class LaserScanDisplay(PointsDisplay):
         return offsets
 
     def _colors(self, message: Any, index: NDArray[np.intp]) -> NDArray[np.uint8] | None:
-        """The colours, or None for those of the axis."""
+        """Return the colours, or None for the axis's."""
         way = self.options.text("color")
         given = len(message.intensities) == len(message.ranges)
         if way == "axis":
@@ -133,7 +133,7 @@ class LaserScanDisplay(PointsDisplay):
 
 
 def _problem_of_angles(start: float, step: float, end: float, count: int) -> str:
-    """What is wrong with the angles of a scan's beams, or the empty text."""
+    """Return the problem of a scan's angles, or an empty string."""
     if count < 2:
         return ""
     if not step:

@@ -179,6 +179,6 @@ def _named(key: _Key) -> str:
 
 
 def _lifetime(marker: Any) -> float:
-    """Seconds; 0 is for ever, and so is a negative one."""
+    """Seconds; 0 or a negative number sets no limit."""
     seconds = int(marker.lifetime.sec) + int(marker.lifetime.nanosec) * 1e-9
     return min(max(0.0, seconds), _LONGEST_LIFETIME)

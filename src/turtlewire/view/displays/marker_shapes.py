@@ -80,7 +80,7 @@ class MarkerShape(NamedTuple):
 
 
 def marker_shape(marker: Any, budget: int, warn: Callable[[str], None]) -> MarkerShape:
-    """What to draw of a Marker whose action is ADD.
+    """Return the shape of a Marker whose action is ADD.
 
     Args:
         marker: The message.
@@ -141,7 +141,7 @@ def _scale_of(marker: Any, shape: str, warn: Callable[[str], None]) -> list[floa
 def _points(
     marker: Any, shape: str, budget: int, warn: Callable[[str], None]
 ) -> tuple[NDArray[np.intp], NDArray[np.float32], NDArray[np.uint8]]:
-    """Which points are drawn, where they are, and their colours if they have their own."""
+    """Return the indices, positions and own colours of the points to draw."""
     count, colors = len(marker.points), len(marker.colors)
     least, group = _GROUPS.get(shape, (2, 1))
     if count < least:
@@ -169,7 +169,7 @@ def _points(
 
 
 def _picked(shape: str, count: int, group: int, budget: int) -> NDArray[np.intp]:
-    """Which points are drawn."""
+    """Return the indices of the points to draw."""
     if shape in _THINNED:
         items = spread(count // group, max(1, budget // group))
         return (items[:, None] * group + np.arange(group)).reshape(-1)

@@ -44,12 +44,12 @@ _NONE = MarkerTexture(None, np.empty((0, 2), np.float32), np.empty(0, np.uint8),
 def marker_texture(
     marker: Any, picked: NDArray[np.intp], warn: Callable[[str], None]
 ) -> MarkerTexture:
-    """The texture of a TRIANGLE_LIST.
+    """Return the texture of a TRIANGLE_LIST.
 
     Args:
         marker: The message.
         picked: Which of its points are drawn.
-        warn: Gets why there is none although the marker names one.
+        warn: Called with the reason if the named texture is missing.
 
     Raises:
         UnusableMessageError: The image is too large.

@@ -142,7 +142,7 @@ def anchored(points: NDArray[np.float64]) -> tuple[NDArray[np.float32], Vector]:
 
 
 def spread(count: int, budget: int) -> NDArray[np.intp]:
-    """Which of ``count`` items are kept so that at most ``budget`` are, evenly spread."""
+    """Return the indices of at most ``budget`` of ``count`` items, evenly spread."""
     if count <= budget:
         return np.arange(count)
     return np.linspace(0, count - 1, max(1, budget)).astype(np.intp)

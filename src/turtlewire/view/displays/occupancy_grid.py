@@ -43,7 +43,7 @@ class OccupancyGridDisplay(Display):
     _shown: Content | None = None
 
     def start(self) -> list[Output]:
-        """The map again, as far as it is known, when it is to be placed in another way."""
+        """Return the map again, as far as it is known, when it is to be placed in another way."""
         shown, locked = self._shown, not self.options.flag("use_timestamp")
         if shown is None or self._cells is None or shown.locked == locked:
             return []
@@ -109,7 +109,7 @@ def _cells_of(message: Any, width: int, height: int) -> NDArray[np.int8]:
 
 
 def _coarse(cells: NDArray[np.int8], step: int) -> NDArray[np.int8]:
-    """The greatest value of each block of ``step`` x ``step`` cells; -1 is unknown."""
+    """Return the greatest value of each block of ``step`` x ``step`` cells; -1 is unknown."""
     if step == 1:
         return np.ascontiguousarray(cells)
     rows = np.maximum.reduceat(cells, np.arange(0, cells.shape[0], step), axis=0)

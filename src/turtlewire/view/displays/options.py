@@ -55,7 +55,7 @@ class Option:
     choices: tuple[str, ...] = ()
 
     def accepts(self, value: object) -> bool:
-        """Whether this is a value of the option."""
+        """Return True if this is a value of the option."""
         if self.type == "number":
             return _is_number(value) and self.low <= value <= self.high
         if self.type == "bool":
@@ -69,7 +69,7 @@ class Option:
         return isinstance(value, str) and len(value) <= _LONGEST_TEXT
 
     def wanted(self) -> str:
-        """What it accepts, in words."""
+        """Describe the accepted values."""
         if self.type == "number":
             least = "" if self.low == -_LARGEST else f" from {self.low:g}"
             most = "" if self.high == _LARGEST else f" to {self.high:g}"
@@ -84,7 +84,7 @@ class Option:
 
 @cache
 def option_table(kind: str) -> Mapping[str, Option]:
-    """The options of a kind of display, by name."""
+    """Return the options of a kind of display, by name."""
     return {option.name: option for option in map(_option, _listed(kind))}
 
 
@@ -115,7 +115,7 @@ class Options(Mapping[str, object]):
         return len(self._table)
 
     def number(self, name: str) -> float:
-        """A finite number."""
+        """Return a finite number."""
         value = self[name]
         assert _is_number(value)
         return value
@@ -125,7 +125,7 @@ class Options(Mapping[str, object]):
         return self[name] is True
 
     def text(self, name: str) -> str:
-        """A text, or the name of a choice."""
+        """Return a text, or the name of a choice."""
         return str(self[name])
 
     def color(self, name: str) -> _Color:
@@ -136,7 +136,7 @@ class Options(Mapping[str, object]):
 
 
 def check_option(kind: str, name: str, value: object) -> None:
-    """See whether an option of a display takes a value.
+    """Check that an option of a display accepts a value.
 
     Raises:
         OptionError: It does not, or there is no such option.

@@ -37,7 +37,7 @@ class PointCloudDisplay(PointsDisplay):
     kind = "point_cloud"
 
     def points(self, message: Any, budget: int, part: str, header: dict[str, Any]) -> Content:
-        """The cloud's points that are finite."""
+        """Return the cloud's points that are finite."""
         points = picked_points(message, budget, self.warn)
         count = message.width * message.height
         xyz = np.stack([points[name].astype(np.float64) for name in "xyz"], axis=1)
@@ -63,7 +63,7 @@ class PointCloudDisplay(PointsDisplay):
         return by_axis(moved(matrices, xyz), self.options)
 
     def _colors(self, points: NDArray[np.void]) -> NDArray[np.uint8] | None:
-        """The colours, or None for those of the axis."""
+        """Return the colours, or None for the axis's."""
         names = points.dtype.names or ()
         way, channel = self.options.text("color"), self.options.text("channel")
         packed = next((name for name in ("rgb", "rgba") if name in names), None)

@@ -52,7 +52,7 @@ class PointsDisplay(Display):
         return gone
 
     def points(self, message: Any, budget: int, part: str, header: dict[str, Any]) -> Content:
-        """What to send of a message.
+        """Return the points of a message.
 
         Args:
             message: The message.
@@ -76,14 +76,14 @@ class PointsDisplay(Display):
         return [content, *self._gone(now)]
 
     def _expected(self, now: int, decay: float) -> float:
-        """How many messages stay at a time, by the interval of the last two."""
+        """Estimate the number of messages shown at a time from the last interval."""
         came, self._came_ns = self._came_ns, now
         if came is None:
             return 1.0
         return min(_MOST_KEPT, max(1.0, decay * 1e9 / max(1, now - came)))
 
     def _gone(self, now: int) -> list[Output]:
-        """Those whose time is over, and the oldest ones of too many points."""
+        """Remove expired messages, and the oldest beyond the limit of points."""
         gone: list[Output] = []
         total = sum(kept.size for kept in self._kept)
         while len(self._kept) > 1:
@@ -97,6 +97,6 @@ class PointsDisplay(Display):
 
 
 def moved(matrices: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Each point ``(n, 3)`` by its matrix ``(n, 4, 4)``, or all by one ``(1, 4, 4)``."""
+    """Return each point ``(n, 3)`` by its matrix ``(n, 4, 4)``, or all by one ``(1, 4, 4)``."""
     turned: NDArray[np.float64] = np.einsum("nij,nj->ni", matrices[:, :3, :3], points)
     return turned + matrices[:, :3, 3]

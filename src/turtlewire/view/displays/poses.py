@@ -42,7 +42,7 @@ class PoseDisplay(Display):
         return [Content(header, {}, frame_of(message), stamp_ns_of(message))]
 
     def _header(self, pose: Any) -> dict[str, Any]:
-        """The pose and, if it has one, its covariance."""
+        """Return the pose and, if it has one, its covariance."""
         if not hasattr(pose, "covariance"):
             return {"at": finite_pose(pose, self.warn), "covariance": None}
         shape = covariance_shape(pose.covariance, self.warn)

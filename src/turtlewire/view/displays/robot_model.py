@@ -50,7 +50,7 @@ class RobotModelDisplay(Display):
         return "/" + self.options.text("node").strip("/"), self.options.text("parameter")
 
     def start(self) -> list[Output]:
-        """The robot of the file, if it is to come from there; one from elsewhere goes."""
+        """Return the robot of the file, if it is to come from there; one from elsewhere goes."""
         file = self.options.text("description_file")
         origin = (self.options.text("source"), *(self.parameter or ()), file)
         gone: list[Output] = [] if self._origin in {None, origin} else [Removal("")]
@@ -60,11 +60,11 @@ class RobotModelDisplay(Display):
         return gone
 
     def content(self, message: Any) -> list[Output]:
-        """The robot of a message, if it is to come from there."""
+        """Return the robot of a message, if it is to come from there."""
         return super().content(message) if self.options.text("source") == "topic" else []
 
     def take_parameter(self, text: str) -> list[Output]:
-        """The robot that a parameter describes."""
+        """Return the robot that a parameter describes."""
         return self._answer(lambda: [self._robot(text)])
 
     def _outputs(self, message: Any) -> list[Output]:
@@ -90,7 +90,7 @@ def _text_of(file: str) -> str:
 
 
 def robot_content(text: str, tf_prefix: str, warn: Callable[[str], None]) -> Content:
-    """What to draw of a URDF.
+    """Return the drawing of a URDF.
 
     The header's ``links`` have ``name``, the ``frame`` that each hangs on, and ``visuals`` and
     ``collisions`` with shape, origin (x, y, z, qx, qy, qz, qw), colour, texture and mesh; ``mass``

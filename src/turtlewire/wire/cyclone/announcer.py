@@ -80,7 +80,7 @@ class Announcer:
         self._reader.call_at(when, self._publish)
 
     def nodes(self) -> list[NodeEndpoints]:
-        """The nodes of this participant."""
+        """Return the nodes of this participant."""
         with self._lock:
             return [
                 NodeEndpoints(

@@ -38,7 +38,7 @@ _LAST_PORT = 65535
 
 
 def domain_configuration(domain_id: int, discovery: Discovery) -> str:
-    """The configuration.
+    """Return the configuration.
 
     Ours first and then ``CYCLONEDDS_URI``, so that the user has the last word.
 
@@ -64,7 +64,7 @@ def domain_configuration(domain_id: int, discovery: Discovery) -> str:
 
 
 def stays_on_loopback(discovery: Discovery) -> bool:
-    """Whether the loopback interface is the only one that the configuration uses."""
+    """Return True if the loopback interface is the only one that the configuration uses."""
     is_wide = discovery.range in {Range.SUBNET, Range.SYSTEM_DEFAULT}
     return not is_wide and not discovery.static_peers
 
@@ -96,7 +96,7 @@ def _peers(discovery: Discovery) -> str:
 
 
 def _resolved(peer: str) -> str:
-    """The IPv4 address of a static peer, and its port if it has one.
+    """Return the IPv4 address of a static peer, and its port if it has one.
 
     Empty, after a warning, when there is no such host.
 

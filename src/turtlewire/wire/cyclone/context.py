@@ -42,7 +42,6 @@ class CycloneContext(Context):
 
     @property
     def graph(self) -> CycloneGraph:
-        """See :attr:`Context.graph`."""
         with self._lock:
             core = self._core
             if core.graph is None:
@@ -51,7 +50,6 @@ class CycloneContext(Context):
             return core.graph
 
     def create_node(self, name: str, namespace: str = "/", enclave: str = "/") -> CycloneNode:
-        """See :meth:`Context.create_node`."""
         with self._lock:
             self._require_open(f"create node {name}")
             if enclave != self._enclave:
@@ -75,7 +73,6 @@ class CycloneContext(Context):
         self._core.graph_changed()
 
     def create_wait_set(self) -> WaitSet:
-        """See :meth:`Context.create_wait_set`."""
         with self._lock:
             self._require_open("create a wait set")
             wait_set = CycloneWaitSet(self._core.participant.handle, self._wait_sets.discard)
@@ -83,7 +80,6 @@ class CycloneContext(Context):
         return wait_set
 
     def call_soon(self, call: Callable[[], None]) -> None:
-        """See :meth:`Context.call_soon`."""
         self._core.reader.call_soon(call)
 
     def _require_open(self, what: str) -> None:
@@ -97,7 +93,6 @@ class CycloneContext(Context):
             )
 
     def close(self) -> None:
-        """See :meth:`Context.close`."""
         with self._lock:
             if self._core.closing or self._process != os.getpid():
                 return

@@ -56,7 +56,7 @@ class EndpointSpec(NamedTuple):
 
     @property
     def user_data(self) -> bytes:
-        """What is announced beside the QoS."""
+        """USER_DATA announced with the QoS."""
         return format_user_data(**self.identity, typehash=self.type_id.type_hash)
 
 
@@ -105,11 +105,10 @@ class Endpoint(Entity):
 
     @property
     def closed(self) -> bool:
-        """Whether :meth:`close` was called."""
+        """True if :meth:`close` was called."""
         return self._closed
 
     def create_event(self, kind: EventKind) -> Event:
-        """See :meth:`Publisher.create_event`."""
         if kind not in self._sources and kind is not EventKind.INCOMPATIBLE_TYPE:
             raise WireError(
                 f"{type(self).__name__} of {self.spec.name} has no event '{kind.value}'"
@@ -136,7 +135,6 @@ class Endpoint(Entity):
                 self._event(kind).add(source.translate(status))
 
     def close(self) -> None:
-        """See :meth:`Entity.close`."""
         with self._lock:
             if self._closed:
                 return

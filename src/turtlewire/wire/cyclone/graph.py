@@ -67,7 +67,7 @@ class _BuiltinReader:
         )
 
     def take(self, sample: type[S]) -> Iterator[tuple[bool, S]]:
-        """What is new: whether it is alive, and the sample (only its key is valid when not)."""
+        """Yield new samples, each after True if it is alive; else only its key is valid."""
         pointers, infos = (ctypes.c_void_p * _BATCH)(), (dds.SampleInfo * _BATCH)()
         count = _BATCH
         while count == _BATCH:
@@ -168,7 +168,6 @@ class CycloneGraph(GraphView):
         return bool(infos) or any(news)
 
     def hurry(self) -> None:
-        """See :meth:`Graph.hurry`."""
         with self._lock:
             self._hurries = True
             self._ask_soon()
@@ -192,7 +191,7 @@ class CycloneGraph(GraphView):
         return self._silent_peers.to_ask(self._unannounced(), announcers)
 
     def _unannounced(self) -> set[bytes]:
-        """The other ROS participants whose nodes are not known."""
+        """Return the other ROS participants whose nodes are not known."""
         known = self._announced.keys() | {self._participant_gid}
         return {gid for gid, enclave in self._enclaves.items() if enclave} - known
 
@@ -267,7 +266,7 @@ class CycloneGraph(GraphView):
         ]
 
     def is_complete(self) -> bool:
-        """See :meth:`Graph.is_complete`.
+        """Return True once all announced endpoints are known.
 
         Each ROS participant has announced its nodes, and each endpoint of theirs is known.
         """
@@ -286,13 +285,11 @@ class CycloneGraph(GraphView):
             return not self._unannounced() and all(gid in self._endpoints for gid in gids)
 
     def nodes(self) -> list[NodeInfo]:
-        """See :meth:`Graph.nodes`."""
         self._look_first()
         with self._lock:
             return [info for info, _ in self._all_nodes()]
 
     def endpoints(self) -> list[EndpointInfo]:
-        """See :meth:`Graph.endpoints`."""
         self._look_first()
         with self._lock:
             owners = {
@@ -306,7 +303,6 @@ class CycloneGraph(GraphView):
             ]
 
     def foreign_servers(self) -> list[ForeignServer]:
-        """See :meth:`Graph.foreign_servers`."""
         self._look_first()
         with self._lock:
             foreign = {

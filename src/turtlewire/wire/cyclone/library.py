@@ -367,7 +367,7 @@ def check(code: int, what: str) -> int:
 
 
 def guid_of(entity: int) -> bytes:
-    """The 16 bytes that identify a participant, writer or reader."""
+    """Return the 16 bytes that identify a participant, writer or reader."""
     guid = Guid()
     check(get_guid(entity, guid), "read a guid")
     return bytes(guid)

@@ -45,7 +45,7 @@ _STDERR = {"linux": "stderr", "darwin": "__stderrp"}
 
 
 def explain(line: str) -> str:
-    """A line of Cyclone's, without its time and thread, as a sentence of ours."""
+    """Return a line of Cyclone's, without its time and thread, as a sentence of ours."""
     refused = re.match(_REFUSED, line)
     if refused:
         return (
@@ -71,7 +71,7 @@ class LineLimiter:
         self._last = ""
 
     def sentences(self, line: str, now: float) -> list[str]:
-        """What to say when Cyclone wrote ``line``."""
+        """Return the sentences for a line of Cyclone's log."""
         said = self.summary(now)
         if self.period_end is None:
             self.period_end = now + _PERIOD_S
@@ -85,7 +85,7 @@ class LineLimiter:
         return said
 
     def summary(self, now: float) -> list[str]:
-        """What to say of the lines that a period left out, if it has ended by ``now``."""
+        """Return a summary of the lines that were left out, once the period has ended."""
         if self.period_end is None or now < self.period_end:
             return []
         more, self._more, self.period_end = self._more, 0, None
@@ -132,7 +132,7 @@ class CycloneLog:
             self._stderr.value = before
 
     def unread(self) -> list[str]:
-        """The unread lines; for the time before :meth:`start`."""
+        """Return the unread lines; for the time before :meth:`start`."""
         if self._file is None or self._thread is not None:
             return []
         return list(filter(None, map(_text_of, self._read().splitlines())))

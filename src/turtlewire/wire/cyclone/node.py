@@ -57,7 +57,6 @@ class CycloneNode(Node):
         core.announcer.add(self.record)
 
     def create_publisher(self, topic: str, type_id: TypeId, qos: QoS) -> Publisher:
-        """See :meth:`Node.create_publisher`."""
         qos = with_best_available(qos, topic, "publisher", self.context)
         dds_topic = names.topic_to_dds(topic, bare=qos.avoid_ros_namespace_conventions)
         return self._publisher(EndpointSpec(topic, dds_topic, type_id, qos))
@@ -70,7 +69,6 @@ class CycloneNode(Node):
         on_message: Callable[[bytes, MessageInfo], None] | None = None,
         sink: Sink | None = None,
     ) -> Subscription:
-        """See :meth:`Node.create_subscription`."""
         qos = with_best_available(qos, topic, "subscription", self.context)
         dds_topic = names.topic_to_dds(topic, bare=qos.avoid_ros_namespace_conventions)
         subscription = self._subscription(EndpointSpec(topic, dds_topic, type_id, qos), sink)
@@ -91,7 +89,6 @@ class CycloneNode(Node):
         self._core.reader.watch(condition, deliver)
 
     def create_client(self, service: str, types: ServiceTypes, qos: QoS) -> Client:
-        """See :meth:`Node.create_client`."""
         identity = {"clientid": self._service_id()}
         topic = names.request_topic(service)
         requests = self._publisher(
@@ -103,7 +100,6 @@ class CycloneNode(Node):
         return CycloneClient(service, requests, replies)
 
     def create_service(self, service: str, types: ServiceTypes, qos: QoS) -> Service:
-        """See :meth:`Node.create_service`."""
         identity = {"serviceid": self._service_id()}
         replies = self._publisher(
             EndpointSpec(service, names.reply_topic(service), types.response, qos, identity)
@@ -147,7 +143,6 @@ class CycloneNode(Node):
         self._core.announcer.changed()
 
     def close(self) -> None:
-        """See :meth:`Entity.close`."""
         with self._lock:
             endpoints = list(self._endpoints)
         for endpoint in endpoints:

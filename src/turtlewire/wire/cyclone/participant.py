@@ -59,7 +59,7 @@ class _Domains:
             self._users[domain_id] = self._users.get(domain_id, 0) + 1
 
     def _notice_fork(self) -> None:
-        """A forked child has none of Cyclone's threads, and Cyclone would wait for them for ever.
+        """A forked child has none of Cyclone's threads, and Cyclone would wait for them forever.
 
         A new context is of no use there.
         """

@@ -22,7 +22,7 @@ _LOCAL_PORT = re.compile(r"^\s*\d+: [0-9A-F]+:([0-9A-F]{4}) ", re.MULTILINE)
 
 
 def max_processes(domain_id: int) -> int:
-    """How many processes of one host a domain takes: it has ports for them and one more.
+    """Return the largest number of processes of one host in a domain, by its ports.
 
     The last domain has fewer than the others.
     """
@@ -40,7 +40,7 @@ def ports_of(domain_id: int) -> range:
 
 
 def processes_on_host(domain_id: int) -> int | None:
-    """The number of processes of the domain in this host's network namespace.
+    """Return the number of processes of the domain in this host's network namespace.
 
     None where the kernel does not tell (only Linux does).
     """
@@ -56,12 +56,12 @@ def processes_on_host(domain_id: int) -> int | None:
 
 
 def is_cyclone(gid: bytes) -> bool:
-    """Whether the gid is one of Cyclone's: it begins with the number of the vendor."""
+    """Return True if the gid is one of Cyclone's: it begins with the number of the vendor."""
     return gid.startswith(_CYCLONE)
 
 
 def process_of(gid: bytes) -> bytes:
-    """What participants of one process have in common in their gids.
+    """Return the part of a gid that participants of one process share.
 
     Other vendors than Cyclone have one port for each participant.
     """

@@ -65,7 +65,6 @@ class CyclonePublisher(Endpoint, Publisher):
         self.on_closing.append(self._writer.close)
 
     def publish(self, cdr: Cdr) -> None:
-        """See :meth:`Publisher.publish`."""
         code = self._write(cdr)
         if code < 0:
             self._refused(code, joined(cdr))
@@ -90,26 +89,21 @@ class CyclonePublisher(Endpoint, Publisher):
         dds.check(code, f"publish on {self.topic}")
 
     def outlet(self) -> Outlet | None:
-        """See :meth:`Publisher.outlet`."""
         return None if NATIVE is None else self._writer
 
     def is_heard(self) -> bool:
-        """See :meth:`Publisher.is_heard`."""
         return self._heard or self.subscription_count() > 0
 
     def _subscriptions_changed(self) -> None:
         self._heard = self.subscription_count() > 0
 
     def subscription_count(self) -> int:
-        """See :meth:`Publisher.subscription_count`."""
         return max(0, int(dds.matched_subscriptions(self.handle, None, 0)))
 
     def assert_liveliness(self) -> None:
-        """See :meth:`Publisher.assert_liveliness`."""
         dds.check(dds.assert_liveliness(self.handle), f"assert liveliness on {self.topic}")
 
     def wait_for_acknowledgments(self, timeout_ns: int) -> bool:
-        """See :meth:`Publisher.wait_for_acknowledgments`."""
         code = dds.wait_for_acks(self.handle, timeout_ns)
         if code == dds.RETCODE_TIMEOUT:
             return False

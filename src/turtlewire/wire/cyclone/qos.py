@@ -82,7 +82,7 @@ def _set_history_and_durability(pointer: int, qos: QoS) -> None:
 
 
 def read_qos(pointer: int) -> QoS:
-    """What a ``dds_qos_t`` of a discovered endpoint says.
+    """Read the ``dds_qos_t`` of a discovered endpoint.
 
     What it does not say stays at our defaults.
     """
@@ -110,7 +110,7 @@ def read_qos(pointer: int) -> QoS:
 
 
 def read_user_data(pointer: int) -> bytes:
-    """The user data of a discovered participant or endpoint."""
+    """Return the user data of a discovered participant or endpoint."""
     data, size = c_void_p(), c_size_t()
     if not dds.qget_user_data(pointer, data, size) or not data.value:
         return b""
@@ -121,5 +121,5 @@ def read_user_data(pointer: int) -> bytes:
 
 
 def policy_kind(policy_id: int) -> int:
-    """The number that ROS 2 has for a policy of DDS."""
+    """Return the number that ROS 2 has for a policy of DDS."""
     return _POLICY_KINDS.get(policy_id, _POLICY_KIND_INVALID)

@@ -55,7 +55,7 @@ def _of_topic(topic: int) -> int:
 
 
 def _find_default_type(words: list[int]) -> int:
-    """Which of the words is the address of a default type, whose first word is its table's."""
+    """Return the index of the word that is a default type's address."""
     table = ctypes.addressof(dds.default_types).to_bytes(_WORD, sys.byteorder)
     reading, writing = os.pipe()
     try:

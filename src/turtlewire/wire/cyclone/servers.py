@@ -62,12 +62,12 @@ class MatchedEndpoint(NamedTuple):
 
 
 def is_fast_dds(gid: bytes) -> bool:
-    """Whether the gid is one of Fast DDS, the default middleware of ROS 2."""
+    """Return True if the gid is one of Fast DDS, the default middleware of ROS 2."""
     return gid.startswith(_FAST_DDS)
 
 
 def foreign_middleware(gid: bytes, ids: dict[str, str]) -> str:
-    """The middleware of a server that reads requests in another layout than ours.
+    """Return the middleware of a server that reads requests in another layout than ours.
 
     Empty for a server on rmw_cyclonedds.
 
@@ -85,7 +85,7 @@ def matched_endpoints(
     matched: list[int],
     read_matched: Callable[..., ctypes._Pointer[dds.BuiltinEndpoint]],
 ) -> list[MatchedEndpoint]:
-    """What the matching readers or writers announce, without those that have left meanwhile.
+    """Return the announcements of the matching readers or writers that are still there.
 
     Args:
         handle: Cyclone's handle of our endpoint.
@@ -118,7 +118,7 @@ class Servers:
         self._known: tuple[list[int], list[MatchedEndpoint]] = ([], [])
 
     def now(self) -> list[MatchedEndpoint]:
-        """Those that match at this moment."""
+        """Return the endpoints that match now."""
         handles = matched_handles(self._writer, dds.matched_subscriptions)
         known, servers = self._known
         if handles != known:
@@ -128,5 +128,5 @@ class Servers:
 
 
 def foreign_among(servers: list[MatchedEndpoint]) -> str:
-    """The middleware of a server that would misread a request; empty if none would."""
+    """Return the middleware of a server that would misread a request; empty if none would."""
     return next(filter(None, (foreign_middleware(*server) for server in servers)), "")

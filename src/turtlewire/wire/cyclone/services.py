@@ -62,14 +62,13 @@ class CycloneClient(TopicClient):
         self._servers = Servers(requests.handle)
 
     def send_request(self, cdr: bytes) -> int:
-        """See :meth:`Client.send_request`."""
         middleware = foreign_among(self._servers.now())
         if middleware:
             raise not_callable(self.service, middleware)
         return super().send_request(cdr)
 
     def is_ready(self) -> bool:
-        """See :meth:`Client.is_ready`.
+        """Return True once a server is matched in both directions.
 
         One and the same server reads our requests and writes replies to us.
         """
@@ -118,7 +117,6 @@ class CycloneService(TopicService):
         requests.on_matched.insert(0, requests.learn_publishers)
 
     def take(self, limit: int = 32) -> list[tuple[RequestId, bytes]]:
-        """See :meth:`Service.take`."""
         requests = []
         for payload, info in self.requests.take(limit):
             split = split_header(payload)
@@ -148,7 +146,6 @@ class CycloneService(TopicService):
             self._clients[client_id] = client
 
     def send_response(self, request_id: RequestId, cdr: bytes) -> None:
-        """See :meth:`Service.send_response`."""
         payload = join_header(request_id, cdr)
         client = self._clients.get(request_id.client_id)
         if client is not None and not self._can_reach(client):

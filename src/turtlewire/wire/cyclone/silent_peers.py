@@ -50,7 +50,7 @@ class SilentPeers:
         self._asked = Questions(set(), set())
 
     def to_ask(self, silent: Iterable[bytes], announcers: Iterable[bytes]) -> Questions:
-        """Which participants have to be asked.
+        """Return the questions to silent participants.
 
         Args:
             silent: Gids of the ROS participants whose nodes are not known.

@@ -98,7 +98,7 @@ class CycloneSubscription(Endpoint, Subscription):
         self._created(handle)
 
     def condition(self) -> int:
-        """The condition that is true while messages are waiting."""
+        """Return the condition that is true while messages are waiting."""
         if self.inlet is not None:
             return self.inlet.guard
         with self._lock:
@@ -108,7 +108,6 @@ class CycloneSubscription(Endpoint, Subscription):
             return self._condition
 
     def take(self, limit: int = _BATCH) -> list[tuple[bytes, MessageInfo]]:
-        """See :meth:`Subscription.take`."""
         with self._lock:
             if self._closed:
                 return []
@@ -121,7 +120,7 @@ class CycloneSubscription(Endpoint, Subscription):
             return messages
 
     def take_rest(self, inlet: Inlet) -> list[tuple[bytes, MessageInfo]] | None:
-        """What a sink left, readable or not; None when that was nothing."""
+        """Take the messages that a sink left, readable or not; None if it left nothing."""
         kept = inlet.rest(self._known_gid)
         messages = self._messages_of(kept)
         if self._forget and not kept:
@@ -129,7 +128,7 @@ class CycloneSubscription(Endpoint, Subscription):
         return messages if kept else None
 
     def _take_left(self, inlet: Inlet) -> list[tuple[bytes, MessageInfo]]:
-        """What a sink left, for one who waits for it: it stays ready until there is nothing."""
+        """Take the messages that a sink left; the subscription stays ready until all are taken."""
         while (rest := self.take_rest(inlet)) is not None:
             if rest:
                 inlet.call_again()
@@ -137,12 +136,12 @@ class CycloneSubscription(Endpoint, Subscription):
         return []
 
     def _known_gid(self, publisher: int) -> bytes:
-        """The gid of a publisher; empty if it has gone already."""
+        """Return the gid of a publisher; empty if it has gone already."""
         gid = self._gids.get(publisher) or self._gid_of(publisher)
         return gid if publisher in self._gids else b""
 
     def _messages_of(self, taken: list[tuple[bytes, int, int]]) -> list[tuple[bytes, MessageInfo]]:
-        """Those that are readable."""
+        """Return the readable messages."""
         now = time.time_ns()
         return [
             (data, MessageInfo(sent, now, self._gids.get(publisher) or self._gid_of(publisher)))
@@ -151,7 +150,7 @@ class CycloneSubscription(Endpoint, Subscription):
         ]
 
     def take_bytes(self) -> list[bytes]:
-        """All waiting messages, readable or not, if it does not matter who sent them."""
+        """Return all waiting messages, readable or not, if it does not matter who sent them."""
         return [data for data, _, _ in take_messages(self.handle, _EVERYTHING)]
 
     def learn_publishers(self) -> None:
@@ -201,7 +200,7 @@ class CycloneSubscription(Endpoint, Subscription):
             )
 
     def user_data_of(self, publisher_gid: bytes) -> bytes:
-        """What the publisher of a taken message announced of itself.
+        """Return the USER_DATA of a taken message's publisher.
 
         Empty when that is not known.
         """
@@ -216,11 +215,9 @@ class CycloneSubscription(Endpoint, Subscription):
         return False
 
     def publisher_count(self) -> int:
-        """See :meth:`Subscription.publisher_count`."""
         return max(0, int(dds.matched_publications(self.handle, None, 0)))
 
     def close(self) -> None:
-        """See :meth:`Entity.close`."""
         for wait_set in list(self.wait_sets):
             wait_set.detach(self)
         super().close()
@@ -236,7 +233,7 @@ class CycloneSubscription(Endpoint, Subscription):
 def deliver_to(
     subscription: CycloneSubscription, on_message: Callable[[bytes, MessageInfo], None]
 ) -> Callable[[], None]:
-    """What the reader thread calls when messages are waiting on a subscription."""
+    """Return the function that the reader thread calls when messages wait."""
 
     def deliver() -> None:
         for message in subscription.take():

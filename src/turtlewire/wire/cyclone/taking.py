@@ -1,4 +1,4 @@
-"""Messages out of a reader: by native code, or through ctypes where there is none."""
+"""Messages out of a reader: by native code, or through ctypes without it."""
 
 from __future__ import annotations
 

@@ -99,7 +99,6 @@ class CycloneWaitSet(EventWatcher, WaitSet):
         self._conditions: ConditionSet[Entity] = ConditionSet(participant)
 
     def attach(self, entity: Waitable) -> None:
-        """See :meth:`WaitSet.attach`."""
         if isinstance(entity, StatusEvent):
             entity.attach(self)
         else:
@@ -108,7 +107,6 @@ class CycloneWaitSet(EventWatcher, WaitSet):
             subscription.wait_sets.add(self)
 
     def detach(self, entity: Waitable) -> None:
-        """See :meth:`WaitSet.detach`."""
         if isinstance(entity, StatusEvent):
             entity.detach(self)
         else:
@@ -118,17 +116,14 @@ class CycloneWaitSet(EventWatcher, WaitSet):
                 self._conditions.detach(subscription.condition())
 
     def wait(self, timeout_ns: int | None = None) -> list[Entity]:
-        """See :meth:`WaitSet.wait`."""
         ready = self._conditions.wait(0 if self.ready_events() else timeout_ns)
         ready += self.ready_events()
         return ready
 
     def wake(self) -> None:
-        """See :meth:`WaitSet.wake`."""
         self._conditions.wake()
 
     def close(self) -> None:
-        """See :meth:`Entity.close`."""
         self._on_closing(self)
         self._conditions.close()
 

@@ -1,4 +1,4 @@
-"""Messages into a writer: by native code, or through ctypes where there is none."""
+"""Messages into a writer: by native code, or through ctypes without it."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class CtypesWriter:
         self._closed = False
 
     def write(self, cdr: Cdr) -> int:
-        """See ``Writer.write``."""
+        """Write a message; return 0 or an error code."""
         cdr = joined(cdr)
         if not is_message(cdr):
             return NO_MESSAGE
@@ -63,13 +63,13 @@ class CtypesWriter:
         return int(dds.write_serdata(self._handle, serdata)) if serdata else REFUSED
 
     def close(self) -> None:
-        """See ``Writer.close``."""
+        """Refuse later writes."""
         with self._lock:
             self._closed = True
 
 
 def make_writer(handle: int) -> Writer:
-    """What sends messages with a DDS writer.
+    """Return a sender of messages on a DDS writer.
 
     Raises:
         WireError: The writer has no type.

@@ -24,7 +24,7 @@ _buses_lock = threading.Lock()
 
 
 def bus_of(domain_id: int) -> Bus:
-    """The one bus of a domain."""
+    """Return the one bus of a domain."""
     with _buses_lock:
         return _buses.setdefault(domain_id, Bus())
 
@@ -69,11 +69,11 @@ class Bus:
         self._topics: dict[tuple[str, str], _Topic] = {}
 
     def publishers(self) -> list[LocalEndpoint]:
-        """All of them; called with the lock held."""
+        """Return all of them; called with the lock held."""
         return [publisher for topic in self._topics.values() for publisher in topic.publishers]
 
     def subscriptions(self) -> list[LocalEndpoint]:
-        """All of them; called with the lock held."""
+        """Return all of them; called with the lock held."""
         return [
             subscription for topic in self._topics.values() for subscription in topic.subscriptions
         ]
@@ -145,7 +145,7 @@ def _meet(publisher: LocalEndpoint, subscription: LocalEndpoint) -> None:
 
 
 def _misfit(publisher: LocalEndpoint, subscription: LocalEndpoint) -> int:
-    """The policy that does not fit, or 0."""
+    """Return the policy that does not fit, or 0."""
     offered, requested = publisher.qos, subscription.qos
     if (
         offered.reliability == Reliability.BEST_EFFORT

@@ -29,12 +29,10 @@ class _LocalGraph(GraphView):
         self._bus = bus
 
     def nodes(self) -> list[NodeInfo]:
-        """See :meth:`Graph.nodes`."""
         with self._bus.lock:
             return list(self._bus.nodes)
 
     def endpoints(self) -> list[EndpointInfo]:
-        """See :meth:`Graph.endpoints`."""
         with self._bus.lock:
             publishers = [publisher.info("publisher") for publisher in self._bus.publishers()]
             return publishers + [
@@ -61,7 +59,6 @@ class LocalContext(Context):
 
     @property
     def graph(self) -> GraphView:
-        """See :attr:`Context.graph`."""
         return self._graph
 
     def _graph_changed(self) -> None:
@@ -74,7 +71,6 @@ class LocalContext(Context):
         self._reader = reader
 
     def create_node(self, name: str, namespace: str = "/", enclave: str = "/") -> LocalNode:
-        """See :meth:`Context.create_node`."""
         core = NodeCore(NodeInfo(name, namespace, enclave), self.bus, self._reader)
         node = LocalNode(self, core, self._forget)
         with self.bus.lock:
@@ -94,7 +90,6 @@ class LocalContext(Context):
         self.bus.changed()
 
     def create_wait_set(self) -> WaitSet:
-        """See :meth:`Context.create_wait_set`."""
         with self.bus.lock:
             self._require_open("create a wait set")
             wait_set = QueueWaitSet(self.bus.lock, self._wait_sets.discard)
@@ -102,7 +97,6 @@ class LocalContext(Context):
         return wait_set
 
     def call_soon(self, call: Callable[[], None]) -> None:
-        """See :meth:`Context.call_soon`."""
         self._reader.submit(call)
 
     def _require_open(self, what: str) -> None:
@@ -110,7 +104,6 @@ class LocalContext(Context):
             raise WireError(f"{what}: the context is closed")
 
     def close(self) -> None:
-        """See :meth:`Context.close`."""
         with self.bus.lock:
             if self._closed:
                 return

@@ -77,7 +77,6 @@ class LocalEndpoint(Entity):
         self._events: dict[EventKind, StatusEvent] = {}
 
     def create_event(self, kind: EventKind) -> Event:
-        """See :meth:`Publisher.create_event`."""
         if kind not in EVENTS and kind is not EventKind.INCOMPATIBLE_TYPE:
             raise WireError(f"the in-process middleware has no event '{kind.value}'")
         return self._event(kind)
@@ -87,12 +86,12 @@ class LocalEndpoint(Entity):
             return self._events.setdefault(kind, StatusEvent(kind))
 
     def info(self, kind: str) -> EndpointInfo:
-        """What the graph shows of it; ``kind`` as in `EndpointInfo`."""
+        """Return the graph's entry of this endpoint; ``kind`` as in `EndpointInfo`."""
         topic = names.topic_from_dds(self.dds_topic) or self.dds_topic
         return EndpointInfo(kind, topic, *self.type_id, self._node, self.gid, self.qos)
 
     def kept(self) -> list[Message]:
-        """The messages that a late joiner receives."""
+        """Return the messages that a late joiner receives."""
         return []
 
     def receive(self, message: Message) -> None:
@@ -124,7 +123,6 @@ class LocalEndpoint(Entity):
         self._event(EventKind.INCOMPATIBLE_QOS).add(status)
 
     def close(self) -> None:
-        """See :meth:`Entity.close`."""
         with self._lock:
             if self._closed:
                 return

@@ -44,7 +44,6 @@ class LocalNode(Node):
         self._on_closed = on_closed
 
     def create_publisher(self, topic: str, type_id: TypeId, qos: QoS) -> Publisher:
-        """See :meth:`Node.create_publisher`."""
         qos = with_best_available(qos, topic, "publisher", self.context)
         dds_topic = names.topic_to_dds(topic, bare=qos.avoid_ros_namespace_conventions)
         return LocalPublisher(self._core, EndpointSpec(topic, dds_topic, type_id, qos))
@@ -57,28 +56,24 @@ class LocalNode(Node):
         on_message: Callable[[bytes, MessageInfo], None] | None = None,
         sink: Sink | None = None,  # noqa: ARG002 - it would gain nothing here
     ) -> Subscription:
-        """See :meth:`Node.create_subscription`."""
         qos = with_best_available(qos, topic, "subscription", self.context)
         dds_topic = names.topic_to_dds(topic, bare=qos.avoid_ros_namespace_conventions)
         spec = EndpointSpec(topic, dds_topic, type_id, qos)
         return LocalSubscription(self._core, spec, on_message)
 
     def create_client(self, service: str, types: ServiceTypes, qos: QoS) -> Client:
-        """See :meth:`Node.create_client`."""
         requests_, replies_ = _specs(service, types, qos)
         replies = LocalSubscription(self._core, replies_)
         requests = LocalPublisher(self._core, requests_)
         return TopicClient(service, int.from_bytes(requests.gid[-8:], "big"), requests, replies)
 
     def create_service(self, service: str, types: ServiceTypes, qos: QoS) -> Service:
-        """See :meth:`Node.create_service`."""
         requests_, replies_ = _specs(service, types, qos)
         requests = LocalSubscription(self._core, requests_)
         replies = LocalPublisher(self._core, replies_)
         return TopicService(service, requests, replies)
 
     def close(self) -> None:
-        """See :meth:`Entity.close`."""
         with self._core.bus.lock:
             endpoints = list(self._core.endpoints)
         for endpoint in endpoints:
@@ -87,7 +82,7 @@ class LocalNode(Node):
 
 
 def _specs(service: str, types: ServiceTypes, qos: QoS) -> tuple[EndpointSpec, EndpointSpec]:
-    """Of a service's requests and of its replies."""
+    """Return the specs of a service's requests and replies."""
     return (
         EndpointSpec(service, names.request_topic(service), types.request, qos),
         EndpointSpec(service, names.reply_topic(service), types.response, qos),

@@ -33,7 +33,6 @@ class LocalPublisher(LocalEndpoint, Publisher):
         node.bus.changed()
 
     def publish(self, cdr: Cdr) -> None:
-        """See :meth:`Publisher.publish`."""
         cdr = joined(cdr)
         require_message(cdr, self.topic)
         now = time.time_ns()
@@ -57,19 +56,17 @@ class LocalPublisher(LocalEndpoint, Publisher):
                 subscription.receive(message)
 
     def kept(self) -> list[Message]:
-        """See :meth:`LocalEndpoint.kept`."""
         oldest = time.time_ns() - self.qos.lifespan_ns if self.qos.lifespan_ns else 0
         return [message for message in self._queue if message[1].source_timestamp_ns >= oldest]
 
     def subscription_count(self) -> int:
-        """See :meth:`Publisher.subscription_count`."""
         return len(self.matched)
 
     def assert_liveliness(self) -> None:
-        """See :meth:`Publisher.assert_liveliness`; publishers of one process end together."""
+        """Do nothing: publishers of one process end together."""
 
     def wait_for_acknowledgments(self, timeout_ns: int) -> bool:  # noqa: ARG002 - see below
-        """See :meth:`Publisher.wait_for_acknowledgments`; messages arrive as they are published."""
+        """Return True: messages arrive as they are published."""
         return True
 
     def _leave(self) -> None:

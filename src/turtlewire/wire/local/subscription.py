@@ -45,14 +45,12 @@ class LocalSubscription(LocalEndpoint, Queued, Subscription):
         node.bus.changed()
 
     def meet(self, other: LocalEndpoint) -> None:
-        """See :meth:`LocalEndpoint.meet`."""
         super().meet(other)
         if self.qos.durability == Durability.TRANSIENT_LOCAL:
             for message in other.kept():
                 self.receive(message)
 
     def receive(self, message: Message) -> None:
-        """See :meth:`LocalEndpoint.receive`."""
         self._queue.append(message)
         if self._on_message is not None:
             self._core.reader.submit(self._deliver)
@@ -67,16 +65,14 @@ class LocalSubscription(LocalEndpoint, Queued, Subscription):
 
     @property
     def is_waiting(self) -> bool:
-        """Whether messages are waiting."""
+        """True if messages are waiting."""
         return bool(self._queue)
 
     def take(self, limit: int = 32) -> list[Message]:
-        """See :meth:`Subscription.take`."""
         with self._lock:
             return [self._queue.popleft() for _ in range(min(limit, len(self._queue)))]
 
     def publisher_count(self) -> int:
-        """See :meth:`Subscription.publisher_count`."""
         return len(self.matched)
 
     def _leave(self) -> None:

@@ -27,7 +27,7 @@ class Attachment(NamedTuple):
     gid: bytes
 
     def pack(self) -> bytes:
-        """The 33 bytes, as ROS 2 Jazzy (0.2.4) and later write them."""
+        """Return the 33 bytes, as ROS 2 Jazzy (0.2.4) and later write them."""
         return _LAYOUT.pack(self.sequence_number, self.source_timestamp_ns, _GID_SIZE, self.gid)
 
     @classmethod

@@ -58,7 +58,7 @@ _UNICAST = {
 
 
 def session_configuration() -> zenoh.Config:
-    """What a context opens its session with.
+    """Return the configuration of a context's session.
 
     Raises:
         WireError: ``ZENOH_SESSION_CONFIG_URI`` names no configuration, or
@@ -68,7 +68,7 @@ def session_configuration() -> zenoh.Config:
 
 
 def router_configuration() -> zenoh.Config:
-    """What ``rmw_zenohd`` opens its session with.
+    """Return the configuration of ``rmw_zenohd``.
 
     Raises:
         WireError: ``ZENOH_ROUTER_CONFIG_URI`` names no configuration, or
@@ -212,7 +212,7 @@ def _router() -> dict[str, Any]:
 
 
 def _link(*, wait_before_close_us: int) -> dict[str, Any]:
-    """Of all links: a peer that says nothing for 60 s is gone."""
+    """Return the settings of all links: a peer that is silent for 60 s is gone."""
     block = {"wait_before_close": wait_before_close_us}
     return {
         "tx": {

@@ -66,11 +66,9 @@ class ZenohContext(Context):
 
     @property
     def graph(self) -> ZenohGraph:
-        """See :attr:`Context.graph`."""
         return self._graph
 
     def create_node(self, name: str, namespace: str = "/", enclave: str = "/") -> ZenohNode:
-        """See :meth:`Context.create_node`."""
         self._require_open(f"create node {name}")
         node = ZenohNode(self, self._core, NodeInfo(name, namespace, enclave), self._forget)
         with self._core.lock:
@@ -83,14 +81,12 @@ class ZenohContext(Context):
             self._nodes.pop(node, None)
 
     def create_wait_set(self) -> WaitSet:
-        """See :meth:`Context.create_wait_set`."""
         self._require_open("create a wait set")
         wait_set = QueueWaitSet(self._core.lock, self._wait_sets.discard)
         self._wait_sets.add(wait_set)
         return wait_set
 
     def call_soon(self, call: Callable[[], None]) -> None:
-        """See :meth:`Context.call_soon`."""
         self._core.reader.submit(call)
 
     def _require_open(self, what: str) -> None:
@@ -103,7 +99,6 @@ class ZenohContext(Context):
             )
 
     def close(self) -> None:
-        """See :meth:`Context.close`."""
         with self._core.lock:
             if self._core.closing or self._process != os.getpid():
                 return

@@ -74,7 +74,7 @@ class ContextCore:
         self._ended: list[threading.Thread] = []
 
     def next_number(self) -> str:
-        """A number for a new node or endpoint."""
+        """Return a number for a new node or endpoint."""
         return str(next(self._numbers))
 
     def require_open(self, what: str) -> None:

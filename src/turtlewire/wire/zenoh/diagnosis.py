@@ -121,7 +121,7 @@ def warn_of_faults(configuration: zenoh.Config) -> None:
 
 
 def _parsed(text: str) -> _Address | None:
-    """An address with a port."""
+    """Return an address with a port."""
     parts = re.fullmatch(_ADDRESS, text)
     if parts is None:
         return None
@@ -142,7 +142,7 @@ def _value(configuration: zenoh.Config, key: str) -> Any:
 
 
 def _link_fault(address: _Address, configuration: zenoh.Config) -> Fault | None:
-    """What is wrong below Zenoh: with the files, the network or TLS."""
+    """Return the problem below Zenoh: files, network or TLS."""
     tls = _value(configuration, _TLS) or {}
     encrypted = address.protocol in ("tls", "quic")
     context = _context(tls) if encrypted else None
@@ -160,7 +160,7 @@ def _link_fault(address: _Address, configuration: zenoh.Config) -> Fault | None:
 
 
 def _context(tls: dict[str, Any]) -> ssl.SSLContext | Fault:
-    """What Python does TLS with, or the file that is wrong."""
+    """Return Python's TLS context, or the problem of a file."""
     import ssl
 
     shows_certificate = tls.get("enable_mtls") and tls.get("connect_certificate")
@@ -232,7 +232,7 @@ def _named(sentence: tuple[str, str], names: dict[str, str]) -> Fault:
 
 
 def _session_fault(address: _Address, configuration: zenoh.Config) -> Fault:
-    """What is wrong if the link itself works."""
+    """Return the problem of a session whose link works."""
     user = _value(configuration, "transport/auth/usrpwd/user")
     if user:
         return Fault(

@@ -83,7 +83,6 @@ class ZenohEndpoint(Entity):
         self._node.adopt(self)
 
     def create_event(self, kind: EventKind) -> Event:
-        """See :meth:`Publisher.create_event`."""
         if kind not in self.EVENTS:
             raise WireError(
                 f"{type(self).__name__} of {self.topic} has no event '{kind.value}': deadline and "
@@ -96,14 +95,12 @@ class ZenohEndpoint(Entity):
             return self._events.setdefault(kind, StatusEvent(kind))
 
     def meet(self, partner: Token) -> None:
-        """See :meth:`Matching.meet`."""
         if partner.text not in self.partners:
             self.partners[partner.text] = partner
             self._matched_count += 1
             self._report_matched(1)
 
     def part(self, partner: Token) -> None:
-        """See :meth:`Matching.part`."""
         if self.partners.pop(partner.text, None) is not None:
             self._report_matched(-1)
 
@@ -112,7 +109,6 @@ class ZenohEndpoint(Entity):
         self._event(EventKind.MATCHED).add(status)
 
     def close(self) -> None:
-        """See :meth:`Entity.close`."""
         with self._lock:
             if self._closed:
                 return

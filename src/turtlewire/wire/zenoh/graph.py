@@ -84,7 +84,7 @@ class ZenohGraph(GraphView):
         self.notify_changed()
 
     def is_complete(self) -> bool:
-        """See :meth:`Graph.is_complete`: nobody tells how many sessions there are."""
+        """Return True after a short time: the number of sessions is unknown."""
         return self._is_complete
 
     def _on_token(self, sample: zenoh.Sample) -> None:
@@ -174,12 +174,10 @@ class ZenohGraph(GraphView):
         ]
 
     def nodes(self) -> list[NodeInfo]:
-        """See :meth:`Graph.nodes`."""
         with self.lock:
             return [_node_info(token) for token in self._tokens.values() if token.kind == NODE]
 
     def endpoints(self) -> list[EndpointInfo]:
-        """See :meth:`Graph.endpoints`."""
         with self.lock:
             return [
                 info
@@ -189,7 +187,6 @@ class ZenohGraph(GraphView):
             ]
 
     def endpoints_of(self, topic: str, kind: str) -> list[EndpointInfo]:
-        """See :meth:`Graph.endpoints_of`."""
         with self.lock:
             return [
                 info
@@ -233,7 +230,7 @@ def _node_info(token: Token) -> NodeInfo:
 
 
 def _endpoint_infos(token: Token) -> list[EndpointInfo]:
-    """What the graph shows of an endpoint; of a service's, its two topics on DDS."""
+    """Return an endpoint's entries in the graph: a service has two topics, as on DDS."""
     try:
         qos = parse_qos(token.qos)
     except ValueError as error:

@@ -61,7 +61,6 @@ class ZenohSinkSubscription(ZenohSubscription):
         super().__init__(core, node, topic, type_id, qos, on_message)
 
     def _subscribe(self) -> Declared:
-        """See :meth:`ZenohSubscription._subscribe`."""
         subscriber = self._declare(FifoChannel(_CAPACITY))
         channel: Any = subscriber.handler  # type: ignore[attr-defined]
         threading.Thread(
@@ -118,17 +117,16 @@ class ZenohSinkSubscription(ZenohSubscription):
         ]
 
     def part(self, partner: Token) -> None:
-        """See :meth:`Matching.part`."""
         super().part(partner)
         self._native.forget(partner.gid)
 
     @property
     def is_waiting(self) -> bool:
-        """Whether the sink is to be served."""
+        """True if the sink is to be served."""
         return self._is_left
 
     def take(self, limit: int = 32) -> list[tuple[bytes, MessageInfo]]:  # noqa: ARG002 - all
-        """See :meth:`Subscription.take`: all that the sink leaves."""
+        """Take the messages that the sink leaves."""
         with self._lock:
             self._is_left = False  # what comes from now on sets it again
         messages = self._serve()
@@ -138,7 +136,6 @@ class ZenohSinkSubscription(ZenohSubscription):
         return messages
 
     def close(self) -> None:
-        """See :meth:`Entity.close`."""
         super().close()
         with self._receiving:  # the sink gets nothing more when this returns
             return

@@ -26,7 +26,7 @@ def require_zenoh() -> None:
 
 
 def reason_of(error: Exception) -> str:
-    """What a ``ZError`` says, in one line and without the places in Zenoh's sources."""
+    """Return a ``ZError``'s message in one line, without places in Zenoh's sources."""
     said = re.sub(r"\s+at \S+\.rs:\d+\.?", "", str(error))
     # A picture of the place where JSON5 cannot be read.
     place = re.match(r"\s*--> (\d+):(\d+)\s.*= ([^\n]*)", said, re.DOTALL)

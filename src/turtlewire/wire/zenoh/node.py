@@ -84,7 +84,6 @@ class ZenohNode(Node):
             self._endpoints.pop(endpoint, None)
 
     def create_publisher(self, topic: str, type_id: TypeId, qos: QoS) -> Publisher:
-        """See :meth:`Node.create_publisher`."""
         with self._core.declaring(f"create publisher {topic}"):
             return ZenohPublisher(self._core, self, topic, type_id, qos)
 
@@ -96,24 +95,20 @@ class ZenohNode(Node):
         on_message: Callable[[bytes, MessageInfo], None] | None = None,
         sink: Sink | None = None,
     ) -> Subscription:
-        """See :meth:`Node.create_subscription`."""
         with self._core.declaring(f"create subscription {topic}"):
             if sink is None:
                 return ZenohSubscription(self._core, self, topic, type_id, qos, on_message)
             return ZenohSinkSubscription(self._core, self, topic, type_id, qos, on_message, sink)
 
     def create_client(self, service: str, types: ServiceTypes, qos: QoS) -> Client:
-        """See :meth:`Node.create_client`."""
         with self._core.declaring(f"create client {service}"):
             return ZenohClient(self._core, self, service, types.service_id(), qos)
 
     def create_service(self, service: str, types: ServiceTypes, qos: QoS) -> Service:
-        """See :meth:`Node.create_service`."""
         with self._core.declaring(f"create service {service}"):
             return ZenohService(self._core, self, service, types.service_id(), qos)
 
     def close(self) -> None:
-        """See :meth:`Entity.close`."""
         with self._core.lock:
             endpoints = list(self._endpoints)
         for endpoint in endpoints:

@@ -66,7 +66,6 @@ class ZenohPublisher(ZenohEndpoint, Publisher):
         self._core.reader.submit(self._core.graph.notify_changed)
 
     def publish(self, cdr: Cdr) -> None:
-        """See :meth:`Publisher.publish`."""
         cdr = joined(cdr)
         require_message(cdr, self.topic)
         attachment = Attachment(next(self._numbers), time.time_ns(), self.gid)
@@ -80,18 +79,16 @@ class ZenohPublisher(ZenohEndpoint, Publisher):
                 raise WireError(f"publish on {self.topic}: {reason_of(error)}") from error
 
     def is_heard(self) -> bool:
-        """See :meth:`Publisher.is_heard`."""
         return self._has_subscriber or bool(self.partners)
 
     def subscription_count(self) -> int:
-        """See :meth:`Publisher.subscription_count`."""
         return len(self.partners)
 
     def assert_liveliness(self) -> None:
-        """See :meth:`Publisher.assert_liveliness`; it is alive as long as its token is there."""
+        """Do nothing: the publisher is alive as long as its token exists."""
 
     def wait_for_acknowledgments(self, timeout_ns: int) -> bool:  # noqa: ARG002 - see below
-        """See :meth:`Publisher.wait_for_acknowledgments`; Zenoh has none, so it returns at once."""
+        """Return True at once: Zenoh has no acknowledgments."""
         return True
 
 

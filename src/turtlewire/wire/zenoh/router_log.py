@@ -61,7 +61,7 @@ _SENTENCES = {
 
 
 def explain(line: str) -> str:
-    """A line of Zenoh's log as a sentence; empty if it is of no use."""
+    """Return a line of Zenoh's log as a sentence; empty if it is of no use."""
     line = re.sub(_COLORS, "", line)
     parts = re.match(_HEAD, line)
     if parts is None:

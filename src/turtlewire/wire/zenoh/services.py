@@ -62,16 +62,15 @@ class _QueuedEndpoint(ZenohEndpoint, Queued):
 
     @property
     def is_waiting(self) -> bool:
-        """Whether something waits to be taken."""
+        """True if something waits to be taken."""
         return bool(self._queue)
 
     def take(self, limit: int = 32) -> list[Any]:
-        """See :meth:`Client.take` and :meth:`Service.take`."""
+        """Take up to ``limit`` responses or requests."""
         with self._lock:
             return [self._queue.popleft() for _ in range(min(limit, len(self._queue)))]
 
     def close(self) -> None:
-        """See :meth:`Entity.close`."""
         super().close()
         for wait_set in list(self.watchers):
             wait_set.detach(self)  # type: ignore[arg-type]  # both subclasses are waitable
@@ -101,7 +100,6 @@ class ZenohClient(_QueuedEndpoint, Client):
         self.announce(self._querier)
 
     def send_request(self, cdr: bytes) -> int:
-        """See :meth:`Client.send_request`."""
         number = next(self._numbers)
         attachment = Attachment(number, time.time_ns(), self.gid)
         with self._sending:
@@ -127,7 +125,6 @@ class ZenohClient(_QueuedEndpoint, Client):
                 _warn_full("client", self.service)
 
     def is_ready(self) -> bool:
-        """See :meth:`Client.is_ready`."""
         return bool(self.partners)
 
 
@@ -167,7 +164,6 @@ class ZenohService(_QueuedEndpoint, Service):
             _warn_full("server", self.service)
 
     def send_response(self, request_id: RequestId, cdr: bytes) -> None:
-        """See :meth:`Service.send_response`."""
         gid = request_id.client_id.to_bytes(16, "little")
         attachment = Attachment(request_id.sequence_number, time.time_ns(), gid)
         with self._core.calls:  # when they end, nothing here refers to the query any more
@@ -189,7 +185,6 @@ class ZenohService(_QueuedEndpoint, Service):
             query.drop()  # type: ignore[no-untyped-call]
 
     def close(self) -> None:
-        """See :meth:`Entity.close`."""
         super().close()
         with suppress(WireError), self._core.calls:
             self._drop_queries()

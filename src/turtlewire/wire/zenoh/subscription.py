@@ -151,26 +151,22 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
             call_guarded(self._on_message, message, self.topic)
 
     def part(self, partner: Token) -> None:
-        """See :meth:`Matching.part`."""
         super().part(partner)
         self._last_numbers.pop(partner.gid, None)
 
     @property
     def is_waiting(self) -> bool:
-        """Whether messages are waiting."""
+        """True if messages are waiting."""
         return bool(self._queue)
 
     def take(self, limit: int = 32) -> list[tuple[bytes, MessageInfo]]:
-        """See :meth:`Subscription.take`."""
         with self._lock:
             return [self._queue.popleft() for _ in range(min(limit, len(self._queue)))]
 
     def publisher_count(self) -> int:
-        """See :meth:`Subscription.publisher_count`."""
         return len(self.partners)
 
     def close(self) -> None:
-        """See :meth:`Entity.close`."""
         super().close()
         for wait_set in list(self.watchers):
             wait_set.detach(self)
@@ -179,7 +175,7 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
 
 
 def _read(sample: zenoh.Sample) -> tuple[Attachment, bytes]:
-    """What stands beside a message, and its bytes.
+    """Return a message's attachment and its bytes.
 
     Raises:
         ValueError: It is no message of rmw_zenoh_cpp's protocol.

@@ -67,7 +67,7 @@ class Token(NamedTuple):
 
     @property
     def gid(self) -> bytes:
-        """16 bytes, which whoever knows the text can compute: XXH3 of it, low half first."""
+        """16 bytes that anybody with the text can compute: XXH3 of it, low half first."""
         from xxhash import xxh3_128_digest
 
         return xxh3_128_digest(self.text.encode())[::-1]
@@ -96,5 +96,5 @@ class Token(NamedTuple):
 
 
 def graph_key(domain_id: int) -> str:
-    """The expression that all tokens of a domain meet."""
+    """Return the expression that all tokens of a domain meet."""
     return f"{_SPACE}/{domain_id}/**"
