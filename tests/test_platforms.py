@@ -133,7 +133,7 @@ def test_the_demo_runs_without_bash(tmp_path):
     assert said.count("process has finished cleanly") == 4
 
 
-# The table of the README's section on pip
+# The table of docs/install.md
 
 #: Beginnings of the wheels that PyPI has, and their platforms (2026-11).
 WHEELS = {
@@ -171,7 +171,7 @@ VERSIONS = {"Python 3.10\N{EN DASH}3.13": ["3.10", "3.11", "3.12", "3.13"], "Pyt
 
 def table() -> list[tuple[str, str, str, str, str]]:
     """The cells: what they say, system, machine, version and interpreter."""
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    text = (ROOT / "docs" / "install.md").read_text(encoding="utf-8")
     head, _, *rows = (
         [cell.strip() for cell in line.strip("|").split("|")]
         for line in text[text.index("| system | Python") :].split("\n\n")[0].splitlines()

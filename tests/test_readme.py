@@ -27,7 +27,8 @@ def test_links_lead_somewhere(page):
 
 
 def test_what_it_runs_exists():
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    pages = (ROOT / "README.md", ROOT / "docs" / "install.md")
+    text = "\n".join(page.read_text(encoding="utf-8") for page in pages)
     runs = re.findall(r"^(?:PATH=\S+ )?ros2 run (\w+) (\w+)", text, re.MULTILINE)
     launches = re.findall(r"^ros2 launch (\w+) (\S+)", text, re.MULTILINE)
     assert runs == [("turtlesim", "turtle_teleop_key")]

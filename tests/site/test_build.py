@@ -83,14 +83,6 @@ def test_versions_are_pinned():
     assert {name for name in wanted if not name.startswith("#")} <= pinned
 
 
-def test_the_parts_of_the_readme_are_there():
-    page = (ROOT / "docs" / "install.md").read_text(encoding="utf-8")
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    marks = re.findall(r'(?:start-after|end-before): "(.+)"', page)
-    assert len(marks) == 4
-    assert all(readme.count(mark) == 1 for mark in marks)
-
-
 def test_help_names_the_options():
     script = ROOT / "scripts" / "docs.py"
     done = subprocess.run(
