@@ -1,7 +1,6 @@
 """Who imports whom: modules, circles and rooms, read from the sources without importing them.
 
-`scripts/architecture` draws docs/images/architecture.svg and writes the index of modules in
-ARCHITECTURE.md; `--check` tells whether both are fresh;
+`scripts/architecture` draws docs/images/architecture.svg; `--check` fails if it is stale;
 `--figures` prints figures of the code, with `--root` of another checkout.
 """
 
@@ -175,7 +174,7 @@ def main() -> int:
     """Draw the map, check it or print figures; the exit status."""
     parser = argparse.ArgumentParser(prog="scripts/architecture", description=__doc__)
     mode = parser.add_mutually_exclusive_group()
-    mode.add_argument("--check", action="store_true", help="fail if map or index is stale")
+    mode.add_argument("--check", action="store_true", help="fail if the map is stale")
     mode.add_argument("--figures", action="store_true", help="print figures of the code")
     parser.add_argument("--root", type=Path, default=ROOT, help="another checkout")
     arguments = parser.parse_args()
@@ -186,20 +185,14 @@ def main() -> int:
         print(figures(arguments.root, house))
         return 0
     from architecture_map import draw
-    from module_index import with_index
 
-    page = arguments.root / "ARCHITECTURE.md"
-    written = {
-        arguments.root / "docs" / "images" / "architecture.svg": draw(house),
-        page: with_index(page.read_text(encoding="utf-8"), arguments.root, house),
-    }
-    stale = [path for path, text in written.items() if path.read_text(encoding="utf-8") != text]
-    for path in stale:
-        if arguments.check:
-            print(f"{path.name} is stale: run scripts/architecture")
-        else:
-            path.write_text(written[path], encoding="utf-8")
-    return 1 if stale and arguments.check else 0
+    path, drawn = arguments.root / "docs" / "images" / "architecture.svg", draw(house)
+    if not arguments.check:
+        path.write_text(drawn, encoding="utf-8")
+    elif path.read_text(encoding="utf-8") != drawn:
+        print(f"{path.name} is stale: run scripts/architecture")
+        return 1
+    return 0
 
 
 if __name__ == "__main__":
