@@ -49,9 +49,13 @@ class StaticPages(SimpleHTTPRequestHandler):
             self.send_error(HTTPStatus.FORBIDDEN, explain=f"Refused: {reason}")
             return None
         path = Path(self.translate_path(self.path))
-        file = path / "index.html" if path.is_dir() else path
-        # A link may lead out of the folder.
-        if not file.is_file() or not file.resolve().is_relative_to(self._root):
+        try:
+            file = path / "index.html" if path.is_dir() else path
+            # A link may lead out of the folder.
+            is_here = file.is_file() and file.resolve().is_relative_to(self._root)
+        except OSError:  # the name is too long
+            is_here = False
+        if not is_here:
             self.send_error(HTTPStatus.NOT_FOUND)
             return None
         if file.suffix == ".html":

@@ -37,6 +37,8 @@ processes find each other through a router, `rmw_zenohd`
   wire/zenoh/test_sdk.py test_their_server test_their_client
 `ROS_AUTOMATIC_DISCOVERY_RANGE` and `ROS_STATIC_PEERS` are not read
   wire/zenoh/test_configuration.py test_the_range_of_discovery
+a session looks for a router once, unless `ZENOH_ROUTER_CHECK_ATTEMPTS` says otherwise
+  wire/zenoh/test_router_check.py test_nothing_is_waited_for
 a volatile subscription drops what is older than the last message of the same process
   wire/test_contract.py test_publishers_of_several_threads_lose_nothing
 the router listens on all interfaces

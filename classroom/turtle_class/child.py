@@ -6,13 +6,17 @@ a process of its own, which it starts, so that the code reaches neither checks n
 
 from __future__ import annotations
 
+from turtle_class.seclusion import hidden, hide
+
+if __name__ == "__main__":
+    hide()  # before the slow imports: code of others who are graded now may be looking for it
+
 import json
 import os
 import sys
 from pathlib import Path
 from typing import Any
 
-from turtle_class.seclusion import hidden
 from turtle_class.student_process import StudentProcess
 from turtle_lesson.grading import check_name, grade
 from turtle_lesson.lesson import load_lesson

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import socket
 import stat
 import subprocess
 import sys
@@ -147,23 +148,25 @@ class Runner:
             *(sys.executable, "-m", "turtle_class.child"),
             *map(str, (exercise.folder, place / "work")),
         ]
-        child = subprocess.Popen(  # noqa: S603 - ours
-            command,
-            cwd=os.sep,  # no folder of the student: Python imports from where it starts
-            env=_environment(place, domain),
-            stdin=subprocess.PIPE,  # supervise ends when it is closed
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            start_new_session=True,  # Ctrl-C is for the grader
-        )
+        # A socket, because /proc opens a pipe again, and with it the results, for other processes.
+        results, written = socket.socketpair()
+        with written:
+            child = subprocess.Popen(  # noqa: S603 - ours
+                command,
+                cwd=os.sep,  # no folder of the student: Python imports from where it starts
+                env=_environment(place, domain),
+                stdin=subprocess.PIPE,  # supervise ends when it is closed
+                stdout=written.fileno(),
+                stderr=subprocess.PIPE,
+                start_new_session=True,  # Ctrl-C is for the grader
+            )
         with self._lock:
             self._children.add(child)
             if self._stopped:
                 _close(child.stdin)
-        assert child.stdout is not None
         assert child.stderr is not None
-        with ThreadPoolExecutor(1) as reader:
-            told = reader.submit(_beginning, child.stdout, _LONGEST_RESULTS)
+        with results, ThreadPoolExecutor(1) as reader:
+            told = reader.submit(_beginning, results.makefile("rb"), _LONGEST_RESULTS)
             log = _beginning(child.stderr, limits.log)
         status = child.wait()
         with self._lock:

@@ -14,11 +14,17 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["give_up_rights", "hidden"]
+__all__ = ["give_up_rights", "hidden", "hide"]
 
 # <sys/prctl.h>, <linux/capability.h>
 _GET_DUMPABLE, _SET_DUMPABLE, _SET_NO_NEW_PRIVS = 3, 4, 38
 _CAPABILITY_VERSION_3 = 0x20080522
+
+
+def hide() -> None:
+    """Close this process's memory, descriptors and environment to other processes, for good."""
+    if sys.platform == "linux":
+        ctypes.CDLL(None).prctl(_SET_DUMPABLE, 0, 0, 0, 0)
 
 
 @contextlib.contextmanager

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import socket
 import subprocess
 import sys
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -39,21 +40,26 @@ class StudentProcess:
     """
 
     def __init__(self, work: Path) -> None:
-        self._process = subprocess.Popen(
-            [sys.executable, "-m", "turtle_class.student"],
-            cwd=work,
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-        )
+        # A socket, because /proc opens a pipe again for code that is graded at the same time.
+        ours, theirs = socket.socketpair()
+        with theirs:
+            self._process = subprocess.Popen(
+                [sys.executable, "-m", "turtle_class.student"],
+                cwd=work,
+                stdin=subprocess.PIPE,
+                stdout=theirs.fileno(),
+            )
+        with ours:  # the file keeps the socket open
+            self._answers = ours.makefile("rb")
 
     def close(self) -> None:
         """End the process."""
         self._process.kill()
         self._process.wait()
-        for pipe in (self._process.stdin, self._process.stdout):
-            with contextlib.suppress(OSError):  # what could not be written any more
-                if pipe is not None:
-                    pipe.close()
+        self._answers.close()
+        with contextlib.suppress(OSError):  # what could not be written any more
+            if self._process.stdin is not None:
+                self._process.stdin.close()
 
     @contextlib.contextmanager
     def programs(
@@ -95,11 +101,10 @@ class StudentProcess:
 
     def _ask(self, **request: Any) -> News:
         assert self._process.stdin is not None
-        assert self._process.stdout is not None
         with contextlib.suppress(OSError):  # it has ended, which the missing answer shows
             self._process.stdin.write(json.dumps(request).encode() + b"\n")
             self._process.stdin.flush()
-        line = self._process.stdout.readline(_LONGEST_ANSWER)
+        line = self._answers.readline(_LONGEST_ANSWER)
         if not line.endswith(b"\n"):
             self._refuse_silence(line)
         with _refusing_nonsense():
@@ -114,7 +119,7 @@ class StudentProcess:
 
     def _refuse_silence(self, line: bytes) -> NoReturn:
         if len(line) >= _LONGEST_ANSWER:
-            raise ReportedMistake(Mistake("", 0, "The program answers without an end.", _NO_ANSWER))
+            raise ReportedMistake(Mistake("", 0, "The program's answer never ends.", _NO_ANSWER))
         status = self._process.wait()
         status = status if status >= 0 else 128 - status
         raise ReportedMistake(Mistake("", 0, f"The program ended with status {status}.", _CRASH))
@@ -126,5 +131,5 @@ def _refusing_nonsense() -> Iterator[None]:
     try:
         yield
     except Exception as error:
-        text = f"The process of the program answers with something else than messages: {error!r}"
+        text = f"The process of the program sent something other than messages: {error!r}"
         raise ReportedMistake(Mistake("", 0, text[:_LONGEST_TEXT], _NO_ANSWER)) from error

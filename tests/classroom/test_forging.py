@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
+import os
 import sys
+import tempfile
+import threading
+from pathlib import Path
 
 import pytest
 
@@ -89,8 +94,12 @@ os._exit(0)
     "descriptors of the graders": """
 for pid, _ in graders():
     for number in range(64):
-        with contextlib.suppress(OSError), open(f"/proc/{pid}/fd/{number}", "w") as file:
-            file.write(FORGED)
+        path = f"/proc/{pid}/fd/{number}"
+        # No plain file: where the graders are not hidden, it would be overwritten.
+        with contextlib.suppress(OSError):
+            if os.readlink(path).startswith(("pipe:", "socket:")):
+                with open(path, "w") as file:
+                    file.write(FORGED)
 os._exit(0)
 """,
     "own descriptors": """
@@ -152,7 +161,7 @@ PEEK = """
 for pid, _ in graders():
     attempt("memory", lambda: open(f"/proc/{pid}/mem", "r+b"))
     attempt("environment", lambda: open(f"/proc/{pid}/environ", "rb").read())
-    attempt("descriptors", lambda: open(f"/proc/{pid}/fd/1", "w"))
+    attempt("descriptors", lambda: open(f"/proc/{pid}/fd/1", "a"))
     PTRACE_ATTACH = 16
     libc = ctypes.CDLL(None, use_errno=True)
     libc.ptrace.argtypes = [ctypes.c_long] * 4
@@ -174,6 +183,43 @@ def test_the_processes_of_the_graders_are_closed(tmp_path):
     assert outcome.log.count("graders seen") >= 2
     assert "worked" not in outcome.log
     assert outcome.log.count("memory failed: PermissionError") >= 2
+
+
+def write_into_pipe(descriptor):
+    """Write into another process's pipe; as root, a file would be overwritten, so none is opened."""
+    with contextlib.suppress(OSError):
+        if os.readlink(descriptor).startswith("pipe:"):
+            descriptor.write_text(FORGED)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="the attack looks for processes in /proc")
+def test_code_that_is_graded_at_the_same_time_reaches_no_results(tmp_path, monkeypatch):
+    """A neighbour watches for the processes of an exercise from their first moment on."""
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    (tmp_path / "student").mkdir()
+    (tmp_path / "student" / FILE).write_text(hostile(""), encoding="utf-8")
+    over, seen = threading.Event(), set()
+
+    def write_into_results():
+        while not over.is_set():
+            for pid in filter(str.isdigit, os.listdir("/proc")):
+                with contextlib.suppress(OSError):
+                    words = Path("/proc", pid, "cmdline").read_bytes()
+                    if b"turtle_class.child" in words and os.fsencode(tmp_path) in words:
+                        seen.add(pid)
+                        for number in range(1, 16):
+                            write_into_pipe(Path("/proc", pid, "fd", str(number)))
+
+    neighbour = threading.Thread(target=write_into_results)
+    neighbour.start()
+    try:
+        outcome = Runner(PATIENT).run(CARROT, tmp_path / "student", 99)
+    finally:
+        over.set()
+        neighbour.join()
+    assert seen
+    assert outcome.points == 0
+    assert [result.check for result in outcome.results] == NAMES
 
 
 @pytest.mark.parametrize(

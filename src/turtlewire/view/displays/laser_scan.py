@@ -41,7 +41,8 @@ class LaserScanDisplay(PointsDisplay):
 
     def points(self, message: Any, budget: int, part: str, header: dict[str, Any]) -> Content:
         """Return the hits, in the scanner's frame at the stamp."""
-        ranges = np.asarray(message.ranges, dtype=np.float64)
+        with np.errstate(invalid="ignore"):  # NumPy warns of signalling NaNs
+            ranges = np.asarray(message.ranges, dtype=np.float64)
         angles = self._angles(message, len(ranges))
         index = self._hits(message, ranges)[0]
         index = index[spread(len(index), budget)]

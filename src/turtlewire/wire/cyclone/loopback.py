@@ -58,7 +58,8 @@ def bind_to_loopback(former: Iterable[str], ports: Container[int]) -> None:
         if address is None:
             continue
         host, port = address
-        if host != _ANY and not host.startswith("127."):
+        # Only these settings add interfaces; else the socket is one that another thread has opened.
+        if host != _ANY and not host.startswith("127.") and "CYCLONEDDS_URI" in os.environ:
             return
         if host == _ANY and port in ports:
             receiving.append(sockets[name])

@@ -26,11 +26,8 @@ _NO_ROUTER = (
     "Have you started a router with `ros2 run rmw_zenoh_cpp rmw_zenohd`?"
 )
 _GIVEN_UP = (
-    "Unable to connect to a Zenoh router after {} attempt(s). Please ensure that a Zenoh router is "
-    "running and can be reached. You may increase the number of attempts to check for a router by "
-    "setting the ZENOH_ROUTER_CHECK_ATTEMPTS environment variable. Proceeding with initialization "
-    "but other peers will not discover or receive data from peers in this session until a router "
-    "is started."
+    "Unable to connect to a Zenoh router after {} attempt(s) (ZENOH_ROUTER_CHECK_ATTEMPTS). Going "
+    "on without one: only nodes that multicast or static peers reach are found."
 )
 
 
