@@ -186,7 +186,7 @@ def test_the_processes_of_the_graders_are_closed(tmp_path):
 
 
 def write_into_pipe(descriptor):
-    """Write into another process's pipe; as root, a file would be overwritten, so none is opened."""
+    """Write into another process's pipe; never into a file, which root would overwrite."""
     with contextlib.suppress(OSError):
         if os.readlink(descriptor).startswith("pipe:"):
             descriptor.write_text(FORGED)
