@@ -27,7 +27,7 @@ SHELLS = {"bash", "fish", "sh", "zsh"}
 #: Files in which such a string is right, and the reason.
 REASONS = {
     "src/turtlewire/cli/network.py": "does without where the file is missing",
-    "src/turtlewire/wire/cyclone/loopback.py": "reads it on Linux only",
+    "src/turtlewire/wire/loopback.py": "reads it on Linux only",
     "src/turtlewire/wire/cyclone/ports.py": "does without where the file is missing",
     "src/turtlewire/wire/libddsc.py": "looks for folders, and finds none",
     "ros/turtlewire_ros/cmake/processes.py": "redirected output needs a shell, as under make",

@@ -1,4 +1,4 @@
-"""The sockets at which Cyclone receives are bound to the loopback interface."""
+"""The sockets at which a middleware receives are bound to the loopback interface."""
 
 from __future__ import annotations
 
@@ -7,12 +7,11 @@ import sys
 
 import pytest
 
-from turtlewire.wire.cyclone.loopback import bind_to_loopback, open_sockets
+from turtlewire.wire.loopback import ANY_PORT, bind_to_loopback, open_sockets
 
 pytestmark = pytest.mark.skipif(
     sys.platform != "linux", reason="only Linux binds sockets to interfaces"
 )
-ANY_PORT = range(1 << 16)
 
 
 @pytest.fixture
@@ -37,13 +36,15 @@ def interface_of(each):
 def test_new_sockets_at_the_domain_s_ports_are_bound(udp):
     older = udp("0.0.0.0")
     former = open_sockets()
+    group = udp("224.0.0.224")
     received, sent, other = udp("0.0.0.0"), udp("127.0.0.1"), udp("0.0.0.0")
-    bind_to_loopback(former, [received.getsockname()[1], older.getsockname()[1]])
+    bind_to_loopback(former, [each.getsockname()[1] for each in (received, older, group)])
+    assert interface_of(group) == b""
     assert interface_of(received) == b"lo"
     assert interface_of(older) == interface_of(sent) == interface_of(other) == b""
 
 
-def test_nothing_is_bound_if_cyclone_sends_from_another_interface(udp):
+def test_nothing_is_bound_if_it_sends_from_another_interface(udp):
     former = open_sockets()
     received, sent = udp("0.0.0.0"), udp("0.0.0.0")
     try:

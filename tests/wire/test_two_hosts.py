@@ -228,6 +228,25 @@ def test_the_sockets_of_wider_ranges_hear_all_interfaces(environment: dict[str, 
         assert "%lo" not in sockets
 
 
+@pytest.mark.usefixtures("hosts")
+@pytest.mark.parametrize(
+    ("chosen", "outcome"),
+    [("", "nobody came"), ("LOCALHOST", "nobody came"), ("SUBNET", "connected")],
+)
+def test_zenoh_follows_no_call_from_outside_by_default(chosen: str, outcome: str):
+    pytest.importorskip("zenoh", reason="needs Zenoh (pip install 'turtlewire[zenoh]')")
+    environment = {
+        "RMW_IMPLEMENTATION": "rmw_zenoh_cpp",
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": chosen,
+    }
+    with echo_there(**environment):
+        ports = re.findall(r" 0\.0\.0\.0(?:%lo)?:(\d+) ", sockets_there())
+        assert ports
+        intruder = [*command("here", "zenoh_intruder.py"), HOSTS["here"], HOSTS["there"], *ports]
+        done = subprocess.run(intruder, capture_output=True, text=True, check=True)
+    assert done.stdout == f"{outcome}\n"
+
+
 class Asker:
     """The peer ``asker.py`` on the host ``here``."""
 

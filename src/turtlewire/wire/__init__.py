@@ -13,6 +13,7 @@ module            what it holds
 `libddsc`         where the library of Cyclone DDS is, and its binary interface
 `security`        the environment variables of SROS 2
 `lingering`       whether the end waits for acknowledgements
+`loopback`        binds sockets to the loopback interface
 `graph`           what the graphs of all middlewares share; ``ros_discovery_info``
 `conflicts`       two types on one topic or service, two nodes of one name
 `encapsulation`   the four bytes in front of every serialized message

@@ -33,7 +33,6 @@ module                    what it holds
 `silent_peers`            asks peers again for what Cyclone did not hear
 `qos`                     QoS as Cyclone's objects, and back
 `log`                     Cyclone's warnings, explained and bounded
-`loopback`                binds Cyclone's sockets to the loopback interface
 `ports`                   the processes of this host that take part in a domain
 ========================  =======================================================
 """

@@ -12,11 +12,11 @@ from turtlewire.errors import TurtlewireError, WireError
 from turtlewire.wire import names
 from turtlewire.wire.environment import Range, discovery
 from turtlewire.wire.graph import format_user_data
+from turtlewire.wire.loopback import ANY_PORT, bind_to_loopback, open_sockets
 
 from . import library as dds
 from .configuration import domain_configuration, stays_on_loopback
 from .log import CycloneLog
-from .loopback import bind_to_loopback, open_sockets
 from .ports import max_processes, ports_of, processes_on_host
 from .sertype import sertype_of
 
@@ -35,7 +35,6 @@ _XCDR1 = 1 << 0
 #: Files that must be free before a domain is made: it takes 6 and one or two for each network
 #: interface, the log takes 2, and some are for the program.
 _FILES = 24
-_ANY_PORT = range(1 << 16)
 
 
 class _Domains:
@@ -91,7 +90,7 @@ class _Domains:
         if stays_on_loopback(chosen):
             # Without discovery Cyclone takes any ports.
             is_off = chosen.range == Range.OFF
-            bind_to_loopback(former, _ANY_PORT if is_off else ports_of(domain_id))
+            bind_to_loopback(former, ANY_PORT if is_off else ports_of(domain_id))
         self._log.start()
 
     def _keep_library(self) -> None:

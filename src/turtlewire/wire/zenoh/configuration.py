@@ -24,7 +24,7 @@ from .library import reason_of
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["ROUTER_PORT", "router_configuration", "session_configuration"]
+__all__ = ["ROUTER_PORT", "router_configuration", "session_configuration", "stays_on_loopback"]
 
 ROUTER_PORT = 7447
 
@@ -65,6 +65,12 @@ def session_configuration() -> zenoh.Config:
             ``ZENOH_CONFIG_OVERRIDE`` has more than one line.
     """
     return _configuration("ZENOH_SESSION_CONFIG_URI", _session)
+
+
+def stays_on_loopback(configuration: zenoh.Config) -> bool:
+    """Return True if a session looks for others on the loopback interface alone."""
+    interface = json.loads(configuration.get_json("scouting/multicast/interface"))
+    return interface is not None and interface == _LOOPBACK.get(sys.platform)
 
 
 def router_configuration() -> zenoh.Config:

@@ -12,10 +12,11 @@ import zenoh
 
 from turtlewire.errors import WireError
 from turtlewire.wire.base import Context, EventKind, NodeInfo
+from turtlewire.wire.loopback import ANY_PORT, bind_to_loopback, open_sockets
 from turtlewire.wire.queue_wait_set import QueueWaitSet
 from turtlewire.wire.reader_thread import ReaderThread
 
-from .configuration import session_configuration
+from .configuration import session_configuration, stays_on_loopback
 from .core import ContextCore
 from .graph import ZenohGraph
 from .library import reason_of
@@ -119,6 +120,7 @@ class ZenohContext(Context):
 
 def _open() -> zenoh.Session:
     configuration = session_configuration()
+    former = open_sockets()
     try:
         session = zenoh.open(configuration)
     except zenoh.ZError as error:
@@ -127,6 +129,8 @@ def _open() -> zenoh.Session:
         fault = fault_of(configuration, reason_of(error))
         failed = WireError(f"cannot open a Zenoh session: {fault.text}")
         raise failed.with_hint(fault.remedy) from None
+    if stays_on_loopback(configuration):
+        bind_to_loopback(former, ANY_PORT)
     if "tls/" in configuration.get_json("connect/endpoints"):
         from .diagnosis import warn_of_faults
 

@@ -1,12 +1,14 @@
-"""Keeps the datagrams of other computers out where Cyclone uses the loopback interface alone.
+"""Keeps the datagrams of other computers out where a middleware uses the loopback interface alone.
 
-Cyclone binds the sockets that it receives with to all addresses, has no setting for that, and takes
-whatever arrives there. A computer of the same network could so announce publishers without ever
-getting an answer. Linux can bind a socket to an interface afterwards.
+Cyclone and Zenoh bind the sockets that they receive with to all addresses, have no setting for
+that, and take whatever arrives there. One datagram from a computer of the same network could so
+announce publishers to Cyclone, or let Zenoh connect to that computer. Linux can bind a socket to an
+interface afterwards.
 """
 
 from __future__ import annotations
 
+import ipaddress
 import os
 import socket
 import sys
@@ -18,8 +20,9 @@ from turtlewire.wire.report import warn_once
 if TYPE_CHECKING:
     from collections.abc import Container, Iterable
 
-__all__ = ["bind_to_loopback", "open_sockets"]
+__all__ = ["ANY_PORT", "bind_to_loopback", "open_sockets"]
 
+ANY_PORT = range(1 << 16)
 _FILES = "/proc/self/fd"
 _ANY = "0.0.0.0"  # noqa: S104 - nothing is bound to it
 
@@ -42,14 +45,13 @@ def open_sockets() -> dict[str, int]:
 
 
 def bind_to_loopback(former: Iterable[str], ports: Container[int]) -> None:
-    """Bind the sockets at which a new domain receives to the loopback interface, on Linux.
+    """Bind the sockets at which a middleware receives to the loopback interface, on Linux.
 
-    Nothing happens if Cyclone sends from another interface as well, which ``CYCLONEDDS_URI`` may
-    say.
+    Nothing happens if it sends from another interface as well, which ``CYCLONEDDS_URI`` may say.
 
     Args:
         former: Names of the sockets that were open before.
-        ports: Where the domain may receive: another thread may open sockets at the same time.
+        ports: Where the middleware may receive: another thread may open sockets at the same time.
     """
     receiving = []
     sockets = open_sockets()
@@ -58,6 +60,8 @@ def bind_to_loopback(former: Iterable[str], ports: Container[int]) -> None:
         if address is None:
             continue
         host, port = address
+        if ipaddress.ip_address(host).is_multicast:
+            continue  # Zenoh's: it only answers, and processes of wider ranges on this host ask it
         # Only these settings add interfaces; else the socket is one that another thread has opened.
         if host != _ANY and not host.startswith("127.") and "CYCLONEDDS_URI" in os.environ:
             return
