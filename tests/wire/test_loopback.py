@@ -44,7 +44,13 @@ def test_new_sockets_at_the_domain_s_ports_are_bound(udp):
     assert interface_of(older) == interface_of(sent) == interface_of(other) == b""
 
 
-def test_nothing_is_bound_if_it_sends_from_another_interface(udp):
+@pytest.mark.parametrize("has_settings", [True, False])
+def test_settings_that_add_an_interface_leave_the_sockets_alone(udp, monkeypatch, has_settings):
+    """Without settings, the socket to elsewhere is one that another thread has opened."""
+    if has_settings:
+        monkeypatch.setenv("CYCLONEDDS_URI", "<Domain/>")
+    else:
+        monkeypatch.delenv("CYCLONEDDS_URI", raising=False)
     former = open_sockets()
     received, sent = udp("0.0.0.0"), udp("0.0.0.0")
     try:
@@ -52,7 +58,7 @@ def test_nothing_is_bound_if_it_sends_from_another_interface(udp):
     except OSError:
         pytest.skip("this host has no interface that leads anywhere but to itself")
     bind_to_loopback(former, ANY_PORT)
-    assert interface_of(received) == b""
+    assert interface_of(received) == (b"" if has_settings else b"lo")
 
 
 def test_a_kernel_that_refuses_is_warned_of(udp, capfd, monkeypatch):

@@ -230,14 +230,20 @@ def test_the_sockets_of_wider_ranges_hear_all_interfaces(environment: dict[str, 
 
 @pytest.mark.usefixtures("hosts")
 @pytest.mark.parametrize(
-    ("chosen", "outcome"),
-    [("", "nobody came"), ("LOCALHOST", "nobody came"), ("SUBNET", "connected")],
+    ("chosen", "override", "outcome"),
+    [
+        ("", "", "nobody came"),
+        ("LOCALHOST", "", "nobody came"),
+        ("LOCALHOST", f'scouting/multicast/interface="{HOSTS["there"]}"', "connected"),
+    ],
+    ids=["default", "LOCALHOST", "an interface named"],
 )
-def test_zenoh_follows_no_call_from_outside_by_default(chosen: str, outcome: str):
+def test_zenoh_follows_no_call_from_outside_by_default(chosen: str, override: str, outcome: str):
     pytest.importorskip("zenoh", reason="needs Zenoh (pip install 'turtlewire[zenoh]')")
     environment = {
         "RMW_IMPLEMENTATION": "rmw_zenoh_cpp",
         "ROS_AUTOMATIC_DISCOVERY_RANGE": chosen,
+        "ZENOH_CONFIG_OVERRIDE": override,
     }
     with echo_there(**environment):
         ports = re.findall(r" 0\.0\.0\.0(?:%lo)?:(\d+) ", sockets_there())
