@@ -112,7 +112,7 @@ def test_the_doctor_names_what_is_ignored():
         return [finding.text for finding in found if "SECURITY" in finding.text]
 
     [permissive] = texts(ROS_SECURITY_ENABLE="true")
-    assert "sends its messages without it" in permissive
+    assert "sent unencrypted and unauthenticated" in permissive
     [misspelt] = texts(ROS_SECURITY_ENABLE="True")
     assert misspelt == "ROS_SECURITY_ENABLE is 'True', which ROS 2 takes for off."
     assert texts(ROS_SECURITY_ENABLE="false") == texts() == []

@@ -26,14 +26,15 @@ __all__ = [
 
 _ENABLE, _STRATEGY = "ROS_SECURITY_ENABLE", "ROS_SECURITY_STRATEGY"
 IN_THE_CLEAR = (
-    f"{_ENABLE} is true, but turtlewire does not support SROS 2: it sends its messages without it"
+    f"{_ENABLE} is true, but turtlewire does not support SROS 2: messages are sent unencrypted and "
+    "unauthenticated"
 )
 _REFUSED = (
-    f"{_ENABLE} is true and {_STRATEGY} is Enforce, but turtlewire does not support SROS 2: it "
-    "does not start, because it would send its messages without it"
+    f"{_ENABLE} is true and {_STRATEGY} is Enforce, but turtlewire does not support SROS 2, so it "
+    "refuses to start"
 )
 REMEDY = (
-    "For encryption, use Zenoh with TLS (docs/how-to/secure_networks.md). Then, or to go on "
+    "For encryption, use Zenoh with TLS (docs/how-to/secure_networks.md). With it, or to go on "
     f"without security, unset {_ENABLE}."
 )
 
