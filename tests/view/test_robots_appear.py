@@ -75,6 +75,8 @@ def test_a_robot_that_the_user_has_added_is_not_added_again(fake, open_view):
     fake.tell({"type": "topics", "topics": [ROBOT, SCAN]})
     wait_for_topics(page, 2)
     assert shown(page) == ["/robot_description"]
+    page.click("[aria-label='Remove /robot_description']")
+    fake.wait_for(lambda c: c["type"] == "remove")  # commands arrive in order
     assert len(added(fake, kind="robot_model")) == 1
 
 
