@@ -10,12 +10,10 @@ import configparser
 import importlib
 import re
 import sys
-from pathlib import Path
 
 import pytest
 from tests.needs import HAS_CYCLONE_DDS
-
-ROOT = Path(__file__).parent.parent
+from tests.places import ROOT, SCRIPTS
 
 #: Modules that lie in circles, by room: rclpy's pairs, which ROS 2's surface wants. Lower a number
 #: when circles end; raise none.
@@ -27,11 +25,11 @@ NOT_IMPORTED = {"turtlewire_ros.colcon_ament"}
 @pytest.fixture(scope="module")
 def script():
     """Imports a module of the folder ``scripts``."""
-    sys.path.insert(0, str(ROOT / "scripts"))
+    sys.path.insert(0, str(SCRIPTS))
     try:
         yield importlib.import_module
     finally:
-        sys.path.remove(str(ROOT / "scripts"))
+        sys.path.remove(str(SCRIPTS))
 
 
 @pytest.fixture(scope="module")
@@ -161,4 +159,4 @@ def test_a_line_may_have_a_hundred_characters(script):
     assert columns.too_long("page.md", "word " * 21)
     assert not columns.too_long("page.md", "| a row " * 20 + "|")
     assert not columns.too_long("a.py", "call(" + "x, " * 30 + ")  # noqa: S102 - a reason")
-    assert "scripts/columns.py" in (ROOT / "scripts/lint").read_text()
+    assert "scripts/columns.py" in (SCRIPTS / "lint").read_text()

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import shutil
 import subprocess
-from pathlib import Path
 
 import pytest
-
-ROOT = Path(__file__).parents[1]
+from tests.places import ROOT, SCRIPTS
 
 
 @pytest.mark.parametrize("words", [["-h"], ["tf_buffer", "--help"]])
 def test_help_lists_the_benchmarks_without_a_set_up(tmp_path, words):
     (tmp_path / "scripts").mkdir()  # no scripts/setup there: calling it would fail
-    shutil.copy(ROOT / "scripts/bench", tmp_path / "scripts")
+    shutil.copy(SCRIPTS / "bench", tmp_path / "scripts")
     shutil.copytree(ROOT / "benchmarks", tmp_path / "benchmarks")
     done = subprocess.run(
         [tmp_path / "scripts/bench", *words], capture_output=True, text=True, check=True

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pickle
 import sys
 import traceback
-from pathlib import Path
 
 import pytest
+from tests.places import GOLDEN
 
 from turtlewire import Buffer
 from turtlewire.bag import load_trajectory
@@ -37,7 +37,7 @@ def test_text_and_hint_in_one_line(text, hint, line):
 
 @pytest.mark.skipif(sys.version_info < (3, 11), reason="exceptions have no notes")
 def test_a_traceback_shows_the_hint():
-    path = Path(__file__).parent / "golden" / "bag" / "d_mcap"
+    path = GOLDEN / "bag" / "d_mcap"
     for call, hint in (
         (lambda: Buffer.from_bag(path, topics=["/tf", "/tff"]), "Topics of type tf2_msgs"),
         (lambda: load_trajectory(path, "/odm"), "Did you mean: /odom. Topics with poses: /goal"),

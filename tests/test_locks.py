@@ -5,23 +5,22 @@ from __future__ import annotations
 import ast
 import re
 import sys
-from pathlib import Path
 
 import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
+from tests.places import ROOT, SCRIPTS
 
 if sys.version_info < (3, 11):
     pytest.skip("tomllib comes with Python 3.11", allow_module_level=True)
 import tomllib
 
-ROOT = Path(__file__).parents[1]
 OWN = {"turtlewire", "turtlewire-ros", "turtlewire-class", "learning-tf2-py"}
 
 
 def locked(name):
     """The releases in a file: name and versions; each has a hash."""
-    text = (ROOT / "scripts" / "locks" / f"{name}.txt").read_text(encoding="utf-8")
+    text = (SCRIPTS / "locks" / f"{name}.txt").read_text(encoding="utf-8")
     assert "://" not in text
     assert "index" not in text
     releases = {}
@@ -50,7 +49,7 @@ def project(folder):
 
 def names(module, variable):
     """A tuple of a script."""
-    tree = ast.parse((ROOT / "scripts" / f"{module}.py").read_text(encoding="utf-8"))
+    tree = ast.parse((SCRIPTS / f"{module}.py").read_text(encoding="utf-8"))
     [value] = [
         node.value
         for node in tree.body

@@ -9,20 +9,18 @@ import queue
 import signal
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from tests.places import ROOT, SCRIPTS
 
 from turtlewire import demo
 from turtlewire.console_keyboard import Keyboard
 from turtlewire.wire.wheels import Platform, advice
 
-ROOT = Path(__file__).parents[1]
-
 
 @pytest.fixture(scope="module")
 def platforms():
-    spec = importlib.util.spec_from_file_location("platforms", ROOT / "scripts" / "platforms.py")
+    spec = importlib.util.spec_from_file_location("platforms", SCRIPTS / "platforms.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module

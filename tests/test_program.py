@@ -6,12 +6,12 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.places import ROOT
 
 from turtlewire.program import program
 from turtlewire_ros.executables import executable_paths
 from turtlewire_ros.prefix import own_prefix, package_names
 
-ROOT = Path(__file__).parent.parent
 BIN = Path(sys.executable).parent
 BAG = "tests/golden/bag/talker"
 COMMANDS = [

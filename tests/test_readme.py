@@ -7,10 +7,10 @@ import re
 from pathlib import Path
 
 import pytest
+from tests.places import LEARNING, ROOT
 
 from turtlewire_ros.executables import executable_paths
 
-ROOT = Path(__file__).parent.parent
 FRONT = ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md")
 PAGES = [*(ROOT / name for name in FRONT), *sorted((ROOT / "docs").rglob("*.md"))]
 
@@ -32,8 +32,8 @@ def test_what_it_runs_exists():
     runs = re.findall(r"^(?:PATH=\S+ )?ros2 run (\w+) (\w+)", text, re.MULTILINE)
     launches = re.findall(r"^ros2 launch (\w+) (\S+)", text, re.MULTILINE)
     assert runs == [("turtlesim", "turtle_teleop_key")]
-    assert launches == [("learning_tf2_py", "turtle_tf2_demo.launch.py")]
+    assert launches == [(LEARNING.name, "turtle_tf2_demo.launch.py")]
     for package, executable in runs:
         assert executable in [Path(path).name for path in executable_paths(package)]
-    for package, launch_file in launches:
-        assert list((ROOT / "ros2_ws" / "src" / package).rglob(launch_file))
+    for _, launch_file in launches:
+        assert list(LEARNING.rglob(launch_file))

@@ -6,16 +6,14 @@ import importlib.util
 import re
 import tarfile
 import zipfile
-from pathlib import Path
 
 import pytest
-
-ROOT = Path(__file__).parents[1]
+from tests.places import SCRIPTS
 
 
 @pytest.fixture
 def release():
-    spec = importlib.util.spec_from_file_location("release", ROOT / "scripts" / "release.py")
+    spec = importlib.util.spec_from_file_location("release", SCRIPTS / "release.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module

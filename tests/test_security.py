@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
+from tests.places import ROOT
 from tests.test_compatibility import functions_of
 
 from turtlewire import msg
@@ -18,7 +19,6 @@ from turtlewire.bag.definitions import learn_types
 from turtlewire.errors import InterfaceError, TurtlewireError
 from turtlewire.tf import inspection
 
-ROOT = Path(__file__).parent.parent
 PAGE = ROOT / "SECURITY.md"
 
 # Beginning of a point, and below it its tests.

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import sys
-from pathlib import Path
 
 import pytest
+from tests.places import SCRIPTS
 
-SOAK = Path(__file__).parents[1] / "scripts" / "soak.py"
+SOAK = SCRIPTS / "soak.py"
 
 
 @pytest.mark.slow

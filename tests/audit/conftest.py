@@ -5,11 +5,10 @@ from __future__ import annotations
 import contextlib
 import importlib
 import sys
-from pathlib import Path
 
 import pytest
+from tests.places import ROOT, SCRIPTS
 
-ROOT = Path(__file__).parents[2]
 PAGES = ["view", "turtlesim", "sliders", "class", "lesson", "site", "site's page"]
 BUILT = {"lesson": "lesson", "site": "site", "site's page": "site"}
 
@@ -17,11 +16,11 @@ BUILT = {"lesson": "lesson", "site": "site", "site's page": "site"}
 @pytest.fixture(scope="session")
 def audit():
     """The module `scripts/page_audit.py`."""
-    sys.path.insert(0, str(ROOT / "scripts"))
+    sys.path.insert(0, str(SCRIPTS))
     try:
         module = importlib.import_module("page_audit")
     finally:
-        sys.path.remove(str(ROOT / "scripts"))
+        sys.path.remove(str(SCRIPTS))
     assert list(module.PAGES) == PAGES
     if text := module.missing():
         pytest.skip(text)

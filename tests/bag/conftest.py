@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
+from tests import places
 
 from turtlewire import msg
 from turtlewire.bag import BagWriter
 from turtlewire.wire.qos import Durability, QoS
 
-GOLDEN = Path(__file__).parent.parent / "golden" / "bag"
+GOLDEN = places.GOLDEN / "bag"
 
 #: Bags of the real rosbag2 with all its answers: MCAP, split MCAP compressed by file, and sqlite3
 #: compressed by message.

@@ -5,16 +5,14 @@ from __future__ import annotations
 import doctest
 import re
 import shlex
-from pathlib import Path
 
 import numpy as np
 import pytest
 from tests.bag.conftest import SECOND, START, write_bag
+from tests.places import HOW_TO
 
 from turtlewire.cli.main import main
 from turtlewire.trajectory import Trajectory, write_tum
-
-HOW_TO = Path(__file__).parents[2] / "docs" / "how-to"
 
 
 @pytest.fixture

@@ -7,17 +7,16 @@ import shutil
 import subprocess
 import sys
 import zipfile
-from pathlib import Path
 
 import pytest
+from tests.places import ROOT, SCRIPTS
 
-ROOT = Path(__file__).parents[2]
 WHEELHOUSE = ROOT / "build/wheelhouse" / f"{sys.version_info.major}.{sys.version_info.minor}"
 UP = "ip link set lo up"
 
 
 def bundle(output, wheels):
-    command = [sys.executable, str(ROOT / "scripts/bundle.py"), "--output", str(output)]
+    command = [sys.executable, str(SCRIPTS / "bundle.py"), "--output", str(output)]
     return subprocess.run(
         [*command, "--wheels", str(wheels)], capture_output=True, text=True, check=False
     )

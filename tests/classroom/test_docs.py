@@ -9,11 +9,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+from tests.places import EXAMPLES, HOW_TO
+
 from turtle_class.catalogue import exercises
 from turtle_class.roster import read_roster
 
-ROOT = Path(__file__).parents[2]
-PAGE = (ROOT / "docs/how-to/classroom.md").read_text(encoding="utf-8")
+PAGE = (HOW_TO / "classroom.md").read_text(encoding="utf-8")
 PROGRAM = "import sys; from turtlewire.cli.main import main; sys.exit(main())"
 
 
@@ -23,7 +24,7 @@ def blocks(language):
 
 def test_the_page_does_what_it_says(run, tmp_path, monkeypatch):
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join(sys.path))
-    shutil.copytree(ROOT / "examples", tmp_path / "examples")
+    shutil.copytree(EXAMPLES, tmp_path / "examples")
     (tmp_path / "roster.csv").write_text(blocks("text")[0], encoding="utf-8")
     assert [seat.name for seat in read_roster(tmp_path / "roster.csv")] == ["Ana", "Björn"]
     solved = exercises()[0]

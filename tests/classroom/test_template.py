@@ -7,16 +7,15 @@ import os
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 import yaml
+from tests.places import EXAMPLES
 
 from turtle_class.catalogue import exercises
 from turtlewire.cli.main import main
 
-ROOT = Path(__file__).parents[2]
-TEMPLATE = ROOT / "examples" / "classroom_template"
+TEMPLATE = EXAMPLES / "classroom_template"
 WORKFLOW = yaml.safe_load((TEMPLATE / ".github/workflows/classroom.yml").read_text("utf-8"))
 STEPS = WORKFLOW["jobs"]["grade"]["steps"]
 GRADERS = [step for step in STEPS if "command-grader" in step.get("uses", "")]

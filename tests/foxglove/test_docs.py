@@ -5,9 +5,11 @@ import shlex
 import sys
 from pathlib import Path
 
+from tests.places import HOW_TO
+
 from turtlewire.wire.qos import Durability
 
-PAGE = (Path(__file__).parents[2] / "docs/how-to/foxglove.md").read_text()
+PAGE = (HOW_TO / "foxglove.md").read_text()
 BIN = Path(sys.executable).parent
 
 

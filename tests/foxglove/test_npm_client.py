@@ -10,11 +10,11 @@ import threading
 from pathlib import Path
 
 import pytest
+from tests.places import ROOT
 
 from turtlewire import msg
 from turtlewire.wire.qos import Durability
 
-ROOT = Path(__file__).parents[2]
 CLIENT = ROOT / "build" / "npm-tools" / "foxglove"
 pytestmark = pytest.mark.skipif(
     shutil.which("node") is None or not (CLIENT / "node_modules").is_dir(),

@@ -6,9 +6,10 @@ import gzip
 import json
 import re
 import time
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
+from tests import places
 
 import rclpy
 from joint_state_publisher.joint_state_publisher import JointStatePublisher, SettingError, main
@@ -20,7 +21,10 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
-GOLDEN = Path(__file__).parent.parent / "golden" / "robots"
+if TYPE_CHECKING:
+    from pathlib import Path
+
+GOLDEN = places.GOLDEN / "robots"
 SCENARIOS = {
     scenario["name"]: scenario
     for scenario in json.loads((GOLDEN / "jsp" / "scenarios.json").read_text())

@@ -9,9 +9,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.places import EXAMPLES
 
 ROS2 = Path(sys.executable).parent / "ros2"
-EXAMPLES = Path(__file__).parents[2] / "examples"
 HEADLESS = {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0"}
 
 

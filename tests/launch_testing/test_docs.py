@@ -9,7 +9,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "test_a_node.md"
+from tests.places import HOW_TO
+
+PAGE = HOW_TO / "test_a_node.md"
 
 
 def test_the_page_does_what_it_says(tmp_path):

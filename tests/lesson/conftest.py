@@ -6,18 +6,17 @@ import importlib.util
 import subprocess
 import sys
 import threading
-from pathlib import Path
 
 import pytest
+from tests.places import SCRIPTS
 
-ROOT = Path(__file__).parents[2]
 #: Loading Python takes seconds, and the machine may be busy.
 LONG_MS = 100_000
 
 
 def static_server(folder):
     """The server of `scripts/docs --serve` and `scripts/lesson --serve`."""
-    path = ROOT / "scripts" / "static_server.py"
+    path = SCRIPTS / "static_server.py"
     spec = importlib.util.spec_from_file_location("static_server", path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
@@ -47,7 +46,7 @@ class Host:
 def built(tmp_path_factory):
     """The lesson as `scripts/lesson` builds it."""
     folder = tmp_path_factory.mktemp("site") / "lesson"
-    script = ROOT / "scripts" / "lesson.py"
+    script = SCRIPTS / "lesson.py"
     done = subprocess.run(
         [sys.executable, str(script), "--output", str(folder)],
         capture_output=True,

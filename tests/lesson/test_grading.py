@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import json
 import re
-from pathlib import Path
 
 import pytest
+from tests.places import LESSONS, ROOT
 
 from turtle_lesson.grading import grade
 from turtle_lesson.lesson import load_lesson
 
 from .wrong_answers import WRONG_ANSWERS
 
-ROOT = Path(__file__).parents[2]
-LESSONS = ROOT / "site" / "lesson" / "lessons"
 ORDER = json.loads((LESSONS / "order.json").read_text(encoding="utf-8"))
 VERBATIM = ROOT / "tests" / "tutorial" / "verbatim" / "learning_tf2_py" / "learning_tf2_py"
 

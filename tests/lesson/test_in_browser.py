@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import json
 import re
-from pathlib import Path
 
 import pytest
+from tests.places import LESSONS
 
 from turtle_lesson.lesson import load_lesson
 
@@ -14,7 +14,6 @@ from .conftest import LONG_MS, Host, wait_until_loaded
 from .wrong_answers import WRONG_ANSWERS
 
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(600)]
-LESSONS = Path(__file__).parents[2] / "site" / "lesson" / "lessons"
 ORDER = json.loads((LESSONS / "order.json").read_text(encoding="utf-8"))
 LISTENER = "turtle_tf2_listener.py"
 #: Opens a lesson with files in the editors, as if they had been typed, and runs it.

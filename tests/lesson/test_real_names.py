@@ -8,13 +8,12 @@ from __future__ import annotations
 import ast
 import json
 import re
-from pathlib import Path
 
 import pytest
+from tests import places
+from tests.places import LESSONS
 
-ROOT = Path(__file__).parents[2]
-GOLDEN = ROOT / "tests" / "golden" / "surface"
-LESSONS = ROOT / "site" / "lesson" / "lessons"
+GOLDEN = places.GOLDEN / "surface"
 FILES = sorted(LESSONS.glob("*/*/*.py"))
 SURFACE = {
     module: names

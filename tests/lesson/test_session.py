@@ -6,16 +6,14 @@ import json
 import struct
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from tests.places import LESSON_CODE, LESSONS
 
 from turtle_lesson import classroom
 from turtle_lesson.lesson import load_lesson
 from turtle_lesson.session import Session
 
-ROOT = Path(__file__).parents[2]
-LESSONS = ROOT / "site" / "lesson" / "lessons"
 WISHES = json.dumps({"target": "turtle2", "source": "turtle1", "topic": "/turtle1/pose"})
 
 
@@ -189,9 +187,7 @@ print(turtlewire.tf.buffer.CORE, middleware_name())
 
 def test_it_needs_no_thread_no_numpy_and_no_compiled_core():
     """As in a browser tab: what is missing there is taken away here."""
-    code = TAB.format(
-        python=str(ROOT / "site" / "lesson" / "python"), lesson=str(LESSONS / "listener")
-    )
+    code = TAB.format(python=str(LESSON_CODE), lesson=str(LESSONS / "listener"))
     done = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=110
     )

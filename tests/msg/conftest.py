@@ -6,11 +6,11 @@ The golden data, filling a message from it, and messages of any type at random.
 from __future__ import annotations
 
 import json
-from pathlib import Path
 from typing import Any
 
 import pytest
 from hypothesis import strategies as st
+from tests import places
 
 from turtlewire import msg
 from turtlewire.msg.registry import load_message
@@ -25,7 +25,7 @@ from turtlewire.msg.types import (
     NamespacedType,
 )
 
-GOLDEN = Path(__file__).parent.parent / "golden" / "wire"
+GOLDEN = places.GOLDEN / "wire"
 
 
 @pytest.fixture(scope="session")

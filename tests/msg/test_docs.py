@@ -6,11 +6,12 @@ import doctest
 import re
 import subprocess
 import sys
-from pathlib import Path
+
+from tests.places import ROOT
 
 from turtlewire.msg import registry
 
-PAGE = Path(__file__).parents[2] / "docs" / "interfaces.md"
+PAGE = ROOT / "docs" / "interfaces.md"
 FILES = {
     "package.xml": "<package format='3'><name>my_interfaces</name></package>",
     "msg/Sphere.msg": "geometry_msgs/Point center\nfloat64 radius 1.0\n",

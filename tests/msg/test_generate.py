@@ -6,9 +6,9 @@ import importlib
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from tests.places import IMPORT_PATH
 
 from turtlewire.errors import InterfaceError
 from turtlewire.msg import registry
@@ -156,10 +156,9 @@ def test_stubs_satisfy_a_type_checker(generated, tmp_path):
         "Sphere(radius='big')\n"
         "Sphere().rdius\n"
     )
-    root = Path(__file__).parents[2]
     environment = {
         **os.environ,
-        "MYPYPATH": f"{generated}:{root / 'src'}:{root / 'ros'}",
+        "MYPYPATH": ":".join(map(str, (generated, *IMPORT_PATH))),
     }
     command = [
         sys.executable,

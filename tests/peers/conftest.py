@@ -8,10 +8,10 @@ from contextlib import suppress
 from pathlib import Path
 
 import pytest
+from tests.places import ROOT
 
 from turtlewire.wire import open_context
 
-ROOT = Path(__file__).parents[2]
 PEER = Path(__file__).with_name("peer.py")
 BIN = Path(sys.executable).parent
 LONG = 60_000_000_000

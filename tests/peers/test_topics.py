@@ -7,6 +7,7 @@ import socket
 from pathlib import Path
 
 import pytest
+from tests.places import ROOT
 
 from turtlewire import msg
 from turtlewire.wire.base import TypeId
@@ -15,7 +16,7 @@ from turtlewire.wire.qos import QoS, Reliability
 pytestmark = pytest.mark.slow
 
 LONG = 60_000_000_000
-PAGE = Path(__file__).parents[2] / "docs" / "compatibility.md"
+PAGE = ROOT / "docs" / "compatibility.md"
 RECEIVE_BUFFER = 4_194_304
 IMAGES = 20
 

@@ -6,11 +6,11 @@ import re
 import shlex
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from tests import places
 
 from rclpy._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
 from rclpy.arguments import Arguments
@@ -19,7 +19,7 @@ from rclpy.impl.rcl_lexer import Lexeme, Lexer, RuleError
 from rclpy.impl.rcl_yaml_param_parser import parse_file, parse_value
 from turtlewire.wire import names
 
-GOLDEN = Path(__file__).parent.parent / "golden" / "cli"
+GOLDEN = places.GOLDEN / "cli"
 #: Runs of a whole node (it ends by Ctrl-C; a parameter of turtlesim has the wrong type):
 #: tests/rclpy and tests/turtlesim play them.
 NEEDS_A_NODE = {"160_rosargs_rclpy_param_range.txt", "170_rosargs_rclcpp_wrong_param_type.txt"}

@@ -6,13 +6,14 @@ from __future__ import annotations
 
 import json
 import re
-from pathlib import Path
+
+from tests import places
 
 from rclpy.node import Node
 from turtlewire.wire import names
 from turtlewire.wire.qos import INFINITE_NS, Durability, Reliability
 
-GOLDEN = Path(__file__).parent.parent / "golden" / "wire" / "endpoints.json"
+GOLDEN = places.GOLDEN / "wire" / "endpoints.json"
 
 
 def announced():

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 
 import pytest
+from tests.places import GOLDEN
 
 from rcl_interfaces.msg import Log, LoggerLevel, ParameterDescriptor, ParameterValue
 from rcl_interfaces.msg import Parameter as ParameterMsg
@@ -20,8 +20,6 @@ from rclpy.parameter_event_handler import ParameterEventHandler
 from rclpy.qos import QoSProfile
 from turtlewire import msg
 from type_description_interfaces.srv import GetTypeDescription
-
-GOLDEN = Path(__file__).parent.parent / "golden"
 
 
 @pytest.fixture

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
 
 import pytest
+from tests import places
 
 from rcl_interfaces.msg import (
     FloatingPointRange,
@@ -19,7 +19,7 @@ from rclpy._node.parameters import NodeParameters
 from rclpy.parameter import Parameter
 from rclpy.time import Time
 
-GOLDEN = Path(__file__).parent.parent / "golden" / "cli"
+GOLDEN = places.GOLDEN / "cli"
 Type = Parameter.Type
 OK = SetParametersResult(successful=True)
 

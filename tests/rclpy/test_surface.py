@@ -12,6 +12,7 @@ import json
 from pathlib import Path
 
 import pytest
+from tests import places
 
 import rclpy.node
 import rclpy.qos
@@ -20,7 +21,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.lifecycle import LifecycleNode
 from rclpy.node import Node
 
-GOLDEN = Path(__file__).parent.parent / "golden" / "surface"
+GOLDEN = places.GOLDEN / "surface"
 
 CONSTANTS = """
 rclpy.signals.SignalHandlerOptions: NO=0 SIGINT=1 SIGTERM=2 ALL=3

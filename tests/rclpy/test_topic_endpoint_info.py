@@ -1,7 +1,8 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
+
+from tests import places
 
 from rclpy.duration import Infinite
 from rclpy.qos import LivelinessPolicy, QoSProfile
@@ -10,7 +11,7 @@ from rclpy.type_hash import TypeHash
 from turtlewire.wire import base
 from turtlewire.wire.qos import INFINITE_NS, Liveliness, QoS
 
-GOLDEN = Path(__file__).parent.parent / "golden" / "cli"
+GOLDEN = places.GOLDEN / "cli"
 HASH = "RIHS01_9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a"
 
 

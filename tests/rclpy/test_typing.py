@@ -5,11 +5,9 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
-
-ROOT = Path(__file__).parents[2]
+from tests.places import IMPORT_PATH
 
 PROGRAM = """
 import rclpy
@@ -118,7 +116,7 @@ def test_a_strict_type_checker_accepts_programs_and_finds_mistakes(tmp_path):
     pytest.importorskip("mypy", reason="needs mypy (scripts/setup lint)")
     (tmp_path / "user.py").write_text(PROGRAM)
     (tmp_path / "wrong.py").write_text(MISTAKES)
-    environment = {**os.environ, "MYPYPATH": f"{ROOT / 'src'}:{ROOT / 'ros'}"}
+    environment = {**os.environ, "MYPYPATH": ":".join(map(str, IMPORT_PATH))}
     command = [
         sys.executable,
         "-m",

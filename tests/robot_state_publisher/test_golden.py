@@ -15,10 +15,11 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests import places
 
 from sensor_msgs.msg import JointState
 
-GOLDEN = Path(__file__).parent.parent / "golden" / "robots"
+GOLDEN = places.GOLDEN / "robots"
 SCENARIOS = {each["name"]: each for each in json.loads((GOLDEN / "rsp/scenarios.json").read_text())}
 INVALID = json.loads((GOLDEN / "invalid/expected.json").read_text())
 STARTUPS = {each["name"]: each for each in json.loads((GOLDEN / "rsp/startups.json").read_text())}

@@ -9,10 +9,11 @@ import sys
 import time
 from pathlib import Path
 
+from tests.places import HOW_TO
+
 from joint_state_publisher.description import Options, read_joints
 
-ROOT = Path(__file__).parents[2]
-PAGE = ROOT / "docs" / "how-to" / "robots.md"
+PAGE = HOW_TO / "robots.md"
 BIN = Path(sys.executable).parent
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 #: Commands that the page shows without running them.

@@ -10,8 +10,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.places import EXAMPLES
 
-ROBOTS = Path(__file__).parents[2] / "examples" / "robots"
+ROBOTS = EXAMPLES / "robots"
 ROS2 = Path(sys.executable).parent / "ros2"
 
 

@@ -10,8 +10,9 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import pytest
+from tests import places
 
-GOLDEN = Path(__file__).parent.parent / "golden" / "robots"
+GOLDEN = places.GOLDEN / "robots"
 XACRO = Path(sys.executable).parent / "xacro"
 RUNS = {
     " ".join(run["args"]): run for run in json.loads((GOLDEN / "xacro/expected.json").read_text())

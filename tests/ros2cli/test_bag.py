@@ -5,13 +5,13 @@ from __future__ import annotations
 import json
 import shutil
 import sys
-from pathlib import Path
 
 import pytest
+from tests import places
 
 import ros2cli.main
 
-GOLDEN = Path(__file__).parent.parent / "golden" / "bag"
+GOLDEN = places.GOLDEN / "bag"
 BAGS = ["d_mcap", "d_split_file_zstd", "d_sqlite3_message_zstd"]
 
 #: The real one cannot count in compressed bags: it fails, or finds no requests. We count.

@@ -8,13 +8,13 @@ from __future__ import annotations
 import importlib.util
 import sys
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
 import pytest
+from tests.places import GOLDEN
 
 from turtlewire.testing import reserved_domain
 
-REPLAY = Path(__file__).parents[1] / "golden" / "cli" / "replay.py"
+REPLAY = GOLDEN / "cli" / "replay.py"
 
 CPP = (
     "turtlesim is a Python node here: it ends with an exception and status 1, where the C++ one "

@@ -7,15 +7,15 @@ import json
 import subprocess
 import sys
 import zlib
-from pathlib import Path
 
 import pytest
+from tests import places
 
 import rosbag2_py
 from rclpy.serialization import deserialize_message
 from std_msgs.msg import String
 
-GOLDEN = Path(__file__).parent.parent / "golden" / "bag"
+GOLDEN = places.GOLDEN / "bag"
 BAGS = ["d_mcap", "d_split_file_zstd", "d_sqlite3_message_zstd"]
 
 

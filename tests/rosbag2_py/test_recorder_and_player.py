@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import threading
-from pathlib import Path
 
 import pytest
+from tests.places import GOLDEN
 from tests.rosbag2_transport.conftest import LATCHED, peer, texts  # noqa: F401 - a fixture
 
 import rosbag2_py
 from std_msgs.msg import String
 
-SMALL = Path(__file__).parents[1] / "golden" / "bag" / "p_small"
+SMALL = GOLDEN / "bag" / "p_small"
 SECOND = 1_000_000_000
 
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 import os
 import re
 import sys
-from pathlib import Path
 
 import pytest
+from tests.places import HOW_TO
 from tests.rosbag2_transport.conftest import ROS2, end, texts
 
 from turtlewire.bag import open_bag
 
-PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "record_and_play.md"
+PAGE = HOW_TO / "record_and_play.md"
 
 
 @pytest.fixture

@@ -8,12 +8,12 @@ import re
 import shutil
 import signal
 import subprocess
-from pathlib import Path
 
 import pytest
+from tests import places
 from tests.rosbag2_transport.conftest import ROS2
 
-GOLDEN = Path(__file__).parents[1] / "golden" / "bag"
+GOLDEN = places.GOLDEN / "bag"
 COMMANDS = json.loads((GOLDEN / "commands.json").read_text())
 EXPECTED = {
     row["command"]: row for row in json.loads((GOLDEN / "commands.expected.json").read_text())

@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import signal
-from pathlib import Path
 
 import pytest
+from tests.places import GOLDEN
 from tests.rosbag2_transport.conftest import LATCHED, ROS2, end, texts
 
 import rosbag2_py
@@ -25,7 +25,7 @@ from turtlewire.bag import BagWriter, open_bag
 from turtlewire.msg import get_message
 from turtlewire.wire.qos import Reliability
 
-SMALL = Path(__file__).parents[1] / "golden" / "bag" / "p_small"
+SMALL = GOLDEN / "bag" / "p_small"
 SECOND = 1_000_000_000
 START = 1_800_000_000 * SECOND  # of the small bag
 EVENT = "example_interfaces/srv/AddTwoInts_Event"

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import json
 import re
-from pathlib import Path
 
 import pytest
+from tests import places
 from tests.rosbag2_transport.conftest import DEEP, LATCHED, end, texts
 
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -18,7 +18,7 @@ from tf2_msgs.msg import TFMessage
 from turtlewire.bag import BagWriter, open_bag
 from turtlewire.wire.qos import Durability, QoS, Reliability
 
-GOLDEN = Path(__file__).parents[1] / "golden" / "bag"
+GOLDEN = places.GOLDEN / "bag"
 SMALL = GOLDEN / "p_small"
 SCENES = {scene["name"]: scene for scene in json.loads((GOLDEN / "play.json").read_text())}
 LOSSY = QoSProfile(depth=1000, reliability=ReliabilityPolicy.BEST_EFFORT)

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
+from tests.places import GOLDEN
 
 from rosbag2_transport.options import RecordOptions
 from rosbag2_transport.rewrite import Output, rewrite
 from turtlewire.bag import BagWriter, open_bag
 
-SMALL = Path(__file__).parents[1] / "golden" / "bag" / "p_small"
+SMALL = GOLDEN / "bag" / "p_small"
 
 
 def test_an_interrupted_conversion_says_so_and_leaves_no_half_bag(tmp_path, capfd):

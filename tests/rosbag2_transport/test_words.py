@@ -5,11 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from tests.places import GOLDEN
 from tests.ros2cli.test_completion import offered
 
 import ros2cli.main
 
-SMALL = Path(__file__).parents[1] / "golden" / "bag" / "p_small"
+SMALL = GOLDEN / "bag" / "p_small"
 
 
 @pytest.mark.parametrize(

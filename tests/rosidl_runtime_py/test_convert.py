@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import json
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
 import yaml
+from tests.places import GOLDEN
 
 from rosidl_runtime_py import (
     message_to_csv,
@@ -19,7 +19,6 @@ from rosidl_runtime_py import (
 from rosidl_runtime_py.utilities import get_message
 from turtlewire import msg
 
-GOLDEN = Path(__file__).parent.parent / "golden"
 CASES = {
     case["name"]: case for case in json.loads((GOLDEN / "wire" / "cdr_cases.json").read_text())
 }

@@ -6,18 +6,14 @@ import importlib.util
 import itertools
 import re
 import struct
-from pathlib import Path
 
 import pytest
-
-ROOT = Path(__file__).parents[2]
+from tests.places import ROOT, SITE
 
 
 @pytest.fixture(scope="module")
 def pages():
-    spec = importlib.util.spec_from_file_location(
-        "accessible_pages", ROOT / "site" / "docs" / "accessible_pages.py"
-    )
+    spec = importlib.util.spec_from_file_location("accessible_pages", SITE / "accessible_pages.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module

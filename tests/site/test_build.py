@@ -6,17 +6,16 @@ import importlib.util
 import re
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from tests.places import SCRIPTS, SITE
 
-ROOT = Path(__file__).parents[2]
 GOOD = '<h1 id="top">A</h1><a href="sub/b.html#there">b</a><a href="https://example.org">out</a>'
 
 
 @pytest.fixture(scope="module")
 def faults_of():
-    spec = importlib.util.spec_from_file_location("docs_links", ROOT / "scripts" / "docs_links.py")
+    spec = importlib.util.spec_from_file_location("docs_links", SCRIPTS / "docs_links.py")
     module = sys.modules[spec.name] = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     yield lambda folder: list(module.faults_of(folder, apart={"lesson"}))
@@ -76,15 +75,15 @@ def test_the_base_is_where_links_start(faults_of, folder):
 
 
 def test_versions_are_pinned():
-    lines = (ROOT / "site/docs/requirements.txt").read_text(encoding="utf-8").splitlines()
-    wanted = (ROOT / "site/docs/requirements.in").read_text(encoding="utf-8").splitlines()
+    lines = (SITE / "requirements.txt").read_text(encoding="utf-8").splitlines()
+    wanted = (SITE / "requirements.in").read_text(encoding="utf-8").splitlines()
     assert all(re.fullmatch(r"[\w.-]+==[\w.]+", line) for line in lines)
     pinned = {line.partition("==")[0].lower() for line in lines}
     assert {name for name in wanted if not name.startswith("#")} <= pinned
 
 
 def test_help_names_the_options():
-    script = ROOT / "scripts" / "docs.py"
+    script = SCRIPTS / "docs.py"
     done = subprocess.run(
         [sys.executable, str(script), "--help"], capture_output=True, text=True, check=True
     )

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from tests.lesson.conftest import LONG_MS, Host
+from tests.places import ROOT, SCRIPTS
 
-ROOT = Path(__file__).parents[2]
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(900)]
 PHONE = {"viewport": {"width": 390, "height": 844}}
 
@@ -19,7 +18,7 @@ def built():
     """The site as `scripts/docs` builds it, with the lesson that `scripts/lesson` has built."""
     output = ROOT / "build" / "site"
     done = subprocess.run(
-        [sys.executable, str(ROOT / "scripts" / "docs.py")],
+        [sys.executable, str(SCRIPTS / "docs.py")],
         capture_output=True,
         text=True,
         check=False,

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.places import ROOT, SCRIPTS, SITE
 
 import turtlewire
 from turtlewire.cli.main import main
@@ -17,7 +18,6 @@ from turtlewire_ros.prefix import share_directory
 
 from .texts import is_printed
 
-ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 PAGES = sorted(DOCS.rglob("*.md"))
 TROUBLE = (DOCS / "troubleshooting.md").read_text(encoding="utf-8")
@@ -144,7 +144,7 @@ def test_what_a_page_starts_exists(page):
         if package not in THEIRS:
             assert list(Path(share_directory(package)).rglob(file)), file
     for script in re.findall(r"\bscripts/(\w[\w-]*(?:\.py)?)", text):
-        assert (ROOT / "scripts" / script).exists()
+        assert (SCRIPTS / script).exists()
     code = "\n".join("".join(found) for found in CODE.findall(text))
     for verb in re.findall(r"(?:^|`)turtlewire ([a-z]+)\b", code, re.MULTILINE):
         with pytest.raises(SystemExit) as end:
@@ -181,7 +181,7 @@ def test_each_reference_page_names_a_package_that_is_there():
 def test_the_translation_is_of_the_page():
     """What is translated of the front page is still there, word for word."""
     page = " ".join((DOCS / "index.md").read_text(encoding="utf-8").split())
-    text = (ROOT / "site/docs/locale/de/LC_MESSAGES/index.po").read_text(encoding="utf-8")
+    text = (SITE / "locale/de/LC_MESSAGES/index.po").read_text(encoding="utf-8")
     quoted = r'((?:"(?:[^"\\]|\\.)*"\s*)+)'
     originals = [
         "".join(re.findall(r'"((?:[^"\\]|\\.)*)"', original))

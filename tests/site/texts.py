@@ -5,10 +5,9 @@ from __future__ import annotations
 import ast
 import re
 from functools import cache
-from pathlib import Path
 
-ROOT = Path(__file__).parents[2]
-ROOMS = ("src/turtlewire", "ros")
+from tests.places import IMPORT_PATH
+
 PLACEHOLDER = re.compile(r"\{[^{}]*\}|%[sd]")
 
 
@@ -17,8 +16,8 @@ def sources() -> dict[str, list[str]]:
     """The texts of each Python file; `…` stands for what is filled in."""
     return {
         str(path): _texts_of(ast.parse(path.read_text(encoding="utf-8")))
-        for room in ROOMS
-        for path in (ROOT / room).rglob("*.py")
+        for folder in IMPORT_PATH
+        for path in folder.rglob("*.py")
     }
 
 

@@ -13,11 +13,11 @@ import json
 import re
 import sys
 from dataclasses import asdict, dataclass, field
-from pathlib import Path
 
 from capture import surface
+from tests import places
 
-GOLDEN = Path(__file__).parent.parent / "golden" / "surface"
+GOLDEN = places.GOLDEN / "surface"
 
 
 @dataclass

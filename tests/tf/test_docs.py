@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import doctest
-from pathlib import Path
 
-PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "tf_buffer.md"
+from tests.places import HOW_TO
+
+PAGE = HOW_TO / "tf_buffer.md"
 
 
 def test_the_examples_do_what_the_page_says() -> None:

@@ -6,14 +6,18 @@ import os
 import shutil
 import subprocess
 import sys
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 from tests.needs import COMPILED_CORE
+from tests.places import ENGINE
 
 from turtlewire.tf.buffer import CORE
 
-NATIVE = Path(__file__).parents[2] / "native"
+if TYPE_CHECKING:
+    from pathlib import Path
+
+NATIVE = ENGINE / "native"
 SANITIZERS = {
     "plain": "",
     "address": "-fsanitize=address,undefined -fno-sanitize-recover=all",

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import doctest
-from pathlib import Path
 
 import pytest
+from tests.places import HOW_TO
 
 import tf2_geometry_msgs  # noqa: F401 -- registers what the page names
 import tf2_ros
 import tf2_sensor_msgs  # noqa: F401
 from tf2_tools import view_frames
-
-HOW_TO = Path(__file__).parents[2] / "docs" / "how-to"
 
 
 @pytest.mark.parametrize(

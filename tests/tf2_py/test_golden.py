@@ -5,12 +5,12 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from tests import places
 from tests.needs import COMPILED_CORE
 
-GOLDEN = Path(__file__).parents[1] / "golden" / "tf2"
+GOLDEN = places.GOLDEN / "tf2"
 #: Jazzy's first core and its newest: answers, texts, and texts that 0.36.20 still gives.
 FILES = {
     "dev.jsonl.gz": (24969, 12589 - 854),

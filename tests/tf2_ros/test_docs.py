@@ -13,8 +13,8 @@ import time
 from pathlib import Path
 
 import pytest
+from tests.places import HOW_TO
 
-HOW_TO = Path(__file__).parents[2] / "docs" / "how-to"
 BIN = Path(sys.executable).parent
 PAGES = {
     "static_transform_publisher.md": 3,

@@ -5,9 +5,10 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
-from pathlib import Path
 
-PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "simulate.md"
+from tests.places import HOW_TO
+
+PAGE = HOW_TO / "simulate.md"
 
 
 def test_the_page_does_what_it_says():

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 import sys
-from pathlib import Path
 
 import pytest
+from tests.places import ROOT
 
 import rclpy
 from geometry_msgs.msg import TransformStamped
@@ -28,7 +28,6 @@ from turtlewire.cli.graph_findings import graph_findings
 from turtlewire.cli.tf_findings import tf_findings
 from turtlewire.cli.tf_traffic import TfListener
 
-ROOT = Path(__file__).parents[2]
 VERBATIM = ROOT / "tests" / "tutorial" / "verbatim" / "learning_tf2_py" / "learning_tf2_py"
 TICK_S = 0.016
 

@@ -8,14 +8,14 @@ from __future__ import annotations
 import csv
 import json
 import struct
-from pathlib import Path
 
 import pytest
+from tests import places
 
 from turtlesim.model import Pen, World
 from turtlesim.path import PathImage
 
-GOLDEN = Path(__file__).parent.parent / "golden" / "sim"
+GOLDEN = places.GOLDEN / "sim"
 #: name -> number of ticks in the trace
 TRACES = {
     "arc": 144,

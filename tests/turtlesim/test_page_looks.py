@@ -14,8 +14,9 @@ import os
 from pathlib import Path
 
 import pytest
+from tests import places
 
-GOLDEN = Path(__file__).parent.parent / "golden" / "page"
+GOLDEN = places.GOLDEN / "page"
 WRITES = "TURTLEWIRE_WRITE_GOLDEN" in os.environ
 #: Two PNG files, both scaled to a width of 200, in cells of 10 x 10 pixels: mean difference of all
 #: colour channels in the worst cell.

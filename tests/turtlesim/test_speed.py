@@ -7,9 +7,9 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import pytest
+from tests.places import EXAMPLES
 
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
@@ -18,7 +18,7 @@ from rosgraph_msgs.msg import Clock
 from turtlesim.msg import Pose
 from turtlesim.srv import Spawn
 
-EXERCISE = Path(__file__).parent.parent.parent / "examples" / "graded_exercise"
+EXERCISE = EXAMPLES / "graded_exercise"
 NODE = (
     "import rclpy, sys; from {module} import {name}; rclpy.init(args=sys.argv); "
     "rclpy.spin({name}())"

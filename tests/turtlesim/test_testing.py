@@ -10,9 +10,10 @@ import os
 import shutil
 import subprocess
 import sys
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
+from tests.places import EXAMPLES
 
 import rclpy
 from geometry_msgs.msg import Twist
@@ -20,7 +21,10 @@ from rclpy.node import Node
 from turtlesim.msg import Pose
 from turtlesim.testing import Simulation
 
-EXERCISE = Path(__file__).parent.parent.parent / "examples" / "graded_exercise"
+if TYPE_CHECKING:
+    from pathlib import Path
+
+EXERCISE = EXAMPLES / "graded_exercise"
 RUN = """
 import sys; sys.path.insert(0, {exercise!r})
 from broadcaster import Broadcaster

@@ -18,6 +18,7 @@ import time
 from pathlib import Path
 
 import pytest
+from tests.places import GOLDEN
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
@@ -27,9 +28,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from turtlesim.msg import Pose
 
-TELEOP = json.loads(
-    (Path(__file__).parent.parent / "golden" / "tutorial" / "teleop.json").read_text()
-)
+TELEOP = json.loads((GOLDEN / "tutorial" / "teleop.json").read_text())
 HEADINGS = set("gtredcvb")
 LINE = re.compile(r"\[(INFO|WARN|ERROR)\] \[\d+\.\d{9}\] \[[a-z0-9_.]+\]: (.*)")
 

@@ -14,13 +14,14 @@ from contextlib import suppress
 from pathlib import Path
 
 import pytest
+from tests.places import ROS
 
 from turtlewire import msg
 from turtlewire.wire import open_context
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import Durability, QoS
 
-FILES = Path(__file__).parents[2] / "ros/turtlewire_ros/environment"
+FILES = ROS / "turtlewire_ros/environment"
 
 needs_fish = pytest.mark.skipif(
     shutil.which("fish") is None, reason="needs fish (Debian: apt install fish)"

@@ -6,16 +6,15 @@ import hashlib
 import subprocess
 import sys
 import zipfile
-from pathlib import Path
 
 import pytest
 import yaml
 from defusedxml import ElementTree
+from tests.places import ROS
 
 from turtlewire.msg.idl import idl_to_text
 from turtlewire.msg.parser import parse_action, parse_message, parse_service
 
-ROS = Path(__file__).parents[2] / "ros"
 INTERFACES = ROS.parent / "src" / "turtlewire" / "msg" / "interfaces"
 PARSERS = {"msg": parse_message, "srv": parse_service, "action": parse_action}
 KINDS = [*PARSERS]

@@ -13,8 +13,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.places import SCRIPTS
 
-DEMO = Path(__file__).parents[2] / "scripts" / "demo.py"
+DEMO = SCRIPTS / "demo.py"
 VICTIMS = {
     "turtle_tf2_broadcaster-2": "a broadcaster has stopped",
     "turtle_tf2_broadcaster-3": "a broadcaster has stopped",

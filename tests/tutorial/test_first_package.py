@@ -9,9 +9,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.places import HOW_TO, LEARNING, ROOT
 
-ROOT = Path(__file__).parents[2]
-PAGE = (ROOT / "docs/how-to/first_package.md").read_text(encoding="utf-8")
+PAGE = (HOW_TO / "first_package.md").read_text(encoding="utf-8")
 BIN = Path(sys.executable).parent
 BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
 HAT, LAUNCH = (text for kind, text in BLOCKS if kind == "python")
@@ -32,7 +32,7 @@ pytestmark = [
 @pytest.fixture
 def bash(run, tmp_path, workspace):
     """Runs lines in a shell that has sourced `setup.bash`, with a home folder of its own."""
-    tutorial = workspace(ROOT / "ros2_ws/src/learning_tf2_py")
+    tutorial = workspace(LEARNING)
     environment = tutorial | {"HOME": str(tmp_path), "ROS_LOG_DIR": str(tmp_path / "log")}
 
     def bash(*lines):
@@ -91,7 +91,7 @@ def test_the_page_from_top_to_bottom(bash, tmp_path):
 
 
 def test_rosdep_says_what_the_page_says(bash, tmp_path):
-    shutil.copytree(ROOT / "ros2_ws/src/learning_tf2_py", tmp_path / "src/p")
+    shutil.copytree(LEARNING, tmp_path / "src/p")
     manifest = tmp_path / "src/p/package.xml"
     manifest.write_text(manifest.read_text().replace("<depend>launch<", "<br><depend>launch<", 1))
     rosdep = bash("rosdep install -i --from-path src -y")
@@ -101,5 +101,5 @@ def test_rosdep_says_what_the_page_says(bash, tmp_path):
 
 def test_the_page_is_found_from_the_demo_and_the_readme():
     assert "(docs/how-to/first_package.md)" in (ROOT / "README.md").read_text()
-    assert "(first_package.md)" in (ROOT / "docs/how-to/learning_tf2_py.md").read_text()
+    assert "(first_package.md)" in (HOW_TO / "learning_tf2_py.md").read_text()
     assert "how-to/first_package\n" in (ROOT / "docs/index.md").read_text()

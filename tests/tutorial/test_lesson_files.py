@@ -8,11 +8,10 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.places import LESSONS, ROOT
 
-ROOT = Path(__file__).parents[2]
 ROS2 = Path(sys.executable).parent / "ros2"
 VERBATIM = ROOT / "tests" / "tutorial" / "verbatim" / "learning_tf2_py"
-LESSONS = ROOT / "site" / "lesson" / "lessons"
 SPAWN = "{x: 4.0, y: 2.0, theta: 0.0, name: 'turtle2'}"
 
 

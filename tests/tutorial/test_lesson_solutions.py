@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.places import LEARNING, LESSONS
 
 from turtle_lesson.lesson import load_lesson
 from turtlesim.testing.faults import WrongTime
@@ -20,10 +21,8 @@ from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import QoS
 
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(300)]
-ROOT = Path(__file__).parents[2]
-LESSONS = ROOT / "site" / "lesson" / "lessons"
 ROS2 = Path(sys.executable).parent / "ros2"
-PACKAGE = ROOT / "ros2_ws" / "src" / "learning_tf2_py"
+PACKAGE = LEARNING
 LONG_NS = 60_000_000_000
 MIDDLE = 499 / 90  # where turtle1 stands
 #: Where the faults' lesson publishes turtle1's transforms, for a fault on their way to /tf.

@@ -11,13 +11,13 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.places import LEARNING
 
 from turtlewire import Buffer
 from turtlewire.tf.listener import TransformListener
 
-ROOT = Path(__file__).parents[2]
 ROS2 = Path(sys.executable).parent / "ros2"
-PACKAGE = ROOT / "ros2_ws" / "src" / "learning_tf2_py"
+PACKAGE = LEARNING
 LONG_NS = 60_000_000_000
 
 

@@ -9,22 +9,19 @@ import ast
 import importlib.util
 import json
 import sys
-from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
+from tests.places import GOLDEN, LEARNING
 
 from turtlewire.msg.registry import interface_names
 
-ROOT = Path(__file__).parents[2]
-PACKAGE = ROOT / "ros2_ws" / "src" / "learning_tf2_py"
+PACKAGE = LEARNING
 FILES = sorted([*PACKAGE.glob("learning_tf2_py/*.py"), *PACKAGE.glob("launch/*.py")])
 #: Module to names, captured from a real ROS 2 Jazzy.
 SURFACE = {
     module: names.split()
-    for module, names in json.loads(
-        (ROOT / "tests" / "golden" / "tutorial" / "surface.json").read_text()
-    ).items()
+    for module, names in json.loads((GOLDEN / "tutorial" / "surface.json").read_text()).items()
 }
 # The capture leaves out the names that a module hands on from another package, here tf2_py.
 SURFACE["tf2_ros"].append("TransformException")

@@ -13,8 +13,8 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from tests.places import SCRIPTS
 
-SCRIPTS = Path(__file__).parents[2] / "scripts"
 SETUP = SCRIPTS / "setup.py"
 
 

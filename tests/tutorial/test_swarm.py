@@ -9,14 +9,14 @@ import threading
 from pathlib import Path
 
 import pytest
+from tests.places import LEARNING
 
 from turtlewire import Buffer, msg
 from turtlewire.tf.listener import QOS, TOPIC, TYPE_NAME, TransformListener
 from turtlewire.wire.base import TypeId
 
-ROOT = Path(__file__).parents[2]
 ROS2 = Path(sys.executable).parent / "ros2"
-PACKAGE = ROOT / "ros2_ws" / "src" / "learning_tf2_py"
+PACKAGE = LEARNING
 COUNT = 20
 NAMES = [f"turtle{k}" for k in range(1, COUNT + 1)]
 

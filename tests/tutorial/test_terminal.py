@@ -16,9 +16,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.places import HOW_TO, IMPORT_PATH, ROOT
 
 HERE = Path(__file__).parent
-ROOT = HERE.parents[1]
 VERBATIM = HERE / "verbatim/learning_tf2_py"
 WHEELHOUSE = ROOT / "build/wheelhouse" / f"{sys.version_info.major}.{sys.version_info.minor}"
 UP, LEFT = "\x1b[A", "\x1b[D"
@@ -29,7 +29,7 @@ def why_not():
     wheels = [*WHEELHOUSE.glob("turtlewire-*.whl"), *WHEELHOUSE.glob("turtlewire_ros-*.whl")]
     if len(wheels) != 2:
         return f"needs wheels in {WHEELHOUSE.relative_to(ROOT)}: scripts/smoke makes them"
-    sources = [path for folder in ("src", "ros") for path in (ROOT / folder).rglob("*.py")]
+    sources = [path for folder in IMPORT_PATH for path in folder.rglob("*.py")]
     if min(wheel.stat().st_mtime for wheel in wheels) < max(
         path.stat().st_mtime for path in sources
     ):
@@ -189,7 +189,7 @@ ros2 run p n
 
 
 def test_the_how_to_page_has_the_commands():
-    page = (ROOT / "docs/how-to/terminal.md").read_text()
+    page = (HOW_TO / "terminal.md").read_text()
     here = Path(__file__).read_text()
     for command in (
         "rosdep install -i",

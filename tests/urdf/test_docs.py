@@ -8,7 +8,9 @@ import re
 import sys
 from pathlib import Path
 
-PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "urdf.md"
+from tests.places import HOW_TO
+
+PAGE = HOW_TO / "urdf.md"
 BIN = Path(sys.executable).parent
 BLOCKS = 11
 

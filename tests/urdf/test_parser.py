@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import contextlib
 import json
-from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests import places
 
 from turtlewire.urdf import Mimic, Pose, UrdfError, load_urdf, parse_urdf
 from turtlewire.urdf.elements import MAX_DEPTH
@@ -16,7 +16,7 @@ from turtlewire.urdf.faults import XACRO_LEFT, log_lines
 from turtlewire.urdf.model import Box, Cylinder, JointLimits, Mesh
 from turtlewire.urdf.values import as_number
 
-GOLDEN = Path(__file__).parent.parent / "golden" / "robots"
+GOLDEN = places.GOLDEN / "robots"
 INVALID = json.loads((GOLDEN / "invalid" / "expected.json").read_text())
 LINES = {
     "bad_number": (6, '<origin> in <joint name="j">'),

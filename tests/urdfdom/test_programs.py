@@ -8,10 +8,11 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests import places
 
 from urdfdom import check_urdf, urdf_to_graphviz
 
-GOLDEN = Path(__file__).parent.parent / "golden" / "robots"
+GOLDEN = places.GOLDEN / "robots"
 RAFT = str(GOLDEN / "urdf" / "raft.urdf")
 
 TREE = """robot name is: raft

@@ -12,17 +12,17 @@ import base64
 import math
 import os
 from copy import deepcopy
-from pathlib import Path
 
 import numpy as np
 import pytest
+from tests import places
 from tests.view.looking_down import ADD, REMOVE_ALL, get, pose, stamped, wait_until
 from tests.view.still_source import StillSource
 from tests.view.test_display_pictures import MARKERS, cloud, grid
 
 from turtlewire.view import Viewer
 
-GOLDEN = Path(__file__).parent.parent / "golden" / "displays"
+GOLDEN = places.GOLDEN / "displays"
 RENEWS = os.environ.get("TURTLEWIRE_RENEW_PICTURES", "0") != "0"
 SCHEMES = ("light", "dark")
 #: Greatest difference of a block's mean colour, of 255.

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import base64
 import os
-from pathlib import Path
 
 import pytest
+from tests import places
 from tests.turtlesim.test_page_looks import (
     DIFFERENCE_OF_PICTURES,
     after_two_frames,
@@ -18,7 +18,7 @@ from tests.turtlesim.test_page_looks import (
 from tests.view.fake_view import IDENTITY, pose
 from tests.view.test_page import in_page
 
-GOLDEN = Path(__file__).parent.parent / "golden" / "view"
+GOLDEN = places.GOLDEN / "view"
 WRITES = "TURTLEWIRE_WRITE_GOLDEN" in os.environ
 WORST_CELL = 6
 SIZES = {"desktop": (1200, 800), "phone": (360, 740), "landscape": (740, 360)}

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.places import GOLDEN
 
 from turtlewire import msg
 from turtlewire.urdf import load_urdf
@@ -15,7 +15,7 @@ from turtlewire.view.displays.robot_model import RobotModelDisplay
 from turtlewire.view.meshes import MeshFile, MeshLibrary, mesh_address
 from turtlewire.view.tools import TOOLS, tool_message
 
-ROBOTS = sorted((Path(__file__).parent.parent / "golden" / "robots" / "urdf").glob("*.urdf"))
+ROBOTS = sorted((GOLDEN / "robots" / "urdf").glob("*.urdf"))
 URDF = """<robot name="arm">
   <material name="blue"><color rgba="0 0 1 0.5"/></material>
   <link name="base">

@@ -12,6 +12,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
+from tests import places
 
 from turtlewire.wire import names, open_context
 from turtlewire.wire.base import Context, Node, ServiceTypes, TypeId
@@ -20,7 +21,7 @@ from turtlewire.wire.environment import discovery
 from turtlewire.wire.graph import parse_user_data
 from turtlewire.wire.qos import INFINITE_NS, Durability, History, QoS, Reliability
 
-GOLDEN = Path(__file__).parents[1] / "golden" / "wire"
+GOLDEN = places.GOLDEN / "wire"
 PEER = Path(__file__).parent / "peers" / "builtin_topics.py"
 IDS = re.compile(r"^(clientid|serviceid)=[ 1-9a-f][0-9a-f](\.[0-9a-f]{1,2}){15};")
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import contextlib
 import json
-from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests import places
 
 from turtlewire.errors import CdrError
 from turtlewire.wire.graph import (
@@ -19,7 +19,7 @@ from turtlewire.wire.graph import (
     unpack_discovery_info,
 )
 
-GOLDEN = Path(__file__).parents[1] / "golden" / "wire"
+GOLDEN = places.GOLDEN / "wire"
 SAMPLES = json.loads((GOLDEN / "discovery_info.json").read_text())
 
 gid = st.binary(min_size=16, max_size=16)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 
 from tests.needs import needs_cyclone_dds
+from tests.places import GOLDEN
 
 from turtlewire.wire import open_context
 from turtlewire.wire.base import RequestId, ServiceTypes, TypeId
@@ -13,9 +13,7 @@ from turtlewire.wire.cyclone.services import format_service_id
 from turtlewire.wire.qos import QoS
 from turtlewire.wire.services import join_header, split_header
 
-CALLS = json.loads(
-    (Path(__file__).parents[1] / "golden" / "wire" / "service_calls.json").read_text()
-)
+CALLS = json.loads((GOLDEN / "wire" / "service_calls.json").read_text())
 
 
 def test_the_headers_of_a_real_ros_2_are_reproduced():

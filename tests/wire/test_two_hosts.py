@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
+from tests.places import LEARNING
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -29,7 +30,6 @@ pytestmark = [
 
 PEERS = Path(__file__).parent / "peers"
 HOSTS = {"here": "10.77.0.1", "there": "10.77.0.2"}
-ROOT = Path(__file__).parents[2]
 
 #: Which host runs which node of the follow demo, and its arguments: each arrow of the data flow
 #: crosses the cable.
@@ -326,7 +326,7 @@ def split_demo(tmp_path) -> Iterator[list[subprocess.Popen[bytes]]]:
     """The follow demo, two of its nodes on each host."""
     environment = os.environ | {
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET",
-        "PYTHONPATH": str(ROOT / "ros2_ws/src/learning_tf2_py"),
+        "PYTHONPATH": str(LEARNING),
         "TURTLEWIRE_PORT": "0",
         "TURTLEWIRE_BROWSER": "0",
     }

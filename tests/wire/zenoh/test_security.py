@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.places import HOW_TO, LEARNING
 
 from turtlewire.wire.zenoh.router_log import explain
 
@@ -21,7 +22,7 @@ pytestmark = [
     pytest.mark.skipif(shutil.which("bash") is None, reason="the page's commands are bash"),
 ]
 
-PAGE = Path(__file__).parents[3] / "docs" / "how-to" / "secure_networks.md"
+PAGE = HOW_TO / "secure_networks.md"
 TLS, MUTUAL = "TLS", "Mutual TLS"
 USER, ACCESS = "User and password", "Access control"
 LEVELS = [TLS, MUTUAL, USER, ACCESS]
@@ -410,7 +411,7 @@ def test_the_follow_demo_runs_across_two_networks_over_a_router_with_tls(
     def start(host: str, command: str):
         of_router, _ = NETWORKS[host]
         lines = client(USER, command, "").replace("ROUTER=localhost", f"ROUTER={of_router}")
-        learning = str(PEERS.parents[2] / "ros2_ws" / "src" / "learning_tf2_py")
+        learning = str(LEARNING)
         quiet = {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0", "PYTHONPATH": learning}
         script = re.sub(r"tls/\$ROUTER:\d+", "tls/$ROUTER:7447", lines)
         return run(*on_host(host, script), environment=environment(**quiet), cwd=tmp_path)
