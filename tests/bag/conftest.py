@@ -1,58 +1,16 @@
-"""What the bag tests share: the golden bags of a real rosbag2, and small bags made here."""
+"""The golden bags of a real rosbag2."""
 
 from __future__ import annotations
 
 import pytest
 from tests import places
-
-from turtlewire import msg
-from turtlewire.bag import BagWriter
-from turtlewire.wire.qos import Durability, QoS
+from tests.bags import write_bag
 
 GOLDEN = places.GOLDEN / "bag"
 
 #: Bags of the real rosbag2 with all its answers: MCAP, split MCAP compressed by file, and sqlite3
 #: compressed by message.
 ANSWERED = ["d_mcap", "d_split_file_zstd", "d_sqlite3_message_zstd"]
-
-SECOND = 1_000_000_000
-START = 1_700_000_000 * SECOND
-
-
-def transform(i, parent="odom", child="base_link"):
-    """A TFMessage of one transform, 10 ms after the one before."""
-    stamped = msg.get_message("geometry_msgs/msg/TransformStamped")()
-    stamp = START + i * 10_000_000
-    stamped.header.stamp.sec, stamped.header.stamp.nanosec = divmod(stamp, SECOND)
-    stamped.header.frame_id, stamped.child_frame_id = parent, child
-    stamped.transform.translation.x = 0.01 * i
-    stamped.transform.rotation.w = 1.0
-    return msg.get_message("tf2_msgs/msg/TFMessage")(transforms=[stamped])
-
-
-def write_bag(path, count=100, **options):
-    """A bag with ``count`` transforms, a static one before them, and a text after each tenth."""
-    with BagWriter(path, **options) as writer:
-        writer.add_topic(
-            "/tf_static",
-            "tf2_msgs/msg/TFMessage",
-            qos=[QoS(depth=1, durability=Durability.TRANSIENT_LOCAL)],
-        )
-        writer.add_topic("/tf", "tf2_msgs/msg/TFMessage", qos=[QoS(depth=100)])
-        writer.add_topic("/chatter", "std_msgs/msg/String")
-        text = msg.get_message("std_msgs/msg/String")
-        writer.write("/tf_static", transform(0, "base_link", "camera"), START, START - SECOND)
-        for i in range(count):
-            log_time = START + i * 10_000_000 + 1_000_000
-            writer.write("/tf", transform(i), log_time, log_time - 500_000)
-            if i % 10 == 9:
-                writer.write("/chatter", text(data=f"number {i}"), log_time + 1)
-    return path
-
-
-def contents(messages):
-    """Messages as plain tuples, to compare bags."""
-    return [(m.topic, m.type, m.log_time_ns, m.data) for m in messages]
 
 
 @pytest.fixture

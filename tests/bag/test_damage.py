@@ -17,12 +17,14 @@ from itertools import pairwise
 from types import SimpleNamespace
 
 import pytest
-from tests.bag.conftest import GOLDEN, START, contents, write_bag
+from tests.bags import START, contents, write_bag
 
 from turtlewire.bag import BagWriter, load_transforms, open_bag, reindex
 from turtlewire.bag.compression import compress, decompress, most_bytes
 from turtlewire.bag.unpacking import unpack_file
 from turtlewire.errors import BagError
+
+from .conftest import GOLDEN
 
 
 def read_what_there_is(path):
@@ -381,7 +383,7 @@ def test_what_was_flushed_survives_kill_9(tmp_path, storage, compression):
 
 def test_nothing_is_lost_of_an_unfinished_file_with_bare_messages(tmp_path):
     # As the preset `fastwrite` writes: no chunks, no index; here the summary is missing, too.
-    from tests.bag.conftest import GOLDEN
+    from .conftest import GOLDEN
 
     source = next((GOLDEN / "real" / "g_mcap_fastwrite").glob("*.mcap"))
     whole = source.read_bytes()

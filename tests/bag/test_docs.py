@@ -8,7 +8,7 @@ import shlex
 
 import numpy as np
 import pytest
-from tests.bag.conftest import SECOND, START, write_bag
+from tests.bags import SECOND, START, write_bag
 from tests.places import HOW_TO
 
 from turtlewire.cli.main import main

@@ -9,10 +9,11 @@ import zlib
 from pathlib import Path
 
 import pytest
-from tests.bag.conftest import ANSWERED, GOLDEN
 
 from turtlewire.bag import load_transforms, open_bag
 from turtlewire.errors import TransformException
+
+from .conftest import ANSWERED, GOLDEN
 
 #: Of the 500 answers, the errors in which tf2 0.36.20 reports the other leg of a V-shaped path than
 #: the core that gave the answers.

@@ -7,7 +7,7 @@ from mcap.writer import CompressionType, IndexType, Writer
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin
 from rosbags.rosbag2 import Writer as RosbagsWriter
 from rosbags.typesys import Stores, get_typestore
-from tests.bag.conftest import START, transform
+from tests.bags import START, transform
 
 from turtlewire import Buffer, msg
 from turtlewire.bag import open_bag

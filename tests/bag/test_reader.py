@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 
 import pytest
-from tests.bag.conftest import SECOND, START, contents, transform, write_bag
+from tests.bags import SECOND, START, contents, transform, write_bag
 
 from turtlewire.bag import BagWriter, load_transforms, open_bag
 from turtlewire.errors import BagError, InterfaceError

@@ -8,7 +8,7 @@ import struct
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.bag.conftest import START, transform
+from tests.bags import START, transform
 from tests.needs import COMPILED_CORE
 
 from turtlewire import msg

@@ -7,7 +7,7 @@ import sys
 import pytest
 from rosbags.rosbag1 import Writer
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
-from tests.bag.conftest import SECOND, START
+from tests.bags import SECOND, START
 
 from turtlewire import Buffer
 from turtlewire.bag import load_trajectory, open_bag

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from tests.bag.conftest import SECOND, START
+from tests.bags import SECOND, START
 
 from turtlewire import msg
 from turtlewire.bag import BagWriter, load_trajectory, open_bag, pose_topics

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from tests.bag.conftest import SECOND, START, transform, write_bag
+from tests.bags import SECOND, START, transform, write_bag
 
 from turtlewire.bag import BagWriter, load_transforms, storage
 from turtlewire.bag.mcap_reader import McapFile

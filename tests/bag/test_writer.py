@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
 from rosbags.highlevel import AnyReader
-from tests.bag.conftest import START, contents, transform, write_bag
+from tests.bags import START, contents, transform, write_bag
 
 from turtlewire import msg
 from turtlewire.bag import BagWriter, open_bag

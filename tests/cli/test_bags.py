@@ -12,13 +12,15 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from tests.bag.conftest import GOLDEN, SECOND, START, transform, write_bag
-from tests.cli.test_main import offered
+from tests.bags import SECOND, START, transform, write_bag
 
 from turtlewire import msg
 from turtlewire.bag import BagWriter, reindex
 from turtlewire.cli.main import main
 from turtlewire.trajectory import read_kitti, read_tum, write_tum
+
+from ..bag.conftest import GOLDEN
+from .test_main import offered
 
 
 def run(capsys, *words):

@@ -8,9 +8,10 @@ import sys
 from pathlib import Path
 
 import pytest
-from tests.bag.conftest import write_bag
-from tests.view.packets import decode_packet
+from tests.bags import write_bag
 from websockets.sync.client import connect
+
+from ..view.packets import decode_packet
 
 TURTLEWIRE = Path(sys.executable).parent / "turtlewire"
 

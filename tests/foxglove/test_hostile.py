@@ -12,7 +12,6 @@ import urllib.request
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tests.foxglove.conftest import Client
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
@@ -27,6 +26,8 @@ from turtlewire.foxglove.protocol import (
     parse_text,
 )
 from turtlewire.foxglove.session import Session
+
+from .conftest import Client
 
 
 @pytest.mark.parametrize(

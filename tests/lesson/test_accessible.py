@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import pytest
+from tests.static_host import LONG_MS
 
-from .conftest import LONG_MS, wait_until_loaded
+from .conftest import wait_until_loaded
 
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(600)]
 #: Notes each stage that is shown as the current one.

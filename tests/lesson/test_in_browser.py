@@ -7,10 +7,11 @@ import re
 
 import pytest
 from tests.places import LESSONS
+from tests.static_host import LONG_MS, Host
 
 from turtle_lesson.lesson import load_lesson
 
-from .conftest import LONG_MS, Host, wait_until_loaded
+from .conftest import wait_until_loaded
 from .wrong_answers import WRONG_ANSWERS
 
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(600)]

@@ -8,7 +8,7 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import pytest
-from tests.view.looking_down import wait_until
+from tests.pages import wait_until
 
 pytestmark = pytest.mark.slow
 

@@ -6,10 +6,11 @@ import threading
 
 import pytest
 from tests.places import GOLDEN
-from tests.rosbag2_transport.conftest import LATCHED, peer, texts  # noqa: F401 - a fixture
 
 import rosbag2_py
 from std_msgs.msg import String
+
+from ..rosbag2_transport.conftest import LATCHED, peer, texts  # noqa: F401 - a fixture
 
 SMALL = GOLDEN / "bag" / "p_small"
 SECOND = 1_000_000_000

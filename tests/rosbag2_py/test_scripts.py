@@ -6,7 +6,6 @@ import datetime as dt
 import threading
 
 import pytest
-from tests.rosbag2_transport.conftest import peer, texts  # noqa: F401 - a fixture
 
 import rosbag2_py
 from rclpy.clock import Clock
@@ -15,6 +14,8 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.serialization import deserialize_message, serialize_message
 from std_msgs.msg import Int32, String
+
+from ..rosbag2_transport.conftest import peer, texts  # noqa: F401 - a fixture
 
 
 class Recorder(Node):

@@ -8,9 +8,10 @@ import sys
 
 import pytest
 from tests.places import HOW_TO
-from tests.rosbag2_transport.conftest import ROS2, end, texts
 
 from turtlewire.bag import open_bag
+
+from .conftest import ROS2, end, texts
 
 PAGE = HOW_TO / "record_and_play.md"
 

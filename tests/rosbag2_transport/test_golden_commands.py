@@ -11,7 +11,8 @@ import subprocess
 
 import pytest
 from tests import places
-from tests.rosbag2_transport.conftest import ROS2
+
+from .conftest import ROS2
 
 GOLDEN = places.GOLDEN / "bag"
 COMMANDS = json.loads((GOLDEN / "commands.json").read_text())

@@ -8,7 +8,6 @@ import signal
 
 import pytest
 from tests.places import GOLDEN
-from tests.rosbag2_transport.conftest import LATCHED, ROS2, end, texts
 
 import rosbag2_py
 from example_interfaces.srv import AddTwoInts
@@ -24,6 +23,8 @@ from tf2_msgs.msg import TFMessage
 from turtlewire.bag import BagWriter, open_bag
 from turtlewire.msg import get_message
 from turtlewire.wire.qos import Reliability
+
+from .conftest import LATCHED, ROS2, end, texts
 
 SMALL = GOLDEN / "bag" / "p_small"
 SECOND = 1_000_000_000

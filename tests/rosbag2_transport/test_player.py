@@ -7,7 +7,6 @@ import re
 
 import pytest
 from tests import places
-from tests.rosbag2_transport.conftest import DEEP, LATCHED, end, texts
 
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosbag2_interfaces import srv
@@ -17,6 +16,8 @@ from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 from turtlewire.bag import BagWriter, open_bag
 from turtlewire.wire.qos import Durability, QoS, Reliability
+
+from .conftest import DEEP, LATCHED, end, texts
 
 GOLDEN = places.GOLDEN / "bag"
 SMALL = GOLDEN / "p_small"

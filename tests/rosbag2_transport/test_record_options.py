@@ -8,7 +8,6 @@ import re
 from datetime import timedelta
 
 import pytest
-from tests.rosbag2_transport.conftest import DEEP, end
 
 from builtin_interfaces.msg import Time
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -20,6 +19,8 @@ from rosbag2_transport.topic_filter import TopicFilter
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import String
 from turtlewire.bag import open_bag
+
+from .conftest import DEEP, end
 
 BEST_EFFORT = ReliabilityPolicy.BEST_EFFORT
 STRING, EVENT = "std_msgs/msg/String", "example_interfaces/srv/AddTwoInts_Event"

@@ -10,7 +10,6 @@ import threading
 
 import pytest
 from tests.needs import needs_cyclone_dds
-from tests.rosbag2_transport.conftest import DEEP, LATCHED, ROS2, end, texts
 
 from rosbag2_interfaces import srv
 from rosbag2_interfaces.msg import WriteSplitEvent
@@ -19,6 +18,8 @@ from turtlewire.bag import open_bag, reindex
 from turtlewire.errors import BagError
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import QoS
+
+from .conftest import DEEP, LATCHED, ROS2, end, texts
 
 NAMES = [f"number {i}" for i in range(500)]
 SIZE_LIMIT = 3_000_000

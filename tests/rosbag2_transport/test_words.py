@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from tests.completion import offered
 from tests.places import GOLDEN
-from tests.ros2cli.test_completion import offered
 
 import ros2cli.main
 

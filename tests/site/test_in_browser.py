@@ -6,8 +6,8 @@ import subprocess
 import sys
 
 import pytest
-from tests.lesson.conftest import LONG_MS, Host
 from tests.places import ROOT, SCRIPTS
+from tests.static_host import LONG_MS, Host
 
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(900)]
 PHONE = {"viewport": {"width": 390, "height": 844}}

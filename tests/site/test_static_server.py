@@ -7,7 +7,7 @@ import hashlib
 import http.client
 
 import pytest
-from tests.lesson.conftest import Host
+from tests.static_host import Host
 
 INLINE = "document.title = 'a'"
 

@@ -120,7 +120,7 @@ def test_a_buffer_is_pickled():
 
 
 def test_shortcuts(tmp_path):
-    from tests.bag.conftest import START, write_bag
+    from tests.bags import START, write_bag
 
     from turtlewire import Buffer
 
@@ -141,7 +141,7 @@ def test_shortcuts(tmp_path):
 
 
 def test_the_twin_reads_bags(tmp_path):
-    from tests.bag.conftest import write_bag
+    from tests.bags import write_bag
 
     path = write_bag(tmp_path / "made")
     code = (

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from tests.bag.conftest import write_bag
+from tests.bags import write_bag
 
 from turtlewire import Buffer
 from turtlewire.trajectory import read_tum

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tests.trajectory.conftest import random_walk
 
 from turtlewire.trajectory import (
     Trajectory,
@@ -23,6 +22,8 @@ from turtlewire.trajectory import (
     write_kitti,
     write_tum,
 )
+
+from .conftest import random_walk
 
 FORMATS = {
     "tum": (read_tum, write_tum),

@@ -6,9 +6,10 @@ import warnings
 
 import numpy as np
 import pytest
-from tests.trajectory.conftest import disturbed, evo_trajectory, random_walk
 
 from turtlewire.trajectory import RELATIONS, Trajectory, align, ape, associate, compare, rpe
+
+from .conftest import disturbed, evo_trajectory, random_walk
 
 with warnings.catch_warnings():
     warnings.simplefilter("ignore")
@@ -208,9 +209,9 @@ def test_wrong_words(pair):
 
 
 def test_trajectories_without_times_are_paired_by_their_number(tmp_path):
-    from tests.trajectory.conftest import random_walk
-
     from turtlewire.trajectory import read_kitti, read_trajectory, write_kitti
+
+    from .conftest import random_walk
 
     walk = random_walk(1, 50)
     write_kitti(walk, tmp_path / "a.txt")

@@ -11,7 +11,6 @@ import zlib
 
 import numpy as np
 import pytest
-from tests.trajectory.conftest import disturbed, random_walk
 
 from turtlewire.cli.main import main
 from turtlewire.trajectory import (
@@ -23,6 +22,8 @@ from turtlewire.trajectory import (
     write_tum,
 )
 from turtlewire.trajectory.pictures import pdf_of
+
+from .conftest import disturbed, random_walk
 
 
 def every_picture():

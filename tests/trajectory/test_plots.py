@@ -7,7 +7,6 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
-from tests.trajectory.conftest import disturbed, random_walk
 
 from turtlewire.trajectory import (
     Gap,
@@ -22,6 +21,8 @@ from turtlewire.trajectory import (
     plot_positions,
     plot_speeds,
 )
+
+from .conftest import disturbed, random_walk
 
 
 def with_gap(trajectory, first=100, last=200):

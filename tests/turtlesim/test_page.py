@@ -9,7 +9,12 @@ import math
 import time
 
 import pytest
-from tests.turtlesim.seen import (
+from websockets.exceptions import InvalidStatus
+from websockets.sync.client import connect
+
+from turtlesim import page_commands
+
+from .seen import (
     is_at_rest,
     is_ground,
     is_opaque,
@@ -21,10 +26,6 @@ from tests.turtlesim.seen import (
     wait_for_text,
     wait_until,
 )
-from websockets.exceptions import InvalidStatus
-from websockets.sync.client import connect
-
-from turtlesim import page_commands
 
 
 def test_the_turtle_is_shown_where_it_is(simulator, open_page):

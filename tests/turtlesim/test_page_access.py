@@ -12,10 +12,11 @@ from tests.page_checks import (
     weak_rings,
     weak_texts,
 )
-from tests.turtlesim.seen import publish_transform, wait_until
-from tests.turtlesim.test_page_settings import set_colour
 
 from turtlesim import page_commands
+
+from .seen import publish_transform, wait_until
+from .test_page_settings import set_colour
 
 SIZES = {"desktop": (1280, 800), "phone": (390, 844), "small": (320, 640), "landscape": (844, 390)}
 BACKGROUNDS = ["#4556ff", "#ffffff", "#000000", "#777777", "#8a8a8a", "#f2e24a", "#b03030"]

@@ -6,14 +6,10 @@ import math
 import time
 
 import pytest
-from tests.turtlesim.seen import (
-    pixel,
-    publish_transform,
-    wait_for_pixel,
-    wait_for_text,
-)
 
 from turtlesim.transform_view import Frame, field_frames
+
+from .seen import pixel, publish_transform, wait_for_pixel, wait_for_text
 
 RED, GREEN, WHITE = (255, 107, 120), (93, 240, 162), (255, 255, 255)
 

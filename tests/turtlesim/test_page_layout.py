@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import pytest
-from tests.turtlesim.seen import pixel, wait_for_pixel, wait_for_text
 
 from turtlesim.model import Pen
+
+from .seen import pixel, wait_for_pixel, wait_for_text
 
 PHONE = {"has_touch": True, "is_mobile": True}
 

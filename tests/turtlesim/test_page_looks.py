@@ -15,39 +15,10 @@ from pathlib import Path
 
 import pytest
 from tests import places
+from tests.pages import DIFFERENCE_OF_PICTURES, after_two_frames, skip_with_other_fonts
 
 GOLDEN = places.GOLDEN / "page"
 WRITES = "TURTLEWIRE_WRITE_GOLDEN" in os.environ
-#: Two PNG files, both scaled to a width of 200, in cells of 10 x 10 pixels: mean difference of all
-#: colour channels in the worst cell.
-DIFFERENCE_OF_PICTURES = """async (pictures) => {
-    const WIDTH = 200, CELL = 10;
-    const [a, b] = await Promise.all(pictures.map(async (png) => {
-        const image = new Image();
-        image.src = `data:image/png;base64,${png}`;
-        await image.decode();
-        const height = Math.round((WIDTH * image.height) / image.width);
-        const ctx = new OffscreenCanvas(WIDTH, height).getContext('2d');
-        ctx.drawImage(image, 0, 0, WIDTH, height);
-        return ctx.getImageData(0, 0, WIDTH, height).data;
-    }));
-    if (a.length !== b.length) return Infinity;
-    const cells = new Map();
-    a.forEach((value, k) => {
-        const pixel = k >> 2;
-        const cell = `${Math.floor((pixel % WIDTH) / CELL)} ${Math.floor(pixel / WIDTH / CELL)}`;
-        cells.set(cell, (cells.get(cell) ?? 0) + Math.abs(value - b[k]) / (4 * CELL * CELL));
-    });
-    return Math.max(...cells.values());
-}"""
-#: Width of a text in the page's font, plain and bold [pixels], and what it is with DejaVu Sans,
-#: which the golden pictures show.
-FONT_WIDTHS = """() => ['', '600 '].map((weight) => {
-    const ctx = document.createElement('canvas').getContext('2d');
-    ctx.font = `${weight}100px system-ui, sans-serif`;
-    return Math.round(ctx.measureText('turtle1 is 2.16 m ahead').width);
-})"""
-DEJAVU_WIDTHS = [1174, 1317]
 #: 0 on the machine where the pictures were made; with one part of the page missing 15 and more on
 #: the phone, 4 to 30 on the desktop.
 WORST_CELL = 6
@@ -80,24 +51,10 @@ def difference(page, name: str, picture: bytes) -> float:
     )
 
 
-def skip_with_other_fonts(page) -> None:
-    widths = page.evaluate(FONT_WIDTHS)
-    if widths != DEJAVU_WIDTHS:
-        pytest.skip(
-            "the golden pictures show DejaVu Sans, which this machine has not or does not prefer "
-            f"(text widths {widths})"
-        )
-
-
 def pose_is_shown(page, text: str) -> None:
     page.wait_for_function(
         "(text) => document.querySelector('#roster').textContent.includes(text)", arg=text
     )
-
-
-def after_two_frames(page) -> None:
-    """Wait until what the page knows is painted."""
-    page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
 
 @pytest.fixture

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 
 import pytest
-from tests.turtlesim.seen import wait_for_pixel, wait_for_text, wait_until
 
 from turtlesim import page_commands
 from turtlesim.looks import look_of, shown_pen
 from turtlesim.model import DEFAULT_PEN, TICK_NS, Pen, World
 from turtlesim.pace import Pace, hold
+
+from .seen import wait_for_pixel, wait_for_text, wait_until
 
 
 def set_colour(page, selector: str, css: str) -> None:

@@ -7,8 +7,6 @@ import json
 import threading
 
 import pytest
-from tests.view.fake_view import FakeView
-from tests.view.packets import decode_packet
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
@@ -16,6 +14,9 @@ from turtlewire import msg, wire
 from turtlewire.tf.listener import QOS, STATIC_QOS, TYPE_NAME
 from turtlewire.view import LiveSource, Viewer
 from turtlewire.wire.base import TypeId
+
+from .fake_view import FakeView
+from .packets import decode_packet
 
 TF = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
 LIMIT_S = 120

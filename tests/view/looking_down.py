@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import pytest
-from tests.view.still_source import StillSource
+from tests.pages import wait_until
 
 from turtlewire import msg
 from turtlewire.view import Viewer
+
+from .still_source import StillSource
 
 LIMIT_MS = 120_000
 #: Looks down on the square of 8 m around the origin, without frames, names and grid.
@@ -60,28 +62,6 @@ REMOVE_ALL = """async () => {
 }"""
 GROUND = (247, 249, 253)
 RED, GREEN, BLUE, WHITE = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)
-
-
-def wait_until(page, check, arg=None):
-    """Whether ``check(arg)``, an async function of the page, becomes true.
-
-    It may return null when it is sure that it never will. A check that never ends counts as false:
-    Playwright's ``evaluate`` knows no limit, and its ``wait_for_function`` takes the promise itself
-    for true.
-    """
-    return page.evaluate(
-        f"""async (arg) => {{
-            const check = {check};
-            const over = new Promise((done) => setTimeout(done, {LIMIT_MS}, null));
-            for (;;) {{
-                const found = await Promise.race([check(arg), over]);
-                if (found) return true;
-                const goesOn = new Promise((done) => setTimeout(done, 30, true));
-                if (found === null || !(await Promise.race([over, goesOn]))) return false;
-            }}
-        }}""",
-        arg,
-    )
 
 
 class Scene:

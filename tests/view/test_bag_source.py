@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 
 import pytest
-from tests.bag.conftest import SECOND, START, write_bag
+from tests.bags import SECOND, START, write_bag
 
 from turtlewire import msg
 from turtlewire.bag import BagWriter

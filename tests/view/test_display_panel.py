@@ -3,7 +3,7 @@
 # ruff: noqa: F811 - fixtures are imported
 from __future__ import annotations
 
-from tests.view.looking_down import get, pose, scene, shown_page, stamped  # noqa: F401 - fixtures
+from .looking_down import get, pose, scene, shown_page, stamped  # noqa: F401 - fixtures
 
 ROBOT = """<robot name="r">
   <link name="base">

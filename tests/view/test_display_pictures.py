@@ -10,7 +10,8 @@ import struct
 
 import numpy as np
 import pytest
-from tests.view.looking_down import (  # noqa: F401 - fixtures
+
+from .looking_down import (  # noqa: F401 - fixtures
     BLUE,
     GREEN,
     GROUND,

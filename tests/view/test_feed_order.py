@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pytest
-from tests.view.packets import decode_packet
 
 from turtlewire import msg
 from turtlewire.tf.buffer import Buffer
@@ -11,6 +10,8 @@ from turtlewire.view.display_feed import Base, DisplayFeed
 from turtlewire.view.displays.marker import MarkerDisplay
 from turtlewire.view.displays.occupancy_grid import OccupancyGridDisplay
 from turtlewire.view.displays.point_cloud import PointCloudDisplay
+
+from .packets import decode_packet
 
 Marker = msg.get_message("visualization_msgs/msg/Marker")
 

@@ -7,11 +7,13 @@ import itertools
 import struct
 
 import pytest
-from tests.view.looking_down import get, stamped, wait_until
-from tests.view.still_source import StillSource
+from tests.pages import wait_until
 
 from turtlewire.tf.buffer import Buffer
 from turtlewire.view import Viewer
+
+from .looking_down import get, stamped
+from .still_source import StillSource
 
 ADD = """async (topic) => {
     const { displays } = await import("./js/main.js");

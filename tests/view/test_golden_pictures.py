@@ -16,11 +16,13 @@ from copy import deepcopy
 import numpy as np
 import pytest
 from tests import places
-from tests.view.looking_down import ADD, REMOVE_ALL, get, pose, stamped, wait_until
-from tests.view.still_source import StillSource
-from tests.view.test_display_pictures import MARKERS, cloud, grid
+from tests.pages import wait_until
 
 from turtlewire.view import Viewer
+
+from .looking_down import ADD, REMOVE_ALL, get, pose, stamped
+from .still_source import StillSource
+from .test_display_pictures import MARKERS, cloud, grid
 
 GOLDEN = places.GOLDEN / "displays"
 RENEWS = os.environ.get("TURTLEWIRE_RENEW_PICTURES", "0") != "0"

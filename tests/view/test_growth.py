@@ -6,13 +6,14 @@ import gc
 import json
 import threading
 
-from tests.view.packets import decode_packet
 from websockets.sync.client import connect
 
 from turtlewire import msg
 from turtlewire.view import session
 from turtlewire.view.display_feed import DisplayFeed
 from turtlewire.wire.qos import QoS
+
+from .packets import decode_packet
 
 ROUNDS = 20
 PATH = "nav_msgs/msg/Path"

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.view.looking_down import (  # noqa: F401 - fixtures
+
+from .looking_down import (  # noqa: F401 - fixtures
     ADD,
     LIMIT_MS,
     REMOVE_ALL,

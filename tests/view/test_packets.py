@@ -7,9 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays_of
-from tests.view.packets import decode_packet
 
 from turtlewire.view.packets import encode_packet
+
+from .packets import decode_packet
 
 KINDS = st.sampled_from([np.float32, np.float64, np.uint8, np.uint16, np.int32])
 ARRAYS = st.dictionaries(

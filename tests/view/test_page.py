@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 
 import pytest
-from tests.view.fake_view import IDENTITY, pose
-from tests.view.looking_down import wait_until
+from tests.pages import wait_until
+
+from .fake_view import IDENTITY, pose
 
 CHAIN = {"world": "", "base": "world", "arm": "base", "beacon": "world"}
 POSES = [IDENTITY, pose(3, 0, 0), pose(3, 2, 1), pose(-1, 3, 0)]

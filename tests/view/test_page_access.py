@@ -11,9 +11,10 @@ from tests.page_checks import (
     weak_rings,
     weak_texts,
 )
-from tests.view.fake_view import IDENTITY, pose
-from tests.view.looking_down import wait_until
-from tests.view.test_page import camera_of, in_page, on_screen, press
+from tests.pages import wait_until
+
+from .fake_view import IDENTITY, pose
+from .test_page import camera_of, in_page, on_screen, press
 
 PARENTS = {"world": "", "base": "world", "arm": "base", "hand": "arm", "beacon": "world"}
 POSES = [IDENTITY, pose(3, 0, 0), pose(3, 2, 1), pose(3, 3, 1), pose(-1, 3, 0)]

@@ -10,13 +10,10 @@ import os
 
 import pytest
 from tests import places
-from tests.turtlesim.test_page_looks import (
-    DIFFERENCE_OF_PICTURES,
-    after_two_frames,
-    skip_with_other_fonts,
-)
-from tests.view.fake_view import IDENTITY, pose
-from tests.view.test_page import in_page
+from tests.pages import DIFFERENCE_OF_PICTURES, after_two_frames, skip_with_other_fonts
+
+from .fake_view import IDENTITY, pose
+from .test_page import in_page
 
 GOLDEN = places.GOLDEN / "view"
 WRITES = "TURTLEWIRE_WRITE_GOLDEN" in os.environ

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 
 import pytest
-from tests.view.fake_view import IDENTITY, pose
-from tests.view.test_page import in_page
+
+from .fake_view import IDENTITY, pose
+from .test_page import in_page
 
 PARENTS = {"world": "", "turtle1": "world", "turtle2": "world", "carrot1": "turtle1"}
 POSES = [IDENTITY, pose(5, 5), pose(2, 1), pose(6, 6)]

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import pytest
-from tests.view.test_robot_model import URDF
 
 from turtlewire import msg
 from turtlewire.wire.qos import Durability, QoS
+
+from .test_robot_model import URDF
 
 DESCRIPTION = {"name": "/robot_description", "type_name": "std_msgs/msg/String", "publishers": 1}
 ROBOT = {**DESCRIPTION, "kind": "robot_model"}

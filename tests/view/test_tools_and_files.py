@@ -7,7 +7,10 @@ import math
 
 import pytest
 import yaml
-from tests.view.looking_down import (  # noqa: F401 - fixtures
+
+from turtlewire import msg
+
+from .looking_down import (  # noqa: F401 - fixtures
     GROUND,
     LIMIT_MS,
     REMOVE_ALL,
@@ -17,8 +20,6 @@ from tests.view.looking_down import (  # noqa: F401 - fixtures
     shown_page,
     stamped,
 )
-
-from turtlewire import msg
 
 ON_SCREEN = """async (place) => {
     const { stage } = await import("./js/main.js");
