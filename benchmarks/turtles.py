@@ -27,7 +27,7 @@ COUNTS = (10, 100, 1000)
 ROUNDS = 5
 SECONDS = 1.0
 ROOT = Path(__file__).parent.parent
-PATH = [ROOT / "ros2_ws" / "src" / "learning_tf2_py", ROOT / "examples" / "graded_exercise"]
+PATH = [ROOT / "examples" / "learning_tf2_py", ROOT / "examples" / "graded_exercise"]
 
 
 def rows() -> Iterator[Row]:

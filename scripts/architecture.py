@@ -43,7 +43,7 @@ class House:
     """
 
     def __init__(self, root: Path) -> None:
-        interfaces = root / "src/turtlewire/msg/interfaces"
+        interfaces = root / "packages/turtlewire/src/turtlewire/msg/interfaces"
         # turtlesim has code besides its interfaces.
         self.shells = {folder.name for folder in interfaces.glob("*")} - {"turtlesim"}
         self.paths = dict(_modules(root))
@@ -102,11 +102,10 @@ def room(module: str) -> str:
 
 
 def _modules(root: Path) -> Iterator[tuple[str, Path]]:
-    for top in (root / "src", root / "ros"):
-        for path in sorted(top.rglob("*.py")):
-            parts = path.relative_to(top).with_suffix("").parts
-            if len(parts) > 1:
-                yield ".".join(parts[:-1] if parts[-1] == "__init__" else parts), path
+    for init in sorted(root.glob("packages/*/*/*/__init__.py")):
+        for path in sorted(init.parent.rglob("*.py")):
+            parts = path.relative_to(init.parents[1]).with_suffix("").parts
+            yield ".".join(parts[:-1] if parts[-1] == "__init__" else parts), path
 
 
 def _excused(root: Path) -> set[tuple[str, str]]:

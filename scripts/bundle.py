@@ -11,9 +11,11 @@ import tempfile
 import zipfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(Path(__file__).resolve().parent))  # also where it is loaded by its path
+
+from distributions import ROOT, distributions, import_path
+
 FILES = ROOT / "scripts" / "bundle_files"
-PROJECTS = (".", "./ros", "./ros2_ws/src/learning_tf2_py", "./classroom")
 NAME = "turtlewire-class"
 
 
@@ -76,7 +78,7 @@ def collect(python: str, wheels: Path) -> None:
     """Build our wheels for a Python, and fetch those that they need, pip included."""
     print(f"[bundle] wheels for {python} …", file=sys.stderr, flush=True)
     with tempfile.TemporaryDirectory() as scratch:
-        command = [python, "-m", "pip", "wheel", "-q", "-w", scratch, *PROJECTS, "pip"]
+        command = [python, "-m", "pip", "wheel", "-q", "-w", scratch, *distributions(), "pip"]
         if subprocess.run(command, cwd=ROOT, check=False).returncode:
             raise BundleError(f"this failed, see above: {' '.join(command)}")
         for wheel in Path(scratch).glob("*.whl"):
@@ -86,12 +88,11 @@ def collect(python: str, wheels: Path) -> None:
 
 def write_exercises(folder: Path) -> None:
     """The tasks and first files, as `turtlewire class start` writes them."""
-    paths = [ROOT / name for name in ("classroom", "src", "site/lesson/python")]
     program = (
         "import sys; from pathlib import Path; from turtle_class.commands import start; "
         "start(Path(sys.argv[1]), [])"
     )
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, paths))}
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, import_path()))}
     done = subprocess.run(
         [sys.executable, "-c", program, str(folder)],
         env=environment,

@@ -1,6 +1,6 @@
 """Builds the site: the pages of ``docs/``, the API reference, and the lesson below ``lesson/``.
 
-Sphinx and what it needs are pinned in ``site/docs/requirements.txt`` and live in
+Sphinx and what it needs are pinned in ``docs/sphinx/requirements.txt`` and live in
 ``build/docs-tools``, apart from ``.venv``. Warnings are errors, links and anchors are checked, and
 a page that would load anything from elsewhere is refused: the site works without a network.
 """
@@ -24,7 +24,7 @@ from lesson_npm import BuildError
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build"
 DOCS = ROOT / "docs"
-SOURCE = ROOT / "site" / "docs"
+SOURCE = DOCS / "sphinx"
 REQUIREMENTS = SOURCE / "requirements.txt"
 TOOLS = BUILD / "docs-tools"
 LESSON = BUILD / "lesson"
@@ -69,7 +69,7 @@ def _options() -> argparse.Namespace:
         help="where the host will have it, for the page of wrong addresses (default: /)",
     )
     parser.add_argument(
-        "--language", default="en", help="a language of site/docs/locale (default: en)"
+        "--language", default="en", help="a language of docs/sphinx/locale (default: en)"
     )
     parser.add_argument(
         "--gettext",
@@ -111,7 +111,7 @@ def build(output: Path, language: str = "en", base: str = "/") -> None:
     if output.exists() and any(output.iterdir()) and not (output / "objects.inv").exists():
         raise BuildError(f"{output} is no site that was built before: it is not replaced")
     if language != "en" and not (SOURCE / "locale" / language).is_dir():
-        raise BuildError(f"there is no translation in site/docs/locale/{language}")
+        raise BuildError(f"there is no translation in docs/sphinx/locale/{language}")
     settings = [f"-Dlanguage={language}", f"-Abase={base.rstrip('/')}/"]
     with tempfile.TemporaryDirectory(dir=BUILD) as folder:
         fresh = Path(folder) / "site"

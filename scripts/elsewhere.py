@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
+from distributions import LEARNING
 from release_steps import ROOT, ReleaseError, run, say
 from release_wheels import interpreter, wheel_tag
 
@@ -192,8 +193,7 @@ def install(place: Place) -> None:
     if not tools.exists():
         run(sys.executable, "-m", "venv", HOME / "tools", what="a venv for the tools")
     run(tools, "-m", "pip", "install", "-q", "installer", "packaging", what="the tools")
-    lesson = ROOT / "ros2_ws" / "src" / "learning_tf2_py"
-    command = [tools, "-m", "pip", "wheel", "-q", "--no-deps", "-w", wheels, lesson]
+    command = [tools, "-m", "pip", "wheel", "-q", "--no-deps", "-w", wheels, LEARNING]
     run(*command, what="the wheel of the tutorial's package")
     for path in ours(place):
         shutil.copy(path, wheels)

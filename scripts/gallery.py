@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 ROOT = Path(__file__).resolve().parent.parent
 IMAGES = ROOT / "docs" / "images"
 GALLERY = IMAGES / "gallery"
-LESSONS = ROOT / "site" / "lesson" / "lessons"
+LESSONS = ROOT / "packages" / "turtlewire-class" / "src" / "turtle_lesson" / "lessons"
 #: WebGL without a graphics card.
 FLAGS_3D = [
     *(flag for flag in CHROMIUM_FLAGS if flag != "--disable-gpu"),

@@ -1,6 +1,6 @@
 """Builds the lesson: our pure wheels, Pyodide and the editor from npm, and the page itself.
 
-Each package of npm is pinned in ``site/lesson/packages.json``, with its hash.
+Each package of npm is pinned in ``page/packages.json``, with its hash.
 """
 
 from __future__ import annotations
@@ -20,17 +20,19 @@ import zipfile
 from pathlib import Path
 from typing import Any
 
+from distributions import CLASS, ENGINE, LEARNING, ROS
 from lesson_npm import BuildError, fetched
 
 ROOT = Path(__file__).resolve().parent.parent
-SOURCE = ROOT / "site" / "lesson"
+SOURCE = CLASS / "page"
+LESSONS = CLASS / "src" / "turtle_lesson" / "lessons"
 WHEEL_CACHE = ROOT / "build" / "lesson-wheels"
-TURTLESIM_PAGE = ROOT / "ros" / "turtlesim" / "page"
+TURTLESIM_PAGE = ROS / "turtlesim" / "turtlesim" / "page"
 #: Ours, and how each is built without a compiler.
 WHEELS = (
-    (".", ("-C", "wheel.cmake=false")),
-    ("ros", ()),
-    ("ros2_ws/src/learning_tf2_py", ()),
+    (ENGINE, ("-C", "wheel.cmake=false")),
+    (ROS, ()),
+    (LEARNING, ()),
 )
 #: What ours need of others, in pure Python, as it is installed here.
 PURE_PYTHON = ("PyYAML", "argcomplete", "defusedxml")
@@ -126,12 +128,14 @@ def _build_wheels(folder: Path) -> None:
 
 def _fingerprint() -> str:
     """Hash of all that goes into our wheels."""
-    digest = hashlib.sha256((ROOT / "pyproject.toml").read_bytes())
-    for room in ("src", "ros", "ros2_ws/src"):
-        for path in sorted((ROOT / room).rglob("*")):
+    digest = hashlib.sha256()
+    for project, _ in WHEELS:
+        for path in sorted(project.rglob("*")):
             parts = path.relative_to(ROOT).parts
-            is_product = "__pycache__" in parts or any(part.endswith(".egg-info") for part in parts)
-            if path.is_file() and not is_product and path.suffix not in {".so", ".pyd"}:
+            is_left_out = not {"__pycache__", "tests"}.isdisjoint(parts) or any(
+                part.endswith(".egg-info") for part in parts
+            )
+            if path.is_file() and not is_left_out and path.suffix not in {".so", ".pyd"}:
                 digest.update(str(path.relative_to(ROOT)).encode())
                 digest.update(path.read_bytes())
     return digest.hexdigest()[:16]
@@ -141,7 +145,7 @@ def _build_wheels_into(folder: Path) -> None:
     for project, options in WHEELS:
         command = [sys.executable, "-m", "pip", "wheel", "-q", "--no-deps", "-w", str(folder)]
         done = subprocess.run(
-            [*command, *options, f"./{project}"],
+            [*command, *options, str(project)],
             cwd=ROOT,
             capture_output=True,
             text=True,
@@ -171,13 +175,13 @@ def _entry(name: str) -> zipfile.ZipInfo:
 def _pack_lessons(page: Path) -> None:
     """Pack what runs in Python, and write what the page itself needs of the lessons."""
     with zipfile.ZipFile(page / "python" / "lesson.zip", "w", zipfile.ZIP_DEFLATED) as packed:
-        for folder in (SOURCE / "python", SOURCE / "lessons"):
-            for path in sorted(folder.rglob("*")):
-                if path.suffix in {".py", ".json"}:
-                    name = path.relative_to(SOURCE).as_posix().removeprefix("python/")
-                    packed.writestr(_entry(name), path.read_bytes())
-    order = json.loads((SOURCE / "lessons" / "order.json").read_text(encoding="utf-8"))
-    lessons = [_lesson(SOURCE / "lessons" / name) for name in order]
+        package = LESSONS.parent
+        for path in sorted(package.rglob("*")):
+            if path.suffix in {".py", ".json"}:
+                name = path.relative_to(package.parent).as_posix()
+                packed.writestr(_entry(name), path.read_bytes())
+    order = json.loads((LESSONS / "order.json").read_text(encoding="utf-8"))
+    lessons = [_lesson(LESSONS / name) for name in order]
     (page / "lessons.json").write_text(json.dumps(lessons), encoding="utf-8")
 
 

@@ -1,4 +1,4 @@
-"""Fails when ``src/turtlewire/_native.pyi`` differs from the compiled module.
+"""Fails when ``_native.pyi`` differs from the compiled module.
 
 Names, kinds, parameters and defaults must be the same, and what is public must have a docstring.
 Types are written by hand: those that the module knows (``object``, ``list``) are too wide for mypy.
@@ -15,7 +15,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
-STUB = Path(__file__).parents[1] / "src" / "turtlewire" / "_native.pyi"
+from distributions import ENGINE
+
+STUB = ENGINE / "src" / "turtlewire" / "_native.pyi"
 
 #: What stands for an attribute or a property, in place of parameters.
 ATTRIBUTE = "an attribute"

@@ -11,11 +11,14 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+sys.path.insert(0, str(Path(__file__).resolve().parent))  # also where it is loaded by its path
+
+from distributions import ENGINE, ROOT, ROS, import_path
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-ROOT = Path(__file__).resolve().parent.parent
-FOLDERS = ("src", "ros", "ros2_ws/src/learning_tf2_py/learning_tf2_py", "examples")
+FOLDERS = (*import_path(), ROOT / "examples")
 #: Modules that Python has on POSIX only.
 POSIX_MODULES = {
     *("curses", "fcntl", "grp", "posix", "pty", "pwd", "readline", "resource", "spwd"),
@@ -24,16 +27,17 @@ POSIX_MODULES = {
 #: Folders and programs that not every system has.
 POSIX_PATHS = ("/bin/", "/dev/", "/etc/", "/proc/", "/sys/", "/tmp/", "/usr/", "/var/")
 SHELLS = {"bash", "fish", "sh", "zsh"}
+PREFIX = ROS / "prefix" / "turtlewire_ros"
 #: Files in which such a string is right, and the reason.
 REASONS = {
-    "src/turtlewire/cli/network.py": "does without where the file is missing",
-    "src/turtlewire/wire/loopback.py": "reads it on Linux only",
-    "src/turtlewire/wire/cyclone/ports.py": "does without where the file is missing",
-    "src/turtlewire/wire/libddsc.py": "looks for folders, and finds none",
-    "ros/turtlewire_ros/cmake/processes.py": "redirected output needs a shell, as under make",
-    "ros/turtlewire_ros/plan_install.py": "writes the setup files of each shell",
-    "ros/turtlewire_ros/process_guardian.py": "is started on Linux only",
-    "ros/turtlewire_ros/wheel.py": "pip replaces the first line of a script",
+    ENGINE / "src/turtlewire/cli/network.py": "does without where the file is missing",
+    ENGINE / "src/turtlewire/wire/loopback.py": "reads it on Linux only",
+    ENGINE / "src/turtlewire/wire/cyclone/ports.py": "does without where the file is missing",
+    ENGINE / "src/turtlewire/wire/libddsc.py": "looks for folders, and finds none",
+    PREFIX / "cmake/processes.py": "redirected output needs a shell, as under make",
+    PREFIX / "plan_install.py": "writes the setup files of each shell",
+    PREFIX / "process_guardian.py": "is started on Linux only",
+    PREFIX / "wheel.py": "pip replaces the first line of a script",
 }
 
 
@@ -42,7 +46,8 @@ def main() -> int:
     found = sorted(
         f"{path.relative_to(ROOT)}:{line}: {text}"
         for folder in FOLDERS
-        for path in (ROOT / folder).rglob("*.py")
+        for path in folder.rglob("*.py")
+        if "tests" not in path.relative_to(folder).parts
         for line, text in faults(path)
     )
     if found:
@@ -55,7 +60,7 @@ def faults(path: Path) -> Iterator[tuple[int, str]]:
     """Lines of a file, and what in them other platforms lack."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     yield from _imports(tree.body)
-    if path.relative_to(ROOT).as_posix() not in REASONS:
+    if path not in REASONS:
         yield from _strings(tree)
 
 

@@ -15,6 +15,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))  # also where it is loaded by its path
 
+from distributions import ENGINE, ROS
 from release_checks import check_sdist, check_wheel, make_tools, tagged, tell_sizes, try_wheels
 from release_steps import ROOT, WORK, ReleaseError, output, run, say
 from release_wheels import (
@@ -29,7 +30,7 @@ from release_wheels import (
     targets,
 )
 
-PROJECTS = {"turtlewire": ROOT, "turtlewire-ros": ROOT / "ros"}
+PROJECTS = {"turtlewire": ENGINE, "turtlewire-ros": ROS}
 
 
 def main() -> int:

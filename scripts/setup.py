@@ -20,9 +20,10 @@ from typing import Any, NoReturn
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
+from distributions import ENGINE, LEARNING, ROOT, ROS, distributions, packages
 from setup_core import core_key, provide_core
-from setup_steps import PYTHON, ROOT, VENV, SetupError, run_python, say, stage
-from setup_venv import CLASSROOM, LEARNING, install, make_venv, pip_command, pip_version
+from setup_steps import PYTHON, VENV, SetupError, run_python, say, stage
+from setup_venv import install, make_venv, pip_command, pip_version
 
 STAMP = VENV / "turtlewire-stamp.json"
 #: The signals that end the set-up.
@@ -142,17 +143,13 @@ def read_stamp() -> dict[str, Any]:
 
 def fingerprint() -> str:
     """Return the hash of the files whose changes need a new installation of the packages."""
-    ros = ROOT / "ros"
-    files = [
-        ROOT / "pyproject.toml",
-        *LEARNING.glob("setup.*"),
-        LEARNING / "package.xml",
-        CLASSROOM / "pyproject.toml",
-    ]
-    files += [*ros.glob("*.*"), *ros.glob("turtlewire_ros/*/*.*"), *ros.glob("*/share/**/*")]
-    files += [*(ROOT / "src" / "turtlewire" / "msg" / "interfaces").glob("*/*/*.*")]
-    packages = sorted(path.parent.name for path in ros.glob("*/__init__.py"))
-    digest = hashlib.sha256(repr(packages).encode())
+    files = [ROOT / "pyproject.toml", LEARNING / "package.xml"]
+    for folder in distributions():
+        files += [*folder.glob("*.toml"), *folder.glob("setup.*"), *folder.glob("*_build.py")]
+    files += [*ROS.glob("prefix/turtlewire_ros/*/*.*"), *ROS.glob("*/*/share/**/*")]
+    files += (ENGINE / "src" / "turtlewire" / "msg" / "interfaces").glob("*/*/*.*")
+    names = [str(package.relative_to(ROOT)) for package in packages()]
+    digest = hashlib.sha256(repr(names).encode())
     for path in sorted(files):
         if path.is_file() and "__pycache__" not in path.parts:
             digest.update(str(path.relative_to(ROOT)).encode())

@@ -18,11 +18,12 @@ import tempfile
 import zipfile
 from pathlib import Path
 
-from setup_steps import LOG, ROOT, pip, say, stage, type_this
+from distributions import ENGINE
+from setup_steps import LOG, pip, say, stage, type_this
 from user_cache import cache_folder, keep
 
 MODULE = f"_native{sysconfig.get_config_var('EXT_SUFFIX')}"
-CORE = ROOT / "src" / "turtlewire" / MODULE
+CORE = ENGINE / "src" / "turtlewire" / MODULE
 #: How many cores of older sources the cache keeps; each has about 1 MB.
 KEPT = 10
 #: Environment variables that compilers, CMake and scikit-build-core read; prefixes of names.
@@ -37,14 +38,14 @@ def core_key() -> str:
         return ""
     flags = sorted(pair for pair in os.environ.items() if pair[0].startswith(FLAGS))
     digest = hashlib.sha256(repr((compiler, flags, platform.machine(), MODULE)).encode())
-    settings = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    settings = (ENGINE / "pyproject.toml").read_text(encoding="utf-8")
     for section in re.split(r"^(?=\[)", settings, flags=re.MULTILINE):
         if section.startswith(("[build-system]", "[tool.scikit-build", "[[tool.scikit-build")):
             digest.update(section.encode())
-    native = ROOT / "native"
+    native = ENGINE / "native"
     sources = [path for path in native.glob("*/*.?pp") if path.parent.name != "tests"]
     for path in sorted([native / "CMakeLists.txt", *sources]):
-        digest.update(str(path.relative_to(ROOT)).encode())
+        digest.update(str(path.relative_to(ENGINE)).encode())
         digest.update(path.read_bytes())
     return digest.hexdigest()
 
@@ -93,7 +94,7 @@ def compile_core() -> None:
     """Build a wheel and take the core out of it; a wheel without it does not compile here."""
     with tempfile.TemporaryDirectory() as folder:
         build = f"build-dir={folder}/build"
-        pip("wheel", "-v", "--no-deps", "-w", folder, "-C", build, str(ROOT))
+        pip("wheel", "-v", "--no-deps", "-w", folder, "-C", build, str(ENGINE))
         (wheel,) = Path(folder).glob("*.whl")
         with zipfile.ZipFile(wheel) as files:
             if f"turtlewire/{MODULE}" in files.namelist():

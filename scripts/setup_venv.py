@@ -10,9 +10,9 @@ import sys
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
+from distributions import ROOT, ROS, distributions
 from setup_steps import (
     PYTHON,
-    ROOT,
     VENV,
     SetupError,
     checked,
@@ -26,12 +26,8 @@ from setup_steps import (
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-LEARNING = ROOT / "ros2_ws" / "src" / "learning_tf2_py"
-CLASSROOM = ROOT / "classroom"
 #: The releases that CI installs, with their hashes.
 LOCK = ROOT / "scripts" / "locks" / "ci.txt"
-#: The four packages, by the names that their metadata have.
-OURS = ("turtlewire", "turtlewire-ros", "learning-tf2-py", "turtlewire-class")
 
 #: pip that installs dependency groups of a pyproject.toml.
 OLDEST_PIP = (25, 1)
@@ -109,12 +105,12 @@ def version_of(text: str) -> tuple[int, ...]:
 
 
 def install(extras: Sequence[str], *, only_extras: bool) -> None:
-    """Install the four packages editable, unless they are there, and the extras."""
+    """Install our distributions editable, unless they are there, and the extras."""
     workspace = "[workspace]" if "workspace" in extras else ""
     words = [f"turtlewire-ros{workspace}"]
     if not only_extras:
-        folders = (str(ROOT), f"{ROOT / 'ros'}{workspace}", str(LEARNING), str(CLASSROOM))
-        words = [word for folder in folders for word in ("-e", folder)]
+        folders = dict.fromkeys(distributions(), "") | {ROS: workspace}
+        words = [word for folder, extra in folders.items() for word in ("-e", f"{folder}{extra}")]
     for name in extras:
         if name != "workspace":
             words += ["--group", f"{ROOT / 'pyproject.toml'}:{name}"]
@@ -127,7 +123,8 @@ def install(extras: Sequence[str], *, only_extras: bool) -> None:
         pip("install", *words, settings=settings)
         return
     if not only_extras:  # uv would find them installed, although their metadata changed
-        words += [word for name in OURS for word in ("--reinstall-package", name)]
+        names = [folder.name.replace("_", "-") for folder in distributions()]
+        words += [word for name in names for word in ("--reinstall-package", name)]
     checked([uv, "pip", "install", "--python", str(PYTHON), *words], settings)
 
 

@@ -11,14 +11,15 @@ EXAMPLES = ROOT / "examples"
 HOW_TO = ROOT / "docs" / "how-to"
 SCRIPTS = ROOT / "scripts"
 #: The engine: it has `native` and `src`.
-ENGINE = ROOT
+ENGINE = ROOT / "packages" / "turtlewire"
 #: ROS 2's packages.
-ROS = ROOT / "ros"
-#: Folders from which the product's Python packages are imported.
-IMPORT_PATH = (ENGINE / "src", ROS)
+ROS = ROOT / "packages" / "turtlewire-ros"
+#: The product's Python packages, and the folders from which they are imported.
+PACKAGES = sorted(init.parent for init in ROOT.glob("packages/*/*/*/__init__.py"))
+IMPORT_PATH = sorted({package.parent for package in PACKAGES})
 #: The tutorial's package.
-LEARNING = ROOT / "ros2_ws" / "src" / "learning_tf2_py"
-LESSONS = ROOT / "site" / "lesson" / "lessons"
-LESSON_CODE = ROOT / "site" / "lesson" / "python"
+LEARNING = ROOT / "examples" / "learning_tf2_py"
+LESSON_CODE = ROOT / "packages" / "turtlewire-class" / "src"
+LESSONS = LESSON_CODE / "turtle_lesson" / "lessons"
 #: Sphinx's settings.
-SITE = ROOT / "site" / "docs"
+SITE = ROOT / "docs" / "sphinx"

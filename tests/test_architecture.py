@@ -56,7 +56,7 @@ def test_no_circle_at_import_time(house):
 
 
 def test_a_circle_is_found_whatever_the_kind_of_its_imports(architecture, tmp_path):
-    package = tmp_path / "ros" / "pkg"
+    package = tmp_path / "packages" / "some" / "src" / "pkg"
     package.mkdir(parents=True)
     (package / "__init__.py").touch()
     (package / "a.py").write_text("from pkg import b\n")
@@ -70,14 +70,12 @@ def test_a_circle_is_found_whatever_the_kind_of_its_imports(architecture, tmp_pa
     assert [found.kind for found in house.imports] == ["run", "late", "type"]
 
 
-def test_import_linter_knows_every_package(house):
-    contracts = configparser.ConfigParser()
-    contracts.read(ROOT / ".importlinter")
-    packages = {name.partition(".")[0] for name in house.paths}
-    assert set(contracts["importlinter"]["root_packages"].split()) == packages
-    layers = contracts["importlinter:contract:ros"]["layers"].replace("|", " ").split()
-    assert set(layers) == packages
-    assert len(layers) == len(packages)
+def test_import_linter_knows_every_package(house, script):
+    contracts = script("import_contracts").contracts()
+    packages = sorted({name.partition(".")[0] for name in house.paths})
+    assert contracts["importlinter"]["root_packages"].split() == packages
+    layers = contracts["importlinter:contract:ros"]["layers"].replace(":", " ").split()
+    assert sorted(layers) == packages
 
 
 def test_import_linter_forbids_circles_everywhere_but_in_rclpy():

@@ -11,7 +11,7 @@ import subprocess
 import sys
 
 import pytest
-from tests.places import ROOT, SCRIPTS
+from tests.places import ENGINE, ROOT, SCRIPTS
 
 from turtlewire import demo
 from turtlewire.console_keyboard import Keyboard
@@ -95,7 +95,7 @@ def test_the_demo_says_which_package_lacks(monkeypatch, capsys):
     assert demo.main([]) == 1
     said = capsys.readouterr().err
     assert "not installed: turtlesim\n" in said
-    assert said.endswith("-m pip install ./ros\n")
+    assert said.endswith("-m pip install ./packages/turtlewire-ros\n")
 
 
 DEMO_VARIABLES = {"TURTLEWIRE_BROWSER": "0", "TURTLEWIRE_PORT": "0"}
@@ -187,7 +187,7 @@ def installed(system: str, machine: str, version: str, interpreter: str) -> set[
     """What pip installs there, by the markers of pyproject.toml."""
     requirements = pytest.importorskip("packaging.requirements")
     tomllib = pytest.importorskip("tomllib")  # Python 3.11
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    project = tomllib.loads((ENGINE / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     there = {
         "sys_platform": system,
         "platform_machine": machine,

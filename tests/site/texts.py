@@ -6,7 +6,7 @@ import ast
 import re
 from functools import cache
 
-from tests.places import IMPORT_PATH
+from tests.places import PACKAGES
 
 PLACEHOLDER = re.compile(r"\{[^{}]*\}|%[sd]")
 
@@ -16,7 +16,7 @@ def sources() -> dict[str, list[str]]:
     """The texts of each Python file; `…` stands for what is filled in."""
     return {
         str(path): _texts_of(ast.parse(path.read_text(encoding="utf-8")))
-        for folder in IMPORT_PATH
+        for folder in PACKAGES
         for path in folder.rglob("*.py")
     }
 

@@ -16,7 +16,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from tests.places import HOW_TO, IMPORT_PATH, ROOT
+from tests.places import HOW_TO, PACKAGES, ROOT
 
 HERE = Path(__file__).parent
 VERBATIM = HERE / "verbatim/learning_tf2_py"
@@ -29,7 +29,7 @@ def why_not():
     wheels = [*WHEELHOUSE.glob("turtlewire-*.whl"), *WHEELHOUSE.glob("turtlewire_ros-*.whl")]
     if len(wheels) != 2:
         return f"needs wheels in {WHEELHOUSE.relative_to(ROOT)}: scripts/smoke makes them"
-    sources = [path for folder in IMPORT_PATH for path in folder.rglob("*.py")]
+    sources = [path for folder in PACKAGES for path in folder.rglob("*.py")]
     if min(wheel.stat().st_mtime for wheel in wheels) < max(
         path.stat().st_mtime for path in sources
     ):

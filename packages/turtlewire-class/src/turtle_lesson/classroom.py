@@ -1,0 +1,43 @@
+"""What the worker of the page calls: everything as text, by the name of a lesson."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from turtle_lesson.grading import grade_as_json
+from turtle_lesson.lesson import load_lesson
+from turtle_lesson.session import Session
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["grade", "open_session"]
+
+_LESSONS = Path(__file__).resolve().parent / "lessons"
+
+
+def open_session(lesson: str, files: str, faults: str) -> Session:
+    """Run a lesson.
+
+    Args:
+        lesson: Its name.
+        files: JSON object of the student's files.
+        faults: JSON list of the names of faults that are switched on.
+    """
+    return Session(load_lesson(_LESSONS / lesson), json.loads(files), json.loads(faults))
+
+
+def grade(
+    lesson: str, files: str, tell: Callable[[str], object], alive: Callable[[], object]
+) -> None:
+    """Run the checks of a lesson.
+
+    Args:
+        lesson: Its name.
+        files: JSON object of the student's files.
+        tell: Called with each result, as a JSON object.
+        alive: Called now and then while the checks run.
+    """
+    grade_as_json(load_lesson(_LESSONS / lesson), json.loads(files), tell, alive)

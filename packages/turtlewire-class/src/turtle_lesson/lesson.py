@@ -1,0 +1,80 @@
+"""A lesson: its files, the programs that are started, and its checks."""
+
+from __future__ import annotations
+
+import json
+from importlib.util import module_from_spec, spec_from_file_location
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from pathlib import Path
+
+__all__ = ["Lesson", "Program", "Turtle", "load_lesson"]
+
+
+class Program(NamedTuple):
+    """A program that a lesson starts.
+
+    Attributes:
+        source: A file of the student, or the name of an installed module.
+        name: Name of its node; empty for the one that it has.
+        arguments: Its command line.
+        parameters: Its node's parameters.
+    """
+
+    source: str
+    name: str = ""
+    arguments: tuple[str, ...] = ()
+    parameters: Mapping[str, Any] = MappingProxyType({})
+
+
+class Turtle(NamedTuple):
+    """A turtle besides turtle1: its name and place [m, rad]."""
+
+    name: str
+    x: float
+    y: float
+    theta: float = 0.0
+
+
+class Lesson(NamedTuple):
+    """A lesson.
+
+    Attributes:
+        files: Names of the files that the student edits.
+        programs: What is started, in this order.
+        turtles: Turtles that are there besides turtle1.
+        folder: Where it lies.
+    """
+
+    files: tuple[str, ...]
+    programs: tuple[Program, ...]
+    turtles: tuple[Turtle, ...]
+    folder: Path
+
+    def sources(self, kind: str) -> dict[str, str]:
+        """Return the files of `starter` or `solution`, by name."""
+        folder = self.folder / kind
+        return {file: (folder / file).read_text(encoding="utf-8") for file in self.files}
+
+    def checks(self) -> list[Callable[[Any], None]]:
+        """The functions of ``checks.py`` whose names begin with ``check_``, in their order."""
+        spec = spec_from_file_location("checks", self.folder / "checks.py")
+        assert spec is not None
+        assert spec.loader is not None
+        module = module_from_spec(spec)
+        spec.loader.exec_module(module)
+        return [value for name, value in vars(module).items() if name.startswith("check_")]
+
+
+def load_lesson(folder: Path) -> Lesson:
+    """Read ``lesson.json`` of a folder."""
+    data = json.loads((folder / "lesson.json").read_text(encoding="utf-8"))
+    programs = [
+        Program(**{**program, "arguments": tuple(program.get("arguments", ()))})
+        for program in data["programs"]
+    ]
+    turtles = [Turtle(**turtle) for turtle in data.get("turtles", ())]
+    return Lesson(tuple(data["files"]), tuple(programs), tuple(turtles), folder)
