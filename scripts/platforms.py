@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))  # also where it is loaded by its path
 
-from distributions import ENGINE, ROOT, ROS, import_path
+from distributions import CLASS, ENGINE, ROOT, ROS, import_path
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -37,6 +37,7 @@ REASONS = {
     PREFIX / "cmake/processes.py": "redirected output needs a shell, as under make",
     PREFIX / "plan_install.py": "writes the setup files of each shell",
     PREFIX / "process_guardian.py": "is started on Linux only",
+    CLASS / "src/turtle_class/supervise.py": "its caller asks for Linux",
     PREFIX / "wheel.py": "pip replaces the first line of a script",
 }
 

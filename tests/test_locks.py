@@ -44,7 +44,7 @@ def assert_covered(lock, wanted):
 
 
 def project(folder):
-    return tomllib.loads((ROOT / folder / "pyproject.toml").read_text(encoding="utf-8"))
+    return tomllib.loads((ROOT / folder / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 
 
 def names(module, variable):
@@ -59,11 +59,11 @@ def names(module, variable):
 
 
 def test_ci():
-    engine, ros, classroom = project("."), project("ros"), project("classroom")
-    wanted = [*engine["project"]["dependencies"], *ros["project"]["dependencies"]]
-    wanted += classroom["project"]["dependencies"]
-    wanted += ros["project"]["optional-dependencies"]["workspace"]
-    wanted += engine["dependency-groups"]["test"] + engine["dependency-groups"]["lint"]
+    wanted = project("packages/turtlewire-ros")["optional-dependencies"]["workspace"]
+    for path in ROOT.glob("packages/*/pyproject.toml"):
+        wanted += project(path.parent)["dependencies"]
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    wanted += settings["dependency-groups"]["test"] + settings["dependency-groups"]["lint"]
     assert_covered("ci", wanted)
 
 
@@ -71,3 +71,9 @@ def test_a_release():
     assert_covered("build", names("release_wheels", "BACKEND"))
     assert_covered("release", names("release_checks", "TOOLS"))
     assert_covered("wheels", ["cibuildwheel>=3,<4"])
+
+
+def test_each_distribution_ships_the_licence():
+    licence = (ROOT / "LICENSE").read_text(encoding="utf-8")
+    for path in ROOT.glob("packages/*/pyproject.toml"):
+        assert (path.parent / "LICENSE").read_text(encoding="utf-8") == licence

@@ -21,7 +21,7 @@ from turtlewire.wire import open_context
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import Durability, QoS
 
-FILES = ROS / "turtlewire_ros/environment"
+FILES = ROS / "prefix/turtlewire_ros/environment"
 
 needs_fish = pytest.mark.skipif(
     shutil.which("fish") is None, reason="needs fish (Debian: apt install fish)"

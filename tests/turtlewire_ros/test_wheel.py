@@ -10,12 +10,12 @@ import zipfile
 import pytest
 import yaml
 from defusedxml import ElementTree
-from tests.places import ROS
+from tests.places import ENGINE, ROS
 
 from turtlewire.msg.idl import idl_to_text
 from turtlewire.msg.parser import parse_action, parse_message, parse_service
 
-INTERFACES = ROS.parent / "src" / "turtlewire" / "msg" / "interfaces"
+INTERFACES = ENGINE / "src" / "turtlewire" / "msg" / "interfaces"
 PARSERS = {"msg": parse_message, "srv": parse_service, "action": parse_action}
 KINDS = [*PARSERS]
 DATA = "turtlewire_ros-0.1.0.data/data/"
@@ -35,7 +35,7 @@ def wheel(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def packages():
-    inits = ROS.glob("*/__init__.py")
+    inits = ROS.glob("*/*/__init__.py")
     return sorted(
         {init.parent.name for init in inits} | {path.name for path in INTERFACES.iterdir()}
     )

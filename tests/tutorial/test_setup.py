@@ -13,7 +13,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from tests.places import SCRIPTS
+from tests.places import ENGINE, ROS, SCRIPTS
 
 SETUP = SCRIPTS / "setup.py"
 
@@ -57,7 +57,7 @@ def test_nothing_is_done_twice(setup):
     setup.main(["workspace"])
     (_install, *words), core = setup.calls
     assert words.count("-e") == 4
-    assert str(setup.ROOT) in words
+    assert str(ENGINE) in words
     assert core == ("core", "key")
     setup.main(["workspace"])
     setup.main([])
@@ -95,7 +95,7 @@ def test_changed_sources_are_installed_with_the_extras_there_are(setup, monkeypa
     monkeypatch.setattr(setup, "fingerprint", lambda: "other")
     setup.main([])
     (words,) = setup.calls  # the core is not compiled again
-    assert f"{setup.ROOT / 'ros'}[workspace]" in words
+    assert f"{ROS}[workspace]" in words
     assert words.count("-e") == 4
 
 
@@ -391,12 +391,12 @@ class TestCore:
     @pytest.fixture
     def sources(self, core, monkeypatch, tmp_path):
         """A copy of what the key is made of; a compiler that tells its version."""
-        monkeypatch.setattr(core, "ROOT", tmp_path)
+        monkeypatch.setattr(core, "ENGINE", tmp_path)
         monkeypatch.setattr(core, "compiler_version", lambda: "c++ 1")
         monkeypatch.setattr(core.sysconfig, "get_path", lambda _name: str(tmp_path))
         (tmp_path / "Python.h").touch()
         for folder in ("bindings", "core", "cyclone", "tests"):
-            assert (SCRIPTS.parent / "native" / folder).is_dir()
+            assert (ENGINE / "native" / folder).is_dir()
             (tmp_path / "native" / folder).mkdir(parents=True)
         (tmp_path / "native" / "CMakeLists.txt").touch()
         (tmp_path / "pyproject.toml").write_text("[build-system]\nx = 1\n[project]\ny = 1\n")
