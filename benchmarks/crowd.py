@@ -27,7 +27,7 @@ TITLE = "A crowd of processes on one host, one node each"
 ROUNDS = 3
 BUDGET = "<= 3 s"
 #: A small process that imports little besides what it measures; the tests run it, too.
-MEMBER = Path(__file__).parents[1] / "tests" / "wire" / "peers" / "crowd.py"
+MEMBER = Path(__file__).parents[1] / "packages/turtlewire/tests/wire/peers/crowd.py"
 #: A domain whose ports lie below those that systems hand out: 120 processes take all that it has.
 ENVIRONMENT = {**os.environ, "ROS_DOMAIN_ID": "95", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
 

@@ -98,7 +98,7 @@ def _tests(root: Path, lines: dict[str, list[str]]) -> str:
         code[room(name).removeprefix("turtlewire.")] += len(text)
     shares = {}
     for name, count in code.items():
-        paths = (root / "tests" / name).rglob("*.py")
+        paths = root.glob(f"packages/**/tests/{name}/**/*.py")
         tests = sum(len(path.read_text("utf-8").splitlines()) for path in paths)
         if tests:
             shares[name] = tests / count

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from distributions import LEARNING
+from distributions import ENGINE, LEARNING, ROS
 from release_steps import ROOT, ReleaseError, run, say
 from release_wheels import interpreter, wheel_tag
 
@@ -66,11 +66,18 @@ class Place(NamedTuple):
 PLACES = {
     "arm64": Place(
         *("bookworm", "arm64", "aarch64", "3.11", "libddsc0debian"),
-        ("tests/tf/test_buffer.py", "tests/tf/test_batch.py"),
+        (f"{ENGINE}/tests/tf/test_buffer.py", f"{ENGINE}/tests/tf/test_batch.py"),
     ),
     "python3.14": Place(
         *("forky", "amd64", "x86_64", "3.14", "libddsc0t64"),
-        ("-n2", "-m", "not slow", "tests/tf", "tests/tf2_py", "tests/wire"),
+        (
+            "-n2",
+            "-m",
+            "not slow",
+            f"{ENGINE}/tests/tf",
+            f"{ROS}/geometry2/tests/tf2_py",
+            f"{ENGINE}/tests/wire",
+        ),
     ),
 }
 MIDDLEWARES = ("rmw_zenoh_cpp", "rmw_cyclonedds_cpp")

@@ -23,3 +23,19 @@ LESSON_CODE = ROOT / "packages" / "turtlewire-class" / "src"
 LESSONS = LESSON_CODE / "turtle_lesson" / "lessons"
 #: Sphinx's settings.
 SITE = ROOT / "docs" / "sphinx"
+
+
+def modules_of_tests() -> list[Path]:
+    """Return the test modules of all distributions."""
+    beside = ROOT.glob("packages/**/tests/**/test_*.py")
+    return sorted([*beside, *(ROOT / "tests").glob("**/test_*.py")])
+
+
+def module_of_tests(name: str) -> Path:
+    """Return the test module with a name such as ``tf/test_buffer.py``.
+
+    Raises:
+        ValueError: There is none, or several have this name.
+    """
+    (found,) = (path for path in modules_of_tests() if path.as_posix().endswith(f"tests/{name}"))
+    return found

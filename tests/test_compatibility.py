@@ -10,12 +10,11 @@ import ast
 import functools
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from tests.places import ROOT, module_of_tests
 
-TESTS = Path(__file__).parent
-PAGE = TESTS.parent / "docs" / "compatibility.md"
+PAGE = ROOT / "docs" / "compatibility.md"
 
 # Entry, and below it the tests of what we do instead.
 TESTED = """
@@ -127,7 +126,7 @@ an `async` callback that awaits a service of its own callback group hangs
 a Ctrl-C that is not caught prints a traceback
   rclpy/test_signals.py test_ctrl_c_that_is_not_caught_ends_without_a_traceback test_other_errors_keep_their_traceback
 Ctrl-C while an action server executes a goal prints the traceback of `publish_feedback`
-  demo_nodes/test_minimal_actions.py test_ctrl_c_in_the_middle_of_a_goal_is_one_line
+  demo_nodes_py/test_minimal_actions.py test_ctrl_c_in_the_middle_of_a_goal_is_one_line
 two SIGINT for one Ctrl-C (terminal and launch) interrupt the clean-up
   rclpy/test_signals.py test_ctrl_c_ends_the_tutorials_main_cleanly
 `rclpy.spin_once(node)` takes a node out of the executor it was in
@@ -368,7 +367,7 @@ joint_state_publisher reads COLLADA robots, too
 joint_state_publisher_gui opens a Qt window
   joint_state_publisher_gui/test_page.py test_a_slider_moves_its_joint_and_those_that_follow
 `address` is 0.0.0.0 by default
-  cli/test_foxglove.py test_it_tells_its_address_serves_and_ends_at_ctrl_c test_an_address_for_others_is_said_plainly
+  foxglove/test_command.py test_it_tells_its_address_serves_and_ends_at_ctrl_c test_an_address_for_others_is_said_plainly
 pages of any origin connect
   foxglove/test_hostile.py test_other_pages_are_refused_with_one_line
 `tls`, `certfile` and `keyfile` make it a wss server
@@ -464,7 +463,7 @@ def table():
 
 @functools.cache
 def functions_of(file):
-    tree = ast.parse((TESTS / file).read_text(encoding="utf-8"))
+    tree = ast.parse(module_of_tests(file).read_text(encoding="utf-8"))
     return {node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)}
 
 

@@ -47,8 +47,8 @@ Parameter files, bags, saved buffers, URDF and `.rviz` files are data
   test_security.py test_a_definition_in_a_bag_cannot_hold_code
   urdf/test_parser.py test_entities_are_refused
 The code of a student who is graded reaches neither the checks nor their results
-  classroom/test_forging.py test_an_attack_gives_no_points
-  classroom/test_forging.py test_the_processes_of_the_graders_are_closed
+  turtle_class/test_forging.py test_an_attack_gives_no_points
+  turtle_class/test_forging.py test_the_processes_of_the_graders_are_closed
 DDS traffic is neither encrypted nor authenticated
   wire/zenoh/test_security.py test_the_commands_of_each_section_work
   wire/zenoh/test_security.py test_a_peer_without_a_certificate_sees_nothing
@@ -59,7 +59,7 @@ SROS 2 is not supported
   wire/test_security.py test_no_program_starts_in_the_clear
 A page that `--lan` opens is not encrypted
   web/test_lan.py test_with_it_every_address_answers_to_the_token
-  cli/test_foxglove.py test_an_address_for_others_is_said_plainly
+  foxglove/test_command.py test_an_address_for_others_is_said_plainly
 Launch files are programs
   ros2cli/test_launch_command.py test_arguments_are_shown_without_running_code
   test_security.py test_launching_a_file_runs_its_substitutions

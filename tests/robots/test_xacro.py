@@ -10,6 +10,7 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import pytest
+
 from tests import places
 
 GOLDEN = places.GOLDEN / "robots"

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from tests.places import ROOT, SCRIPTS, SITE
+from tests.places import ROOT, SCRIPTS, SITE, modules_of_tests
 
 import turtlewire
 from turtlewire.cli.main import main
@@ -115,15 +115,15 @@ def test_the_page_has_the_errors_of_lookups():
 
 #: Pages whose commands are run by tests that do not read the page, and which tests.
 RUN_ELSEWHERE = {
-    "lesson.md": "tests/lesson/test_in_browser.py",
+    "lesson.md": "packages/turtlewire-class/tests/turtle_lesson/test_in_browser.py",
     "learning_tf2_py.md": "tests/tutorial/test_lessons.py",
-    "packages.md": "tests/turtlewire_ros/test_colcon_ament.py",
+    "packages.md": "packages/turtlewire-ros/prefix/tests/turtlewire_ros/test_colcon_ament.py",
     "performance.md": "tests/test_bench.py",
 }
 
 
 def test_each_page_with_commands_or_programs_is_tested():
-    tests = "\n".join(path.read_text(encoding="utf-8") for path in ROOT.glob("tests/**/test_*.py"))
+    tests = "\n".join(path.read_text(encoding="utf-8") for path in modules_of_tests())
     without = {
         page.name
         for page in DOCS.rglob("*.md")

@@ -15,6 +15,7 @@ import sys
 from dataclasses import asdict, dataclass, field
 
 from capture import surface
+
 from tests import places
 
 GOLDEN = places.GOLDEN / "surface"

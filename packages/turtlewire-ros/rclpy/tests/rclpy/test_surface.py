@@ -1,0 +1,281 @@
+"""What `tests/surface` does not see of rclpy's surface.
+
+Values of enumerations of ROS 2's C extension, base classes of errors, aliases, presets, and
+attributes that constructors set.
+"""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import json
+from pathlib import Path
+
+import pytest
+
+import rclpy.node
+import rclpy.qos
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.lifecycle import LifecycleNode
+from rclpy.node import Node
+from tests import places
+
+GOLDEN = places.GOLDEN / "surface"
+
+CONSTANTS = """
+rclpy.signals.SignalHandlerOptions: NO=0 SIGINT=1 SIGTERM=2 ALL=3
+rclpy.qos.HistoryPolicy: SYSTEM_DEFAULT=0 KEEP_LAST=1 KEEP_ALL=2 UNKNOWN=3
+rclpy.qos.ReliabilityPolicy: SYSTEM_DEFAULT=0 RELIABLE=1 BEST_EFFORT=2 UNKNOWN=3 BEST_AVAILABLE=4
+rclpy.qos.DurabilityPolicy: SYSTEM_DEFAULT=0 TRANSIENT_LOCAL=1 VOLATILE=2 UNKNOWN=3 BEST_AVAILABLE=4
+rclpy.qos.LivelinessPolicy: SYSTEM_DEFAULT=0 AUTOMATIC=1 MANUAL_BY_TOPIC=3 UNKNOWN=4 BEST_AVAILABLE=5
+rclpy.qos.QoSPolicyKind: INVALID=1 DURABILITY=2 DEADLINE=4 LIVELINESS=8 RELIABILITY=16 HISTORY=32 LIFESPAN=64 DEPTH=128 LIVELINESS_LEASE_DURATION=256 AVOID_ROS_NAMESPACE_CONVENTIONS=512
+rclpy.qos.QoSCompatibility: OK=0 WARNING=1 ERROR=2
+rclpy.clock_type.ClockType: UNINITIALIZED=0 ROS_TIME=1 SYSTEM_TIME=2 STEADY_TIME=3
+rclpy.clock.ClockChange: ROS_TIME_NO_CHANGE=1 ROS_TIME_ACTIVATED=2 ROS_TIME_DEACTIVATED=3 SYSTEM_TIME_NO_CHANGE=4
+rclpy.parameter.Parameter.Type: NOT_SET=0 BOOL=1 INTEGER=2 DOUBLE=3 STRING=4 BYTE_ARRAY=5 BOOL_ARRAY=6 INTEGER_ARRAY=7 DOUBLE_ARRAY=8 STRING_ARRAY=9
+rclpy.logging.LoggingSeverity: UNSET=0 DEBUG=10 INFO=20 WARN=30 ERROR=40 FATAL=50
+rclpy.service_introspection.ServiceIntrospectionState: OFF=0 METADATA=1 CONTENTS=2
+rclpy.topic_endpoint_info.TopicEndpointTypeEnum: INVALID=0 PUBLISHER=1 SUBSCRIPTION=2
+rclpy.action.GoalResponse: REJECT=1 ACCEPT=2
+rclpy.action.CancelResponse: REJECT=1 ACCEPT=2
+rclpy.lifecycle.TransitionCallbackReturn: SUCCESS=97 FAILURE=98 ERROR=99
+rclpy.event_handler.QoSPublisherEventType: RCL_PUBLISHER_OFFERED_DEADLINE_MISSED=0 RCL_PUBLISHER_LIVELINESS_LOST=1 RCL_PUBLISHER_OFFERED_INCOMPATIBLE_QOS=2 RCL_PUBLISHER_INCOMPATIBLE_TYPE=3 RCL_PUBLISHER_MATCHED=4
+rclpy.event_handler.QoSSubscriptionEventType: RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED=0 RCL_SUBSCRIPTION_LIVELINESS_CHANGED=1 RCL_SUBSCRIPTION_REQUESTED_INCOMPATIBLE_QOS=2 RCL_SUBSCRIPTION_MESSAGE_LOST=3 RCL_SUBSCRIPTION_INCOMPATIBLE_TYPE=4 RCL_SUBSCRIPTION_MATCHED=5
+action_msgs.msg.GoalStatus: STATUS_UNKNOWN=0 STATUS_ACCEPTED=1 STATUS_EXECUTING=2 STATUS_CANCELING=3 STATUS_SUCCEEDED=4 STATUS_CANCELED=5 STATUS_ABORTED=6
+"""
+
+# Error: base class. Where a name is reachable in several places, each place is listed.
+ERRORS = """
+rclpy.exceptions.NotInitializedException: Exception
+rclpy.exceptions.NoTypeSupportImportedException: Exception
+rclpy.exceptions.NameValidationException: Exception
+rclpy.exceptions.InvalidNamespaceException: NameValidationException
+rclpy.exceptions.InvalidNodeNameException: NameValidationException
+rclpy.exceptions.InvalidTopicNameException: NameValidationException
+rclpy.exceptions.InvalidServiceNameException: NameValidationException
+rclpy.exceptions.ParameterException: Exception
+rclpy.exceptions.ParameterNotDeclaredException: ParameterException
+rclpy.exceptions.ParameterAlreadyDeclaredException: ParameterException
+rclpy.exceptions.InvalidParameterException: ParameterException
+rclpy.exceptions.InvalidParameterTypeException: ParameterException
+rclpy.exceptions.InvalidParameterValueException: ParameterException
+rclpy.exceptions.ParameterImmutableException: ParameterException
+rclpy.exceptions.ParameterUninitializedException: ParameterException
+rclpy.exceptions.ROSInterruptException: Exception
+rclpy.exceptions.InvalidHandle: RuntimeError
+rclpy.executors.TimeoutException: Exception
+rclpy.executors.ShutdownException: Exception
+rclpy.executors.ExternalShutdownException: Exception
+rclpy.executors.ConditionReachedException: Exception
+rclpy.qos.InvalidQoSProfileException: Exception
+rclpy.qos_overriding_options.InvalidQosOverridesError: Exception
+rclpy.node.NodeNameNonExistentError: RCLError
+rclpy.event_handler.UnsupportedEventTypeError: RCLError
+rclpy._rclpy_pybind11.RCLError: RuntimeError
+rclpy._rclpy_pybind11.RMWError: RuntimeError
+rclpy._rclpy_pybind11.InvalidHandle: RuntimeError
+rclpy._rclpy_pybind11.UnknownROSArgsError: RuntimeError
+rclpy._rclpy_pybind11.RCLInvalidROSArgsError: RCLError
+rclpy._rclpy_pybind11.NodeNameNonExistentError: RCLError
+rclpy._rclpy_pybind11.UnsupportedEventTypeError: RCLError
+rclpy._rclpy_pybind11.TimerCancelledError: RCLError
+"""
+
+ALIASES = """
+rclpy.qos.QoSHistoryPolicy = rclpy.qos.HistoryPolicy
+rclpy.qos.QoSReliabilityPolicy = rclpy.qos.ReliabilityPolicy
+rclpy.qos.QoSDurabilityPolicy = rclpy.qos.DurabilityPolicy
+rclpy.qos.QoSLivelinessPolicy = rclpy.qos.LivelinessPolicy
+rclpy.lifecycle.Node = rclpy.lifecycle.LifecycleNode
+rclpy.lifecycle.NodeMixin = rclpy.lifecycle.LifecycleNodeMixin
+rclpy.lifecycle.Publisher = rclpy.lifecycle.LifecyclePublisher
+rclpy.lifecycle.State = rclpy.lifecycle.LifecycleState
+rclpy.clock.ClockType = rclpy.clock_type.ClockType
+rclpy.node.MsgType = rclpy.publisher.MsgType
+rclpy.node.MsgType = rclpy.subscription.MsgType
+rclpy.node.SrvType = rclpy.client.SrvType
+rclpy.node.SrvTypeRequest = rclpy.service.SrvTypeRequest
+rclpy.node.SrvTypeResponse = rclpy.service.SrvTypeResponse
+tf2_ros.TransformStamped = geometry_msgs.msg.TransformStamped
+tf2_ros.TFMessage = tf2_msgs.msg.TFMessage
+tf2_geometry_msgs.PoseStamped = geometry_msgs.msg.PoseStamped
+rclpy.impl.logging_severity.LoggingSeverity = rclpy.logging.LoggingSeverity
+rclpy.impl.implementation_singleton.rclpy_implementation = rclpy._rclpy_pybind11
+"""
+
+QOS_PRESETS = """
+default              KEEP_LAST       10    RELIABLE        VOLATILE
+sensor_data          KEEP_LAST       5     BEST_EFFORT     VOLATILE
+services_default     KEEP_LAST       10    RELIABLE        VOLATILE
+parameters           KEEP_LAST       1000  RELIABLE        VOLATILE
+parameter_events     KEEP_LAST       1000  RELIABLE        VOLATILE
+system_default       SYSTEM_DEFAULT  0     SYSTEM_DEFAULT  SYSTEM_DEFAULT
+best_available       KEEP_LAST       10    BEST_AVAILABLE  BEST_AVAILABLE
+action_status_default KEEP_LAST      1     RELIABLE        TRANSIENT_LOCAL
+"""
+
+
+def find(path):
+    """What a dotted path names: modules first, then attributes."""
+    parts = path.split(".")
+    for count in range(len(parts), 0, -1):
+        try:
+            found = importlib.import_module(".".join(parts[:count]))
+        except ModuleNotFoundError:
+            continue
+        for name in parts[count:]:
+            found = getattr(found, name)
+        return found
+    raise ModuleNotFoundError(path)
+
+
+def rows(table):
+    return [line.split(": ") for line in table.strip().splitlines()]
+
+
+@pytest.mark.parametrize(
+    ("owner", "members"), rows(CONSTANTS), ids=[owner for owner, _ in rows(CONSTANTS)]
+)
+def test_constants(owner, members):
+    for name, number in (member.split("=") for member in members.split()):
+        value = getattr(find(owner), name)
+        assert getattr(value, "value", value) == int(number), name
+
+
+@pytest.mark.parametrize(("path", "base"), rows(ERRORS), ids=[path for path, _ in rows(ERRORS)])
+def test_errors(path, base):
+    error = find(path)
+    assert [each.__name__ for each in error.__mro__][1] == base
+    assert error.__name__ == path.rpartition(".")[2]
+
+
+@pytest.mark.parametrize("alias", ALIASES.strip().splitlines())
+def test_aliases(alias):
+    one, other = alias.split(" = ")
+    assert find(one) is find(other)
+
+
+@pytest.mark.parametrize("row", QOS_PRESETS.strip().splitlines(), ids=lambda row: row.split()[0])
+def test_qos_presets(row):
+    name, history, depth, reliability, durability = row.split()
+    profile = getattr(rclpy.qos, f"qos_profile_{name}")
+    assert (
+        profile
+        == rclpy.qos.QoSPresetProfiles[name.upper()].value
+        == rclpy.qos.QoSPresetProfiles.get_from_short_key(name)
+    )
+    found = (
+        profile.history.name,
+        str(profile.depth),
+        profile.reliability.name,
+        profile.durability.name,
+    )
+    assert found == (history, depth, reliability, durability)
+
+
+def test_what_every_made_thing_has(node):
+    """Attributes that constructors set, which no class shows."""
+    from rclpy.clock import JumpThreshold
+    from std_msgs.msg import String
+    from std_srvs.srv import Empty
+
+    made = {
+        node.create_publisher(String, "t", 1): "msg_type topic qos_profile event_handlers",
+        node.create_subscription(
+            String, "t", print, 1
+        ): "msg_type topic callback callback_group raw qos_profile event_handlers",
+        node.create_client(Empty, "s"): "srv_type srv_name qos_profile callback_group",
+        node.create_service(
+            Empty, "s", print
+        ): "srv_type srv_name callback callback_group qos_profile",
+        node.create_timer(1, print): "callback callback_group",
+        node.create_guard_condition(print): "callback callback_group",
+        JumpThreshold(
+            min_forward=None, min_backward=None
+        ): "min_forward min_backward on_clock_change",
+    }
+    for thing, names in made.items():
+        for name in names.split():
+            assert hasattr(thing, name), f"{thing}: {name}"
+
+
+def test_handles_are_context_managers(node):
+    """Programs write `with thing.handle:`, as rclpy itself does; that destroys nothing."""
+    from std_msgs.msg import String
+
+    publisher = node.create_publisher(String, "t", 1)
+    subscription = node.create_subscription(String, "t", print, 1)
+    with node.handle, publisher.handle, subscription.handle:
+        pass
+    assert publisher.topic_name == subscription.topic_name == "/t"
+    assert node.create_publisher(String, "t", 1).topic_name == "/t"
+
+
+def test_with_statements(monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+    with Context() as context, SingleThreadedExecutor(context=context) as executor:
+        assert executor.context is context
+    assert not context.ok()
+
+
+def test_a_subscription_says_that_nothing_is_filtered(node):
+    from rclpy.subscription_content_filter_options import ContentFilterOptions
+    from std_msgs.msg import String
+
+    options = ContentFilterOptions(filter_expression="data = %0", expression_parameters=["'x'"])
+    assert (
+        node.create_subscription(
+            String, "t", print, 1, content_filter_options=options
+        ).is_cft_enabled
+        is False
+    )
+
+
+# Private attributes that ROS 2's nodes have as well; programs know better than to take these names.
+OF_ROS_2 = {
+    "_callbacks",
+    "_clock",
+    "_context",
+    "_logger",
+    "_managed_entities",
+    "_parameter_service",
+    "_parameters",
+    "_state_machine",
+}
+OF_ROS_2 |= {"_time_source", "_type_description_service"}
+
+
+@pytest.mark.parametrize("kind", [Node, LifecycleNode])
+def test_a_program_may_have_attributes_of_its_own(context, kind):
+    """A class derived from Node may use any attribute name, for example `_name` or `_executor`."""
+    node = kind("tested", context=context, enable_logger_service=True)
+    private = {
+        name
+        for name in (*vars(node), *dir(kind))
+        if name.startswith("_") and not name.startswith(("__", "_rclpy"))
+    }
+    assert {
+        name
+        for name in private - OF_ROS_2
+        if not name.startswith(("_Node__", "_LifecycleNodeMixin__"))
+    } == set()
+    public = {name for name in dir(Node) if not name.startswith("_")}
+    of_ros_2 = json.loads((GOLDEN / "rclpy.json").read_text())["rclpy.node"]["Node"]["members"]
+    assert public - of_ros_2.keys() == set()
+    node.destroy_node()
+
+
+def test_node_is_a_facade():
+    """Each method of a node is one line onto the part that does the work."""
+    (node_class,) = [
+        each
+        for each in ast.parse(Path(rclpy.node.__file__).read_text()).body
+        if getattr(each, "name", "") == "Node"
+    ]
+    longer = set()
+    for method in (each for each in node_class.body if isinstance(each, ast.FunctionDef)):
+        work = [each for each in method.body if not isinstance(each, ast.ImportFrom)]
+        if len(work) - (ast.get_docstring(method) is not None) != 1:
+            longer.add(method.name)
+    assert longer == {"__init__", "destroy_node", "executor"}

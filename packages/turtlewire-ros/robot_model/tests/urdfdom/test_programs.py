@@ -1,0 +1,116 @@
+"""`check_urdf` and `urdf_to_graphviz`."""
+
+from __future__ import annotations
+
+import io
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests import places
+from urdfdom import check_urdf, urdf_to_graphviz
+
+GOLDEN = places.GOLDEN / "robots"
+RAFT = str(GOLDEN / "urdf" / "raft.urdf")
+
+TREE = """robot name is: raft
+---------- Successfully Parsed XML ---------------
+root Link: raft_root has 2 child(ren)
+    child(1):  deck
+      child(1):  sail
+        child(1):  lamp
+          child(1):  lamp_lens
+          child(2):  puck
+    child(2):  slab
+      child(1):  pin
+"""
+REFUSED = """Error:   Unable to parse component [zero] to a double (while parsing a vector value)
+         at line 6 in <origin> in <joint name="j">
+Error:   Malformed parent origin element for joint [j]
+Error:   joint xml is not initialized correctly
+ERROR: Model Parsing the xml failed
+"""
+
+
+def test_the_tree(capsys):
+    assert check_urdf.main(["check_urdf", RAFT]) == 0
+    assert capsys.readouterr().out == TREE
+
+
+def test_from_stdin(capsys, monkeypatch):
+    class Stdin:
+        buffer = io.BytesIO(Path(RAFT).read_bytes())
+
+    monkeypatch.setattr(sys, "stdin", Stdin)
+    assert check_urdf.main(["check_urdf", "-"]) == 0
+    assert capsys.readouterr().out == TREE
+
+
+@pytest.mark.parametrize("program", [check_urdf, urdf_to_graphviz])
+def test_what_is_no_urdf(program, capsys, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    assert program.main(["program", str(GOLDEN / "invalid" / "bad_number.urdf")]) == 1
+    assert capsys.readouterr().err == REFUSED
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("program", [check_urdf, urdf_to_graphviz])
+def test_a_file_that_is_not_there(program, capsys):
+    assert program.main(["program", "no_such.urdf"]) == 1
+    assert "no_such.urdf: No such file or directory" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("program", "text"),
+    [
+        (check_urdf, "Expect URDF xml file to parse. Use - for stdin"),
+        (urdf_to_graphviz, "Usage: urdf_to_graphviz input.xml [OUTPUT]"),
+    ],
+)
+def test_usage(program, text, capsys):
+    assert program.main(["program"]) == 255
+    assert text in capsys.readouterr().err
+    assert program.main(["program", "--help"]) == 0
+    assert text in capsys.readouterr().out
+
+
+def test_drawings(capsys, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    assert urdf_to_graphviz.main(["urdf_to_graphviz", RAFT]) == 0
+    assert capsys.readouterr().out == "Created file raft.gv\nCreated file raft.pdf\n"
+    dot = (tmp_path / "raft.gv").read_text()
+    assert '"lamp_fix" -> "lamp"\n' in dot
+    assert '"sail" -> "lamp_fix" [label="xyz: 0.1 0.1 0.1 \\nrpy: 0.01 0.02 0.03"]' in dot
+    assert (tmp_path / "raft.pdf").read_bytes().startswith(b"%PDF-1.4")
+
+
+def test_a_robot_cannot_choose_the_folder(monkeypatch, tmp_path):
+    folder = tmp_path / "here"
+    folder.mkdir()
+    monkeypatch.chdir(folder)
+    (tmp_path / "evil.urdf").write_text('<robot name="../evil"><link name="&quot;"/></robot>')
+    assert urdf_to_graphviz.main(["urdf_to_graphviz", "../evil.urdf"]) == 0
+    assert sorted(path.name for path in folder.iterdir()) == [".._evil.gv", ".._evil.pdf"]
+
+
+def test_a_closed_pipe_is_quiet():
+    chain = subprocess.run(
+        f"{sys.executable} -m urdfdom.check_urdf {RAFT} | true",
+        shell=True,
+        capture_output=True,
+        timeout=300,
+        check=True,
+    )
+    assert chain.stderr == b""
+
+
+@pytest.mark.parametrize("name", ["check_urdf", "urdf_to_graphviz"])
+def test_as_a_command_and_with_ros2_run(name):
+    folder = Path(sys.executable).parent
+    for command in ([folder / name], [folder / "ros2", "run", "urdfdom", name]):
+        done = subprocess.run(
+            [*command, "--help"], capture_output=True, text=True, timeout=300, check=True
+        )
+        assert name in done.stdout

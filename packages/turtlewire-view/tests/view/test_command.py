@@ -1,0 +1,121 @@
+"""`turtlewire view`: its words, its address, and its end."""
+
+from __future__ import annotations
+
+import signal
+import socket
+import sys
+from pathlib import Path
+
+import pytest
+from tests.bags import write_bag
+from websockets.sync.client import connect
+
+from .packets import decode_packet
+
+TURTLEWIRE = Path(sys.executable).parent / "turtlewire"
+
+
+@pytest.fixture
+def view(run):
+    def start(*words, **options):
+        return run(TURTLEWIRE, "view", *words, **options)
+
+    return start
+
+
+def address_of(program):
+    return program.wait_for(r"The view is at http(://127\.0\.0\.1:\d+/)")[0][1]
+
+
+def test_it_tells_its_address_serves_and_ends_at_ctrl_c(view):
+    program = view("--port", "0", terminal=True)
+    with connect(f"ws{address_of(program)}live", max_size=None) as page:
+        assert decode_packet(page.recv())["source"]["kind"] == "live"
+        program.type("\x03")
+        assert program.wait() == 130
+    assert "Traceback" not in program.text
+
+
+def test_a_port_in_use_is_said(view):
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        port = server.getsockname()[1]
+        program = view("--port", str(port))
+        assert not address_of(program).endswith(f":{port}/")
+        program.process.send_signal(signal.SIGTERM)
+        assert program.wait() == 0
+    assert program.text.startswith(f"Port {port} is in use: the view takes a free one\n")
+
+
+def test_a_bag_is_shown_without_the_network(view, tmp_path):
+    bag = write_bag(tmp_path / "made")
+    program = view(bag, "--port", "0", environment={"ROS_DOMAIN_ID": "9999"})
+    with connect(f"ws{address_of(program)}live", max_size=None) as page:
+        assert decode_packet(page.recv())["source"] == {"kind": "bag", "name": "made"}
+    program.process.send_signal(signal.SIGTERM)
+    assert program.wait() == 0
+
+
+def test_a_file_of_rviz_is_what_the_page_shows_first(view, tmp_path):
+    file = tmp_path / "robot.rviz"
+    file.write_text(
+        "Visualization Manager:\n"
+        "  Displays: [{Class: rviz_default_plugins/Path, Topic: {Value: /plan}}]\n"
+        "  Global Options: {Fixed Frame: odom}\n"
+    )
+    program = view("-d", file, "--port", "0")
+    with connect(f"ws{address_of(program)}live", max_size=None) as page:
+        packets = [decode_packet(page.recv()) for _ in range(2)]
+    (shown,) = packets[1]["displays"]
+    assert (packets[1]["type"], packets[1]["fixed"], packets[1]["first"]) == ("view", "odom", True)
+    assert (shown["kind"], shown["topic"]) == ("path", "/plan")
+    program.process.send_signal(signal.SIGTERM)
+    assert program.wait() == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "answer"),
+    [
+        (["-d", "none.rviz"], "none.rviz cannot be read: No such file or directory"),
+        (["-d", __file__], "test_view.py is no view of RViz: "),
+        (["--port", "99999"], "'99999' is not a port number, from 0 (any) to 65535"),
+        (["--max-frames", "1"], "'1' is not a number of frames, at least 2"),
+        (["--fixed-fram", "map"], "Did you mean: --fixed-frame"),
+        (["no_such_bag"], "turtlewire view: "),
+        (["robot.rviz"], "robot.rviz is no bag. To show a file of RViz: -d robot.rviz"),
+        (["a", "b"], "unrecognized arguments: b"),
+    ],
+)
+def test_wrong_words(view, words, answer):
+    program = view(*words)
+    assert program.wait() == 2
+    assert answer in program.text
+    assert "Traceback" not in program.text
+
+
+def test_two_views_have_names_of_their_own(view):
+    first, second = view("--port", "0"), view("--port", "0")
+    for program in (first, second):
+        address_of(program)
+    for program in (first, second):
+        program.process.send_signal(signal.SIGTERM)
+        assert program.wait() == 0
+        assert "another process has a node" not in program.text
+
+
+def test_rviz2_names_the_words_that_it_ignores(run):
+    headless = {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0"}
+    words = ("run", "rviz2", "rviz2", "robot.rviz", "--no-such")
+    program = run(TURTLEWIRE.parent / "ros2", *words, environment=headless)
+    program.wait_for(r"ignored: robot\.rviz --no-such\. To show a file: -d robot\.rviz")
+    program.wait_for(r"\[rviz2\]: The view is at http://")
+    program.process.send_signal(signal.SIGINT)
+    program.wait()
+    assert "Traceback" not in program.text
+
+
+def test_without_a_network_it_says_so(view):
+    program = view("--port", "0", environment={"ROS_DOMAIN_ID": "9999"})
+    assert program.wait() == 2
+    assert program.text.startswith("turtlewire view: ")
+    assert "Traceback" not in program.text

@@ -1,0 +1,91 @@
+"""The bytes of ``ros_discovery_info`` and of user data."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests import places
+from turtlewire.errors import CdrError
+from turtlewire.wire.graph import (
+    NodeEndpoints,
+    format_user_data,
+    pack_discovery_info,
+    parse_user_data,
+    unpack_discovery_info,
+)
+
+GOLDEN = places.GOLDEN / "wire"
+SAMPLES = json.loads((GOLDEN / "discovery_info.json").read_text())
+
+gid = st.binary(min_size=16, max_size=16)
+gids = st.lists(gid, max_size=3).map(tuple)
+text = st.text(st.characters(blacklist_characters="\x00", blacklist_categories=["Cs"]), max_size=9)
+nodes = st.lists(st.builds(NodeEndpoints, text, text, gids, gids), max_size=3)
+
+
+def of_golden(sample: dict) -> tuple[bytes, list[NodeEndpoints]]:
+    return bytes.fromhex(sample["participant"]), [
+        NodeEndpoints(
+            node["namespace"],
+            node["name"],
+            tuple(bytes.fromhex(reader) for reader in node["readers"]),
+            tuple(bytes.fromhex(writer) for writer in node["writers"]),
+        )
+        for node in sample["nodes"]
+    ]
+
+
+def test_the_samples_of_a_real_ros_2_are_reproduced():
+    for sample in SAMPLES:
+        cdr = bytes.fromhex(sample["bytes"])
+        participant, expected = of_golden(sample)
+        assert unpack_discovery_info(cdr) == (participant, expected)
+        packed = pack_discovery_info(participant, expected)
+        assert packed + b"\x00" * (-len(packed) % 4) == cdr
+    assert len(SAMPLES) == 24
+
+
+@given(gid, nodes)
+def test_what_is_packed_can_be_unpacked(participant: bytes, expected: list[NodeEndpoints]):
+    assert unpack_discovery_info(pack_discovery_info(participant, expected)) == (
+        participant,
+        expected,
+    )
+
+
+@given(st.sampled_from(SAMPLES), st.data())
+def test_broken_samples_are_refused_or_read(sample: dict, data: st.DataObject):
+    cdr = bytearray(bytes.fromhex(sample["bytes"]))
+    for _ in range(data.draw(st.integers(1, 4))):
+        cdr[data.draw(st.integers(0, len(cdr) - 1))] = data.draw(st.integers(0, 255))
+    with contextlib.suppress(CdrError):  # anything else would end the reader thread
+        unpack_discovery_info(bytes(cdr[: data.draw(st.integers(0, len(cdr)))]))
+
+
+def test_a_broken_sample_says_what_is_wrong():
+    cdr = bytes.fromhex(SAMPLES[2]["bytes"])
+    with pytest.raises(CdrError, match="expected little endian"):
+        unpack_discovery_info(b"\x00\x00" + cdr[2:])
+    with pytest.raises(CdrError, match="items announced"):
+        unpack_discovery_info(cdr[:20] + b"\xff\xff\xff\xff" + cdr[24:])
+    with pytest.raises(CdrError, match="ends after 10 bytes"):
+        unpack_discovery_info(cdr[:10])
+
+
+def test_user_data():
+    assert format_user_data(enclave="/") == b"enclave=/;"
+    assert (
+        format_user_data(clientid=" 1.2", typehash="RIHS01_ab")
+        == b"clientid= 1.2;typehash=RIHS01_ab;"
+    )
+    assert parse_user_data(b"enclave=/;\x00") == {"enclave": "/"}
+    assert parse_user_data(b"serviceid= 1.10.b5;typehash=RIHS01_ab;") == {
+        "serviceid": " 1.10.b5",
+        "typehash": "RIHS01_ab",
+    }
+    assert parse_user_data(b"\xff\x00 nonsense") == {}
