@@ -81,7 +81,7 @@ def watch(url: str, server: subprocess.Popen[str]) -> tuple[int, str]:
 
 def serve() -> None:
     """Print the page's address, and the CPU time for each line that comes."""
-    from turtlewire.view import LiveSource, Viewer
+    from turtlewire_view import LiveSource, Viewer
 
     viewer = Viewer(LiveSource(), port=0)
     print(viewer.url, flush=True)

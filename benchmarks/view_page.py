@@ -19,8 +19,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from benchmarks.figures import Figure, Row
-from turtlewire.view.packets import encode_packet
 from turtlewire.web import Server
+from turtlewire_view.packets import encode_packet
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -90,7 +90,7 @@ def figure(milliseconds: list[float]) -> Figure:
 
 
 def page_folder() -> Path:
-    return files("turtlewire") / "view" / "page"  # type: ignore[return-value]
+    return files("turtlewire_view") / "page"  # type: ignore[return-value]
 
 
 class StillSession:

@@ -74,6 +74,7 @@ def missing(extras: list[str]) -> tuple[dict[str, Any], dict[str, Any]]:
     stamp = read_stamp()
     wanted = {
         "python": f"{sys.version} in {ROOT}",
+        "distributions": [folder.name for folder in distributions()],
         "sources": fingerprint(),
         "core": core_key(),
         "extras": sorted({*stamp.get("extras", []), *extras}),
@@ -124,9 +125,13 @@ def middleware() -> str:
 
 
 def usable(stamp: dict[str, Any], wanted: dict[str, Any]) -> bool:
-    """Return True if there is a .venv that works, of this Python, and that was not moved here."""
+    """Return True if there is a .venv that works, of this Python, and that was not moved here.
+
+    When a file moves from one distribution to another, pip installs the one, then removes the file
+    with the old version of the other: with other distributions .venv is made anew.
+    """
     return (
-        stamp.get("python", wanted["python"]) == wanted["python"]
+        (not stamp or all(stamp.get(key) == wanted[key] for key in ("python", "distributions")))
         and PYTHON.exists()
         and pip_version() is not None
     )
@@ -146,7 +151,8 @@ def fingerprint() -> str:
     files = [ROOT / "pyproject.toml", LEARNING / "package.xml"]
     for folder in distributions():
         files += [*folder.glob("*.toml"), *folder.glob("setup.*"), *folder.glob("*_build.py")]
-    files += [*ROS.glob("prefix/turtlewire_ros/*/*.*"), *ROS.glob("*/*/share/**/*")]
+        files += [path for path in folder.glob("prefix/**/*") if path.suffix != ".py"]
+    files += ROS.glob("*/*/share/**/*")
     files += (ENGINE / "src" / "turtlewire" / "msg" / "interfaces").glob("*/*/*.*")
     names = [str(package.relative_to(ROOT)) for package in packages()]
     digest = hashlib.sha256(repr(names).encode())

@@ -114,7 +114,7 @@ def ran(tmp_path, monkeypatch):
 def test_no_python_objects_come_out_of_yaml(ran, tmp_path):
     from rclpy.parameter import parameter_dict_from_yaml_file
     from turtlewire.bag.reader import open_bag
-    from turtlewire.view.rviz_file import RvizFileError, read_rviz
+    from turtlewire_view.rviz_file import RvizFileError, read_rviz
 
     hostile = "!!python/object/apply:pathlib.Path.touch [!!python/object/apply:pathlib.Path [ran]]"
     file = tmp_path / "metadata.yaml"

@@ -19,6 +19,7 @@ module             what it holds
 `roster`           who is in the class, and in which domain
 `domain_watch`     what is known of one student's domain
 `show`             the page with a card for each student; its files are in `page/`
+`class_command`    the words and options of ``turtlewire class``
 `commands`         the verbs that write reports and hand out files
 =================  ================================================================
 """

@@ -13,9 +13,9 @@ from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from turtlewire import msg, wire
-from turtlewire.foxglove import FoxgloveServer, Options
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import QoS
+from turtlewire_view.foxglove import FoxgloveServer, Options
 
 LIMIT = 60
 

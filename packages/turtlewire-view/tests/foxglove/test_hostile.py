@@ -16,16 +16,16 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 from turtlewire import msg
-from turtlewire.foxglove.channel import Channel
-from turtlewire.foxglove.origins import refusal
-from turtlewire.foxglove.protocol import (
+from turtlewire_view.foxglove.channel import Channel
+from turtlewire_view.foxglove.origins import refusal
+from turtlewire_view.foxglove.protocol import (
     ClientMessage,
     ProtocolError,
     ServiceRequest,
     parse_binary,
     parse_text,
 )
-from turtlewire.foxglove.session import Session
+from turtlewire_view.foxglove.session import Session
 
 from .conftest import Client
 

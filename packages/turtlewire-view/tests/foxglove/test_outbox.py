@@ -5,7 +5,7 @@ import struct
 from hypothesis import given
 from hypothesis import strategies as st
 
-from turtlewire.foxglove.outbox import Outbox
+from turtlewire_view.foxglove.outbox import Outbox
 
 
 class Notes:

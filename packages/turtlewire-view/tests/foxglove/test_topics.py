@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from turtlewire import msg
-from turtlewire.foxglove.schemas import schema
 from turtlewire.wire.qos import Durability, Reliability
+from turtlewire_view.foxglove.schemas import schema
 
 LATCHED = {"durability": Durability.TRANSIENT_LOCAL}
 

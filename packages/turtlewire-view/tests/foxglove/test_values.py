@@ -9,11 +9,11 @@ from hypothesis import strategies as st
 
 from turtlewire import msg
 from turtlewire.errors import CdrError, InterfaceError
-from turtlewire.foxglove.connections import Connections, difference
-from turtlewire.foxglove.json_messages import cdr_from_json, json_from_message
-from turtlewire.foxglove.parameter_values import from_json, to_json
-from turtlewire.foxglove.schemas import full_name, schema
 from turtlewire.msg.parser import parse_message
+from turtlewire_view.foxglove.connections import Connections, difference
+from turtlewire_view.foxglove.json_messages import cdr_from_json, json_from_message
+from turtlewire_view.foxglove.parameter_values import from_json, to_json
+from turtlewire_view.foxglove.schemas import full_name, schema
 
 TF = "geometry_msgs/msg/TransformStamped"
 floats = st.floats(allow_nan=True, allow_infinity=True)

@@ -12,8 +12,8 @@ from websockets.sync.client import connect
 
 from turtlewire import msg, wire
 from turtlewire.tf.listener import QOS, STATIC_QOS, TYPE_NAME
-from turtlewire.view import LiveSource, Viewer
 from turtlewire.wire.base import TypeId
+from turtlewire_view import LiveSource, Viewer
 
 from .fake_view import FakeView
 from .packets import decode_packet

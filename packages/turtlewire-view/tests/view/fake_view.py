@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from turtlewire.view.packets import encode_packet
 from turtlewire.web import Server
+from turtlewire_view.packets import encode_packet
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -32,7 +32,7 @@ class FakeView:
         self._version = 0
         self._changed = threading.Condition()
         self._sessions: list[FakeSession] = []
-        self._server = Server(files("turtlewire") / "view" / "page", self._connect)
+        self._server = Server(files("turtlewire_view") / "page", self._connect)
         self.url = self._server.url
 
     def tell(self, header: dict[str, Any], arrays: dict[str, np.ndarray] | None = None) -> None:

@@ -6,7 +6,7 @@ import pytest
 from tests.pages import wait_until
 
 from turtlewire import msg
-from turtlewire.view import Viewer
+from turtlewire_view import Viewer
 
 from .still_source import StillSource
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from turtlewire import msg
 from turtlewire.tf.buffer import Buffer
-from turtlewire.view.live import LiveTimeline
-from turtlewire.view.source import ParameterAnswer, Topic
+from turtlewire_view.live import LiveTimeline
+from turtlewire_view.source import ParameterAnswer, Topic
 
 STAMP_NS = 1_700_000_000 * 10**9
 

@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from turtlewire import msg
-from turtlewire.view.displays import display_for, display_types
-from turtlewire.view.displays.content import Content, Removal, Status
-from turtlewire.view.displays.options import OptionError, option_table
+from turtlewire_view.displays import display_for, display_types
+from turtlewire_view.displays.content import Content, Removal, Status
+from turtlewire_view.displays.options import OptionError, option_table
 
 SEQUENCE = re.compile(r"sequence<([^,>]+)(?:, *\d+)?>|([^\[]+)\[(\d+)\]")
 INTEGERS = re.compile(r"(u?)int(8|16|32|64)")

@@ -10,9 +10,9 @@ from tests.bags import SECOND, START, write_bag
 from turtlewire import msg
 from turtlewire.bag import BagWriter
 from turtlewire.errors import BagError
-from turtlewire.view import BagSource, Viewer
-from turtlewire.view.frames import FrameScene
-from turtlewire.view.source import Topic
+from turtlewire_view import BagSource, Viewer
+from turtlewire_view.frames import FrameScene
+from turtlewire_view.source import Topic
 
 LIMIT_S = 60
 TF = "tf2_msgs/msg/TFMessage"

@@ -6,10 +6,10 @@ import pytest
 
 from turtlewire import msg
 from turtlewire.tf.buffer import Buffer
-from turtlewire.view.display_feed import Base, DisplayFeed
-from turtlewire.view.displays.marker import MarkerDisplay
-from turtlewire.view.displays.occupancy_grid import OccupancyGridDisplay
-from turtlewire.view.displays.point_cloud import PointCloudDisplay
+from turtlewire_view.display_feed import Base, DisplayFeed
+from turtlewire_view.displays.marker import MarkerDisplay
+from turtlewire_view.displays.occupancy_grid import OccupancyGridDisplay
+from turtlewire_view.displays.point_cloud import PointCloudDisplay
 
 from .packets import decode_packet
 

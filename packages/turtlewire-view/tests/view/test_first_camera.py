@@ -10,7 +10,7 @@ import pytest
 from tests.pages import wait_until
 
 from turtlewire.tf.buffer import Buffer
-from turtlewire.view import Viewer
+from turtlewire_view import Viewer
 
 from .looking_down import get, stamped
 from .still_source import StillSource

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from turtlewire import Buffer
-from turtlewire.view.frames import FrameScene
+from turtlewire_view.frames import FrameScene
 
 SECOND = 10**9
 IDENTITY = (0.0, 0.0, 0.0, 1.0)

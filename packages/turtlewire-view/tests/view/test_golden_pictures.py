@@ -18,7 +18,7 @@ import pytest
 from tests.pages import wait_until
 
 from tests import places
-from turtlewire.view import Viewer
+from turtlewire_view import Viewer
 
 from .looking_down import ADD, REMOVE_ALL, get, pose, stamped
 from .still_source import StillSource

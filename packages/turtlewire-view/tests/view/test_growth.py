@@ -9,9 +9,9 @@ import threading
 from websockets.sync.client import connect
 
 from turtlewire import msg
-from turtlewire.view import session
-from turtlewire.view.display_feed import DisplayFeed
 from turtlewire.wire.qos import QoS
+from turtlewire_view import session
+from turtlewire_view.display_feed import DisplayFeed
 
 from .packets import decode_packet
 

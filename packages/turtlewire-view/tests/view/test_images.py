@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from turtlewire import msg
-from turtlewire.view.displays.image import CompressedImageDisplay, ImageDisplay
+from turtlewire_view.displays.image import CompressedImageDisplay, ImageDisplay
 
 PNG = bytes.fromhex("89504e470d0a1a0a0000000d49484452000000010000000108000000003a7e9b55")
 

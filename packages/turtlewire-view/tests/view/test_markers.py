@@ -7,9 +7,9 @@ import math
 import pytest
 
 from turtlewire import msg
-from turtlewire.view.displays.content import Content, Removal
-from turtlewire.view.displays.marker import MarkerDisplay
-from turtlewire.view.displays.marker_shapes import MARKER_TYPES
+from turtlewire_view.displays.content import Content, Removal
+from turtlewire_view.displays.marker import MarkerDisplay
+from turtlewire_view.displays.marker_shapes import MARKER_TYPES
 
 Point = msg.get_message("geometry_msgs/msg/Point")
 Color = msg.get_message("std_msgs/msg/ColorRGBA")

@@ -6,7 +6,7 @@ import re
 from importlib.resources import files
 from pathlib import Path
 
-PAGE = Path(str(files("turtlewire") / "view" / "page"))
+PAGE = Path(str(files("turtlewire_view") / "page"))
 IMPORT = re.compile(r"^import\b[^;]*?from\s*\"([^\"]+)\"|\bfrom\"(\./[^\"]+)\"", re.MULTILINE)
 THREE = "vendor/three-0.185.1/"
 

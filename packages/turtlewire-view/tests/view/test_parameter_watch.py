@@ -12,9 +12,9 @@ import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
 from turtlewire import msg
-from turtlewire.view import LiveSource
-from turtlewire.view.source import ParameterAnswer
 from turtlewire.wire.qos import QoS
+from turtlewire_view import LiveSource
+from turtlewire_view.source import ParameterAnswer
 
 LIMIT_S = 60
 

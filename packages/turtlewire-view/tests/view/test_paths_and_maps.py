@@ -10,12 +10,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from turtlewire import msg
-from turtlewire.view.displays.content import Removal
-from turtlewire.view.displays.covariance import covariance_shape
-from turtlewire.view.displays.occupancy_grid import OccupancyGridDisplay
-from turtlewire.view.displays.path import PathDisplay
-from turtlewire.view.displays.poses import OdometryDisplay, PoseArrayDisplay, PoseDisplay
-from turtlewire.view.displays.shapes import PointDisplay, PolygonDisplay, RangeDisplay
+from turtlewire_view.displays.content import Removal
+from turtlewire_view.displays.covariance import covariance_shape
+from turtlewire_view.displays.occupancy_grid import OccupancyGridDisplay
+from turtlewire_view.displays.path import PathDisplay
+from turtlewire_view.displays.poses import OdometryDisplay, PoseArrayDisplay, PoseDisplay
+from turtlewire_view.displays.shapes import PointDisplay, PolygonDisplay, RangeDisplay
 
 Pose = msg.get_message("geometry_msgs/msg/Pose")
 PoseStamped = msg.get_message("geometry_msgs/msg/PoseStamped")

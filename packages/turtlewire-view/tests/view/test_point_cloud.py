@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from turtlewire import msg
-from turtlewire.view.displays.laser_scan import LaserScanDisplay
-from turtlewire.view.displays.point_cloud import PointCloudDisplay
+from turtlewire_view.displays.laser_scan import LaserScanDisplay
+from turtlewire_view.displays.point_cloud import PointCloudDisplay
 
 DATATYPES = ["", "i1", "u1", "i2", "u2", "i4", "u4", "f4", "f8"]
 

@@ -9,10 +9,10 @@ import pytest
 
 from turtlewire import msg
 from turtlewire.tf.buffer import Buffer
-from turtlewire.view.display_feed import Base, DisplayFeed
-from turtlewire.view.displays.content import Removal
-from turtlewire.view.displays.laser_scan import LaserScanDisplay
-from turtlewire.view.displays.point_cloud import PointCloudDisplay
+from turtlewire_view.display_feed import Base, DisplayFeed
+from turtlewire_view.displays.content import Removal
+from turtlewire_view.displays.laser_scan import LaserScanDisplay
+from turtlewire_view.displays.point_cloud import PointCloudDisplay
 
 from .packets import decode_packet
 

@@ -11,9 +11,9 @@ from tests.places import GOLDEN
 
 from turtlewire import msg
 from turtlewire.urdf import load_urdf
-from turtlewire.view.displays.robot_model import RobotModelDisplay
-from turtlewire.view.meshes import MeshFile, MeshLibrary, mesh_address
-from turtlewire.view.tools import TOOLS, tool_message
+from turtlewire_view.displays.robot_model import RobotModelDisplay
+from turtlewire_view.meshes import MeshFile, MeshLibrary, mesh_address
+from turtlewire_view.tools import TOOLS, tool_message
 
 ROBOTS = sorted((GOLDEN / "robots" / "urdf").glob("*.urdf"))
 URDF = """<robot name="arm">

@@ -11,16 +11,16 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from turtlewire.view.displays import display_types
-from turtlewire.view.page_requests import RequestError, message_of_tool, text_of_view
-from turtlewire.view.rviz_file import (
+from turtlewire_view.displays import display_types
+from turtlewire_view.page_requests import RequestError, message_of_tool, text_of_view
+from turtlewire_view.rviz_file import (
     RvizFileError,
     SavedDisplay,
     SavedView,
     read_rviz,
 )
-from turtlewire.view.rviz_options import CLASSES, class_for
-from turtlewire.view.rviz_writing import write_rviz
+from turtlewire_view.rviz_options import CLASSES, class_for
+from turtlewire_view.rviz_writing import write_rviz
 
 FILE = """
 Panels:

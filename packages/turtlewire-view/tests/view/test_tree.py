@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from turtlewire import Buffer
-from turtlewire.view.tree import TreeTable, path_between, relation
+from turtlewire_view.tree import TreeTable, path_between, relation
 
 SECOND = 10**9
 IDENTITY = (0.0, 0.0, 0.0, 1.0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 from importlib.resources import files
 
-VENDOR = files("turtlewire") / "view" / "page" / "vendor" / "three-0.185.1"
+VENDOR = files("turtlewire_view") / "page" / "vendor" / "three-0.185.1"
 OURS = {"VENDOR.md", "SHA256SUMS"}
 
 

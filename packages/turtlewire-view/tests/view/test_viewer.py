@@ -8,8 +8,8 @@ import json
 import pytest
 
 from turtlewire import msg
-from turtlewire.view import LiveSource, Viewer
 from turtlewire.wire.qos import Durability, QoS, Reliability
+from turtlewire_view import LiveSource, Viewer
 
 NOW_S = 1_800_000_000
 #: Kinds of displays with a type that is not the first one of the kind.

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from turtlewire.view.words import transform_in_words
+from turtlewire_view.words import transform_in_words
 
 SAME = (0.0, 0.0, 0.0, 1.0)
 LEFT = (0.0, 0.0, math.sin(math.pi / 4), math.cos(math.pi / 4))

@@ -8,10 +8,10 @@ module               what it holds
 `console_keyboard`   keys of the console of Windows
 `demo`               ``python -m turtlewire.demo``: one turtle follows another
 `errors`             every error that turtlewire raises on purpose
-`foxglove`           the server of Foxglove's protocol: topics for Foxglove and Lichtblick
 `keyboard`           keys, as teleop and ``ros2 bag`` read them
 `msg`                interface definitions, message classes, CDR and type hashes
 `platforms`          what this platform can do, and which core is asked for
+`plugins`            entry points that installed packages declare
 `printable`          text from other processes, made safe for a terminal
 `program`            how a command ends whose output cannot be written
 `signal_watch`       signals that are acted on while the main thread waits
@@ -21,7 +21,6 @@ module               what it holds
 `tf`                 the transform buffer, the listener that fills it, and its pictures
 `trajectory`         poses over time: sampled, in files, compared
 `urdf`               robots: a parser of URDF and forward kinematics
-`view`               the 3D page: frames of the wire or of a bag, robots, sensor data
 `web`                a small HTTP and WebSocket server for this machine's browsers
 `wire`               the middleware: bytes, QoS, names and the graph
 ===================  =====================================================================

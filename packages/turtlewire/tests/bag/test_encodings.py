@@ -12,7 +12,7 @@ from turtlewire.bag.encodings import is_cdr, not_in_cdr
 from turtlewire.bag.metadata import TopicInfo
 from turtlewire.cli.main import main
 from turtlewire.errors import BagError, InterfaceError
-from turtlewire.view.bag_source import BagSource
+from turtlewire_view.bag_source import BagSource
 
 NAMED = (
     "Not in ROS 2's encoding, CDR, and therefore neither decoded nor shown: "

@@ -15,9 +15,6 @@ module                what it holds
 `network`             sockets of other domains, and multicast
 `frames`              the verb ``frames``: ages, rates and publishers
 `frame_picture`       that tree at one moment, as text and as JSON
-`view_command`        the verb ``view``: serves the 3D page
-`foxglove_command`    the verb ``foxglove``: topics for Foxglove and Lichtblick
-`class_command`       the verb ``class``: many students' turtles, graded exercises
 `bag_commands`        the parsers of ``bag``, ``trajectory`` and ``compare``
 `bag_tf`              ``bag tf``: the tree of a bag with rates and gaps
 `bag_findings`        faults of a bag and of its transforms

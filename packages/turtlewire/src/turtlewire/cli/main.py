@@ -10,16 +10,23 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.cli.bag_commands import add_bag_commands, complete_bags, reporting_errors
-from turtlewire.cli.class_command import add_class_command
-from turtlewire.cli.foxglove_command import add_foxglove_command
 from turtlewire.cli.parser import Parser, add_tf_topics, seconds, tf_topics
-from turtlewire.cli.view_command import add_view_command
+from turtlewire.plugins import declared
 from turtlewire.program import program
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
 __all__ = ["main"]
+
+#: Entry points of other distributions: functions that add a command to argparse's subparsers.
+_COMMANDS = "turtlewire.commands"
+#: The distributions that have these commands.
+_DISTRIBUTIONS = {
+    "class": "turtlewire-class",
+    "foxglove": "turtlewire-view",
+    "view": "turtlewire-view",
+}
 
 
 @program
@@ -47,7 +54,16 @@ def _run(argv: list[str] | None) -> int:
     parser = _parser()
     if "_ARGCOMPLETE" in os.environ:
         _complete(parser)
-    args = parser.parse_args(sys.argv[1:] if argv is None else argv)
+    words = sys.argv[1:] if argv is None else argv
+    if words and words[0] in _DISTRIBUTIONS and words[0] not in declared(_COMMANDS):
+        print(
+            f"turtlewire {words[0]}: the package {_DISTRIBUTIONS[words[0]]} is not installed. In "
+            f"the folder of turtlewire's sources, type: {sys.executable} -m pip install "
+            "./packages/* ./examples/learning_tf2_py",
+            file=sys.stderr,
+        )
+        return 2
+    args = parser.parse_args(words)
     if args.run is None:
         parser.print_help()
         return 0
@@ -71,10 +87,9 @@ def _parser() -> Parser:
     )
     _add_doctor(commands)
     _add_frames(commands)
-    add_view_command(commands)
-    add_foxglove_command(commands)
     add_bag_commands(commands)
-    add_class_command(commands)
+    for _, entry in sorted(declared(_COMMANDS).items()):
+        entry.load()(commands)
     return parser
 
 

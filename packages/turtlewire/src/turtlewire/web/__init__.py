@@ -9,6 +9,7 @@ module         what it holds
 `encoding`     files as they are sent: compressed, or status 304
 `desktop`      where a page is shown: browser and port
 `origin`       which requests are answered
+`options`      options of commands that serve a page
 `lan`          a page for other devices: token, addresses, QR code
 =============  =================================================================
 """

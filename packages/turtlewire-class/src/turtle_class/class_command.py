@@ -1,0 +1,164 @@
+"""`turtlewire class`: a class of students, on one page and in reports.
+
+The modules that do the work, which need rclpy and turtlesim, are imported when a verb runs.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from turtle_class.errors import ClassError
+from turtlewire.cli.parser import seconds
+from turtlewire.web.options import add_page_options
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Callable
+
+__all__ = ["add_class_command"]
+
+
+def add_class_command(commands: Any) -> None:
+    """Add ``class`` to the command's words."""
+    summary = "Show the turtles of many students on one page; grade their exercises"
+    parser = commands.add_parser("class", help=summary, description=summary, allow_abbrev=False)
+    parser.set_defaults(run=_reporting_errors(_show), parser=parser)
+    who = parser.add_mutually_exclusive_group()
+    who.add_argument(
+        "--domains",
+        default="1-30",
+        metavar="N-M",
+        help="Show the students of these domains (default: %(default)s)",
+    )
+    who.add_argument(
+        "--roster",
+        type=Path,
+        metavar="FILE",
+        help="Show the students of a file with lines `name,domain`, or YAML with `name: domain`",
+    )
+    add_page_options(parser)
+    verbs = parser.add_subparsers(title="Verbs", metavar="VERB")
+    _add_check(verbs)
+    _add_grade(verbs)
+    _add_start(verbs)
+    _add_list(verbs)
+
+
+def _verb(verbs: Any, name: str, summary: str, run: Callable[..., int | None]) -> Any:
+    parser = verbs.add_parser(name, help=summary, description=summary, allow_abbrev=False)
+    parser.set_defaults(run=_reporting_errors(run), parser=parser)
+    return parser
+
+
+def _add_grade(verbs: Any) -> None:
+    summary = "Grade a folder with one folder for each student; write pages and JUnit XML"
+    parser = _verb(verbs, "grade", summary, _grade)
+    parser.add_argument("folder", type=Path, metavar="FOLDER", help="The students' folders")
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        default=Path("reports"),
+        metavar="REPORTS",
+        help="Where the reports go (default: reports)",
+    )
+    _add_common(parser)
+
+
+def _add_check(verbs: Any) -> None:
+    summary = "Check the exercises of one student, and say what helps"
+    parser = _verb(verbs, "check", summary, _check)
+    parser.add_argument(
+        "folder",
+        nargs="?",
+        type=Path,
+        default=Path(),
+        metavar="FOLDER",
+        help="Holds a folder for each exercise (default: this one)",
+    )
+    parser.add_argument("--junit", type=Path, metavar="FILE", help="Write JUnit XML, too")
+    _add_common(parser)
+
+
+def _add_start(verbs: Any) -> None:
+    summary = "Write the texts and first files of the exercises into a folder"
+    parser = _verb(verbs, "start", summary, _start)
+    parser.add_argument("folder", type=Path, metavar="FOLDER", help="Where they go")
+    _add_exercises(parser)
+
+
+def _add_list(verbs: Any) -> None:
+    parser = _verb(verbs, "list", "List the exercises", _list)
+    parser.add_argument("--json", action="store_true", help="Print one JSON object")
+
+
+def _add_common(parser: argparse.ArgumentParser) -> None:
+    _add_exercises(parser)
+    parser.add_argument(
+        "--limit",
+        type=seconds,
+        default=120.0,
+        metavar="S",
+        help="Stop an exercise after S seconds (default: %(default)g)",
+    )
+
+
+def _add_exercises(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "-e",
+        "--exercise",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="Only this one; may be given more than once (default: all)",
+    )
+
+
+def _reporting_errors(run: Callable[..., int | None]) -> Callable[[argparse.Namespace], int]:
+    """Call a verb; its errors are one line and status 2."""
+
+    def call(args: argparse.Namespace) -> int:
+        try:
+            return run(args) or 0
+        except (ClassError, OSError) as error:
+            print(f"turtlewire class: {error}", file=sys.stderr)
+            return 2
+
+    return call
+
+
+def _show(args: argparse.Namespace) -> int | None:
+    from turtle_class import commands
+
+    commands.show(args.domains, args.roster, args.port, lan=args.lan)
+    return None
+
+
+def _grade(args: argparse.Namespace) -> int | None:
+    from turtle_class import commands
+
+    commands.grade(args.folder, args.exercise, args.limit, args.output)
+    return None
+
+
+def _check(args: argparse.Namespace) -> int | None:
+    from turtle_class import commands
+
+    status: int = commands.check(args.folder, args.exercise, args.limit, args.junit)
+    return status
+
+
+def _start(args: argparse.Namespace) -> int | None:
+    from turtle_class import commands
+
+    commands.start(args.folder, args.exercise)
+    return None
+
+
+def _list(args: argparse.Namespace) -> int | None:
+    from turtle_class import commands
+
+    commands.list_exercises(as_json=args.json)
+    return None

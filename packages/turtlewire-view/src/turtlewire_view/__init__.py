@@ -1,0 +1,59 @@
+"""The 3D view: a page that shows the frames of the wire or of a bag, and what is in them.
+
+::
+
+    from turtlewire_view import LiveSource, Viewer
+
+    viewer = Viewer(LiveSource())
+    print(viewer.url)
+
+==================  =============================================================================
+module              what it holds
+==================  =============================================================================
+`viewer`            `Viewer`: serves the page, one thread for its pace and one for displays
+`session`           one page: what it asks for, and what it does not have yet
+`source`            `Source`, `Timeline`: what frames and messages come from, and at which time
+`live`              `LiveSource`: the wire
+`bag_source`        `BagSource`: a bag with its own time
+`bag_stamps`        which stamps belong to a time of a bag, where they are of another clock
+`parameter_watch`   asks a node for a parameter
+`frames`            `FrameScene`: all poses in one frame, at one time, as one array
+`tree`              the rows of the tree; one frame as another sees it
+`words`             the same in a sentence
+`display_feed`      a display of a page: waits for transforms, makes packets
+`displays`          what to draw for each type of message
+`meshes`            meshes of packages: addresses to URLs, URLs to files
+`page_requests`     publish with a tool, save a view
+`rviz_file`         views of ``.rviz`` files
+`rviz_writing`      views as ``.rviz`` files
+`rviz_camera`       the camera of such files
+`rviz_options`      options of RViz's displays and of the page's
+`tools`             what Publish Point, 2D Pose Estimate and 2D Goal Pose publish
+`packets`           a JSON header and arrays as bytes
+`view_command`      ``turtlewire view``
+`foxglove`          the server of Foxglove's protocol: topics for Foxglove and Lichtblick
+`foxglove_command`  ``turtlewire foxglove``
+==================  =============================================================================
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from turtlewire_view.bag_source import BagSource
+    from turtlewire_view.live import LiveSource
+    from turtlewire_view.viewer import Viewer
+
+#: Loaded when they are used: the command line reads its options, and a live view no bag, without.
+_MODULES = {"BagSource": "bag_source", "LiveSource": "live", "Viewer": "viewer"}
+
+__all__ = ["BagSource", "LiveSource", "Viewer"]
+
+
+def __getattr__(name: str) -> object:
+    if name not in _MODULES:
+        raise AttributeError(f"module 'turtlewire_view' has no attribute {name!r}")
+    value = globals()[name] = getattr(import_module(f"turtlewire_view.{_MODULES[name]}"), name)
+    return value

@@ -1,0 +1,270 @@
+"""A bag as a source: all of its frames at once, its messages as its time passes."""
+
+from __future__ import annotations
+
+import os
+import threading
+from typing import TYPE_CHECKING
+
+from turtlewire.bag import open_bag
+from turtlewire.bag.encodings import is_cdr, not_in_cdr
+from turtlewire.bag.playback import PlayClock, ReadAhead
+from turtlewire.errors import BagError
+from turtlewire.tf.buffer import Buffer
+from turtlewire_view.bag_stamps import StampsOfLog
+from turtlewire_view.live import stamp_range_ns
+from turtlewire_view.source import ParameterAnswer, TimelineState, Topic
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["BagSource"]
+
+#: How often the picture changes while the bag plays [s].
+_FRAME_S = 1 / 30
+#: How far back the last message of a topic is looked for after a jump; beyond them, everywhere.
+_WINDOWS_NS = (2 * 10**9, 30 * 10**9)
+_SLOWEST, _FASTEST = 0.01, 100.0
+
+
+class BagSource:
+    """The frames and messages of a bag. Plays once a page looks at it, and stops at its end.
+
+    All pages share its time. A thread delivers the messages of the topics that are subscribed.
+
+    Args:
+        path: A folder of rosbag2, or a file of one.
+
+    Raises:
+        FileNotFoundError: There is nothing at ``path``.
+        BagError: It is no bag.
+    """
+
+    kind = "bag"
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self._path = path
+        with open_bag(path) as bag:
+            self._start_ns, self._end_ns = bag.start_ns, bag.end_ns
+            self.problem = not_in_cdr(bag.topics.values())
+            self._topics = [
+                Topic(name, info.type, 1)
+                for name, info in sorted(bag.topics.items())
+                if is_cdr(info)
+            ]
+        self.name = os.path.basename(os.path.normpath(os.fspath(path)))
+        self.buffer = self._read_frames()
+        self._stamps = StampsOfLog(path) if self._has_other_stamps() else None
+        self._changed: Callable[[], None] = _nothing
+        self._news = threading.Condition()
+        self._clock = PlayClock(self._start_ns, is_paused=True)
+        self._sinks: dict[str, list[Callable[[bytes], None]]] = {}
+        self._was_seen = False
+        self._wanted = 0  # counts changes of what is to be read, or from when
+        self._from_ns = self._start_ns
+        self._closed = False
+        self._thread = threading.Thread(target=self._run, name="turtlewire-view-bag", daemon=True)
+        self._thread.start()
+
+    def now_ns(self) -> int:
+        """Return the time of the bag that is shown."""
+        with self._news:
+            return min(self._clock.now_ns(), self._end_ns)
+
+    def new_timeline(self) -> BagSource:
+        """Return the bag itself: all pages share its time, which begins with the first of them."""
+        with self._news:
+            was_seen, self._was_seen = self._was_seen, True
+        if not was_seen:
+            self.play()
+        return self
+
+    def topics(self) -> list[Topic]:
+        """Return the topics of the bag."""
+        return self._topics
+
+    def subscribe(
+        self, topic: str, type_name: str, on_message: Callable[[bytes], None]
+    ) -> Callable[[], None]:
+        """Deliver the topic's last message before now, and those that follow, on a thread."""
+        del type_name  # a topic of a bag has one
+        with self._news:
+            self._sinks.setdefault(topic, []).append(on_message)
+            self._read_again()
+
+        def end() -> None:
+            with self._news:
+                self._sinks[topic].remove(on_message)
+                if not self._sinks[topic]:
+                    del self._sinks[topic]
+                self._read_again()
+
+        return end
+
+    def ask_parameter(
+        self, node: str, name: str, on_answer: Callable[[ParameterAnswer], None]
+    ) -> Callable[[], None]:
+        """Answer at once that a bag has no parameters."""
+        problem = f"a bag has no parameters, so '{name}' of {node} is not known; take the topic"
+        on_answer(ParameterAnswer(problem=problem))
+        return _nothing
+
+    def publish(self, topic: str, type_name: str, cdr: bytes) -> int:  # noqa: ARG002 - Source's
+        """Refused.
+
+        Raises:
+            BagError: Always.
+        """
+        raise BagError(f"A bag takes no messages, so nothing was published on {topic}.")
+
+    def on_change(self, call: Callable[[], None]) -> None:
+        """Call ``call()`` on the player's thread."""
+        self._changed = call
+
+    def forget_former_time(self) -> None:
+        """The bag has one time only."""
+
+    def stamp_ns(self) -> int:
+        """Return the time of the bag, or what its transforms' stamps were then; never 0."""
+        now_ns = self.now_ns()
+        return max(1, now_ns if self._stamps is None else self._stamps.at(now_ns))
+
+    def state(self) -> TimelineState:
+        """Return the bag's time."""
+        with self._news:
+            now = min(self._clock.now_ns(), self._end_ns)
+            playing, speed = not self._clock.is_paused, self._clock.rate
+        start, end = self._start_ns / 1e9, self._end_ns / 1e9
+        return TimelineState(now / 1e9, start, end, False, playing, speed, False)
+
+    def pause(self) -> None:
+        """Hold the bag."""
+        with self._news:
+            self._clock.pause()
+            self._news.notify_all()
+
+    def play(self) -> None:
+        """Go on, from the begin if the end was reached."""
+        with self._news:
+            if self._clock.now_ns() >= self._end_ns:
+                self._clock.jump(self._start_ns)
+                self._read_again()
+            self._clock.resume()
+            self._news.notify_all()
+
+    def seek(self, stamp_ns: int) -> None:
+        """Jump, and show what was published last before."""
+        with self._news:
+            self._clock.jump(min(max(stamp_ns, self._start_ns), self._end_ns))
+            self._read_again()
+
+    def set_speed(self, factor: float) -> None:
+        """Play so much faster, between 0.01 and 100."""
+        with self._news:
+            self._clock.set_rate(min(max(factor, _SLOWEST), _FASTEST))
+            self._news.notify_all()
+
+    def close(self) -> None:
+        """End the thread."""
+        with self._news:
+            self._closed = True
+            self._news.notify_all()
+        self._thread.join()
+
+    def _read_frames(self) -> Buffer:
+        types = {topic.name: topic.type_name for topic in self._topics}
+        if not {"/tf", "/tf_static"} & types.keys():
+            return Buffer(None)
+        return Buffer.from_bag(self._path)
+
+    def _has_other_stamps(self) -> bool:
+        """Return True if the transforms lie outside the time in which the bag was recorded."""
+        found = stamp_range_ns(self.buffer)
+        return found is not None and (found[1] < self._start_ns or found[0] > self._end_ns)
+
+    def _read_again(self) -> None:
+        """Let the thread start anew from the time that is shown; with the lock held."""
+        self._wanted += 1
+        self._from_ns = self._clock.now_ns()
+        self._news.notify_all()
+
+    def _run(self) -> None:
+        while True:
+            with self._news:
+                if self._closed:
+                    return
+                wanted, start_ns = self._wanted, self._from_ns
+                sinks = {topic: list(calls) for topic, calls in self._sinks.items()}
+            try:
+                self._deliver_last(sinks, start_ns)
+                self._changed()
+                self._play_from(start_ns, sinks, wanted)
+            except BagError as error:  # what can be read was delivered; the frames are there
+                self.problem = str(error)
+                self._play_from(start_ns, {}, wanted)
+
+    def _deliver_last(self, sinks: dict[str, list[Callable[[bytes], None]]], at_ns: int) -> None:
+        """The last message of each topic before the time."""
+        missing = set(sinks)
+        with open_bag(self._path) as bag:
+            for window_ns in (*_WINDOWS_NS, at_ns):
+                start_ns = max(self._start_ns, at_ns - window_ns)
+                if not missing or start_ns > at_ns:
+                    return
+                last = {
+                    message.topic: message.data
+                    for message in bag.messages(missing, start_ns=start_ns, end_ns=at_ns)
+                }
+                for topic, data in last.items():
+                    _give(sinks[topic], data)
+                missing -= last.keys()
+
+    def _play_from(
+        self, start_ns: int, sinks: dict[str, list[Callable[[bytes], None]]], wanted: int
+    ) -> None:
+        """Deliver what follows when it is due, until something else is wanted."""
+        with open_bag(self._path) as bag:
+            ahead = ReadAhead(bag.messages(set(sinks), start_ns=start_ns + 1)) if sinks else None
+            try:
+                while self._is_wanted(wanted):
+                    self._deliver_due(ahead, sinks)
+                    self._changed()
+                    self._wait(wanted)
+            finally:
+                if ahead is not None:
+                    ahead.close()
+
+    def _deliver_due(
+        self, ahead: ReadAhead | None, sinks: dict[str, list[Callable[[bytes], None]]]
+    ) -> None:
+        now_ns = self.now_ns()
+        while ahead is not None and (message := ahead.peek()) and message.log_time_ns <= now_ns:
+            ahead.pop()
+            _give(sinks[message.topic], message.data)
+
+    def _wait(self, wanted: int) -> None:
+        """Wait for the next frame, or for a request while nothing moves."""
+        with self._news:
+            if self._clock.now_ns() >= self._end_ns and not self._clock.is_paused:
+                self._clock.pause()
+                self._clock.jump(self._end_ns)
+                return  # the end is shown before anything is waited for
+            held = self._clock.is_paused
+
+            def is_time() -> bool:
+                return self._closed or self._wanted != wanted or self._clock.is_paused != held
+
+            self._news.wait_for(is_time, None if held else _FRAME_S)
+
+    def _is_wanted(self, wanted: int) -> bool:
+        with self._news:
+            return not self._closed and self._wanted == wanted
+
+
+def _give(sinks: list[Callable[[bytes], None]], data: bytes) -> None:
+    for sink in sinks:
+        sink(data)
+
+
+def _nothing() -> None:
+    pass

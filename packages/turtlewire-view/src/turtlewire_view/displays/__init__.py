@@ -1,0 +1,74 @@
+"""What the view draws for each type of message: pure, without wire, buffer and threads.
+
+=================  =============================================================================
+module             what it holds
+=================  =============================================================================
+`content`          `Display` and what it makes of messages
+`options`          which options there are, and what the user chose
+`numeric`          poses, points and colours of messages as arrays
+`path`             Path
+`poses`            PoseStamped, PoseWithCovarianceStamped, PoseArray, Odometry
+`covariance`       the ellipsoid of a covariance
+`shapes`           PolygonStamped, PointStamped, Range
+`points`           what point clouds and scans have in common
+`point_cloud`      PointCloud2
+`cloud_layout`     its bytes as records
+`coloring`         colours from values
+`laser_scan`       LaserScan
+`occupancy_grid`   OccupancyGrid and OccupancyGridUpdate
+`marker`           Marker and MarkerArray
+`marker_shapes`    one marker
+`marker_texture`   the image on its triangles
+`image`            Image and CompressedImage
+`encodings`        pixels as RGBA
+`robot_model`      the links of a URDF
+=================  =============================================================================
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from turtlewire_view.displays.content import Display
+
+__all__ = ["display_for", "display_types"]
+
+
+def display_types() -> dict[str, type[Display]]:
+    """Return the display of each message type."""
+    from turtlewire_view.displays.image import CompressedImageDisplay, ImageDisplay
+    from turtlewire_view.displays.laser_scan import LaserScanDisplay
+    from turtlewire_view.displays.marker import MarkerDisplay
+    from turtlewire_view.displays.occupancy_grid import OccupancyGridDisplay
+    from turtlewire_view.displays.path import PathDisplay
+    from turtlewire_view.displays.point_cloud import PointCloudDisplay
+    from turtlewire_view.displays.poses import OdometryDisplay, PoseArrayDisplay, PoseDisplay
+    from turtlewire_view.displays.robot_model import RobotModelDisplay
+    from turtlewire_view.displays.shapes import PointDisplay, PolygonDisplay, RangeDisplay
+
+    return {
+        "geometry_msgs/msg/PointStamped": PointDisplay,
+        "geometry_msgs/msg/PolygonStamped": PolygonDisplay,
+        "geometry_msgs/msg/PoseArray": PoseArrayDisplay,
+        "geometry_msgs/msg/PoseStamped": PoseDisplay,
+        "geometry_msgs/msg/PoseWithCovarianceStamped": PoseDisplay,
+        "nav_msgs/msg/OccupancyGrid": OccupancyGridDisplay,
+        "nav_msgs/msg/Odometry": OdometryDisplay,
+        "nav_msgs/msg/Path": PathDisplay,
+        "sensor_msgs/msg/CompressedImage": CompressedImageDisplay,
+        "sensor_msgs/msg/Image": ImageDisplay,
+        "sensor_msgs/msg/LaserScan": LaserScanDisplay,
+        "sensor_msgs/msg/PointCloud2": PointCloudDisplay,
+        "sensor_msgs/msg/Range": RangeDisplay,
+        "std_msgs/msg/String": RobotModelDisplay,
+        "visualization_msgs/msg/Marker": MarkerDisplay,
+        "visualization_msgs/msg/MarkerArray": MarkerDisplay,
+    }
+
+
+def display_for(topic: str, type_name: str) -> type[Display] | None:
+    """The display that a topic is offered for; of Strings only those that describe robots."""
+    if type_name == "std_msgs/msg/String" and not topic.endswith("robot_description"):
+        return None
+    return display_types().get(type_name)

@@ -1,0 +1,93 @@
+"""Colours of points: from their values over RViz's rainbow, from one channel, or all the same."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from turtlewire_view.displays.options import Options
+
+__all__ = ["by_axis", "by_value", "flat"]
+
+
+def by_value(values: NDArray[Any], options: Options) -> NDArray[np.uint8]:
+    """Colours of values, as ``(n, 4)``: RViz's rainbow, or from one colour to another.
+
+    Options: ``min`` and ``max`` bound the values unless ``autocompute_bounds``; ``rainbow``,
+    ``invert_rainbow``; ``min_color`` and ``max_color`` without the rainbow.
+    """
+    bounds = None if options.flag("autocompute_bounds") else ("min", "max")
+    place = _place(values, options, bounds)
+    if not options.flag("rainbow"):
+        return _ramp(place, options)
+    return _rainbow(place if options.flag("invert_rainbow") else 1.0 - place)
+
+
+def by_axis(places: NDArray[np.float64], options: Options) -> NDArray[np.uint8]:
+    """Colours of places ``(n, 3)`` by one coordinate, as ``(n, 4)``.
+
+    Options: ``axis``; ``axis_min`` and ``axis_max`` bound it unless ``autocompute_axis``.
+    """
+    bounds = None if options.flag("autocompute_axis") else ("axis_min", "axis_max")
+    values = places[:, "xyz".index(options.text("axis"))]
+    return _rainbow(1.0 - _place(values, options, bounds))
+
+
+def flat(count: int, color: tuple[int, int, int]) -> NDArray[np.uint8]:
+    """Return the same colour ``count`` times, as ``(n, 4)``."""
+    return np.tile(np.array([*color, 255], dtype=np.uint8), (count, 1))
+
+
+def _rainbow(place: NDArray[np.float64]) -> NDArray[np.uint8]:
+    """From violet at 0 over blue and green to red at 1."""
+    scaled = place * 5 + 1
+    segment = np.floor(scaled).astype(np.int64)
+    rest = scaled - segment
+    rest = np.where(segment % 2 == 0, 1.0 - rest, rest)
+    level = 1.0 - rest
+    zero, one = np.zeros_like(level), np.ones_like(level)
+    segments = [segment <= 1, segment == 2, segment == 3, segment == 4]
+    red = np.select(segments, [level, zero, zero, level], one)
+    green = np.select(segments, [zero, level, one, one], level)
+    blue = np.select(segments, [one, one, level, zero], zero)
+    return _bytes(np.stack([red, green, blue], axis=1))
+
+
+def _ramp(place: NDArray[np.float64], options: Options) -> NDArray[np.uint8]:
+    low = np.array(options.color("min_color"), dtype=np.float64) / 255
+    high = np.array(options.color("max_color"), dtype=np.float64) / 255
+    return _bytes(low + (high - low) * place[:, None])
+
+
+def _place(
+    values: NDArray[Any], options: Options, bounds: tuple[str, str] | None
+) -> NDArray[np.float64]:
+    """Scale values between their bounds to 0..1; values that are not finite become 0.
+
+    Args:
+        values: Any numbers.
+        options: The user's choices.
+        bounds: The options with the bounds; None for the values' own.
+    """
+    numbers = values.astype(np.float64)
+    finite = numbers[np.isfinite(numbers)]
+    if bounds is None:
+        low, high = (finite.min(), finite.max()) if len(finite) else (0.0, 0.0)
+    else:
+        low, high = (options.number(name) for name in bounds)
+    if not high > low:
+        high = low + 1.0
+    with np.errstate(over="ignore", invalid="ignore"):
+        place = (numbers - low) / (high - low)
+    result: NDArray[np.float64] = np.clip(np.nan_to_num(place, nan=0.0), 0.0, 1.0)
+    return result
+
+
+def _bytes(rgb: NDArray[np.float64]) -> NDArray[np.uint8]:
+    rgba = np.full((len(rgb), 4), 255, dtype=np.uint8)
+    rgba[:, :3] = np.rint(rgb * 255)
+    return rgba

@@ -1,0 +1,222 @@
+"""What a display makes of a message: geometry to send, parts that are gone, and what is wrong."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeAlias
+
+import numpy as np
+
+from turtlewire.printable import printable
+from turtlewire_view.displays.options import Options
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from numpy.typing import NDArray
+
+__all__ = [
+    "DEFAULT_BUDGET",
+    "Content",
+    "Display",
+    "Level",
+    "Output",
+    "Placed",
+    "Removal",
+    "Status",
+    "UnusableMessageError",
+    "Vector",
+    "frame_of",
+    "stamp_ns_of",
+]
+
+Level: TypeAlias = Literal["ok", "warn", "error"]
+Vector: TypeAlias = tuple[float, float, float]
+
+#: How many points a display may send with one message until the page names its own budget.
+DEFAULT_BUDGET = 50_000
+_LONGEST_STATUS = 300
+
+
+class Placed(NamedTuple):
+    """Arrays of a content that depend on where its frame is in the fixed frame.
+
+    Attributes:
+        arrays: Makes them of the transforms ``fixed_from_frame``, ``(1 + n, 4, 4)``: at the
+            content's stamp, and at ``stamps_ns``.
+        stamps_ns: Further times that it needs, or None.
+    """
+
+    arrays: Callable[[NDArray[np.float64]], dict[str, NDArray[Any]]]
+    stamps_ns: NDArray[np.int64] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Content:
+    """Geometry for the page, in metres and in the frame ``frame_id``.
+
+    Attributes:
+        header: What JSON can hold, all numbers finite.
+        arrays: Arrays of ``f4``, ``u1``, ``u2``, ``u4``, ``i4`` or ``i1``.
+        frame_id: The frame that the geometry is in. None: the content hangs on no frame, or its
+            parts name live frames themselves; it is sent as it is.
+        stamp_ns: When ``frame_id`` lay where the geometry is; 0 for the newest.
+        part: Which part of the display this replaces. A display has as many as it likes, each with
+            its own pose.
+        anchor: Where the origin of the geometry lies in ``frame_id``: its coordinates are 32-bit
+            numbers, which are too coarse far from the origin of a map.
+        locked: The content follows the live frame instead of staying where it was at its stamp.
+        event: The content changes what came before it and replaces nothing: it is sent once, after
+            all that came before it and is not gone, and not kept.
+        packages: Packages whose meshes and textures the page will ask for.
+        placed: Makes the arrays that depend on the fixed frame.
+    """
+
+    header: dict[str, Any]
+    arrays: dict[str, NDArray[Any]] = field(default_factory=dict)
+    frame_id: str | None = None
+    stamp_ns: int = 0
+    part: str = ""
+    anchor: Vector = (0.0, 0.0, 0.0)
+    locked: bool = False
+    event: bool = False
+    packages: tuple[str, ...] = ()
+    placed: Placed | None = None
+
+    @property
+    def last_stamp_ns(self) -> int:
+        """The last time that it needs transforms at."""
+        stamps = None if self.placed is None else self.placed.stamps_ns
+        return self.stamp_ns if stamps is None else max(self.stamp_ns, int(stamps.max(initial=0)))
+
+
+@dataclass(frozen=True, slots=True)
+class Removal:
+    """A part is gone: the page drops it, and its pose need not be told any more."""
+
+    part: str
+
+
+@dataclass(frozen=True, slots=True)
+class Status:
+    """One line about the display; the empty text of level ``ok`` ends what was said before."""
+
+    level: Level
+    text: str
+
+    @classmethod
+    def of(cls, level: Level, text: str) -> Status:
+        """Return a status of one printable line, however long names in it are."""
+        line = printable(text)
+        return cls(level, line if len(line) <= _LONGEST_STATUS else line[:_LONGEST_STATUS] + "…")
+
+
+Output: TypeAlias = Content | Removal | Status
+
+
+class UnusableMessageError(ValueError):
+    """A message that a display can draw nothing of; the text is its status."""
+
+
+class Display:
+    """Base of all displays: messages in, geometry out; no wire, no buffer, no threads.
+
+    Attributes:
+        kind: Name of the module below ``page/js/displays`` that draws it.
+        companions: Further topics of the display: what is appended to the topic's name, and the
+            message type there. Messages of both go to :meth:`content`.
+        replays: Whether the last message is shown again with other options.
+        reads_rows: Whether it takes sequences of plain messages as arrays, without a Python object
+            for each (see :func:`turtlewire.msg.deserialize_rows`).
+        options: What the user chose.
+        budget: How many points may be sent with one message.
+    """
+
+    kind: ClassVar[str]
+    companions: ClassVar[dict[str, str]] = {}
+    replays: ClassVar[bool] = False
+    reads_rows: ClassVar[bool] = False
+
+    def __init__(
+        self,
+        options: Mapping[str, object] | None = None,
+        *,
+        clock: Callable[[], int] = time.monotonic_ns,
+    ) -> None:
+        self.options = Options(options or {}, self.kind)
+        self.budget = DEFAULT_BUDGET
+        self._clock = clock
+        self._warnings: list[str] = []
+
+    def set_options(self, options: Mapping[str, object]) -> None:
+        """Take the user's choices for the messages to come.
+
+        Raises:
+            OptionError: One is refused; all stay as they were.
+        """
+        self.options = Options(options, self.kind)
+
+    @property
+    def parameter(self) -> tuple[str, str] | None:
+        """Node and name of a text parameter that the display wants to know, or None."""
+        return None
+
+    def take_parameter(self, text: str) -> list[Output]:
+        """Return the outputs for a value of :attr:`parameter`; a status comes last."""
+        raise NotImplementedError
+
+    def start(self) -> list[Output]:
+        """Return the outputs before the first message and after each change of options."""
+        return []
+
+    def content(self, message: Any) -> list[Output]:
+        """Return the outputs for a message, in this order; a status comes last.
+
+        Never raises for what a message holds: what cannot be drawn is said in the status.
+        """
+        return self._answer(lambda: self._outputs(message))
+
+    def _answer(self, make: Callable[[], list[Output]]) -> list[Output]:
+        """Return the outputs of ``make`` and the status.
+
+        NumPy is silent meanwhile: displays look for numbers that are not finite, and already the
+        conversion of a signalling NaN would be warned of on the console.
+        """
+        self._warnings = []
+        try:
+            with np.errstate(over="ignore", invalid="ignore"):
+                outputs = make()
+        except UnusableMessageError as error:
+            return [Status.of("error", str(error))]
+        if self._warnings:
+            more = f" (and {len(self._warnings) - 1} more)" if len(self._warnings) > 1 else ""
+            return [*outputs, Status.of("warn", self._warnings[0] + more)]
+        return [*outputs, Status("ok", "")]
+
+    def warn(self, text: str) -> None:
+        """Say in the status what of the message is not drawn as sent."""
+        self._warnings.append(text)
+
+    def _outputs(self, message: Any) -> list[Output]:
+        raise NotImplementedError
+
+
+def frame_of(message: Any) -> str:
+    """Return the frame of a message with a header.
+
+    Raises:
+        UnusableMessageError: It names none.
+    """
+    frame_id: str = message.header.frame_id
+    if not frame_id:
+        raise UnusableMessageError(
+            "header.frame_id is empty: the message does not say which frame it is in"
+        )
+    return frame_id
+
+
+def stamp_ns_of(message: Any) -> int:
+    """Return the stamp of a message with a header, in nanoseconds."""
+    stamp = message.header.stamp
+    return int(stamp.sec) * 10**9 + int(stamp.nanosec)

@@ -1,0 +1,195 @@
+"""One Marker message as what the page draws, with RViz's rules of what is wrong with it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from turtlewire_view.displays.content import UnusableMessageError
+from turtlewire_view.displays.marker_texture import marker_texture
+from turtlewire_view.displays.numeric import (
+    color_bytes,
+    finite_points,
+    finite_pose,
+    picked_rows,
+    rgba_bytes,
+    rows_within,
+    spread,
+)
+from turtlewire_view.meshes import mesh_address
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+__all__ = ["MARKER_TYPES", "MarkerShape", "marker_shape"]
+
+#: Marker types by number.
+MARKER_TYPES = (
+    "arrow",
+    "cube",
+    "sphere",
+    "cylinder",
+    "line_strip",
+    "line_list",
+    "cube_list",
+    "sphere_list",
+    "points",
+    "text",
+    "mesh",
+    "triangle_list",
+    "arrow_strip",
+)
+#: Least number of points, and of how many each item consists.
+_GROUPS = {
+    "line_strip": (2, 1),
+    "line_list": (2, 2),
+    "cube_list": (1, 1),
+    "sphere_list": (1, 1),
+    "points": (1, 1),
+    "triangle_list": (3, 3),
+    "arrow_strip": (2, 1),
+}
+#: Items that may be left out evenly when there are too many; lines are cut off instead.
+_THINNED = frozenset({"cube_list", "sphere_list", "points", "line_list", "triangle_list"})
+_LONGEST_TEXT = 10_000
+_LARGEST_FILE = 32 * 2**20
+_LARGEST_SCALE = 1e9
+
+
+class MarkerShape(NamedTuple):
+    """What is sent of a marker.
+
+    Attributes:
+        header: Shape, pose, scale, colour and what else the shape needs.
+        points: ``(n, 3)``, relative to the marker's pose.
+        colors: ``(n, 4)``, one for each point, or none.
+        file: The bytes of an embedded mesh or texture, or none.
+        packages: Packages whose meshes and textures it needs.
+        uv: ``(n, 2)``, where each point lies in the texture, or none.
+    """
+
+    header: dict[str, Any]
+    points: NDArray[np.float32]
+    colors: NDArray[np.uint8]
+    file: NDArray[np.uint8]
+    packages: tuple[str, ...]
+    uv: NDArray[np.float32]
+
+
+def marker_shape(marker: Any, budget: int, warn: Callable[[str], None]) -> MarkerShape:
+    """Return the shape of a Marker whose action is ADD.
+
+    Args:
+        marker: The message.
+        budget: How many points may be sent.
+        warn: Gets what is wrong with it but can be drawn, or is invisible.
+
+    Raises:
+        UnusableMessageError: It cannot be drawn.
+    """
+    if not 0 <= marker.type < len(MARKER_TYPES):
+        raise UnusableMessageError(f"the type {marker.type} is unknown (0 to 12 are known)")
+    shape = MARKER_TYPES[marker.type]
+    header: dict[str, Any] = {
+        "shape": shape,
+        "pose": finite_pose(marker.pose, warn if shape != "text" else _ignore),
+        "scale": _scale_of(marker, shape, warn),
+        "color": rgba_bytes(marker.color),
+    }
+    points, colors = np.empty((0, 3), np.float32), np.empty((0, 4), np.uint8)
+    file, uv = np.empty(0, np.uint8), np.empty((0, 2), np.float32)
+    packages: tuple[str, ...] = ()
+    if shape in _GROUPS or (shape == "arrow" and len(marker.points)):
+        picked, points, colors = _points(marker, shape, budget, warn)
+        if shape == "triangle_list":
+            header["texture"], uv, file, packages = marker_texture(marker, picked, warn)
+    elif shape == "text":
+        header["text"] = marker.text[:_LONGEST_TEXT]
+        if not marker.text.strip():
+            warn("the text is empty")
+    elif shape == "mesh":
+        file, packages = _mesh(marker, header, warn)
+    if not header["color"][3] and not len(colors) and not header.get("embedded_materials"):
+        warn("the marker is invisible: color.a is 0")
+    return MarkerShape(header, points, colors, file, packages, uv)
+
+
+def _ignore(_: str) -> None:
+    """A text faces the camera: its orientation does not matter."""
+
+
+def _scale_of(marker: Any, shape: str, warn: Callable[[str], None]) -> list[float]:
+    scale = [float(marker.scale.x), float(marker.scale.y), float(marker.scale.z)]
+    if not all(abs(value) < _LARGEST_SCALE for value in scale):
+        raise UnusableMessageError(f"the scale {scale} is not finite or too large")
+    if shape in {"line_strip", "line_list"}:
+        needed = scale[:1]
+    elif shape == "text":
+        needed = scale[2:]
+    elif shape == "points" or (shape == "arrow" and len(marker.points)) or shape == "arrow_strip":
+        needed = scale[:2]
+    else:
+        needed = scale
+    if not all(needed):
+        warn(f"the scale {tuple(scale)} has a 0 that makes the {shape} invisible")
+    return scale
+
+
+def _points(
+    marker: Any, shape: str, budget: int, warn: Callable[[str], None]
+) -> tuple[NDArray[np.intp], NDArray[np.float32], NDArray[np.uint8]]:
+    """Return the indices, positions and own colours of the points to draw."""
+    count, colors = len(marker.points), len(marker.colors)
+    least, group = _GROUPS.get(shape, (2, 1))
+    if count < least:
+        raise UnusableMessageError(f"{count} points; a {shape} needs {least} at least")
+    if count % group:
+        warn(f"{count} points; a {shape} needs a multiple of {group}, the rest is left out")
+    per_group = shape == "triangle_list" and colors == count // group
+    if colors and colors != count and not per_group:
+        warn(f"{colors} colors for {count} points: all get the marker's color")
+    picked = _picked(shape, count - count % group, group, budget)
+    if len(picked) < count - count % group:
+        warn(f"{len(picked)} of {count} points are drawn")
+    points = finite_points(picked_rows(marker.points, picked, "xyz"))
+    finite = rows_within(points)
+    if group > 1:
+        finite = np.repeat(finite.reshape(-1, group).all(axis=1), group)
+    if not finite.all():
+        warn(f"{np.count_nonzero(~finite)} of {count} points are left out: not finite")
+        picked, points = picked[finite], points[finite]
+    if colors != count and not per_group:
+        return picked, points.astype(np.float32), np.empty((0, 4), np.uint8)
+    own = picked // group if per_group else picked
+    rgba = color_bytes(picked_rows(marker.colors, own, "rgba"))
+    return picked, points.astype(np.float32), rgba
+
+
+def _picked(shape: str, count: int, group: int, budget: int) -> NDArray[np.intp]:
+    """Return the indices of the points to draw."""
+    if shape in _THINNED:
+        items = spread(count // group, max(1, budget // group))
+        return (items[:, None] * group + np.arange(group)).reshape(-1)
+    return np.arange(min(count, budget))
+
+
+def _mesh(
+    marker: Any, header: dict[str, Any], warn: Callable[[str], None]
+) -> tuple[NDArray[np.uint8], tuple[str, ...]]:
+    header["embedded_materials"] = bool(marker.mesh_use_embedded_materials)
+    data = marker.mesh_file.data
+    if len(data):
+        if len(data) > _LARGEST_FILE:
+            raise UnusableMessageError(f"the embedded mesh of {len(data)} bytes is too large")
+        header["mesh"] = {"name": marker.mesh_file.filename or marker.mesh_resource}
+        return np.array(data, dtype=np.uint8), ()
+    if not marker.mesh_resource:
+        raise UnusableMessageError("mesh_resource is empty")
+    address = mesh_address(marker.mesh_resource)
+    if address.problem:
+        warn(address.problem)
+    header["mesh"] = {"name": marker.mesh_resource, **address.header()}
+    return np.empty(0, np.uint8), address.packages

@@ -1,0 +1,102 @@
+"""PointCloud2: points with colours, at most as many as the page can bear."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from turtlewire_view.displays.cloud_layout import picked_points
+from turtlewire_view.displays.coloring import by_axis, by_value, flat
+from turtlewire_view.displays.content import (
+    Content,
+    Placed,
+    UnusableMessageError,
+    frame_of,
+    stamp_ns_of,
+)
+from turtlewire_view.displays.numeric import anchored, rows_within
+from turtlewire_view.displays.points import PointsDisplay, moved
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["PointCloudDisplay"]
+
+
+class PointCloudDisplay(PointsDisplay):
+    """The points of a ``sensor_msgs/msg/PointCloud2``.
+
+    Options: ``color`` (``auto``, ``rgb``, ``rgbf32``, ``intensity``, ``axis``, ``flat``);
+    ``channel`` names the field of ``intensity``; the options of
+    :mod:`turtlewire_view.displays.coloring`; ``axis_in_fixed_frame``, or else the axis is one of
+    the message's frame; ``flat_color``. ``auto`` takes colours if there are some, then the field
+    ``intensity``, then the axis.
+    """
+
+    kind = "point_cloud"
+
+    def points(self, message: Any, budget: int, part: str, header: dict[str, Any]) -> Content:
+        """Return the cloud's points that are finite."""
+        points = picked_points(message, budget, self.warn)
+        count = message.width * message.height
+        xyz = np.stack([points[name].astype(np.float64) for name in "xyz"], axis=1)
+        finite = rows_within(xyz)
+        if len(points) and not finite.any():
+            raise UnusableMessageError(f"none of the {count} points is finite")
+        points, xyz = points[finite], xyz[finite]
+        positions, anchor = anchored(xyz)
+        header = {**header, "count": count, "shown": len(points)}
+        colors = self._colors(points)
+        placed = None
+        if colors is None:
+            colors = by_axis(xyz, self.options)
+            if self.options.flag("axis_in_fixed_frame"):
+                placed = Placed(lambda matrices: {"rgba": self._by_fixed_axis(matrices, xyz)})
+        arrays: dict[str, NDArray[Any]] = {"points": positions, "rgba": colors}
+        frame_id, stamp_ns = frame_of(message), stamp_ns_of(message)
+        return Content(header, arrays, frame_id, stamp_ns, part, anchor, placed=placed)
+
+    def _by_fixed_axis(
+        self, matrices: NDArray[np.float64], xyz: NDArray[np.float64]
+    ) -> NDArray[np.uint8]:
+        return by_axis(moved(matrices, xyz), self.options)
+
+    def _colors(self, points: NDArray[np.void]) -> NDArray[np.uint8] | None:
+        """Return the colours, or None for the axis's."""
+        names = points.dtype.names or ()
+        way, channel = self.options.text("color"), self.options.text("channel")
+        packed = next((name for name in ("rgb", "rgba") if name in names), None)
+        if packed is not None and points.dtype[packed].itemsize != 4:
+            packed = None
+        if way in {"auto", "rgb"} and packed is not None:
+            return _packed_colors(points[packed], with_alpha=packed == "rgba")
+        if way == "rgbf32" and {"r", "g", "b"} <= set(names):
+            return _single_colors(points)
+        if way in {"auto", "intensity"} and channel in names:
+            return by_value(points[channel], self.options)
+        if way == "flat":
+            return flat(len(points), self.options.color("flat_color"))
+        if way in {"rgb", "rgbf32", "intensity"}:
+            missing = {"rgb": "rgb or rgba of 4 bytes", "rgbf32": "r, g, b"}.get(way, channel)
+            self.warn(
+                f"no field {missing}: coloured by {self.options.text('axis')}; the cloud's "
+                f"fields: {', '.join(names)}"
+            )
+        return None
+
+
+def _packed_colors(values: NDArray[Any], *, with_alpha: bool) -> NDArray[np.uint8]:
+    """Colours packed as 0xAARRGGBB into four bytes, often declared as a float."""
+    bits = np.ascontiguousarray(values).view(values.dtype.str[0] + "u4").astype(np.uint32)
+    alpha = bits >> 24 if with_alpha else np.full_like(bits, 255)
+    channels = [bits >> 16 & 255, bits >> 8 & 255, bits & 255, alpha]
+    return np.stack(channels, axis=1).astype(np.uint8)
+
+
+def _single_colors(points: NDArray[np.void]) -> NDArray[np.uint8]:
+    """Colours of the fields r, g and b, from 0 to 1."""
+    rgb = np.stack([points[name].astype(np.float64) for name in "rgb"], axis=1)
+    rgba = np.full((len(points), 4), 255, dtype=np.uint8)
+    rgba[:, :3] = np.rint(255 * np.clip(np.nan_to_num(rgb, nan=0.0), 0.0, 1.0))
+    return rgba

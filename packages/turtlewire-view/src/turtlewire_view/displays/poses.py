@@ -1,0 +1,112 @@
+"""Single poses, arrays of poses, and odometry."""
+
+from __future__ import annotations
+
+import math
+from itertools import count
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from turtlewire_view.displays.content import (
+    Content,
+    Display,
+    Output,
+    Removal,
+    UnusableMessageError,
+    frame_of,
+    stamp_ns_of,
+)
+from turtlewire_view.displays.covariance import covariance_shape
+from turtlewire_view.displays.numeric import (
+    anchored,
+    finite_pose,
+    pose_rows,
+    spread,
+    warn_of_quaternions,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+__all__ = ["OdometryDisplay", "PoseArrayDisplay", "PoseDisplay"]
+
+
+class PoseDisplay(Display):
+    """A ``geometry_msgs/msg/PoseStamped`` or ``PoseWithCovarianceStamped``."""
+
+    kind = "pose"
+
+    def _outputs(self, message: Any) -> list[Output]:
+        header = self._header(message.pose)
+        return [Content(header, {}, frame_of(message), stamp_ns_of(message))]
+
+    def _header(self, pose: Any) -> dict[str, Any]:
+        """Return the pose and, if it has one, its covariance."""
+        if not hasattr(pose, "covariance"):
+            return {"at": finite_pose(pose, self.warn), "covariance": None}
+        shape = covariance_shape(pose.covariance, self.warn)
+        return {"at": finite_pose(pose.pose, self.warn), "covariance": shape}
+
+
+class OdometryDisplay(PoseDisplay):
+    """The last poses of a ``nav_msgs/msg/Odometry``.
+
+    Options: ``keep`` (100) poses, each ``position_tolerance`` (0.1 m) or ``angle_tolerance``
+    (0.1 rad) away from the one before it. The shape, its colours and sizes are the page's.
+    """
+
+    kind = "odometry"
+
+    def __init__(self, options: Mapping[str, object] | None = None, **keywords: Any) -> None:
+        super().__init__(options, **keywords)
+        self._numbers = count()
+        self._parts: list[str] = []
+        self._last: tuple[str, list[float]] | None = None
+
+    def _outputs(self, message: Any) -> list[Output]:
+        frame_id, header = frame_of(message), self._header(message.pose)
+        if self._last is not None and not self._moved(frame_id, header["at"]):
+            return []
+        self._last = (frame_id, header["at"])
+        part = str(next(self._numbers))
+        self._parts.append(part)
+        outputs: list[Output] = [Content(header, {}, frame_id, stamp_ns_of(message), part)]
+        while len(self._parts) > self.options.number("keep"):
+            outputs.append(Removal(self._parts.pop(0)))
+        return outputs
+
+    def _moved(self, frame_id: str, pose: list[float]) -> bool:
+        assert self._last is not None
+        last_frame, last = self._last
+        cosine = min(1.0, abs(math.fsum(a * b for a, b in zip(pose[3:], last[3:], strict=True))))
+        return (
+            frame_id != last_frame
+            or math.dist(pose[:3], last[:3]) >= self.options.number("position_tolerance")
+            or 2 * math.acos(cosine) >= self.options.number("angle_tolerance")
+        )
+
+
+class PoseArrayDisplay(Display):
+    """The poses of a ``geometry_msgs/msg/PoseArray``: ``points`` and ``rotations`` (xyzw)."""
+
+    kind = "pose_array"
+
+    def _outputs(self, message: Any) -> list[Output]:
+        kept = [message.poses[at] for at in spread(len(message.poses), self.budget)]
+        rows = [
+            (p.x, p.y, p.z, q.x, q.y, q.z, q.w)
+            for p, q in ((pose.position, pose.orientation) for pose in kept)
+        ]
+        poses, finite = pose_rows(rows)
+        if kept and not finite.any():
+            raise UnusableMessageError(f"none of the {len(message.poses)} poses is finite")
+        if not finite.all():
+            self.warn(f"{np.count_nonzero(~finite)} of {len(message.poses)} poses are not finite")
+        warn_of_quaternions(rows, self.warn)
+        if len(kept) < len(message.poses):
+            self.warn(f"{len(kept)} of {len(message.poses)} poses are drawn")
+        points, anchor = anchored(poses[:, :3])
+        arrays = {"points": points, "rotations": poses[:, 3:].astype(np.float32)}
+        header = {"count": len(points)}
+        return [Content(header, arrays, frame_of(message), stamp_ns_of(message), anchor=anchor)]

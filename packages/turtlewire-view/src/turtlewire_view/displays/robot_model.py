@@ -1,0 +1,193 @@
+"""RobotModel: a URDF's shapes, each below the live frame of its link."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from turtlewire.urdf import UrdfError, parse_urdf
+from turtlewire.urdf.model import Box, Cylinder, Mesh, Sphere
+from turtlewire_view.displays.content import (
+    Content,
+    Display,
+    Output,
+    Removal,
+    UnusableMessageError,
+)
+from turtlewire_view.displays.inertia import inertia_shapes, pose_of_origin
+from turtlewire_view.meshes import file_of_package, mesh_address
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from turtlewire.urdf.model import Collision, Geometry, Link, Material, Robot, Visual
+
+__all__ = ["RobotModelDisplay", "robot_content"]
+
+#: What RViz gives a visual without a material.
+_DEFAULT_COLOR = [200, 10, 10, 255]
+_LARGEST = 1e9
+_LONGEST_DESCRIPTION = 16 * 2**20
+
+
+class RobotModelDisplay(Display):
+    """The robot that a ``std_msgs/msg/String``, a node's parameter or a file describes.
+
+    Options: ``source`` (``topic``, ``parameter``, ``file``) says which; ``node`` and ``parameter``
+    name the parameter, ``description_file`` is the path of a ``.urdf`` file. ``tf_prefix`` stands
+    before the links' names in frames, with a slash. The others say to the page what is drawn.
+    """
+
+    kind = "robot_model"
+    replays = True
+    _origin: tuple[str, ...] | None = None
+
+    @property
+    def parameter(self) -> tuple[str, str] | None:
+        """Node and parameter that describe the robot, if it is to come from there."""
+        if self.options.text("source") != "parameter":
+            return None
+        return "/" + self.options.text("node").strip("/"), self.options.text("parameter")
+
+    def start(self) -> list[Output]:
+        """Return the robot of the file, if it is to come from there; one from elsewhere goes."""
+        file = self.options.text("description_file")
+        origin = (self.options.text("source"), *(self.parameter or ()), file)
+        gone: list[Output] = [] if self._origin in {None, origin} else [Removal("")]
+        self._origin = origin
+        if origin[0] == "file":
+            return [*gone, *self._answer(lambda: [self._robot(_text_of(file))])]
+        return gone
+
+    def content(self, message: Any) -> list[Output]:
+        """Return the robot of a message, if it is to come from there."""
+        return super().content(message) if self.options.text("source") == "topic" else []
+
+    def take_parameter(self, text: str) -> list[Output]:
+        """Return the robot that a parameter describes."""
+        return self._answer(lambda: [self._robot(text)])
+
+    def _outputs(self, message: Any) -> list[Output]:
+        return [self._robot(message.data)]
+
+    def _robot(self, text: str) -> Content:
+        return robot_content(text, self.options.text("tf_prefix"), self.warn)
+
+
+def _text_of(file: str) -> str:
+    """The description in a file: a path or ``package://`` address that ends with ``.urdf``."""
+    if not file:
+        raise UnusableMessageError("no file is chosen: give the path of a .urdf file")
+    path = file_of_package(file) if file.startswith("package://") else file.removeprefix("file://")
+    if path is None or not path.endswith(".urdf"):
+        raise UnusableMessageError(f"'{file}' is not the path of a .urdf file")
+    try:
+        with open(path, encoding="utf-8", errors="replace") as opened:
+            return opened.read(_LONGEST_DESCRIPTION + 1)
+    except (OSError, ValueError) as error:  # a path with a NUL is a ValueError
+        reason = getattr(error, "strerror", None) or str(error)
+        raise UnusableMessageError(f"'{file}' cannot be read: {reason}") from error
+
+
+def robot_content(text: str, tf_prefix: str, warn: Callable[[str], None]) -> Content:
+    """Return the drawing of a URDF.
+
+    The header's ``links`` have ``name``, the ``frame`` that each hangs on, and ``visuals`` and
+    ``collisions`` with shape, origin (x, y, z, qx, qy, qz, qw), colour, texture and mesh; ``mass``
+    and ``inertia`` are lists of such shapes, too, see :mod:`turtlewire_view.displays.inertia`.
+
+    Args:
+        text: The XML.
+        tf_prefix: Stands before the links' names.
+        warn: Gets what cannot be drawn.
+
+    Raises:
+        UnusableMessageError: urdfdom would refuse the description.
+    """
+    if len(text) > _LONGEST_DESCRIPTION:
+        raise UnusableMessageError(f"a description of {len(text)} characters is too long")
+    try:
+        robot = parse_urdf(text)
+    except UrdfError as error:
+        raise UnusableMessageError(f"the description is refused: {error}") from error
+    reader = _Reader(robot, warn)
+    prefix = tf_prefix.rstrip("/") + "/" if tf_prefix else ""
+    links = [
+        {
+            "name": link.name,
+            "frame": prefix + link.name,
+            "visuals": reader.shapes(link, link.visuals),
+            "collisions": reader.shapes(link, link.collisions),
+            **inertia_shapes(link),
+        }
+        for link in robot.links.values()
+    ]
+    header = {"robot": robot.name, "root": prefix + robot.root, "links": links}
+    return Content(header, packages=tuple(sorted(reader.packages)))
+
+
+class _Reader:
+    """Shapes of links as headers."""
+
+    def __init__(self, robot: Robot, warn: Callable[[str], None]) -> None:
+        self._materials = robot.materials
+        self._warn = warn
+        self.packages: set[str] = set()
+
+    def shapes(self, link: Link, bodies: Iterable[Visual | Collision]) -> list[dict[str, Any]]:
+        shapes = []
+        for body in bodies:
+            shape = self._shape(body.geometry)
+            origin = pose_of_origin(body.origin)
+            if shape is None or origin is None:
+                if body.geometry is not None:
+                    self._warn(f"link '{link.name}': a size or origin is not finite")
+                continue
+            look = self._look(link, getattr(body, "material", None))
+            shapes.append({**shape, **look, "origin": origin})
+        return shapes
+
+    def _shape(self, geometry: Geometry | None) -> dict[str, Any] | None:
+        """Shape and size; None for nothing, or for sizes that are not finite."""
+        if isinstance(geometry, Box):
+            return _sized("box", size=list(geometry.size))
+        if isinstance(geometry, Sphere):
+            return _sized("sphere", size=[geometry.radius])
+        if isinstance(geometry, Cylinder):
+            return _sized("cylinder", size=[geometry.radius, geometry.length])
+        if isinstance(geometry, Mesh):
+            address = mesh_address(geometry.filename)
+            self._note(address.problem, address.packages)
+            mesh = {"name": geometry.filename, **address.header()}
+            return _sized("mesh", size=list(geometry.scale), mesh=mesh)
+        return None
+
+    def _look(self, link: Link, material: Material | None) -> dict[str, Any]:
+        """Colour and texture; a material without either refers to the robot's one of its name."""
+        if material is None:
+            return {"color": None}
+        named = self._materials.get(material.name, material)
+        rgba = material.rgba or named.rgba
+        look: dict[str, Any] = {"color": None}
+        if rgba is not None and all(map(math.isfinite, rgba)):
+            look["color"] = [round(255 * max(0.0, min(1.0, value))) for value in rgba]
+        texture = material.texture or named.texture
+        if texture:
+            address = mesh_address(texture, texture=True)
+            self._note(address.problem, address.packages)
+            if address.url is not None:
+                look["texture"] = address.url
+        if look == {"color": None}:
+            look["color"] = _DEFAULT_COLOR
+            self._warn(f"link '{link.name}': the material '{material.name}' has no colour")
+        return look
+
+    def _note(self, problem: str, packages: tuple[str, ...]) -> None:
+        if problem:
+            self._warn(problem)
+        self.packages.update(packages)
+
+
+def _sized(shape: str, size: list[float], **more: Any) -> dict[str, Any] | None:
+    usable = all(abs(value) < _LARGEST for value in size)
+    return {"shape": shape, "size": size, **more} if usable else None

@@ -1,0 +1,93 @@
+"""Polygons, points and ranges."""
+
+from __future__ import annotations
+
+import math
+from itertools import count
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from turtlewire_view.displays.content import (
+    Content,
+    Display,
+    Output,
+    Removal,
+    UnusableMessageError,
+    frame_of,
+    stamp_ns_of,
+)
+from turtlewire_view.displays.numeric import anchored, points_of, rows_within
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+__all__ = ["PointDisplay", "PolygonDisplay", "RangeDisplay"]
+
+
+class PolygonDisplay(Display):
+    """The outline of a ``geometry_msgs/msg/PolygonStamped``."""
+
+    kind = "polygon"
+
+    def _outputs(self, message: Any) -> list[Output]:
+        points = points_of(message.polygon.points[: self.budget])
+        finite = rows_within(points)
+        if not finite.all():
+            self.warn(f"{np.count_nonzero(~finite)} of {len(finite)} corners are not finite")
+        if len(points) < len(message.polygon.points):
+            self.warn(f"{len(points)} of {len(message.polygon.points)} corners are drawn")
+        corners, anchor = anchored(points[finite])
+        arrays = {"points": corners}
+        header = {"count": len(corners)}
+        return [Content(header, arrays, frame_of(message), stamp_ns_of(message), anchor=anchor)]
+
+
+class PointDisplay(Display):
+    """The last points of a ``geometry_msgs/msg/PointStamped``.
+
+    Options: ``history_length`` (1) is how many stay. Radius and colour are the page's.
+    """
+
+    kind = "point"
+
+    def __init__(self, options: Mapping[str, object] | None = None, **keywords: Any) -> None:
+        super().__init__(options, **keywords)
+        self._numbers = count()
+        self._parts: list[str] = []
+
+    def _outputs(self, message: Any) -> list[Output]:
+        at = [float(value) for value in points_of([message.point])[0]]
+        if not all(map(math.isfinite, at)):
+            point = message.point
+            raise UnusableMessageError(f"the point ({point.x}, {point.y}, {point.z}) is not finite")
+        frame_id, part = frame_of(message), str(next(self._numbers))
+        self._parts.append(part)
+        outputs: list[Output] = [Content({"at": at}, {}, frame_id, stamp_ns_of(message), part)]
+        while len(self._parts) > self.options.number("history_length"):
+            outputs.append(Removal(self._parts.pop(0)))
+        return outputs
+
+
+class RangeDisplay(Display):
+    """The cone of a ``sensor_msgs/msg/Range`` along x: its length and the angle it opens by."""
+
+    kind = "range"
+
+    def _outputs(self, message: Any) -> list[Output]:
+        length, angle = float(message.range), float(message.field_of_view)
+        if not 0 <= angle < math.pi:
+            raise UnusableMessageError(f"a field_of_view of {angle} rad is no cone")
+        if math.isinf(length):
+            seen = "nothing in reach" if length > 0 else "an object too near to be measured"
+            self.warn(f"the range is {length}: {seen}")
+            length = float(message.max_range) if length > 0 else float(message.min_range)
+        if not 0 <= length < 1e9:
+            raise UnusableMessageError(f"a range of {message.range} m cannot be drawn")
+        if not message.min_range <= length <= message.max_range:
+            self.warn(
+                f"the range {length:g} m is outside min_range {message.min_range:g} and max_range "
+                f"{message.max_range:g}"
+            )
+        header = {"length": length, "angle": angle}
+        return [Content(header, {}, frame_of(message), stamp_ns_of(message))]

@@ -1,0 +1,40 @@
+"""The Foxglove WebSocket server: Foxglove and Lichtblick see the topics of this domain.
+
+Messages travel as they are: the wire delivers CDR bytes, and a client gets them behind a head of 13
+bytes. :class:`~turtlewire_view.foxglove.server.FoxgloveServer` is the server; it needs no package
+of ROS.
+
+==================  ===================================================================
+module              what it holds
+==================  ===================================================================
+`server`            `FoxgloveServer`: the thread that serves all clients
+`options`           `Options`: what it serves, where and to whom
+`session`           one client: its requests, one method for each
+`publishing`        what one client publishes
+`outbox`            what one client has yet to receive; a slow one loses old messages
+`bridge`            what all clients share, and tells them of changes
+`offers`            the topics and services that clients may use, as the graph has them
+`channel`           one topic: its subscriptions on the wire, and who receives
+`services`          services that clients may call
+`caller`            calls of services on the wire, for asyncio
+`parameters`        the parameters of all nodes: read, set, followed
+`parameter_values`  a parameter's value, as ROS 2 sends it and as JSON
+`connections`       which node publishes, subscribes and serves what
+`assets`            files of packages
+`simulated_time`    the time of a simulation, from ``/clock``
+`graph_watch`       changes of the graph, for asyncio
+`loop_calls`        calls of other threads on the loop's thread
+`origins`           which web pages may connect
+`protocol`          the frames of the protocol
+`fields`            fields of clients' requests, checked
+`schemas`           definitions of types, requests and responses
+`json_messages`     messages as JSON, and back
+==================  ===================================================================
+"""
+
+from __future__ import annotations
+
+from turtlewire_view.foxglove.options import Options
+from turtlewire_view.foxglove.server import FoxgloveServer
+
+__all__ = ["FoxgloveServer", "Options"]

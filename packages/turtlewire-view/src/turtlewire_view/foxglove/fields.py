@@ -1,0 +1,68 @@
+"""Fields of clients' requests, checked."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from turtlewire_view.foxglove.protocol import ProtocolError
+
+__all__ = ["integer", "items", "names", "required_text", "text_or_none"]
+
+_KINDS = {dict: "objects", int: "numbers", str: "texts"}
+
+
+def items(request: dict[str, Any], field: str, kind: type = dict) -> list[Any]:
+    """Return a list of objects, numbers or texts.
+
+    Raises:
+        ProtocolError: The field is no such list.
+    """
+    value = request.get(field)
+    if not isinstance(value, list) or not all(type(item) is kind for item in value):
+        raise ProtocolError(f'"{field}" is a list of {_KINDS[kind]}')
+    return value
+
+
+def names(request: dict[str, Any]) -> list[str]:
+    """Return the names of parameters; no field stands for none.
+
+    Raises:
+        ProtocolError: The field is no list of texts.
+    """
+    return items({"parameterNames": [], **request}, "parameterNames", str)
+
+
+def integer(item: dict[str, Any], field: str) -> int:
+    """Return a number that fits into 32 bits without a sign.
+
+    Raises:
+        ProtocolError: The field is none.
+    """
+    value = item.get(field)
+    if type(value) is not int or not 0 <= value < 1 << 32:
+        raise ProtocolError(f'"{field}" is an integer from 0 to 4294967295')
+    return value
+
+
+def required_text(item: dict[str, Any], field: str) -> str:
+    """Return a text.
+
+    Raises:
+        ProtocolError: The field is none.
+    """
+    value = text_or_none(item, field)
+    if value is None:
+        raise ProtocolError(f'"{field}" is missing')
+    return value
+
+
+def text_or_none(item: dict[str, Any], field: str) -> str | None:
+    """Return a text, or None if there is no such field.
+
+    Raises:
+        ProtocolError: The field is something else.
+    """
+    value = item.get(field)
+    if value is not None and not isinstance(value, str):
+        raise ProtocolError(f'"{field}" is a text')
+    return value

@@ -1,0 +1,181 @@
+"""The topics and services that clients may use, as the graph has them."""
+
+from __future__ import annotations
+
+import itertools
+from typing import TYPE_CHECKING, Any
+
+from turtlewire.errors import InterfaceError, WireError
+from turtlewire.msg import type_hash
+from turtlewire.wire import names
+from turtlewire.wire.base import TypeId
+from turtlewire_view.foxglove.channel import Channel
+from turtlewire_view.foxglove.schemas import schema
+from turtlewire_view.foxglove.services import OfferedService, offered_service
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from turtlewire.wire.base import EndpointInfo, Node
+    from turtlewire_view.foxglove.options import Options
+
+__all__ = ["Offers"]
+
+_Change = dict[str, list[Any]]
+"""The fields of the frames ``advertise``, ``unadvertise`` and the same of services, by their op."""
+
+
+class Offers:
+    """Keeps channels and services in step with the graph. For the loop's thread.
+
+    Args:
+        node: Whose subscriptions the channels make.
+        options: What of it is offered.
+        now_ns: The simulation's time; 0 without one.
+        warn: Takes a line about a topic or service that cannot be offered.
+
+    Attributes:
+        channels: By their numbers.
+        services: By their numbers.
+        service_names: The names of all services of the graph.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        options: Options,
+        now_ns: Callable[[], int],
+        warn: Callable[[str], None],
+    ) -> None:
+        self._node = node
+        self._now_ns = now_ns
+        self._warn = warn
+        self._hidden = options.include_hidden
+        self._topics_allowed = options.patterns("topic_whitelist")
+        self._services_allowed = options.patterns("service_whitelist")
+        self._has_services = "services" in options.capabilities
+        self._numbers = itertools.count(1)
+        self._refused: set[tuple[str, str]] = set()
+        self._channels: dict[tuple[str, str], Channel] = {}
+        self._services: dict[tuple[str, str], OfferedService] = {}
+        self.channels: dict[int, Channel] = {}
+        self.services: dict[int, OfferedService] = {}
+        self.service_names: set[str] = set()
+
+    def refresh(self, endpoints: list[EndpointInfo]) -> _Change:
+        """Take over the graph's present state; what clients have to learn."""
+        topics = self._topics(endpoints)
+        services = _servers(endpoints)
+        self.service_names = {name for name, _ in services}
+        wanted = {
+            (name, type_name)
+            for name, type_name in services
+            if self._has_services and self._offers(name) and self._services_allowed.match(name)
+        }
+        change = {
+            "unadvertise": self._drop_channels(topics.keys()),
+            "unadvertiseServices": self._drop_services(wanted),
+            "advertise": self._add_channels(topics),
+            "advertiseServices": self._add_services(wanted),
+        }
+        self._refused &= {*topics, *wanted}
+        return {op: items for op, items in change.items() if items}
+
+    def close(self) -> None:
+        """Leave the wire."""
+        for channel in self.channels.values():
+            channel.close()
+
+    def _topics(self, endpoints: list[EndpointInfo]) -> dict[tuple[str, str], list[EndpointInfo]]:
+        """Publishers by topic and type; our own subscriptions make no topic."""
+        found: dict[tuple[str, str], list[EndpointInfo]] = {}
+        for end in endpoints:
+            if not end.topic.startswith("/") or end.qos.avoid_ros_namespace_conventions:
+                continue
+            is_publisher = end.kind == "publisher"
+            if not is_publisher and end.node is not None and self._is_ours(end.node):
+                continue
+            if self._offers(end.topic) and self._topics_allowed.match(end.topic):
+                publishers = found.setdefault((end.topic, end.type_name), [])
+                if is_publisher:
+                    publishers.append(end)
+        return found
+
+    def _is_ours(self, node: Any) -> bool:
+        return (node.name, node.namespace) == (self._node.name, self._node.namespace)
+
+    def _offers(self, name: str) -> bool:
+        return self._hidden or not names.is_hidden(name)
+
+    def _drop_channels(self, topics: Any) -> list[int]:
+        gone = [self._channels.pop(key) for key in self._channels.keys() - topics]
+        for channel in gone:
+            del self.channels[channel.number]
+            channel.close()
+        return sorted(channel.number for channel in gone)
+
+    def _drop_services(self, wanted: set[tuple[str, str]]) -> list[int]:
+        gone = [self._services.pop(key) for key in self._services.keys() - wanted]
+        for service in gone:
+            del self.services[service.number]
+        return sorted(service.number for service in gone)
+
+    def _add_channels(self, topics: dict[tuple[str, str], list[EndpointInfo]]) -> list[Any]:
+        new = []
+        for key, publishers in sorted(topics.items()):
+            channel = self._channels.get(key)
+            if channel is None and key not in self._refused:
+                channel = self._make_channel(*key, publishers)
+                if channel is not None:
+                    self._channels[key] = self.channels[channel.number] = channel
+                    new.append(channel.advertisement())
+            if channel is not None:
+                try:
+                    channel.fit(publishers)
+                except WireError as error:
+                    self._warn(f"topic {key[0]} cannot be subscribed to: {error}")
+        return new
+
+    def _make_channel(
+        self, topic: str, type_name: str, publishers: list[EndpointInfo]
+    ) -> Channel | None:
+        try:
+            definition, known_hash = schema(type_name), type_hash(type_name)
+        except InterfaceError as error:
+            reason = f"its type {type_name} is not installed here ({error})"
+            self._refuse("topic", (topic, type_name), reason)
+            return None
+        their_hash = next((end.type_hash for end in publishers if end.type_hash), known_hash)
+        if their_hash != known_hash:  # clients would read other values than were sent
+            reason = f"its publisher has another definition of {type_name} than this installation"
+            self._refuse("topic", (topic, type_name), reason)
+            return None
+        type_id = TypeId(type_name, known_hash)
+        return Channel(next(self._numbers), topic, type_id, definition, self._node, self._now_ns)
+
+    def _add_services(self, wanted: set[tuple[str, str]]) -> list[Any]:
+        new = []
+        for key in sorted(wanted - self._services.keys() - self._refused):
+            try:
+                service = offered_service(next(self._numbers), *key)
+            except InterfaceError as error:
+                reason = f"its type {key[1]} is not installed here ({error})"
+                self._refuse("service", key, reason)
+                continue
+            self._services[key] = self.services[service.number] = service
+            new.append(service.advertisement())
+        return new
+
+    def _refuse(self, what: str, key: tuple[str, str], reason: str) -> None:
+        self._refused.add(key)
+        self._warn(f"{what} {key[0]} is not offered: {reason}")
+
+
+def _servers(endpoints: list[EndpointInfo]) -> set[tuple[str, str]]:
+    """Names and types of services with a server; a client alone makes none."""
+    return {
+        (service, names.service_type(end.type_name))
+        for end in endpoints
+        if end.kind == "subscription"
+        and (service := names.service_of_requests(end.topic)) is not None
+    }

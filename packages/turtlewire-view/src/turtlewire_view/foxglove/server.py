@@ -1,0 +1,289 @@
+"""The thread that serves all clients."""
+
+from __future__ import annotations
+
+import asyncio
+import errno
+import logging
+import os
+import socket
+import threading
+import time
+from typing import TYPE_CHECKING, Any, cast
+
+from websockets.asyncio.server import serve
+from websockets.exceptions import ConnectionClosed
+
+from turtlewire.printable import printable
+from turtlewire.web import origin as web_origin
+from turtlewire.web.connections import Connections
+from turtlewire_view.foxglove import origins
+from turtlewire_view.foxglove.assets import share_folder
+from turtlewire_view.foxglove.bridge import Bridge
+from turtlewire_view.foxglove.loop_calls import LoopCalls
+from turtlewire_view.foxglove.outbox import Outbox
+from turtlewire_view.foxglove.protocol import SUBPROTOCOLS
+from turtlewire_view.foxglove.session import Session
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from websockets.asyncio.server import ServerConnection
+    from websockets.datastructures import Headers
+    from websockets.http11 import Request, Response
+
+    from turtlewire.wire.base import Context, Node
+    from turtlewire_view.foxglove.bridge import Log
+    from turtlewire_view.foxglove.options import Options
+
+__all__ = ["FoxgloveServer"]
+
+#: Longest message that a client may send [bytes].
+_LARGEST_MESSAGE = 64 << 20
+#: How long a client may take to answer the closing of its connection [s].
+_CLOSE_TIMEOUT = 0.5
+#: How long a client may be silent [s]; a slow one answers only after all that was sent before.
+_PING_TIMEOUT = 120
+#: So many frames are sent to one client before the others get their turn.
+_TURN = 64
+#: What comes closer together than this is sent together: a wake-up costs more than a frame [s].
+_REST = 0.004
+#: Origins and hosts that are warned of; further ones are refused in silence.
+_MOST_WARNINGS = 20
+
+_NO_PROTOCOL = "Missing expected sec-websocket-protocol header\n"
+
+
+class FoxgloveServer:
+    """Serves Foxglove's protocol from the moment it is constructed until :meth:`close`.
+
+    Args:
+        context: The participant.
+        node: Whose endpoints are used.
+        options: What is served, where and to whom.
+        log: Where lines for the server's user go.
+        find_share: Tells the share folder of a package, for its files.
+
+    Attributes:
+        url: Where clients connect.
+
+    Raises:
+        OSError: The address is not one of this machine, or the port is in use; the text says so.
+        WireError: The wire refuses the subscription of ``/clock``.
+    """
+
+    def __init__(
+        self,
+        context: Context,
+        node: Node,
+        options: Options,
+        log: Log,
+        find_share: Callable[[str], str | None] = share_folder,
+    ) -> None:
+        self._options = options
+        self._log = log
+        self._bridged = (context, node, options, log, find_share)
+        self._session_id = str(time.time_ns())
+        self._warned: set[str] = set()
+        self._connections = Connections()
+        self._socket = _listening(options)
+        host, port = self._socket.getsockname()[:2]
+        self.url = f"ws://[{host}]:{port}" if ":" in host else f"ws://{host}:{port}"
+        self._started = threading.Event()
+        self._failure: BaseException | None = None
+        self._calls: LoopCalls | None = None
+        self._thread = threading.Thread(target=self._run, name="foxglove", daemon=True)
+        self._thread.start()
+        self._started.wait()
+        if self._failure is not None:
+            self._thread.join()
+            raise self._failure
+
+    def close(self) -> None:
+        """Close all connections and leave the wire, within a second or two. Idempotent."""
+        if self._calls is not None:
+            self._calls.soon(self._stopping.set)
+        self._thread.join()
+
+    def _run(self) -> None:
+        try:
+            asyncio.run(self._serve())
+        except BaseException as error:  # noqa: BLE001 - the constructor raises it
+            self._failure = error
+            if self._started.is_set():  # nobody waits for the constructor any more
+                self._log.warning(f"the server has ended: {error!r}")
+        finally:
+            self._socket.close()
+            self._started.set()
+
+    async def _serve(self) -> None:
+        self._stopping = asyncio.Event()
+        calls = LoopCalls()
+        bridge = Bridge(*self._bridged, calls=calls)
+        try:
+            server = await serve(
+                lambda connection: self._handle(connection, bridge, calls),
+                sock=self._socket,
+                subprotocols=cast("Any", SUBPROTOCOLS),
+                select_subprotocol=cast("Any", _subprotocol),
+                process_request=self._answer,
+                create_connection=self._connections.connection_type(),
+                compression=None,  # costs more than it saves on a machine's own loopback
+                close_timeout=_CLOSE_TIMEOUT,
+                ping_timeout=_PING_TIMEOUT,
+                max_size=_LARGEST_MESSAGE,
+                logger=_quiet_logger(),
+            )
+            self._calls = calls
+            self._started.set()
+            await self._stopping.wait()
+            await self._connections.close(server, 2 * _CLOSE_TIMEOUT)
+        finally:
+            calls.close()
+            bridge.close()
+
+    def _answer(self, connection: ServerConnection, request: Request) -> Response | None:
+        """Refuse foreign pages and other protocols; None lets the WebSocket begin."""
+        from http import HTTPStatus
+
+        reason = self._refusal(request.headers)
+        if reason is not None:
+            return connection.respond(HTTPStatus.FORBIDDEN, f"Refused: {reason}.\n")
+        if not request.headers.get_all("Upgrade"):
+            return connection.respond(
+                HTTPStatus.UPGRADE_REQUIRED,
+                f"Foxglove and Lichtblick connect here: open a connection to {self.url} there.\n",
+            )
+        offered = ",".join(request.headers.get_all("Sec-WebSocket-Protocol"))
+        if not {*SUBPROTOCOLS} & {name.strip() for name in offered.split(",")}:
+            return connection.respond(HTTPStatus.BAD_REQUEST, _NO_PROTOCOL)
+        return None
+
+    def _refusal(self, headers: Headers) -> str | None:
+        """Why a request is refused, which is also warned of; None if it is allowed.
+
+        Other computers' names are checked on loopback only: elsewhere, everybody who reaches the
+        server is served, and under whatever name it has there.
+        """
+        pages, hosts = headers.get_all("Origin"), headers.get_all("Host")
+        allowed = self._options.origins
+        reason = origins.refusal(pages, allowed)
+        if reason is not None:
+            key = ",".join(pages)
+            self._warn_of(key, reason, f"--origin {key} (parameter origins) lets them")
+        elif self._options.is_local and "*" not in allowed:
+            foreign = web_origin.refusal(hosts, [])
+            if foreign is not None:
+                reason = foreign.rstrip(".")
+                self._warn_of(",".join(hosts), reason, "--address 0.0.0.0 serves the network")
+        return reason
+
+    def _warn_of(self, key: str, reason: str, way: str) -> None:
+        if key not in self._warned and len(self._warned) < _MOST_WARNINGS:
+            self._warned.add(key)
+            self._log.warning(printable(f"refused a connection: {reason}; {way}"))
+
+    async def _handle(self, connection: ServerConnection, bridge: Bridge, calls: LoopCalls) -> None:
+        """Serve one client until either side ends it."""
+        host, port = connection.remote_address[:2]
+        name = f"{host}:{port}"
+        wake = asyncio.Event()
+        session: Session | None = None
+
+        def tell_loss(subscription_id: int) -> None:
+            if session is not None:
+                calls.soon(session.tell_loss, subscription_id)
+
+        outbox = Outbox(
+            self._options.send_buffer_limit,
+            lambda: calls.soon(wake.set),
+            tell_loss,
+            lambda: calls.soon(connection.transport.abort),
+        )
+        session = Session(bridge, outbox, name, self._session_id)
+        self._log.info(f"client {name} connected ({connection.subprotocol})")
+        tasks = [
+            asyncio.create_task(_send(connection, session, wake)),
+            asyncio.create_task(_receive(connection, session)),
+        ]
+        try:
+            await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            session.close()
+            for task in tasks:
+                task.cancel()
+            results = await asyncio.gather(*tasks, return_exceptions=True)
+        self._log.info(f"client {name} disconnected")
+        for result in results:
+            if isinstance(result, Exception) and not isinstance(result, ConnectionClosed):
+                self._log.warning(f"client {name}: {result!r}")
+
+
+async def _send(connection: ServerConnection, session: Session, wake: asyncio.Event) -> None:
+    clock = asyncio.get_running_loop().time
+    woken = 0.0
+    while True:
+        await wake.wait()
+        wake.clear()
+        is_dense, woken = clock() - woken < _REST, clock()
+        sent = 0
+        while (frame := session.outbox.take()) is not None:
+            session.frame_taken()
+            await connection.send(frame)
+            sent += 1
+            if is_dense and session.outbox.is_empty:
+                await asyncio.sleep(_REST)
+            elif sent % _TURN == 0:
+                await asyncio.sleep(0)  # sending does not wait as long as the socket takes it
+
+
+async def _receive(connection: ServerConnection, session: Session) -> None:
+    async for message in connection:
+        session.receive(message)
+        await session.room()
+
+
+def _subprotocol(_connection: ServerConnection, offered: list[str]) -> str | None:
+    """Return the first of the client's protocols that is ours, as browsers demand exactly one."""
+    return next((name for name in offered if name in SUBPROTOCOLS), None)
+
+
+def _listening(options: Options) -> socket.socket:
+    """Return a socket that listens, or an error with a sentence for the user."""
+    try:
+        return _listen(options.address, options.port)
+    except OSError as error:
+        if error.errno == errno.EADDRINUSE:
+            place = f"port {options.port} of {options.address}"
+            text = f"{place} is in use, perhaps by another Foxglove server"
+        else:
+            place = f"{printable(options.address)}, port {options.port}"
+            text = f"cannot listen on {place}: {error.strerror}"
+        raise OSError(text) from error
+
+
+def _listen(address: str, port: int) -> socket.socket:
+    family, kind, protocol, _, place = socket.getaddrinfo(
+        address, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
+    )[0]
+    listener = socket.socket(family, kind, protocol)
+    try:
+        if os.name == "posix":  # on Windows the option would let two servers share a port
+            listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        listener.bind(place)
+        listener.listen()
+    except BaseException:
+        listener.close()
+        raise
+    return listener
+
+
+def _quiet_logger() -> logging.Logger:
+    """Return the library's log: reports of clients that do not speak HTTP are left out."""
+    logger = logging.getLogger("turtlewire_view.foxglove")
+    logger.addFilter(_is_ours)
+    return logger
+
+
+def _is_ours(record: logging.LogRecord) -> bool:
+    return record.msg != "opening handshake failed"

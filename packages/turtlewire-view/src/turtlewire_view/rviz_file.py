@@ -1,0 +1,229 @@
+"""Views as RViz saves them, ``.rviz`` files: read for what the page has.
+
+A view is what the page keeps: the fixed frame, what of the frames is drawn, and displays with
+kind, topic and options; :mod:`turtlewire_view.rviz_writing` writes them. Which option of RViz is
+which of the page's stands in :mod:`turtlewire_view.rviz_options`.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from turtlewire.printable import printable
+from turtlewire_view.rviz_camera import Camera, camera_from
+from turtlewire_view.rviz_options import CLASSES, from_rviz
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Iterator
+
+__all__ = [
+    "SWITCHES",
+    "RvizFileError",
+    "SavedDisplay",
+    "SavedView",
+    "load_rviz",
+    "numbered_displays",
+    "read_rviz",
+    "short_class",
+]
+
+_MOST_DISPLAYS = 100
+_DEEPEST_GROUP = 8
+_LONGEST_FILE = 2**20
+#: Options of RViz's TF and Grid displays that are the page's switches.
+SWITCHES = {"names": "Show Names", "axes": "Show Axes", "arrows": "Show Arrows"}
+
+
+class RvizFileError(ValueError):
+    """A text that is no view of RViz."""
+
+
+@dataclass(frozen=True, slots=True)
+class SavedDisplay:
+    """A display of a view.
+
+    Attributes:
+        kind: Which display of the page.
+        topic: What it shows.
+        options: The page's options that the file gives; colours as ``#rrggbb``.
+        visible: Whether it is switched on.
+        place: Its number in the file that it was read from, or None.
+    """
+
+    kind: str
+    topic: str
+    options: dict[str, object] = field(default_factory=dict)
+    visible: bool = True
+    place: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class SavedView:
+    """A view.
+
+    Attributes:
+        fixed: The fixed frame; empty for the page's own choice.
+        displays: Its displays.
+        show: Which of ``names``, ``axes``, ``arrows`` and ``grid`` are drawn, where that is said.
+        unread: One line of what the page has not and what it refused, or the empty text.
+        document: The whole content of the file.
+        token: Names the file when it is written again.
+        camera: How it is looked at; None for the page's own choice.
+    """
+
+    fixed: str
+    displays: tuple[SavedDisplay, ...]
+    show: dict[str, bool] = field(default_factory=dict)
+    unread: str = ""
+    document: dict[str, Any] = field(default_factory=dict, compare=False)
+    token: str = ""
+    camera: Camera | None = None
+
+    def header(self) -> dict[str, Any]:
+        """Return the packet that tells the page."""
+        displays = [
+            {
+                "kind": each.kind,
+                "topic": each.topic,
+                "options": each.options,
+                "visible": each.visible,
+                "place": each.place,
+            }
+            for each in self.displays
+        ]
+        return {
+            "type": "view",
+            "fixed": self.fixed,
+            "displays": displays,
+            "show": self.show,
+            "text": self.unread,
+            "document": self.token,
+            "camera": self.camera,
+        }
+
+
+def load_rviz(path: str | os.PathLike[str]) -> SavedView:
+    """Return the view in a ``.rviz`` file.
+
+    Raises:
+        RvizFileError: It cannot be read, or is no such file; the text names it.
+    """
+    try:
+        with open(path, encoding="utf-8", errors="replace") as file:
+            text = file.read(_LONGEST_FILE + 1)
+    except OSError as error:
+        raise RvizFileError(f"{path} cannot be read: {error.strerror or error}") from error
+    try:
+        return read_rviz(text)
+    except RvizFileError as error:
+        raise RvizFileError(f"{path} is no view of RViz: {error}") from error
+
+
+def read_rviz(text: str) -> SavedView:
+    """Return the view in the text of a ``.rviz`` file, of ROS 2 or ROS 1.
+
+    Raises:
+        RvizFileError: The text is no such file.
+    """
+    content = _parsed(text)
+    manager = _mapping(content.get("Visualization Manager"))
+    if not manager:
+        raise RvizFileError("the file has no 'Visualization Manager', as RViz's files have")
+    fixed = _mapping(manager.get("Global Options")).get("Fixed Frame")
+    displays: list[SavedDisplay] = []
+    others: list[str] = []
+    refused: list[str] = []
+    show: dict[str, bool] = {}
+    for place, properties in numbered_displays(manager):
+        name = short_class(properties)
+        if name == "TF":
+            show |= _switches(properties)
+        elif name in {"Grid", "Axes"}:
+            show[name.lower() if name == "Grid" else "axes"] = _is_on(properties)
+        elif name in CLASSES:
+            kind, _ = CLASSES[name]
+            topic, options, problems = from_rviz(name, properties)
+            displays.append(SavedDisplay(kind, topic, options, _is_on(properties), place))
+            refused += [f"{name}: {problem}" for problem in problems]
+        else:
+            others.append(name or "a display without a class")
+    # RViz's "<Fixed Frame>" stands in options of frames; as the fixed frame it says nothing.
+    own = isinstance(fixed, str) and not fixed.startswith("<")
+    token = hashlib.sha256(text.encode(errors="replace")).hexdigest()[:16]
+    unread = _unread(others, refused)
+    fixed_frame = str(fixed) if own else ""
+    camera = camera_from(manager.get("Views"))
+    return SavedView(fixed_frame, tuple(displays), show, unread, content, token, camera)
+
+
+def _parsed(text: str) -> dict[str, Any]:
+    import yaml
+
+    if len(text) > _LONGEST_FILE:
+        raise RvizFileError(f"{len(text)} characters are too many for a .rviz file")
+    try:
+        content = yaml.safe_load(text)
+    except RecursionError:
+        raise RvizFileError("the file is no YAML: nested too deeply") from None
+    except (yaml.YAMLError, ValueError) as error:
+        line = str(error).splitlines()[0] if str(error) else type(error).__name__
+        raise RvizFileError(f"the file is no YAML: {line}") from None
+    if not isinstance(content, dict):
+        raise RvizFileError("the file holds no properties, as RViz's files do")
+    return content
+
+
+def numbered_displays(manager: dict[str, Any]) -> Iterator[tuple[int, dict[str, Any]]]:
+    """Yield all displays with their numbers, those in groups that are switched on included."""
+    left = [(each, 0) for each in reversed(_list(manager.get("Displays")))]
+    count = 0
+    while left and count < _MOST_DISPLAYS:
+        properties, depth = left.pop()
+        if not isinstance(properties, dict):
+            continue
+        count += 1
+        if short_class(properties) == "Group":
+            if depth < _DEEPEST_GROUP and _is_on(properties):
+                inner = reversed(_list(properties.get("Displays")))
+                left += [(each, depth + 1) for each in inner][-_MOST_DISPLAYS:]
+        else:
+            yield count, properties
+
+
+def short_class(properties: dict[str, Any]) -> str:
+    """``LaserScan`` of ``rviz_default_plugins/LaserScan``, or of ROS 1's ``rviz/LaserScan``."""
+    return str(properties.get("Class") or "").rpartition("/")[2]
+
+
+def _switches(properties: dict[str, Any]) -> dict[str, bool]:
+    on = _is_on(properties)
+    return {
+        ours: on and bool(properties.get(theirs, ours != "names"))
+        for ours, theirs in SWITCHES.items()
+    }
+
+
+def _unread(others: list[str], refused: list[str]) -> str:
+    parts = []
+    if others:
+        names = ", ".join(dict.fromkeys(others))
+        parts.append(f"Not shown here, for the page has no such display: {names}")
+    if refused:
+        more = f" (and {len(refused) - 3} more)" if len(refused) > 3 else ""
+        parts.append(f"Refused, the default is taken: {'; '.join(refused[:3])}{more}")
+    return printable(". ".join(parts))
+
+
+def _is_on(properties: dict[str, Any]) -> bool:
+    return properties.get("Enabled") is not False
+
+
+def _mapping(value: object) -> dict[str, Any]:
+    return value if isinstance(value, dict) else {}
+
+
+def _list(value: object) -> list[Any]:
+    return value if isinstance(value, list) else []

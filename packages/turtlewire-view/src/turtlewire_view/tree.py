@@ -1,0 +1,155 @@
+"""What the page tells of each frame, and of one frame as another sees it."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from turtlewire.errors import ExtrapolationException, TransformException
+from turtlewire.suggestion import did_you_mean
+from turtlewire.tf import inspection
+from turtlewire.tf.conversions import euler_from_quaternion
+from turtlewire_view.frames import FRAME_TIMEOUT_S
+from turtlewire_view.words import transform_in_words
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from turtlewire.tf.buffer import Buffer
+
+__all__ = ["TreeTable", "path_between", "relation"]
+
+#: The delay of a link is the smallest age of its newest sample in so many looks, one a second.
+_LOOKS = 10
+
+
+class TreeTable:
+    """The rows of the tree; looked at once a second. Not thread-safe."""
+
+    def __init__(self) -> None:
+        self._delays: dict[str, deque[float]] = {}
+        self._newest_ns: dict[str, int] = {}
+
+    def rows(self, buffer: Buffer, now_ns: int) -> list[dict[str, Any]]:
+        """Return a row for each frame with a parent, in no order.
+
+        Its rate is in Hz, its times in seconds; a static link has neither rate, age nor delay.
+        """
+        links = [link for link in inspection.links(buffer) if link.samples]
+        self._delays = {link.child_frame: self._delayed(link, now_ns) for link in links}
+        self._newest_ns = {link.child_frame: link.newest_ns for link in links}
+        return [self._row(link, now_ns) for link in links]
+
+    def _delayed(self, link: inspection.LinkInfo, now_ns: int) -> deque[float]:
+        """The ages of new samples: what has no newer one grows older, and is not more delayed."""
+        delays = self._delays.get(link.child_frame, deque(maxlen=_LOOKS))
+        if self._newest_ns.get(link.child_frame) not in (None, link.newest_ns):
+            delays.append(link.age_ns(now_ns) / 1e9)
+        return delays
+
+    def _row(self, link: inspection.LinkInfo, now_ns: int) -> dict[str, Any]:
+        moving = not link.static
+        return {
+            "name": link.child_frame,
+            "parent": link.parent_frame,
+            "publisher": ", ".join(sorted({sender.name for sender in link.senders})),
+            "static": link.static,
+            "samples": link.samples,
+            "rate": link.rate_hz if moving and link.samples > 1 else None,
+            "age": link.age_ns(now_ns) / 1e9 if moving else None,
+            "delay": min(self._delays[link.child_frame], default=None) if moving else None,
+        }
+
+
+def relation(buffer: Buffer, target: str, source: str, stamp_ns: int) -> dict[str, Any]:
+    """Describe the pose of ``source`` in ``target``, or why it is unknown.
+
+    Translations are in metres, rotations xyzw, rpy in radians about fixed axes; numbers that are
+    not finite are None.
+    """
+    answer: dict[str, Any] = {"target": target, "source": source}
+    known = buffer.frame_strings()
+    for frame in (target, source):
+        if frame not in known:
+            text = f"There is no frame {frame!r}."
+            return {**answer, "error": text, "hint": did_you_mean(frame, known)}
+    try:
+        target_from_source = _lookup(buffer, target, source, stamp_ns)
+    except TransformException as error:
+        hint = "" if stamp_ns else _ended_link(buffer, error)
+        return {**answer, "error": str(error), "hint": hint or error.hint}
+    translation, rotation = target_from_source.translation, target_from_source.rotation
+    rpy = euler_from_quaternion(rotation).tolist()
+    return {
+        **answer,
+        "stamp": target_from_source.stamp_ns / 1e9,
+        "translation": _finite(translation),
+        "rotation": _finite(rotation),
+        "rpy": _finite(rpy),
+        "matrix": [_finite(row) for row in np.asarray(target_from_source.as_matrix())],
+        "sentence": transform_in_words(source, target, translation, rotation),
+    }
+
+
+def _lookup(buffer: Buffer, target: str, source: str, stamp_ns: int) -> Any:
+    """Return the transform at a stamp, or the last one before as long as the picture shows that."""
+    try:
+        return buffer.lookup_transform(target, source, stamp_ns)
+    except ExtrapolationException:
+        newest_ns = buffer.latest_common_time(target, source) if stamp_ns else 0
+        if newest_ns and 0 <= stamp_ns - newest_ns <= FRAME_TIMEOUT_S * 1e9:
+            return buffer.lookup_transform(target, source, newest_ns)
+        raise
+
+
+def _ended_link(buffer: Buffer, error: TransformException) -> str:
+    """Name the link that ended before the others' kept history, or return an empty string."""
+    if not isinstance(error, ExtrapolationException) or error.reason != "past":
+        return ""
+    ended = [
+        link
+        for link in inspection.links(buffer)
+        if link.samples and not link.static and link.newest_ns == error.requested_ns
+    ]
+    if not ended:
+        return ""
+    gap, kept = error.newest_ns - error.requested_ns, error.newest_ns - error.oldest_ns
+    senders = " and ".join(sorted({sender.name for sender in ended[0].senders}))
+    return (
+        f"The last transform of '{ended[0].child_frame}' is {gap / 1e9:.0f} s older than that of "
+        f"'{error.child_frame}', of which {kept / 1e9:.0f} s are kept. "
+        f"Does {senders or 'its publisher'} still publish '{ended[0].child_frame}'?"
+    )
+
+
+def path_between(
+    names: Sequence[str], parents: Sequence[int], target: str, source: str
+) -> list[str]:
+    """Return the frames from ``source`` up to the common ancestor and down to ``target``.
+
+    Empty if they are not in one tree.
+    """
+    if target not in names or source not in names:
+        return []
+    up, down = (_ancestors(names.index(name), parents) for name in (source, target))
+    shared = set(down)
+    top = next((frame for frame in up if frame in shared), None)
+    if top is None:
+        return []
+    way = up[: up.index(top) + 1] + down[: down.index(top)][::-1]
+    return [names[frame] for frame in way]
+
+
+def _ancestors(frame: int, parents: Sequence[int]) -> list[int]:
+    found = []
+    while frame >= 0:
+        found.append(frame)
+        frame = parents[frame]
+    return found
+
+
+def _finite(values: Sequence[float]) -> list[float | None]:
+    return [float(value) if math.isfinite(value) else None for value in values]

@@ -1,0 +1,204 @@
+"""The view: a page for any number of browsers, fed from one source."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from turtlewire.web import Server
+from turtlewire.web.desktop import wanted_port
+from turtlewire_view.display_feed import DisplayFeed
+from turtlewire_view.displays import display_for, display_types
+from turtlewire_view.displays.options import OptionError
+from turtlewire_view.meshes import MeshLibrary
+from turtlewire_view.packets import encode_packet
+from turtlewire_view.session import CommandError, Session
+
+if TYPE_CHECKING:
+    from turtlewire_view.rviz_file import SavedView
+    from turtlewire_view.source import Source
+
+__all__ = ["Viewer"]
+
+_PAGE = Path(__file__).parent / "page"
+#: Pictures a second, at most, and one a second when nothing happens: ages go on.
+_FRAME_S, _IDLE_S = 1 / 30, 1.0
+_MOST_DOCUMENTS = 16
+
+
+#: GLTF files may hold their pictures and numbers themselves.
+_SOURCES = {"connect-src": "data: blob:"}
+
+
+class Viewer:
+    """Serves the page until it is closed.
+
+    Two threads beside the server's: one tells the pages at most thirty times a second that there is
+    something new, one makes geometry of messages.
+
+    Args:
+        source: Where frames and messages come from; closed with the view.
+        fixed_frame: What pages look from first; empty takes the root of the largest tree.
+        port: Preferred TCP port; None takes turtlesim's rule (`TURTLEWIRE_PORT`, 7070).
+        saved: What pages show first, of a ``.rviz`` file.
+        lan: Whether to serve all devices of the network (see :mod:`turtlewire.web.lan`).
+
+    Attributes:
+        url: The page's address.
+        documents: The files that pages have loaded, by their tokens.
+
+    Raises:
+        OSError: No port can be had.
+    """
+
+    def __init__(
+        self,
+        source: Source,
+        fixed_frame: str = "",
+        *,
+        port: int | None = None,
+        lan: bool = False,
+        saved: SavedView | None = None,
+    ) -> None:
+        self.source = source
+        self.fixed_frame = fixed_frame
+        self._lock = threading.Lock()
+        self._sessions: list[Session] = []
+        self._changed, self._work = threading.Event(), threading.Event()
+        self._closing = threading.Event()
+        self._meshes = MeshLibrary()
+        if saved is not None and fixed_frame:
+            saved = replace(saved, fixed=fixed_frame)
+        self._saved = saved
+        self.documents: dict[str, SavedView] = {}
+        if saved is not None:
+            self.keep_document(saved)
+        self._server = Server(
+            _PAGE,
+            self._connect,
+            port=wanted_port() if port is None else port,
+            lan=lan,
+            answer=self._meshes.answer,
+            immutable="/vendor/",
+            sources=_SOURCES,
+        )
+        self.url = self._server.url
+        self._threads = [
+            threading.Thread(target=run, name=f"turtlewire-view-{name}", daemon=True)
+            for name, run in (("pace", self._pace), ("displays", self._make_displays))
+        ]
+        for thread in self._threads:
+            thread.start()
+        source.on_change(self._take_change)
+
+    def close(self) -> None:
+        """Close the pages' connections and the source."""
+        self._closing.set()
+        self._changed.set()
+        self._work.set()
+        for thread in self._threads:
+            thread.join()
+        self._server.close()
+        self.source.close()
+
+    def hello(self) -> bytes:
+        """Return the first packet of a page."""
+        return encode_packet(
+            {"type": "hello", "source": {"kind": self.source.kind, "name": self.source.name}}
+        )
+
+    def first_view(self) -> list[bytes]:
+        """Return the packets of a page's first view, if a file defines one."""
+        if self._saved is None:
+            return []
+        return [encode_packet({**self._saved.header(), "first": True})]
+
+    def keep_document(self, view: SavedView) -> None:
+        """Remember a file that was loaded, and a few before it."""
+        self.documents[view.token] = view
+        while len(self.documents) > _MOST_DOCUMENTS:
+            del self.documents[next(iter(self.documents))]
+
+    def topics(self) -> list[dict[str, Any]]:
+        """Return the topics, each with the kind of display that shows it, or None."""
+        return [
+            {**topic._asdict(), "kind": each.kind if (each := display_for(*topic[:2])) else None}
+            for topic in self.source.topics()
+        ]
+
+    def new_feed(self, name: str, kind: str, topic: str, options: dict[str, object]) -> DisplayFeed:
+        """Subscribe for a display.
+
+        Raises:
+            CommandError: There is no such display or topic, or an option is refused.
+            WireError: The topic cannot be subscribed.
+        """
+        topics = sorted(self.source.topics(), key=lambda each: each.publishers)
+        types_there = {each.name: each.type_name for each in topics}  # what is published counts
+        of_kind = {each: shows for each, shows in display_types().items() if shows.kind == kind}
+        asked = options.get("message_type")  # a file knows it before the topic is there
+        if not isinstance(asked, str) or asked not in of_kind:
+            asked = next(iter(of_kind), "")
+        type_name = types_there.get(topic) or asked
+        if type_name not in of_kind or not (topic or kind == "robot_model"):
+            raise CommandError(f"No display {kind!r} shows {topic} of type {type_name or '?'}.")
+        display_type = of_kind[type_name]
+        types = {topic: type_name} if topic else {}  # a robot may come from a parameter or file
+        types |= {topic + suffix: each for suffix, each in display_type.companions.items()}
+        try:
+            display = display_type(options)
+        except OptionError as error:
+            raise CommandError(f"{topic or kind} is not shown: {error}.") from error
+        feed = DisplayFeed(name, display, types, lambda _: self._work.set(), self._changed.set)
+        feed.on_packages = self._meshes.permit
+        feed.ask = self.source.ask_parameter
+        feed.follow_parameter()
+        for each, its_type in types.items():
+            feed.ends.append(self.source.subscribe(each, its_type, _sink(feed, each)))
+        return feed
+
+    def work(self) -> None:
+        """Displays of a page must be placed anew; one thread serves all, and finds out which."""
+        self._work.set()
+
+    def forget(self, session: Session) -> None:
+        """A page is gone."""
+        with self._lock:
+            self._sessions.remove(session)
+
+    def _connect(self) -> Session:
+        session = Session(self)
+        with self._lock:
+            self._sessions.append(session)
+        return session
+
+    def _take_change(self) -> None:
+        self._changed.set()
+        self._work.set()
+
+    def _pace(self) -> None:
+        while not self._closing.is_set():
+            self._changed.wait(_IDLE_S)
+            self._changed.clear()
+            self._server.notify()
+            self._closing.wait(_FRAME_S)
+
+    def _make_displays(self) -> None:
+        while not self._closing.is_set():
+            self._work.wait()
+            self._work.clear()
+            self._work_for_all()
+
+    def _work_for_all(self) -> None:
+        """In a method of its own: the waiting thread must not hold on to pages that have gone."""
+        with self._lock:
+            sessions = list(self._sessions)
+        for session in sessions:
+            for feed in session.feeds:
+                feed.work(session.base)
+
+
+def _sink(feed: DisplayFeed, topic: str) -> Any:
+    return lambda cdr: feed.take_message(topic, cdr)

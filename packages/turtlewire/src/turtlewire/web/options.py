@@ -1,0 +1,26 @@
+"""Options of commands that serve a page."""
+
+from __future__ import annotations
+
+import argparse
+
+__all__ = ["add_page_options"]
+
+
+def add_page_options(parser: argparse.ArgumentParser) -> None:
+    """Add where a page is served: ``--port`` and ``--lan``."""
+    parser.add_argument(
+        "--port", type=_port_number, metavar="N", help="Serve the page at this port (default: 7070)"
+    )
+    parser.add_argument(
+        "--lan",
+        action="store_true",
+        help="Serve other devices of the network, too, at an address with a random token",
+    )
+
+
+def _port_number(text: str) -> int:
+    """Return a TCP port on the command line."""
+    if not (text.isdecimal() and int(text) < 65536):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a port number, from 0 (any) to 65535")
+    return int(text)
