@@ -8,6 +8,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PACKAGES = ROOT / "packages"
 ENGINE = PACKAGES / "turtlewire"
 ROS = PACKAGES / "turtlewire-ros"
+COLCON = PACKAGES / "turtlewire-colcon"
 CLASS = PACKAGES / "turtlewire-class"
 #: The tutorial's package, which colcon builds, too.
 LEARNING = ROOT / "examples" / "learning_tf2_py"

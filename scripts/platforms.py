@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))  # also where it is loaded by its path
 
-from distributions import CLASS, ENGINE, ROOT, ROS, import_path
+from distributions import CLASS, COLCON, ENGINE, ROOT, ROS, import_path
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -28,17 +28,18 @@ POSIX_MODULES = {
 POSIX_PATHS = ("/bin/", "/dev/", "/etc/", "/proc/", "/sys/", "/tmp/", "/usr/", "/var/")
 SHELLS = {"bash", "fish", "sh", "zsh"}
 PREFIX = ROS / "prefix" / "turtlewire_ros"
+COLCON_CODE = COLCON / "src" / "turtlewire_colcon"
 #: Files in which such a string is right, and the reason.
 REASONS = {
     ENGINE / "src/turtlewire/cli/network.py": "does without where the file is missing",
     ENGINE / "src/turtlewire/wire/loopback.py": "reads it on Linux only",
     ENGINE / "src/turtlewire/wire/cyclone/ports.py": "does without where the file is missing",
     ENGINE / "src/turtlewire/wire/libddsc.py": "looks for folders, and finds none",
-    PREFIX / "cmake/processes.py": "redirected output needs a shell, as under make",
-    PREFIX / "plan_install.py": "writes the setup files of each shell",
+    COLCON_CODE / "cmake/processes.py": "redirected output needs a shell, as under make",
+    COLCON_CODE / "plan_install.py": "writes the setup files of each shell",
     PREFIX / "process_guardian.py": "is started on Linux only",
     CLASS / "src/turtle_class/supervise.py": "its caller asks for Linux",
-    PREFIX / "wheel.py": "pip replaces the first line of a script",
+    COLCON_CODE / "wheel.py": "pip replaces the first line of a script",
 }
 
 

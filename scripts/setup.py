@@ -28,7 +28,7 @@ from setup_venv import install, make_venv, pip_command, pip_version
 STAMP = VENV / "turtlewire-stamp.json"
 #: The signals that end the set-up.
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-#: What can be added: dependency groups of pyproject.toml, and an extra of turtlewire-ros.
+#: What can be added: dependency groups of pyproject.toml, and an extra of turtlewire-colcon.
 EXTRAS = {"test": "what the tests need", "lint": "ruff and mypy", "workspace": "colcon and rosdep"}
 #: Prints the middleware, and its library if that is not the usual one.
 MIDDLEWARE = """

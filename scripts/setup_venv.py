@@ -10,7 +10,7 @@ import sys
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
-from distributions import ROOT, ROS, distributions
+from distributions import COLCON, ROOT, distributions
 from setup_steps import (
     PYTHON,
     VENV,
@@ -107,9 +107,9 @@ def version_of(text: str) -> tuple[int, ...]:
 def install(extras: Sequence[str], *, only_extras: bool) -> None:
     """Install our distributions editable, unless they are there, and the extras."""
     workspace = "[workspace]" if "workspace" in extras else ""
-    words = [f"turtlewire-ros{workspace}"]
+    words = [f"turtlewire-colcon{workspace}"]
     if not only_extras:
-        folders = dict.fromkeys(distributions(), "") | {ROS: workspace}
+        folders = dict.fromkeys(distributions(), "") | {COLCON: workspace}
         words = [word for folder, extra in folders.items() for word in ("-e", f"{folder}{extra}")]
     for name in extras:
         if name != "workspace":

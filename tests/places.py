@@ -17,6 +17,7 @@ ROS = ROOT / "packages" / "turtlewire-ros"
 #: The product's Python packages, and the folders from which they are imported.
 PACKAGES = sorted(init.parent for init in ROOT.glob("packages/*/*/*/__init__.py"))
 IMPORT_PATH = sorted({package.parent for package in PACKAGES})
+COLCON = ROOT / "packages" / "turtlewire-colcon"
 #: The tutorial's package.
 LEARNING = ROOT / "examples" / "learning_tf2_py"
 LESSON_CODE = ROOT / "packages" / "turtlewire-class" / "src"

@@ -19,7 +19,7 @@ from tests.places import ROOT, SCRIPTS
 #: when circles end; raise none.
 IN_CIRCLES = {"rclpy": 8}
 #: Need what is not installed where the tests run: colcon, a terminal.
-NOT_IMPORTED = {"turtlewire_ros.colcon_ament"}
+NOT_IMPORTED = {"turtlewire_colcon.colcon_ament"}
 
 
 @pytest.fixture(scope="module")

@@ -59,7 +59,7 @@ def names(module, variable):
 
 
 def test_ci():
-    wanted = project("packages/turtlewire-ros")["optional-dependencies"]["workspace"]
+    wanted = project("packages/turtlewire-colcon")["optional-dependencies"]["workspace"]
     for path in ROOT.glob("packages/*/pyproject.toml"):
         wanted += project(path.parent)["dependencies"]
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))

@@ -19,7 +19,7 @@ SOURCES = Path(__file__).parent / "urdf_ws" / "src"
 def workspace(tmp_path_factory):
     """The workspace `urdf_ws`, built by colcon; its `install` folder is `workspace.install`."""
     if importlib.util.find_spec("colcon_ros") is None:
-        pytest.skip("needs colcon: pip install 'turtlewire-ros[workspace]'")
+        pytest.skip("needs colcon: pip install 'turtlewire-colcon[workspace]'")
     folder = tmp_path_factory.mktemp("urdf_ws")
     shutil.copytree(SOURCES, folder / "src")
     done = subprocess.run(

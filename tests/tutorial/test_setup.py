@@ -13,7 +13,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from tests.places import ENGINE, ROS, SCRIPTS
+from tests.places import COLCON, ENGINE, SCRIPTS
 
 SETUP = SCRIPTS / "setup.py"
 
@@ -56,7 +56,7 @@ def setup(module, monkeypatch, tmp_path):
 def test_nothing_is_done_twice(setup):
     setup.main(["workspace"])
     (_install, *words), core = setup.calls
-    assert words.count("-e") == 4
+    assert words.count("-e") == len(setup.distributions())
     assert str(ENGINE) in words
     assert core == ("core", "key")
     setup.main(["workspace"])
@@ -69,7 +69,7 @@ def test_ci_installs_what_is_locked_first(setup, monkeypatch):
     setup.main(["test"])
     locked, (_install, *words), _core = setup.calls
     assert locked == ("install", "--require-hashes", "-r", str(SCRIPTS / "locks" / "ci.txt"))
-    assert words.count("-e") == 4
+    assert words.count("-e") == len(setup.distributions())
 
 
 def test_extras_alone_compile_nothing(setup):
@@ -78,10 +78,10 @@ def test_extras_alone_compile_nothing(setup):
     setup.main(["workspace"])
     setup.main(["lint"])
     assert setup.calls == [
-        ("install", "turtlewire-ros[workspace]"),
+        ("install", "turtlewire-colcon[workspace]"),
         (
             "install",
-            "turtlewire-ros[workspace]",
+            "turtlewire-colcon[workspace]",
             "--group",
             f"{setup.ROOT / 'pyproject.toml'}:lint",
         ),
@@ -95,8 +95,8 @@ def test_changed_sources_are_installed_with_the_extras_there_are(setup, monkeypa
     monkeypatch.setattr(setup, "fingerprint", lambda: "other")
     setup.main([])
     (words,) = setup.calls  # the core is not compiled again
-    assert f"{ROS}[workspace]" in words
-    assert words.count("-e") == 4
+    assert f"{COLCON}[workspace]" in words
+    assert words.count("-e") == len(setup.distributions())
 
 
 def test_changed_native_sources_install_no_package(setup, monkeypatch):
@@ -272,17 +272,17 @@ class TestUv:
         venv.install(["test", "workspace"], only_extras=False)
         (words,) = self.run
         assert words[:5] == ["/bin/uv", "pip", "install", "--python", str(venv.PYTHON)]
-        assert words.count("-e") == words.count("--reinstall-package") == 4
+        assert words.count("-e") == words.count("--reinstall-package") == len(venv.distributions())
         assert words[words.index("--group") + 1] == f"{venv.ROOT / 'pyproject.toml'}:test"
 
     def test_extras_leave_the_packages_alone(self, venv):
         venv.install(["workspace"], only_extras=True)
-        assert self.run[0][5:] == ["turtlewire-ros[workspace]"]
+        assert self.run[0][5:] == ["turtlewire-colcon[workspace]"]
 
     def test_without_it_pip_installs(self, venv, monkeypatch):
         monkeypatch.setattr(venv.shutil, "which", lambda _name: None)
         venv.install([], only_extras=True)
-        assert self.run == [("install", "turtlewire-ros")]
+        assert self.run == [("install", "turtlewire-colcon")]
 
     @pytest.mark.parametrize(
         ("told", "names"),
@@ -295,7 +295,7 @@ class TestUv:
     def test_settings_of_pip_that_it_does_not_read_keep_pip(self, venv, capfd, told, names):
         self.told = told
         venv.install([], only_extras=True)
-        assert self.run == [("install", "turtlewire-ros")]
+        assert self.run == [("install", "turtlewire-colcon")]
         assert names in capfd.readouterr().err
 
     def test_other_settings_of_pip_do_not(self, venv, capfd):

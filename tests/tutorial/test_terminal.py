@@ -49,11 +49,11 @@ pytestmark = [
 
 @pytest.fixture(scope="module")
 def venv(tmp_path_factory):
-    """A fresh venv with what `pip install 'turtlewire-ros[workspace]'` brings."""
+    """A fresh venv with what `pip install 'turtlewire-colcon[workspace]'` brings."""
     folder = tmp_path_factory.mktemp("machine") / "venv"
     subprocess.run([sys.executable, "-m", "venv", folder], check=True)
     pip = [folder / "bin/pip", "install", "-q", "--no-index", "--find-links", WHEELHOUSE]
-    subprocess.run([*pip, "turtlewire-ros[workspace]"], check=True)
+    subprocess.run([*pip, "turtlewire-colcon[workspace]"], check=True)
     return folder
 
 

@@ -9,15 +9,8 @@ module                                what it holds
 `executables`                         what ``ros2 run PACKAGE EXECUTABLE`` runs
 `guard`                               starts ``ros2``, and refuses a mix with a real ROS 2
 `process_family`, `process_guardian`  stop all that a command started
-`colcon_ament`                        ``colcon build`` and ``test`` of ament_cmake packages
-`cmake`                               reads their CMakeLists.txt, without CMake
-`package_lookup`                      which packages ``find_package`` finds
-`plan_install`                        installs what a CMakeLists.txt names
 `interface_files`                     definitions and IDL of the prefix's own packages
 `generate_interfaces`                 Python of interfaces, all of whose types must be there
-`run_test`                            runs one test of ``colcon test``
-`wheel`                               an ament_cmake package as a wheel
-`build_backend`, `pip_install`        two ways to have pip install it
 `manifest`                            reads ``package.xml``, and finds the error in it
 `pytest_plugin`, `pytest_hookspecs`   options, markers and hook of launch tests
 ====================================  ====================================================

@@ -9,7 +9,7 @@ import pytest
 from defusedxml import ElementTree
 
 from ros2cli.main import main
-from turtlewire_ros.wheel import build_package_wheels
+from turtlewire_colcon.wheel import build_package_wheels
 
 
 def create(*words):

@@ -4,9 +4,9 @@ The package needs a ``pyproject.toml`` of three lines, since pip installs nothin
 
     [build-system]
     requires = ["turtlewire-ros"]
-    build-backend = "turtlewire_ros.build_backend"
+    build-backend = "turtlewire_colcon.build_backend"
 
-``python -m turtlewire_ros.pip_install ./package`` does the same to a package without that file.
+``python -m turtlewire_colcon.pip_install ./package`` does the same to a package without that file.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ import tarfile
 from pathlib import Path
 from typing import Any
 
+from turtlewire_colcon.wheel import WheelError, build_package_wheels
 from turtlewire_ros.manifest import ManifestError, read_manifest
-from turtlewire_ros.wheel import WheelError, build_package_wheels
 
 __all__ = ["build_sdist", "build_wheel"]
 

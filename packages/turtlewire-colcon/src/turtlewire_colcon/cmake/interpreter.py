@@ -8,16 +8,16 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from turtlewire_ros.cmake.blocks import Block, Branch, build_tree
-from turtlewire_ros.cmake.conditions import Condition
-from turtlewire_ros.cmake.syntax import Argument, CMakeError, Command, Place, parse_commands
+from turtlewire_colcon.cmake.blocks import Block, Branch, build_tree
+from turtlewire_colcon.cmake.conditions import Condition
+from turtlewire_colcon.cmake.syntax import Argument, CMakeError, Command, Place, parse_commands
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
-    from turtlewire_ros.cmake.blocks import Node
-    from turtlewire_ros.cmake.plan import Plan
-    from turtlewire_ros.package_lookup import PackageLookup
+    from turtlewire_colcon.cmake.blocks import Node
+    from turtlewire_colcon.cmake.plan import Plan
+    from turtlewire_colcon.package_lookup import PackageLookup
 
     Handler = Callable[["Interpreter", "Call"], None]
 

@@ -1,4 +1,4 @@
-"""``python -m turtlewire_ros.pip_install PACKAGE…``: pip installs ament_cmake packages.
+"""``python -m turtlewire_colcon.pip_install PACKAGE…``: pip installs ament_cmake packages.
 
 pip itself refuses folders without pyproject.toml and setup.py, as such packages are, before it asks
 anybody else. Packages that it takes are handed to it as they are, so that all packages of a
@@ -15,7 +15,7 @@ import tempfile
 from pathlib import Path
 
 from turtlewire.program import program
-from turtlewire_ros.wheel import WheelError, build_package_wheels
+from turtlewire_colcon.wheel import WheelError, build_package_wheels
 
 _OPTIONS = ["--no-deps", "--force-reinstall"]
 
@@ -23,7 +23,7 @@ _OPTIONS = ["--no-deps", "--force-reinstall"]
 def main(argv: list[str] | None = None) -> int:
     """Run the command line; returns the exit status."""
     parser = argparse.ArgumentParser(
-        prog="python -m turtlewire_ros.pip_install",
+        prog="python -m turtlewire_colcon.pip_install",
         description="Installs ament_cmake packages of Python, data and interfaces into this "
         "Python's environment. Each is built after those of them that it needs, and all are "
         "installed when all are built. `pip uninstall NAME` removes them.",

@@ -13,16 +13,16 @@ from typing import TYPE_CHECKING
 from rosidl_adapter.idl import interface_to_idl
 from rosidl_adapter.parser import InvalidSpecification, InvalidValue
 from turtlewire.msg.idl import idl_to_text
-from turtlewire_ros.cmake.basics import configured
-from turtlewire_ros.cmake.syntax import CMakeError
-from turtlewire_ros.package_lookup import CONFIG_MARK
+from turtlewire_colcon.cmake.basics import configured
+from turtlewire_colcon.cmake.syntax import CMakeError
+from turtlewire_colcon.package_lookup import CONFIG_MARK
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from turtlewire_ros.cmake.interpreter import Interpreter
-    from turtlewire_ros.cmake.plan import FileRule, Install, Plan, PythonPackage
-    from turtlewire_ros.cmake.syntax import Place
+    from turtlewire_colcon.cmake.interpreter import Interpreter
+    from turtlewire_colcon.cmake.plan import FileRule, Install, Plan, PythonPackage
+    from turtlewire_colcon.cmake.syntax import Place
 
 __all__ = ["PlanInstaller", "build_commands", "entry_points"]
 

@@ -7,13 +7,13 @@ import os
 import re
 from typing import TYPE_CHECKING, Any, Protocol
 
-from turtlewire_ros.cmake.syntax import Argument, CMakeError
+from turtlewire_colcon.cmake.syntax import Argument, CMakeError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from turtlewire_ros.cmake.plan import Plan
-    from turtlewire_ros.cmake.syntax import Place
+    from turtlewire_colcon.cmake.plan import Plan
+    from turtlewire_colcon.cmake.syntax import Place
 
 __all__ = ["Condition", "Surroundings", "is_false", "is_true"]
 

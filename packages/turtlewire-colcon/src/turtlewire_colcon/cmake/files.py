@@ -7,14 +7,14 @@ from pathlib import Path
 from shutil import copyfile, copytree
 from typing import TYPE_CHECKING
 
-from turtlewire_ros.cmake.arguments import parse_keywords
-from turtlewire_ros.cmake.basics import configured
-from turtlewire_ros.cmake.syntax import CMakeError
+from turtlewire_colcon.cmake.arguments import parse_keywords
+from turtlewire_colcon.cmake.basics import configured
+from turtlewire_colcon.cmake.syntax import CMakeError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from turtlewire_ros.cmake.interpreter import Call, Handler, Interpreter
+    from turtlewire_colcon.cmake.interpreter import Call, Handler, Interpreter
 
 __all__ = ["FILES"]
 

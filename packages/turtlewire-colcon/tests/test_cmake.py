@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from turtlewire_ros.cmake.evaluate import evaluate_package
-from turtlewire_ros.cmake.syntax import CMakeError, parse_commands
-from turtlewire_ros.cmake.tool import main as tool
-from turtlewire_ros.package_lookup import PackageLookup
+from turtlewire_colcon.cmake.evaluate import evaluate_package
+from turtlewire_colcon.cmake.syntax import CMakeError, parse_commands
+from turtlewire_colcon.cmake.tool import main as tool
+from turtlewire_colcon.package_lookup import PackageLookup
 
 MANIFEST = "<package><name>robot</name><version>1.2.3</version><depend>std_msgs</depend></package>"
 HEAD = "cmake_minimum_required(VERSION 3.8)\nproject(robot)\nfind_package(ament_cmake REQUIRED)\n"
@@ -429,7 +429,7 @@ def test_steps_tests_and_code_that_runs_last(evaluate, tmp_path):
         'file(GENERATE OUTPUT g.txt CONTENT "generated")'
     )
     assert [step.words for step in plan.steps] == [
-        (sys.executable, "-m", "turtlewire_ros.cmake.tool", "-E", "touch", "a.txt"),
+        (sys.executable, "-m", "turtlewire_colcon.cmake.tool", "-E", "touch", "a.txt"),
         ("sh", "-c", "echo a > b.txt"),
     ]
     build = tmp_path / "build"

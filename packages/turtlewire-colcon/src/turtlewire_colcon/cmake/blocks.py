@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from turtlewire_ros.cmake.syntax import CMakeError, Command
+from turtlewire_colcon.cmake.syntax import CMakeError, Command
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -24,7 +24,7 @@ pytestmark = [
     pytest.mark.skipif(
         importlib.util.find_spec("colcon_core") is None
         or importlib.util.find_spec("colcon_ros") is None,
-        reason="needs colcon: pip install 'turtlewire-ros[workspace]'",
+        reason="needs colcon: pip install 'turtlewire-colcon[workspace]'",
     ),
     pytest.mark.skipif(
         not (PREFIX / "setup.bash").is_file(),
@@ -436,13 +436,13 @@ def test_pip_installs_such_packages(tmp_path):
         shutil.copytree(PACKAGES_HERE / "good" / name, tmp_path / name)
     (tmp_path / "macro_tool/pyproject.toml").write_text(
         '[build-system]\nrequires = ["turtlewire-ros"]\n'
-        'build-backend = "turtlewire_ros.build_backend"\n'
+        'build-backend = "turtlewire_colcon.build_backend"\n'
     )
     script = """
 source {prefix}/setup.bash
 install="python -m pip install -q --no-deps --no-index --prefix env"
 $install --no-build-isolation ./macro_tool
-python -m turtlewire_ros.pip_install --output wheels ./bridge_msgs
+python -m turtlewire_colcon.pip_install --output wheels ./bridge_msgs
 $install wheels/bridge_msgs-1.2.3-py3-none-any.whl
 export AMENT_PREFIX_PATH=$PWD/env PYTHONPATH=$(echo $PWD/env/lib/python*/site-packages)
 ros2 run macro_tool expand 'Hi $NAME' pip

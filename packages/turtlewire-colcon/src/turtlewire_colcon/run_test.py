@@ -1,4 +1,4 @@
-"""``python -m turtlewire_ros.run_test``: runs one test of ``colcon test``, with a time limit.
+"""``python -m turtlewire_colcon.run_test``: runs one test of ``colcon test``, with a time limit.
 
 There is a JUnit file afterwards in any case, so that ``colcon test-result`` tells of a test that
 ended too early to write one.
@@ -37,7 +37,7 @@ _RESULT = """<?xml version="1.0" encoding="UTF-8"?>
 
 def main(argv: list[str] | None = None) -> int:
     """Run the command line; returns the exit status of the test."""
-    parser = argparse.ArgumentParser(prog="python -m turtlewire_ros.run_test")
+    parser = argparse.ArgumentParser(prog="python -m turtlewire_colcon.run_test")
     parser.add_argument("--kind", choices=("pytest", "launch", "command"), required=True)
     parser.add_argument("--name", required=True)
     parser.add_argument("--result", type=Path, required=True)

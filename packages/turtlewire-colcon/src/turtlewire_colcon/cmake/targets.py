@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from turtlewire_ros.cmake.syntax import CMakeError
+from turtlewire_colcon.cmake.syntax import CMakeError
 
 if TYPE_CHECKING:
-    from turtlewire_ros.cmake.interpreter import Call, Handler, Interpreter
+    from turtlewire_colcon.cmake.interpreter import Call, Handler, Interpreter
 
 __all__ = ["TARGETS"]
 

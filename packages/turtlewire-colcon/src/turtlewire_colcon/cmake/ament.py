@@ -6,9 +6,9 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from turtlewire_ros.cmake.arguments import Parsed, parse_keywords
-from turtlewire_ros.cmake.installing import destination
-from turtlewire_ros.cmake.plan import (
+from turtlewire_colcon.cmake.arguments import Parsed, parse_keywords
+from turtlewire_colcon.cmake.installing import destination
+from turtlewire_colcon.cmake.plan import (
     Install,
     Interfaces,
     PythonModule,
@@ -16,10 +16,10 @@ from turtlewire_ros.cmake.plan import (
     Resource,
     TestRun,
 )
-from turtlewire_ros.cmake.syntax import CMakeError
+from turtlewire_colcon.cmake.syntax import CMakeError
 
 if TYPE_CHECKING:
-    from turtlewire_ros.cmake.interpreter import Call, Handler, Interpreter
+    from turtlewire_colcon.cmake.interpreter import Call, Handler, Interpreter
 
 __all__ = ["AMENT"]
 

@@ -7,7 +7,7 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
-from turtlewire_ros.run_test import main
+from turtlewire_colcon.run_test import main
 
 
 def result_of(tmp_path, kind, words, timeout="60"):
@@ -90,7 +90,7 @@ def test_a_test_that_cannot_begin_has_a_result_too(tmp_path):
 
 
 def test_a_launch_test_without_launch_testing_is_skipped(tmp_path, monkeypatch):
-    monkeypatch.setattr("turtlewire_ros.run_test.find_spec", lambda name: None)
+    monkeypatch.setattr("turtlewire_colcon.run_test.find_spec", lambda name: None)
     assert result_of(tmp_path, "launch", ["x.py"]) == (
         0,
         "skipped: there is no launch_testing here",

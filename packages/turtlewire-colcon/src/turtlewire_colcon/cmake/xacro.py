@@ -10,12 +10,12 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from turtlewire_ros.cmake.arguments import parse_keywords
-from turtlewire_ros.cmake.plan import Install, Step
-from turtlewire_ros.cmake.syntax import CMakeError
+from turtlewire_colcon.cmake.arguments import parse_keywords
+from turtlewire_colcon.cmake.plan import Install, Step
+from turtlewire_colcon.cmake.syntax import CMakeError
 
 if TYPE_CHECKING:
-    from turtlewire_ros.cmake.interpreter import Call, Handler, Interpreter
+    from turtlewire_colcon.cmake.interpreter import Call, Handler, Interpreter
 
 __all__ = ["XACRO"]
 
@@ -58,7 +58,7 @@ def _expand_file(run: Interpreter, call: Call, name: str, output: str, remap: li
     prefixes = os.pathsep.join(
         filter(None, (str(index), run.environment.get("AMENT_PREFIX_PATH", "")))
     )
-    words = [sys.executable, "-m", "turtlewire_ros.cmake.tool", "-E", "env"]
+    words = [sys.executable, "-m", "turtlewire_colcon.cmake.tool", "-E", "env"]
     words += [f"AMENT_PREFIX_PATH={prefixes}", sys.executable, "-c", _RUN_XACRO]
     folder = run.variables["CMAKE_CURRENT_SOURCE_DIR"]
     run.plan.steps.append(Step((*words, "-o", path, str(source), *remap), folder, call.place))

@@ -1,10 +1,10 @@
 """Lets ``colcon build`` and ``colcon test`` take ament_cmake packages without CMake.
 
 colcon-ros hands every ``ament_cmake`` package to CMake, which needs ament_cmake. Most such packages
-of Python users hold Python, launch files, robot descriptions and interfaces. The type that is given
-to them here has their CMakeLists.txt read by `turtlewire_ros.cmake`. What compiles C++ is refused;
-the Python part of such a package is installed all the same. Where a real ament_cmake is installed,
-packages with C++ stay with colcon-ros.
+of Python users hold Python, launch files, robot descriptions and interfaces. They get a type here
+whose tasks read their CMakeLists.txt with `turtlewire_colcon.cmake`. Targets that compile C++ are
+refused; the Python part of such a package is installed all the same. Where a real ament_cmake is
+installed, packages with C++ stay with colcon-ros.
 """
 
 from __future__ import annotations
@@ -26,16 +26,16 @@ from colcon_core.shell import create_environment_hook, get_command_environment
 from colcon_core.task import TaskExtensionPoint, run
 from colcon_ros.package_identification.ros import RosPackageIdentification
 
-from turtlewire_ros.cmake.evaluate import evaluate_package
-from turtlewire_ros.cmake.syntax import CMakeError
+from turtlewire_colcon.cmake.evaluate import evaluate_package
+from turtlewire_colcon.cmake.syntax import CMakeError
+from turtlewire_colcon.package_lookup import PackageLookup
+from turtlewire_colcon.plan_install import PlanInstaller, build_commands
 from turtlewire_ros.manifest import ManifestError, manifest_fault
-from turtlewire_ros.package_lookup import PackageLookup
-from turtlewire_ros.plan_install import PlanInstaller, build_commands
 
 if TYPE_CHECKING:
     from colcon_core.package_descriptor import PackageDescriptor
 
-    from turtlewire_ros.cmake.plan import Plan
+    from turtlewire_colcon.cmake.plan import Plan
 
 __all__ = [
     "AmentPackageBuild",
@@ -207,7 +207,7 @@ class AmentPackageTest(TaskExtensionPoint):
         args, name = self.context.args, self.context.pkg.name
         folder = Path(args.test_result_base or args.build_base) / "test_results" / name
         command = [
-            sys.executable, "-m", "turtlewire_ros.run_test",
+            sys.executable, "-m", "turtlewire_colcon.run_test",
             "--kind", test["kind"],
             "--name", f"{name}.{test['name']}",
             "--result", str(folder / f"{test['name']}.xunit.xml"),

@@ -1,4 +1,4 @@
-"""``python -m turtlewire_ros.pip_install``: wheels of ament_cmake packages that need each other."""
+"""``python -m turtlewire_colcon.pip_install``: wheels of packages that need each other."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from turtlewire_ros.wheel import WheelError, build_package_wheels
+from turtlewire_colcon.wheel import WheelError, build_package_wheels
 
 MANIFEST = """<package format="3">
   <name>{name}</name>
@@ -41,7 +41,7 @@ def make_package(folder, name, depends=(), message="Leaf", text="float64 size\n"
 
 def pip_install(*words):
     return subprocess.run(
-        [sys.executable, "-m", "turtlewire_ros.pip_install", *map(str, words)],
+        [sys.executable, "-m", "turtlewire_colcon.pip_install", *map(str, words)],
         capture_output=True,
         text=True,
         check=False,

@@ -7,18 +7,18 @@ import re
 import sys
 from typing import TYPE_CHECKING
 
-from turtlewire_ros.cmake.ament import AMENT
-from turtlewire_ros.cmake.basics import BASICS
-from turtlewire_ros.cmake.files import FILES
-from turtlewire_ros.cmake.installing import INSTALLING
-from turtlewire_ros.cmake.interpreter import Interpreter
-from turtlewire_ros.cmake.plan import Plan
-from turtlewire_ros.cmake.processes import PROCESSES
-from turtlewire_ros.cmake.syntax import CMakeError
-from turtlewire_ros.cmake.targets import TARGETS
-from turtlewire_ros.cmake.xacro import XACRO
+from turtlewire_colcon.cmake.ament import AMENT
+from turtlewire_colcon.cmake.basics import BASICS
+from turtlewire_colcon.cmake.files import FILES
+from turtlewire_colcon.cmake.installing import INSTALLING
+from turtlewire_colcon.cmake.interpreter import Interpreter
+from turtlewire_colcon.cmake.plan import Plan
+from turtlewire_colcon.cmake.processes import PROCESSES
+from turtlewire_colcon.cmake.syntax import CMakeError
+from turtlewire_colcon.cmake.targets import TARGETS
+from turtlewire_colcon.cmake.xacro import XACRO
+from turtlewire_colcon.package_lookup import PackageLookup
 from turtlewire_ros.manifest import read_manifest
-from turtlewire_ros.package_lookup import PackageLookup
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping

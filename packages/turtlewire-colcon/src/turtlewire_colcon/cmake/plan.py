@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from turtlewire_ros.cmake.syntax import Place
+    from turtlewire_colcon.cmake.syntax import Place
 
 __all__ = [
     "FileRule",

@@ -1,4 +1,4 @@
-"""``python -m turtlewire_ros.cmake.tool -E …``: what ``cmake -E`` does, where there is no CMake."""
+"""``python -m turtlewire_colcon.cmake.tool -E …``: what ``cmake -E`` does, without CMake."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["main", "tool_command"]
 def tool_command(words: Sequence[str]) -> list[str]:
     """A command with this module in the place of ``cmake`` (the variable ``CMAKE_COMMAND``)."""
     if words[:1] == ["cmake"]:
-        return [sys.executable, "-m", "turtlewire_ros.cmake.tool", *words[1:]]
+        return [sys.executable, "-m", "turtlewire_colcon.cmake.tool", *words[1:]]
     return list(words)
 
 

@@ -9,12 +9,12 @@ from itertools import pairwise
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 
-from turtlewire_ros.cmake.arguments import parse_keywords
-from turtlewire_ros.cmake.plan import FileRule, Install
-from turtlewire_ros.cmake.syntax import CMakeError
+from turtlewire_colcon.cmake.arguments import parse_keywords
+from turtlewire_colcon.cmake.plan import FileRule, Install
+from turtlewire_colcon.cmake.syntax import CMakeError
 
 if TYPE_CHECKING:
-    from turtlewire_ros.cmake.interpreter import Call, Handler, Interpreter
+    from turtlewire_colcon.cmake.interpreter import Call, Handler, Interpreter
 
 __all__ = ["INSTALLING", "destination"]
 

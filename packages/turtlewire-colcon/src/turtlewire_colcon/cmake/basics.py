@@ -8,14 +8,14 @@ import re
 import shlex
 from typing import TYPE_CHECKING
 
-from turtlewire_ros.cmake.arguments import parse_keywords
-from turtlewire_ros.cmake.conditions import Condition
-from turtlewire_ros.cmake.syntax import Argument, CMakeError
+from turtlewire_colcon.cmake.arguments import parse_keywords
+from turtlewire_colcon.cmake.conditions import Condition
+from turtlewire_colcon.cmake.syntax import Argument, CMakeError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from turtlewire_ros.cmake.interpreter import Call, Handler, Interpreter
+    from turtlewire_colcon.cmake.interpreter import Call, Handler, Interpreter
 
 __all__ = ["BASICS", "configured"]
 

@@ -17,15 +17,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from turtlewire.errors import InterfaceError
-from turtlewire_ros.cmake.evaluate import evaluate_package
-from turtlewire_ros.cmake.syntax import CMakeError
+from turtlewire_colcon.cmake.evaluate import evaluate_package
+from turtlewire_colcon.cmake.syntax import CMakeError
+from turtlewire_colcon.plan_install import PlanInstaller, build_commands, entry_points
 from turtlewire_ros.manifest import Manifest, ManifestError, read_manifest
-from turtlewire_ros.plan_install import PlanInstaller, build_commands, entry_points
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
-    from turtlewire_ros.cmake.plan import Plan
+    from turtlewire_colcon.cmake.plan import Plan
 
 __all__ = ["WheelError", "build_package_wheels"]
 

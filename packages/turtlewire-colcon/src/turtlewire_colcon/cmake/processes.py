@@ -6,13 +6,13 @@ import shlex
 import subprocess
 from typing import TYPE_CHECKING
 
-from turtlewire_ros.cmake.arguments import parse_keywords
-from turtlewire_ros.cmake.plan import Step
-from turtlewire_ros.cmake.syntax import CMakeError
-from turtlewire_ros.cmake.tool import tool_command
+from turtlewire_colcon.cmake.arguments import parse_keywords
+from turtlewire_colcon.cmake.plan import Step
+from turtlewire_colcon.cmake.syntax import CMakeError
+from turtlewire_colcon.cmake.tool import tool_command
 
 if TYPE_CHECKING:
-    from turtlewire_ros.cmake.interpreter import Call, Handler, Interpreter
+    from turtlewire_colcon.cmake.interpreter import Call, Handler, Interpreter
 
 __all__ = ["PROCESSES"]
 

@@ -1,0 +1,3 @@
+"""The packages in ``ament_ws`` have tests of their own, which ``colcon test`` runs."""
+
+collect_ignore = ["ament_ws"]
