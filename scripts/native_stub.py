@@ -15,6 +15,8 @@ import sys
 from pathlib import Path
 from typing import Any
 
+sys.path.insert(0, str(Path(__file__).resolve().parent))  # also where it is loaded by its path
+
 from distributions import ENGINE
 
 STUB = ENGINE / "src" / "turtlewire" / "_native.pyi"

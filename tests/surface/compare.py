@@ -13,12 +13,11 @@ import json
 import re
 import sys
 from dataclasses import asdict, dataclass, field
+from pathlib import Path
 
 from capture import surface
 
-from tests import places
-
-GOLDEN = places.GOLDEN / "surface"
+GOLDEN = Path(__file__).parents[1] / "golden" / "surface"
 
 
 @dataclass

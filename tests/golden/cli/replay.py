@@ -326,7 +326,7 @@ def _wait_for(kind: str, *names: str) -> None:
 def workspace() -> Iterator[None]:
     """The tutorial's package as it is printed, laid out as colcon lays it out, and sourced."""
     verbatim = ROOT / "tests/tutorial/verbatim/learning_tf2_py"
-    static = ROOT / "ros2_ws/src/learning_tf2_py/learning_tf2_py/static_turtle_tf2_broadcaster.py"
+    static = ROOT / "examples/learning_tf2_py/learning_tf2_py/static_turtle_tf2_broadcaster.py"
     with tempfile.TemporaryDirectory() as folder:
         prefix = Path(folder, "install", "learning_tf2_py")
         shutil.copytree(verbatim / "launch", prefix / "share/learning_tf2_py/launch")

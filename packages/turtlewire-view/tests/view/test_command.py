@@ -77,7 +77,7 @@ def test_a_file_of_rviz_is_what_the_page_shows_first(view, tmp_path):
     ("words", "answer"),
     [
         (["-d", "none.rviz"], "none.rviz cannot be read: No such file or directory"),
-        (["-d", __file__], "test_view.py is no view of RViz: "),
+        (["-d", __file__], "test_command.py is no view of RViz: "),
         (["--port", "99999"], "'99999' is not a port number, from 0 (any) to 65535"),
         (["--max-frames", "1"], "'1' is not a number of frames, at least 2"),
         (["--fixed-fram", "map"], "Did you mean: --fixed-frame"),

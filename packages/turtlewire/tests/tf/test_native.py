@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from tests.needs import COMPILED_CORE
-from tests.places import ENGINE
+from tests.places import ENGINE, ROOT, SCRIPTS
 
 from turtlewire.tf.buffer import CORE
 
@@ -45,7 +45,7 @@ def test_core(sanitizer: str) -> None:
         options.append("-DCMAKE_BUILD_TYPE=None")
     else:  # the core as one translation unit: half the time of compilation
         options += ["-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=0"]
-    folder = NATIVE.parent / "build" / "core-tests" / sanitizer  # kept: only changes are compiled
+    folder = ROOT / "build" / "core-tests" / sanitizer  # kept: only changes are compiled
     for command in (
         ["cmake", "-S", str(NATIVE), "-B", str(folder), *options],
         ["cmake", "--build", str(folder), "--parallel", "2"],
@@ -69,7 +69,7 @@ def test_core(sanitizer: str) -> None:
     assert run.stdout.endswith("all passed\n")
 
 
-@pytest.mark.skipif(not (NATIVE.parent / ".git").exists(), reason="not a clone")
+@pytest.mark.skipif(not (ROOT / ".git").exists(), reason="not a clone")
 def test_a_build_leaves_nothing_beside_the_sources() -> None:
     unknown = subprocess.run(
         ["git", "ls-files", "--others", "--", str(NATIVE)],
@@ -82,12 +82,12 @@ def test_a_build_leaves_nothing_beside_the_sources() -> None:
     assert build_files == []
 
 
-STUB = NATIVE.parent / "src" / "turtlewire" / "_native.pyi"
+STUB = ENGINE / "src" / "turtlewire" / "_native.pyi"
 
 
 def compared(stub: Path) -> tuple[int, list[str]]:
     done = subprocess.run(
-        [sys.executable, str(NATIVE.parent / "scripts" / "native_stub.py"), str(stub)],
+        [sys.executable, str(SCRIPTS / "native_stub.py"), str(stub)],
         capture_output=True,
         text=True,
         check=False,
