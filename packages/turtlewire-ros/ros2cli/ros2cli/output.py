@@ -6,17 +6,31 @@ import contextlib
 import sys
 from typing import TYPE_CHECKING, Any
 
+from turtlewire.errors import UncallableServiceError
 from turtlewire.printable import printable_lines
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-__all__ = ["escaped_output", "print_set_results", "tell"]
+__all__ = ["escaped_output", "print_set_results", "tell", "tell_failed_call"]
 
 
 def tell(text: str) -> None:
     """Print a message to stderr; what peers have put into it is escaped."""
     print(printable_lines(text), file=sys.stderr)
+
+
+def tell_failed_call(node_name: str, error: RuntimeError, service: str = "") -> None:
+    """Print ROS 2's message for a node that could not be asked, for verbs that ask all nodes.
+
+    Args:
+        node_name: Full name of the node.
+        error: Why it could not be asked.
+        service: Name of the service, if ROS 2 names it in this message.
+    """
+    reason = error.in_one_line() if isinstance(error, UncallableServiceError) else str(error)
+    named = f"{service} service" if service else "service"
+    tell(f"Exception while calling {named} of node '{node_name}': {reason}")
 
 
 def print_set_results(parameters: Iterable[Any], results: Iterable[Any]) -> None:

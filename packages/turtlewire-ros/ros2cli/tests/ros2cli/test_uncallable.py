@@ -9,6 +9,9 @@ import pytest
 import rclpy
 from rclpy.action import ActionClient
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.lifecycle import LifecycleNode
+from rclpy.node import Node
+from rclpy_components import ComponentManager
 from ros2cli.main import main
 from ros2param import api
 from turtlewire.errors import UncallableServiceError
@@ -35,20 +38,31 @@ def stranger(foreign_server):
 
 
 @pytest.fixture
-def node():
-    """A node that another thread spins."""
+def spun():
+    """Makes nodes of a class that another thread spins."""
     context = rclpy.Context()
     rclpy.init(context=context)
-    node = rclpy.create_node("sound", context=context)
     executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
     thread = threading.Thread(target=executor.spin)
+    nodes = []
+
+    def make(node_class, name):
+        nodes.append(node_class(name, context=context))
+        executor.add_node(nodes[-1])
+        return nodes[-1]
+
     thread.start()
-    yield node
+    yield make
     executor.shutdown()
     thread.join()
-    node.destroy_node()
+    for node in nodes:
+        node.destroy_node()
     context.destroy()
+
+
+@pytest.fixture
+def node(spun):
+    return spun(Node, "sound")
 
 
 @pytest.mark.parametrize(
@@ -58,7 +72,9 @@ def node():
         (["param", "list"], "/stranger/list_parameters"),
         (["param", "dump", "/stranger"], "/stranger/list_parameters"),
         (["lifecycle", "get", "/stranger"], "/stranger/get_state"),
+        (["lifecycle", "get"], "/stranger/get_state"),
         (["component", "list", "/stranger"], "/stranger/_container/list_nodes"),
+        (["component", "list"], "/stranger/_container/list_nodes"),
         (["service", "call", "/clear", "std_srvs/srv/Empty"], "/clear"),
         (
             ["action", "send_goal", "/turn", "turtlesim/action/RotateAbsolute", "{}"],
@@ -78,6 +94,34 @@ def test_the_parameters_of_other_nodes_are_listed(stranger, node, capsys):
     out, told = capsys.readouterr()
     assert "/sound:\n  start_type_description_service\n" in out
     assert told.count("Exception while calling list_parameters service of node '/stranger'") == 1
+
+
+@pytest.mark.parametrize(
+    ("words", "node_class", "shown"),
+    [
+        (["lifecycle", "get"], LifecycleNode, "/sound: unconfigured [1]\n"),
+        (["component", "list"], ComponentManager, "/sound\n/stranger\n"),
+    ],
+)
+def test_a_verb_that_asks_all_nodes_goes_on_with_the_next(
+    spun, foreign_server, capsys, words, node_class, shown
+):
+    for name in ("/another", "/stranger"):  # one comes before the other node, one after it
+        for service in ("get_state", "_container/load_node", "_container/list_nodes"):
+            foreign_server(f"{name}/{service}", SERVICES[f"/stranger/{service}"])
+    spun(node_class, "sound")
+    assert main(words) == 1
+    out, told = capsys.readouterr()
+    assert out.endswith(shown)
+    for name in ("/another", "/stranger"):
+        assert told.count(f"Exception while calling service of node '{name}': service {name}/") == 1
+    assert told.count(ADVICE) == 2
+
+
+def test_managed_nodes_and_containers_are_listed_without_a_request(stranger, capsys):
+    assert main(["lifecycle", "nodes"]) == 0
+    assert main(["component", "list", "--containers-only"]) == 0
+    assert capsys.readouterr() == ("/stranger\n/stranger\n", "")
 
 
 def test_node_info_tells_it(stranger, capsys):

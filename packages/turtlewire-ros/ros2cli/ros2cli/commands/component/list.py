@@ -8,6 +8,7 @@ from ros2cli.arguments import argument
 from ros2cli.completion import container_node_names
 from ros2cli.direct_node import DirectNode
 from ros2cli.discovery import STRATEGY_ARGUMENTS
+from ros2cli.output import tell_failed_call
 
 if TYPE_CHECKING:
     import argparse
@@ -29,11 +30,12 @@ ARGUMENTS = (
 )
 
 
-def main(args: argparse.Namespace) -> None:
-    """Print the containers, and the number and name of each node in them."""
+def main(args: argparse.Namespace) -> int:
+    """Print the containers with number and name of each node in them; 1 if one did not answer."""
     from composition_interfaces.srv import ListNodes
     from ros2cli.containers import ask, container_names, require_container
 
+    status = 0
     with DirectNode(args) as direct:
         chosen = args.container_node_name
         names = [require_container(direct.graph, chosen)] if chosen else []
@@ -42,7 +44,15 @@ def main(args: argparse.Namespace) -> None:
                 print(name)
             if args.containers_only:
                 continue
-            answer = ask(direct, name, "list_nodes", ListNodes, ListNodes.Request())
+            try:
+                answer = ask(direct, name, "list_nodes", ListNodes, ListNodes.Request())
+            except RuntimeError as error:
+                if chosen:
+                    raise
+                tell_failed_call(name, error)
+                status = 1
+                continue
             indent = "" if chosen else "  "
             for number, node in zip(answer.unique_ids, answer.full_node_names, strict=True):
                 print(f"{indent}{number}  {node}")
+    return status

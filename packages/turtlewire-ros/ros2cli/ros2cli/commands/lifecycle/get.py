@@ -9,6 +9,7 @@ from ros2cli.completion import managed_node_names
 from ros2cli.direct_node import DirectNode
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.managed_nodes import HIDDEN_ARGUMENT
+from ros2cli.output import tell_failed_call
 
 if TYPE_CHECKING:
     import argparse
@@ -28,15 +29,25 @@ ARGUMENTS = (
 )
 
 
-def main(args: argparse.Namespace) -> None:
-    """Print label and number of the state."""
+def main(args: argparse.Namespace) -> int:
+    """Print label and number of the state; returns 1 if a node could not be asked."""
     from lifecycle_msgs.srv import GetState
     from ros2cli.managed_nodes import ask, managed_nodes, require_managed_node
 
+    status = 0
     with DirectNode(args) as direct:
         one = None if args.node_name is None else require_managed_node(direct.graph, args)
         for name in (
             managed_nodes(direct.graph, hidden=args.include_hidden_nodes) if one is None else [one]
         ):
-            state = ask(direct, GetState, f"{name}/get_state", GetState.Request()).current_state
+            try:
+                answer = ask(direct, GetState, f"{name}/get_state", GetState.Request())
+            except RuntimeError as error:
+                if one:
+                    raise
+                tell_failed_call(name, error)
+                status = 1
+                continue
+            state = answer.current_state
             print(f"{'' if one else f'{name}: '}{state.label} [{state.id}]")
+    return status

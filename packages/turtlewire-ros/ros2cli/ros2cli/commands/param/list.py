@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
 from ros2cli.direct_node import DirectNode
-from ros2cli.output import tell
+from ros2cli.output import tell_failed_call
 from ros2cli.parameter_options import node_arguments
 from ros2cli.parameters import TYPE_NAMES, Question
 from ros2cli.values import regular_expression
-from turtlewire.errors import UncallableServiceError
 
 if TYPE_CHECKING:
     import argparse
@@ -98,12 +97,8 @@ def _ask_all(
                 failed.add(name)
                 del questions[name]
                 answers.pop(name, None)
-                tell(f"Exception while calling {service} service of node '{name}': {_told(error)}")
+                tell_failed_call(name, error, service)
     return answers, failed
-
-
-def _told(error: RuntimeError) -> str:
-    return error.in_one_line() if isinstance(error, UncallableServiceError) else str(error)
 
 
 def _serving(direct: DirectNode, nodes: Collection[str], service: str, timeout: float) -> set[str]:
