@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import threading
+
 import pytest
 from tests.needs import needs_cyclone_dds
 
@@ -42,6 +44,24 @@ def wait_for(context: Context, event, expected):
         status = event.take()
         if expected(status):
             return status
+
+
+def test_a_match_during_the_callbacks_of_another_is_told_too(contexts: list[Context]):
+    node = contexts[0].create_node("talker")
+    publisher = node.create_publisher("/chatter", STRING, QoS())
+    counts, seen_all = [], threading.Event()
+
+    def on_matched():
+        counts.append(publisher.subscription_count())
+        if counts == [1]:
+            node.create_subscription("/chatter", STRING, QoS())
+        if counts[-1] == 2:
+            seen_all.set()
+
+    publisher.on_matched.append(on_matched)
+    node.create_subscription("/chatter", STRING, QoS())
+    assert seen_all.wait(60)
+    assert counts == [1, 2]
 
 
 def test_a_missed_deadline_is_reported_on_both_sides(contexts: list[Context]):

@@ -15,7 +15,9 @@ from rclpy_components import ComponentManager
 from ros2cli.main import main
 from ros2param import api
 from turtlewire.errors import UncallableServiceError
+from turtlewire.wire import open_context
 
+LONG = 60_000_000_000
 WHY = (
     "service {} is not called: its server runs on a middleware that announces no serviceid, which "
     "would misread our requests"
@@ -32,9 +34,26 @@ SERVICES = {
 
 
 @pytest.fixture
-def stranger(foreign_server):
-    for service, type_name in SERVICES.items():
-        foreign_server(service, type_name)
+def strangers(foreign_server):
+    """Makes foreign servers, and waits until others know that they belong to /stranger."""
+
+    def make(services):
+        for service, type_name in services.items():
+            foreign_server(service, type_name)
+        context = open_context(middleware="rmw_cyclonedds_cpp")
+        graph = context.graph
+        assert graph.wait_for(
+            lambda: len([each for each in graph.foreign_servers() if each.node]) == len(services),
+            LONG,
+        )
+        context.close()
+
+    return make
+
+
+@pytest.fixture
+def stranger(strangers):
+    strangers(SERVICES)
 
 
 @pytest.fixture
@@ -104,11 +123,15 @@ def test_the_parameters_of_other_nodes_are_listed(stranger, node, capsys):
     ],
 )
 def test_a_verb_that_asks_all_nodes_goes_on_with_the_next(
-    spun, foreign_server, capsys, words, node_class, shown
+    spun, strangers, capsys, words, node_class, shown
 ):
-    for name in ("/another", "/stranger"):  # one comes before the other node, one after it
-        for service in ("get_state", "_container/load_node", "_container/list_nodes"):
-            foreign_server(f"{name}/{service}", SERVICES[f"/stranger/{service}"])
+    strangers(
+        {  # one comes before the other node, one after it
+            f"{name}/{service}": SERVICES[f"/stranger/{service}"]
+            for name in ("/another", "/stranger")
+            for service in ("get_state", "_container/load_node", "_container/list_nodes")
+        }
+    )
     spun(node_class, "sound")
     assert main(words) == 1
     out, told = capsys.readouterr()

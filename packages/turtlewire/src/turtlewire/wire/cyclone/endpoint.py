@@ -124,15 +124,20 @@ class Endpoint(Entity):
         changed = ctypes.c_uint32()
         if dds.get_status_changes(self.handle, changed) < 0:
             return  # it has been deleted
-        # First, so that the event finds what they set.
-        if changed.value & self._sources[EventKind.MATCHED].bit:
-            for call in self.on_matched:
-                call()
+        news: list[tuple[EventKind, EventStatus]] = []
+        # Before the callbacks: reading resets a status. A match that came behind them, but before
+        # the reading, would be told to nobody.
         for kind, source in self._sources.items():
             if changed.value & source.bit:
                 status = source.structure()
                 source.read(self.handle, status)
-                self._event(kind).add(source.translate(status))
+                news.append((kind, source.translate(status)))
+        # Before the events, which find what the callbacks set.
+        if changed.value & self._sources[EventKind.MATCHED].bit:
+            for call in self.on_matched:
+                call()
+        for kind, translated in news:
+            self._event(kind).add(translated)
 
     def close(self) -> None:
         with self._lock:

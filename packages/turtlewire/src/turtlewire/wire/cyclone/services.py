@@ -109,9 +109,7 @@ class CycloneService(TopicService):
         self._reader = reader
         self._lock = threading.Lock()
         self._clients: dict[int, str] = {}
-        self._matches = 0  # how often the matching subscriptions changed
-        #: The clients that could be reached after so many changes.
-        self._reachable: tuple[int, set[str | None]] = (-1, set())
+        self._reachable: set[str | None] = set()
         self._waiting: list[_Waiting] = []
         # Before others hear of the match: they may take requests then.
         requests.on_matched.insert(0, requests.learn_publishers)
@@ -160,17 +158,19 @@ class CycloneService(TopicService):
             self.replies.publish(payload)
 
     def _can_reach(self, client: str) -> bool:
-        matches = self._matches  # read first: a change while we look must not be missed
-        if self._reachable[0] != matches:
+        """Return True if the client's reply reader has matched.
+
+        It stays known when it has left: a reply to it goes to nobody.
+        """
+        if client not in self._reachable:
             replies = self.replies.handle
             matched = matched_handles(replies, dds.matched_subscriptions)
             clients = matched_endpoints(replies, matched, dds.matched_subscription_data)
-            self._reachable = (matches, {client.ids.get("clientid") for client in clients})
-        return client in self._reachable[1]
+            self._reachable = {each.ids.get("clientid") for each in clients}
+        return client in self._reachable
 
     def matched(self) -> None:
         """On the reader thread: the matching subscriptions of the reply topic are others now."""
-        self._matches += 1
         if self._waiting:
             self.send_waiting()
 
