@@ -268,7 +268,6 @@ class Scheduler:
         if not entity._GATED:
             return
         entity.callback_group.ending_execution(entity)
-        self.resume_paused()
         entity.callback_group._rclpy_wake_schedulers()
 
     def resume_paused(self) -> None:
