@@ -11,6 +11,8 @@ import time
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
+from turtlewire.wake_up import WakeUp
+
 from .clock_type import ClockType
 from .constants import S_TO_NS
 from .duration import Duration
@@ -331,7 +333,7 @@ class _Sleep:
         self._clock = clock
         self._until_ns = until_ns
         self._context = context
-        self._moved = threading.Event()
+        self._moved = WakeUp()
         self._source_changed = False
 
     def run(self) -> bool:
@@ -344,7 +346,6 @@ class _Sleep:
                 if remaining_s == 0 or self._clock._now_ns() >= self._until_ns:
                     return True
                 self._moved.wait(remaining_s)
-                self._moved.clear()
         return False
 
     def _wake(self) -> None:

@@ -9,6 +9,8 @@ import time
 import weakref
 from typing import TYPE_CHECKING, Any, Protocol
 
+from turtlewire.wake_up import WakeUp
+
 from . import signals
 from ._rclpy_pybind11 import RCLError
 from .exceptions import NotInitializedException
@@ -54,7 +56,7 @@ class Context:
         self.ended_by_signal = False
         self.ended_at_exit = False
         self._callbacks: list[Callable[[], Callable[[], None] | None]] = []
-        self.waits: set[threading.Event] = set()
+        self.waits: set[WakeUp] = set()
         self._schedulers: weakref.WeakSet[_Scheduler] = weakref.WeakSet()
 
     def init(
@@ -229,13 +231,12 @@ class Context:
             The last value of the predicate.
         """
         deadline = None if timeout_ns is None else time.monotonic() + timeout_ns / 1e9
-        changed = threading.Event()
+        changed = WakeUp()
         with self._lock:
             self.waits.add(changed)
         remove_listener = self.wire.graph.add_listener(changed.set)
         try:
             while True:
-                changed.clear()
                 if predicate():
                     return True
                 remaining = None if deadline is None else deadline - time.monotonic()

@@ -13,6 +13,8 @@ import weakref
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any, Generic, Protocol
 
+from turtlewire.wake_up import WakeUp
+
 from ._asyncio_loop import running_loop
 from ._typing import T
 
@@ -184,7 +186,7 @@ class Future(Generic[T]):
 
     def _wait(self, timeout_sec: float | None) -> bool:
         """Block this thread until it is done; False when the time was over before."""
-        done = threading.Event()
+        done = WakeUp()
         self._add_waiter(done.set)
         return done.wait(timeout_sec)
 

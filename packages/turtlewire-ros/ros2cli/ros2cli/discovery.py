@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import os
 import sys
-import threading
 import time
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from turtlewire.wake_up import WakeUp
 from turtlewire.wire.environment import Range, discovery
 
 if TYPE_CHECKING:
@@ -76,7 +76,7 @@ def wait_until_discovered(graph: Graph, spin_time: float | None = None) -> None:
         and not discovery().static_peers
     )
     answer_time = 0.0 if only_this_host else _ANSWER_S
-    changed = threading.Event()
+    changed = WakeUp()
     stop_listening = graph.add_listener(changed.set)
     graph.hurry()
     started = last_change = time.monotonic()
@@ -92,8 +92,6 @@ def wait_until_discovered(graph: Graph, spin_time: float | None = None) -> None:
             if rest <= 0:
                 return
             if changed.wait(rest):
-                # Cleared before the graph is looked at again, so that no change is missed.
-                changed.clear()
                 last_change = time.monotonic()
     finally:
         stop_listening()

@@ -21,6 +21,7 @@ module               what it holds
 `tf`                 the transform buffer, the listener that fills it, and its pictures
 `trajectory`         poses over time: sampled, in files, compared
 `urdf`               robots: a parser of URDF and forward kinematics
+`wake_up`            a wait of the main thread that a signal may interrupt at any moment
 `web`                a small HTTP and WebSocket server for this machine's browsers
 `wire`               the middleware: bytes, QoS, names and the graph
 ===================  =====================================================================

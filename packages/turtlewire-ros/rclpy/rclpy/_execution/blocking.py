@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import threading
 import time
 from typing import TYPE_CHECKING, Any, NamedTuple
+
+from turtlewire.wake_up import WakeUp
 
 from .exceptions import (
     ConditionReachedException,
@@ -95,7 +96,7 @@ def _remaining_ns(*moments: float | None) -> int | None:
 
 
 def _wait_for_other_thread(future: Future[Any], call: Call, deadline: float | None) -> None:
-    done = threading.Event()
+    done = WakeUp()
     call_when_done(future, done.set)
     waits = [call.context.waits] + ([] if call.host is None else [call.host.blocked])
     for wait in waits:
@@ -108,8 +109,7 @@ def _wait_for_other_thread(future: Future[Any], call: Call, deadline: float | No
     try:
         patience: float | None = _PATIENCE_S
         while not is_over():
-            done.clear()
-            if not is_over() and not _wait(done, deadline, patience) and patience is not None:
+            if not _wait(done, deadline, patience) and patience is not None:
                 patience = None
                 if not is_over():
                     _warn_of_long_wait(call)
@@ -154,7 +154,7 @@ def _warn_of_other_executor(call: Call) -> None:
         )
 
 
-def _wait(done: threading.Event, deadline: float | None, at_most: float | None) -> bool:
+def _wait(done: WakeUp, deadline: float | None, at_most: float | None) -> bool:
     remaining = None if deadline is None else max(0.0, deadline - time.monotonic())
     return done.wait(
         at_most if remaining is None else min(remaining, remaining if at_most is None else at_most)

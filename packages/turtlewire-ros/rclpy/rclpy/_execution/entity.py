@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Any, Protocol
 from rclpy._rclpy_pybind11 import InvalidHandle
 
 if TYPE_CHECKING:
-    import threading
     from collections.abc import Callable
     from contextlib import AbstractContextManager
 
     from rclpy.callback_groups import CallbackGroup
     from rclpy.task import Future, Task
+    from turtlewire.wake_up import WakeUp
 
     from .wait import ExecutorWait
 
@@ -38,7 +38,7 @@ class Host(Protocol):
 
     wait: ExecutorWait[Entity]
     is_shutdown: bool
-    blocked: set[threading.Event]
+    blocked: set[WakeUp]
 
     def adopt(self, entity: Entity, node_index: int = -1) -> None:
         """Serve an entity."""

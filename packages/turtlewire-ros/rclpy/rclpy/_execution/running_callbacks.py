@@ -15,7 +15,9 @@ class RunningCallbacks:
 
     def __init__(self) -> None:
         self._counts: dict[int, int] = {}
-        self._changed = threading.Condition()
+        # `with` takes the lock itself, which a signal cannot leave locked; see turtlewire.wake_up.
+        self._lock = threading.RLock()
+        self._changed = threading.Condition(self._lock)
 
     def __enter__(self) -> None:
         self._count(1)
@@ -25,7 +27,7 @@ class RunningCallbacks:
 
     def _count(self, change: int) -> None:
         thread = threading.get_ident()
-        with self._changed:
+        with self._lock:
             count = self._counts.get(thread, 0) + change
             if count:
                 self._counts[thread] = count
@@ -40,5 +42,5 @@ class RunningCallbacks:
     def wait_for_others(self, timeout_sec: float | None) -> bool:
         """Block until no other thread runs a callback; False when the time is over before."""
         me = threading.get_ident()
-        with self._changed:
+        with self._lock:
             return self._changed.wait_for(lambda: not self._counts.keys() - {me}, timeout_sec)

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any
 from rclpy.logging import get_logger
 from rclpy.task import Future, Task
 from turtlewire.errors import WireError
+from turtlewire.wake_up import WakeUp
 
 from .exceptions import (
     ConditionReachedException,
@@ -62,7 +63,7 @@ class Scheduler:
         self.wait: ExecutorWait[Entity] = ExecutorWait(context.wire.create_wait_set())
         self.is_shutdown = False
         self.serves_endlessly = False
-        self.blocked: set[threading.Event] = set()
+        self.blocked: set[WakeUp] = set()
         self._entities_made = 0
         self._served: dict[Entity, None] = {}
         self.lock = threading.RLock()

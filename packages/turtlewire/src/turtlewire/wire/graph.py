@@ -159,7 +159,9 @@ class GraphView(Graph):
     """
 
     def __init__(self) -> None:
-        self._change = threading.Condition()
+        # `with` takes the lock itself, which a signal cannot leave locked; see `wake_up`.
+        self._lock_of_change = threading.RLock()
+        self._change = threading.Condition(self._lock_of_change)
         self._version = 0
         self._ended = False
         self._listeners: list[Callable[[], None]] = []
@@ -194,7 +196,7 @@ class GraphView(Graph):
             seen = self._version
             if predicate():
                 return True
-            with self._change:
+            with self._lock_of_change:
                 rest = None if deadline is None else deadline - time.monotonic()
                 if (
                     not self._change.wait_for(lambda: self._ended or self._version != seen, rest)  # noqa: B023
@@ -217,11 +219,11 @@ class GraphView(Graph):
         """
 
     def add_listener(self, on_change: Callable[[], None]) -> Callable[[], None]:
-        with self._change:
+        with self._lock_of_change:
             self._listeners.append(on_change)
 
         def remove() -> None:
-            with self._change:
+            with self._lock_of_change:
                 if on_change in self._listeners:
                     self._listeners.remove(on_change)
 
@@ -229,7 +231,7 @@ class GraphView(Graph):
 
     def notify_changed(self) -> None:
         """Wake the waiting threads and call the listeners, on this thread."""
-        with self._change:
+        with self._lock_of_change:
             self._version += 1
             self._change.notify_all()
             listeners = list(self._listeners)
@@ -238,7 +240,7 @@ class GraphView(Graph):
 
     def end_waits(self) -> None:
         """End all waits, now and in the future."""
-        with self._change:
+        with self._lock_of_change:
             self._ended = True
             self._change.notify_all()
 

@@ -44,6 +44,8 @@ class QueueWaitSet(EventWatcher, WaitSet):
     def __init__(self, lock: threading.RLock, on_closing: Callable[[QueueWaitSet], None]) -> None:
         super().__init__()
         self._on_closing = on_closing
+        # `with` takes the lock itself, which a signal cannot leave locked; see `wake_up`.
+        self._lock = lock
         self._condition = threading.Condition(lock)
         self._attached: dict[Queued, Entity] = {}
         self._woken = False
@@ -54,7 +56,7 @@ class QueueWaitSet(EventWatcher, WaitSet):
             entity.attach(self)
             return
         queue = _queue_of(entity)
-        with self._condition:
+        with self._lock:
             queue.watchers[self] = self.notify
             self._attached[queue] = entity
             self._condition.notify_all()
@@ -64,7 +66,7 @@ class QueueWaitSet(EventWatcher, WaitSet):
             entity.detach(self)
             return
         queue = _queue_of(entity)
-        with self._condition:
+        with self._lock:
             self._attached.pop(queue, None)
             queue.watchers.pop(self, None)
 
@@ -73,7 +75,7 @@ class QueueWaitSet(EventWatcher, WaitSet):
         self._condition.notify_all()
 
     def wait(self, timeout_ns: int | None = None) -> list[Entity]:
-        with self._condition:
+        with self._lock:
             self._condition.wait_for(
                 self._has_news, None if timeout_ns is None else timeout_ns / 1e9
             )
@@ -91,13 +93,13 @@ class QueueWaitSet(EventWatcher, WaitSet):
         )
 
     def wake(self) -> None:
-        with self._condition:
+        with self._lock:
             self._woken = True
             self._condition.notify_all()
 
     def close(self) -> None:
         self._on_closing(self)
-        with self._condition:
+        with self._lock:
             self._closed = True
             for queue in self._attached:
                 queue.watchers.pop(self, None)

@@ -1,0 +1,38 @@
+"""A wait of the main thread that a signal may interrupt at any moment."""
+
+from __future__ import annotations
+
+import threading
+from contextlib import suppress
+
+__all__ = ["WakeUp"]
+
+
+class WakeUp:
+    """Ends a wait of another thread; each wait clears it.
+
+    A signal raises ``KeyboardInterrupt`` in the main thread wherever that is. Within a method of
+    `threading.Event` or `threading.Condition`, which are written in Python, the exception may leave
+    their lock locked: the thread that calls ``set`` then blocks without end. The methods of a lock
+    are written in C, where no exception comes in between.
+    """
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._lock.acquire()
+
+    def set(self) -> None:
+        """End the current wait, or the next one at once."""
+        with suppress(RuntimeError):  # it is set already
+            self._lock.release()
+
+    def wait(self, timeout: float | None = None) -> bool:
+        """Block until it is set, and clear it.
+
+        Args:
+            timeout: Seconds; None for no limit.
+
+        Returns:
+            False if the time was over before.
+        """
+        return self._lock.acquire(timeout=-1 if timeout is None else max(timeout, 0.0))
