@@ -12,7 +12,7 @@ from turtlewire.bag.playback import PlayClock, ReadAhead
 from turtlewire.errors import BagError
 from turtlewire.tf.buffer import Buffer
 from turtlewire_view.bag_stamps import StampsOfLog
-from turtlewire_view.live import stamp_range_ns
+from turtlewire_view.live import MAX_FRAMES, frames_left_out, stamp_range_ns
 from turtlewire_view.source import ParameterAnswer, TimelineState, Topic
 
 if TYPE_CHECKING:
@@ -34,6 +34,7 @@ class BagSource:
 
     Args:
         path: A folder of rosbag2, or a file of one.
+        max_frames: How many frames are shown; the page says when there are more. None: no limit.
 
     Raises:
         FileNotFoundError: There is nothing at ``path``.
@@ -42,7 +43,9 @@ class BagSource:
 
     kind = "bag"
 
-    def __init__(self, path: str | os.PathLike[str]) -> None:
+    def __init__(
+        self, path: str | os.PathLike[str], *, max_frames: int | None = MAX_FRAMES
+    ) -> None:
         self._path = path
         with open_bag(path) as bag:
             self._start_ns, self._end_ns = bag.start_ns, bag.end_ns
@@ -53,7 +56,8 @@ class BagSource:
                 if is_cdr(info)
             ]
         self.name = os.path.basename(os.path.normpath(os.fspath(path)))
-        self.buffer = self._read_frames()
+        self.buffer = self._read_frames(max_frames)
+        self.problem = " ".join(filter(None, (self.problem, frames_left_out(self.buffer))))
         self._stamps = StampsOfLog(path) if self._has_other_stamps() else None
         self._changed: Callable[[], None] = _nothing
         self._news = threading.Condition()
@@ -171,11 +175,11 @@ class BagSource:
             self._news.notify_all()
         self._thread.join()
 
-    def _read_frames(self) -> Buffer:
+    def _read_frames(self, max_frames: int | None) -> Buffer:
         types = {topic.name: topic.type_name for topic in self._topics}
         if not {"/tf", "/tf_static"} & types.keys():
             return Buffer(None)
-        return Buffer.from_bag(self._path)
+        return Buffer.from_bag(self._path, max_frames=max_frames)
 
     def _has_other_stamps(self) -> bool:
         """Return True if the transforms lie outside the time in which the bag was recorded."""

@@ -24,13 +24,20 @@ if TYPE_CHECKING:
 
     from turtlewire.wire import base
 
-__all__ = ["LiveSource", "LiveTimeline", "newest_stamp_ns", "stamp_range_ns"]
+__all__ = [
+    "MAX_FRAMES",
+    "LiveSource",
+    "LiveTimeline",
+    "frames_left_out",
+    "newest_stamp_ns",
+    "stamp_range_ns",
+]
 
 #: How much history the page can go back to: longer than the ten seconds of tf2, for a lesson
 #: explains what happened before.
 _HISTORY_NS = 60 * 10**9
 #: Robots have some hundreds. With so many, the server takes a fifth of a core for each page.
-_MAX_FRAMES = 5_000
+MAX_FRAMES = 5_000
 #: Stamps below are of a simulation, and no system time [ns].
 _WALL_TIME_FROM_NS = 10**18
 _NODE_NAME = "turtlewire_view_{}"
@@ -58,7 +65,7 @@ class LiveSource:
         context: base.Context | None = None,
         *,
         history_ns: int = _HISTORY_NS,
-        max_frames: int | None = _MAX_FRAMES,
+        max_frames: int | None = MAX_FRAMES,
     ) -> None:
         self._own_context = wire.open_context() if context is None else None
         self._context = context or cast("base.Context", self._own_context)
@@ -80,12 +87,7 @@ class LiveSource:
     @property
     def problem(self) -> str:
         """Says that there are more frames than are shown; empty if all are."""
-        if not self.buffer.is_full:
-            return ""
-        return (
-            f"There are more than {self.buffer.max_frames} frames; further ones are not shown. "
-            "(turtlewire view --max-frames N)"
-        )
+        return frames_left_out(self.buffer)
 
     def now_ns(self) -> int:
         """System time; of a simulation, the newest stamp."""
@@ -287,6 +289,16 @@ def newest_stamp_ns(buffer: Buffer) -> int | None:
     """Return the newest stamp of a link that is not static."""
     found = stamp_range_ns(buffer)
     return None if found is None else found[1]
+
+
+def frames_left_out(buffer: Buffer) -> str:
+    """Return the sentence about a buffer with more frames than are shown; empty if all are."""
+    if not buffer.is_full:
+        return ""
+    return (
+        f"There are more than {buffer.max_frames} frames; further ones are not shown. "
+        "(turtlewire view --max-frames N)"
+    )
 
 
 def stamp_range_ns(buffer: Buffer) -> tuple[int, int] | None:

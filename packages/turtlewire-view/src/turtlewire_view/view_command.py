@@ -43,7 +43,7 @@ def add_view_command(commands: Any) -> None:
         "--max-frames",
         type=_frame_count,
         metavar="N",
-        help="Show at most this many frames of the network (default: 5000)",
+        help="Show at most this many frames (default: 5000)",
     )
     add_page_options(parser)
     parser.set_defaults(run=reporting_errors("view", _view), parser=parser)
@@ -87,17 +87,18 @@ def _view(args: argparse.Namespace) -> int:
 
 
 def _source(bag: str | None, max_frames: int | None) -> Source:
+    limit = {} if max_frames is None else {"max_frames": max_frames}
     if bag is None:
         from turtlewire_view.live import LiveSource
 
-        return LiveSource() if max_frames is None else LiveSource(max_frames=max_frames)
+        return LiveSource(**limit)
     if bag.endswith(".rviz"):
         from turtlewire_view.rviz_file import RvizFileError
 
         raise RvizFileError(f"{bag} is no bag. To show a file of RViz: -d {bag}")
     from turtlewire_view.bag_source import BagSource
 
-    source = BagSource(bag)
+    source = BagSource(bag, **limit)
     if source.problem:
         print(source.problem, flush=True)
     return source

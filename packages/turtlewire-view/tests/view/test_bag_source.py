@@ -52,6 +52,22 @@ def test_it_knows_its_topics_and_its_time(source):
     assert not state.live
 
 
+def test_it_shows_so_many_frames_and_says_that_there_are_more(tmp_path):
+    assert BagSource.__init__.__kwdefaults__["max_frames"] == 5_000
+    path = write_bag(tmp_path / "made")
+    whole = BagSource(path)
+    frames = len(whole.buffer.frame_strings())
+    whole.close()
+    for limit, problem in [
+        (frames, ""),
+        (frames - 1, f"There are more than {frames - 1} frames; further ones are not shown."),
+    ]:
+        source = BagSource(path, max_frames=limit)
+        assert len(source.buffer.frame_strings()) == limit
+        assert source.problem.partition(" (turtlewire view")[0] == problem
+        source.close()
+
+
 def test_messages_come_when_they_are_due(source):
     source.pause()
     source.seek(START)

@@ -58,6 +58,7 @@ class Buffer:
         start_ns: int = 0,
         end_ns: int = ...,
         cache_time_ns: int | None = None,
+        max_frames: int | None = None,
         progress: Callable[[float], None] | None = None,
     ) -> Self: ...
     @property

@@ -54,6 +54,7 @@ def from_bag(  # noqa: D417 - cls is the class
     start_ns: int = 0,
     end_ns: int = _FOREVER,
     cache_time_ns: int | None = None,
+    max_frames: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> AnyBuffer:
     """Return a buffer with all transforms of a bag; `bag_report` tells what was found.
@@ -65,6 +66,7 @@ def from_bag(  # noqa: D417 - cls is the class
         start_ns: When the first message to take was received.
         end_ns: When the last message to take was received.
         cache_time_ns: How much history the buffer keeps; None keeps all.
+        max_frames: How many frames the buffer takes; None: no limit.
         progress: Called with the share that was read, from 0 to 1; by default a line is drawn on a
             terminal when reading takes more than a second.
 
@@ -74,7 +76,7 @@ def from_bag(  # noqa: D417 - cls is the class
             missing or of another type.
         ValueError: The window ends before it begins.
     """
-    buffer = cls(cache_time_ns)
+    buffer = cls(cache_time_ns, max_frames)
     _REPORTS[buffer] = import_module("turtlewire.bag.transforms").fill_buffer(
         buffer,
         path,
