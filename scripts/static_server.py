@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import base64
-import hashlib
 import re
 from functools import partial
 from http import HTTPStatus
@@ -11,6 +9,7 @@ from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from turtlewire.web.files import headers, script_hash
 from turtlewire.web.origin import refusal
 
 if TYPE_CHECKING:
@@ -60,14 +59,15 @@ class StaticPages(SimpleHTTPRequestHandler):
             return None
         if file.suffix == ".html":
             scripts = _SCRIPT.findall(file.read_bytes())
-            self._scripts = "".join(_hash(text) for kind, text in scripts if b"src=" not in kind)
+            inline = [text for kind, text in scripts if b"src=" not in kind]
+            self._scripts = "".join(f" {script_hash(text)}" for text in inline)
         return super().send_head()
 
     def end_headers(self) -> None:
         """Add the policy of the page."""
-        self.send_header("Content-Security-Policy", _POLICY.format(scripts=self._scripts))
-        self.send_header("X-Content-Type-Options", "nosniff")
-        self.send_header("Referrer-Policy", "no-referrer")
+        policy = _POLICY.format(scripts=self._scripts)
+        for name, value in headers(policy, immutable=False).items():
+            self.send_header(name, value)
         self._scripts = ""
         super().end_headers()
 
@@ -80,7 +80,3 @@ def static_server(folder: Path, port: int) -> ThreadingHTTPServer:
     """
     handler = partial(StaticPages, directory=folder)
     return ThreadingHTTPServer(("127.0.0.1", port), handler)
-
-
-def _hash(script: bytes) -> str:
-    return f" 'sha256-{base64.b64encode(hashlib.sha256(script).digest()).decode()}'"

@@ -45,8 +45,8 @@ class Buffer(BufferCore, BufferInterface):
         cache_time: How long samples are kept; the default is 10 s.
         node: The node that offers the service ``tf2_frames`` (``tf2_msgs/srv/FrameGraph``), and
             whose clock counts.
-        max_frames: How many frames it takes; transforms of further ones are refused, with one
-            warning. None: no limit. Not in ROS 2.
+        max_frames: How many frames it takes; transforms of further ones are refused, with a
+            warning at most once a minute. None: no limit. Not in ROS 2.
     """
 
     def __init__(

@@ -28,10 +28,19 @@ bool Intake::store(std::uint64_t publisher, std::span<const unsigned char> bytes
   for (SharedBuffer* buffer : buffers_) {
     const Added added = buffer->add(message_.transforms(), *name, is_static_);
     news_ = news_ || (added.accepted > 0 && added.listened_to);
-    if (added.is_full) expected_came_ = !std::exchange(full_, true) || expected_came_;
+    if (added.lacks_room) expected_came_ = may_tell_of_room() || expected_came_;
   }
   ++stored_;
   expected_came_ = std::exchange(expecting_, false) || expected_came_;
+  return true;
+}
+
+// Call with the lock held. Whether to tell that a frame was refused: a flood of them must not keep
+// the reader thread busy.
+bool Intake::may_tell_of_room() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_told_of_room_) return false;
+  next_told_of_room_ = now + kRoomPeriod;
   return true;
 }
 

@@ -2,6 +2,7 @@
 // than that.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -59,10 +60,12 @@ class Intake final : public ForkAware {
   std::uint64_t stored();
   // The next message that is stored wakes the reader thread.
   void expect();
-  // Whether an expected message came since the last time, or the first that filled a buffer.
+  // Whether an expected message came since the last time, or one with a frame for which a buffer had
+  // no room; of the latter it is told once in kRoomPeriod.
   bool take_expected();
 
  private:
+  static constexpr std::chrono::seconds kRoomPeriod{1};
   static constexpr std::size_t kMostPublishers =
       1000;  // they come and go; beyond it, all are introduced anew
   struct Publisher {
@@ -71,6 +74,7 @@ class Intake final : public ForkAware {
 
   const std::string* name_of(std::uint64_t publisher) const;
   bool store(std::uint64_t publisher, std::span<const unsigned char> bytes);
+  bool may_tell_of_room();
 
   const bool is_static_;
   const std::size_t most_kept_;
@@ -86,7 +90,7 @@ class Intake final : public ForkAware {
   std::uint64_t stored_ = 0;  // messages, without those that were kept back for good
   bool expecting_ = false;    // the next message is expected
   bool expected_came_ = false;
-  bool full_ = false;  // a buffer is; that counts as an expected message once
+  std::chrono::steady_clock::time_point next_told_of_room_{};
   const ForkRegistration registration_{*this, Order::outer};
 };
 

@@ -49,7 +49,7 @@ struct Found {
 struct Added {
   long accepted = 0;         // so many transforms
   bool listened_to = false;  // somebody is to be told of it
-  bool is_full = false;      // see Tree
+  bool lacks_room = false;   // a frame was refused because of max_frames
 };
 
 // Each method takes the lock for itself; Access is for several steps at once.

@@ -13,10 +13,8 @@ import weakref
 import pytest
 
 from turtlewire import Buffer, errors, msg, wire
-from turtlewire.tf import inspection
-from turtlewire.tf import listener as listener_module
+from turtlewire.tf import full_buffers, inspection
 from turtlewire.tf.listener import QOS, STATIC_QOS, TYPE_NAME, TransformListener
-from turtlewire.wire import report
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import QoS
 
@@ -220,31 +218,81 @@ def test_malformed_bytes_are_reported_once_and_the_rest_goes_on(domain, capfd):
     assert inspection.malformed(buffer).last.startswith("4294967295 transforms are announced")
 
 
-@pytest.mark.parametrize("static", [False, True])
-def test_a_buffer_that_is_full_is_warned_of_once(domain, capfd, monkeypatch, static):
-    topic = f"/full_{static}_{type(domain.sender).__name__}"
-    publisher = domain.talker.create_publisher(topic, TYPE, QOS)
-    warned = threading.Event()
+class Warnings:
+    """Waits for warnings that name a topic."""
 
-    def warn_once(key, text):
-        report.warn_once(key, text)
-        if topic in text:
-            warned.set()
+    def __init__(self, topic, monkeypatch):
+        self._topic = topic
+        self._news = threading.Condition()
+        self.count = 0
+        monkeypatch.setattr(full_buffers, "warn", self._warn)
 
-    monkeypatch.setattr(listener_module, "warn_once", warn_once)
-    buffer = Buffer(max_frames=2)
-    topics = {"topic": None, "static_topic": topic} if static else {"topic": topic}
+    def _warn(self, text):
+        assert text.startswith(f"a buffer that {self._topic} fills has max_frames=2 frames")
+        with self._news:
+            self.count += 1
+            self._news.notify_all()
+
+    def wait_for(self, count, timeout=60):
+        with self._news:
+            return self._news.wait_for(lambda: self.count == count, timeout)
+
+
+def take_another(buffer, publisher):
+    """Publish another pose of a frame, and wait until the full buffer has it."""
+    changed = threading.Event()
+    remove = buffer.add_change_listener(changed.set)
+    publisher.publish(tf_bytes("world", "robot", x=9.0, stamp_s=9))
+    while buffer.lookup_transform("world", "robot", 0, LONG_NS).x != 9.0:
+        assert changed.wait(60)
+        changed.clear()
+    remove()
+
+
+@pytest.fixture
+def filled(domain, monkeypatch, request):
+    """A full buffer, the publishers that filled it and refilled it, and the warnings."""
+    topic = f"/full_{request.param}_{type(domain.sender).__name__}"
+    publishers = [
+        domain.sender.create_node(name).create_publisher(topic, TYPE, QOS)
+        for name in ("first", "second")
+    ]
+    warnings, buffer = Warnings(topic, monkeypatch), Buffer(max_frames=2)
+    topics = {"topic": topic} if request.param == "tf" else {"topic": None, "static_topic": topic}
     with TransformListener(buffer, domain.node, context=domain.receiver, static_qos=QOS, **topics):
-        domain.wait_for_subscriptions(publisher)
-        for number in range(5):
-            publisher.publish(tf_bytes("world", "robot", stamp_s=number + 1))
-            publisher.publish(tf_bytes("world", f"invented{number}"))
-        assert warned.wait(60)
-        publisher.publish(tf_bytes("world", "robot", x=9.0, stamp_s=9))
-        buffer.lookup_transform("world", "robot", 0 if static else 9 * 10**9, LONG_NS)
+        for publisher in publishers:
+            domain.wait_for_subscriptions(publisher)
+        yield buffer, publishers, warnings
+
+
+@pytest.mark.parametrize("filled", ["tf", "static"], indirect=True)
+def test_a_full_buffer_is_warned_of_once_in_a_while(filled):
+    buffer, (publisher, _), warnings = filled
+    for number in range(5):
+        publisher.publish(tf_bytes("world", "robot", stamp_s=number + 1))
+        publisher.publish(tf_bytes("world", f"invented{number}"))
+    assert warnings.wait_for(1)
+    take_another(buffer, publisher)
     assert buffer.frame_strings() == ["robot", "world"]
-    errors_shown = capfd.readouterr().err
-    assert errors_shown.count(f"a buffer that {topic} fills has max_frames=2 frames") == 1
+    assert warnings.count == 1
+
+
+@pytest.mark.parametrize("filled", ["tf", "static"], indirect=True)
+def test_a_full_buffer_is_warned_of_again_if_it_refuses_more(filled, monkeypatch):
+    monkeypatch.setattr(full_buffers, "_PERIOD_S", 0.0)
+    buffer, publishers, warnings = filled
+    for number in range(4):  # each publisher, a second time as well
+        publisher = publishers[number % 2]
+        publisher.publish(tf_bytes("world", "robot", stamp_s=number + 1))
+        attempts = 0
+        while not warnings.wait_for(number + 1, 0.1):
+            publisher.publish(tf_bytes("world", "invented", stamp_s=attempts))
+            attempts += 1
+            assert attempts < 600
+        assert buffer.is_full
+    # what it takes is no reason for a warning, although it is full
+    take_another(buffer, publishers[0])
+    assert warnings.count == 4
 
 
 def test_the_buffer_knows_who_publishes(domain):

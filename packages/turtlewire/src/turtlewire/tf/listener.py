@@ -19,6 +19,7 @@ from weakref import WeakKeyDictionary
 from turtlewire import msg, wire
 from turtlewire.errors import CdrError, WireError
 from turtlewire.tf.buffer import CORE, Buffer
+from turtlewire.tf.full_buffers import FullBuffers
 from turtlewire.tf.publisher_names import PublisherNames
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import Durability, History, QoS
@@ -129,7 +130,9 @@ class _Feed:
         *,
         static: bool,
         arrivals: _Arrivals,
+        full_buffers: FullBuffers,
     ) -> None:
+        self._full_buffers = full_buffers
         self._topic = topic
         self._static = static
         self._arrivals = arrivals
@@ -160,9 +163,9 @@ class _Feed:
         return Intake(self._static, _most_kept(qos), self._identify, self._tell)
 
     def _tell(self) -> None:
-        """Tell of an expected message, or of the first one that did not fit into a buffer."""
+        """Tell of an expected message, or of one that did not fit into a buffer."""
         for member in self._members:
-            self._warn_if_full(member.store)
+            self._full_buffers.look(member.store)
         self._arrivals.tell()
 
     def _identify(self, publisher: int, gid_of: Callable[[int], bytes]) -> tuple[bytes, str]:
@@ -173,20 +176,11 @@ class _Feed:
     def _store(self, store: Store, cdr: bytes, publisher: str) -> None:
         try:
             store.ingest(cdr, static=self._static, authority=publisher)
-            self._warn_if_full(store)
+            self._full_buffers.look(store)
         except CdrError as error:  # the store has counted it
             warn_once(
                 f"malformed {self._topic}",
                 f"a message on {self._topic} was lost: {error} (publisher: {publisher})",
-            )
-
-    def _warn_if_full(self, store: Store) -> None:
-        """Say once that a buffer takes no more frames."""
-        if isinstance(store, Buffer) and store.is_full:
-            warn_once(
-                f"full {self._topic}",
-                f"a buffer that {self._topic} fills has max_frames={store.max_frames} frames and "
-                f"ignores further ones; `ros2 topic info -v {self._topic}` shows who publishes",
             )
 
     def _rename(self, gid: str, name: str) -> None:
@@ -218,6 +212,7 @@ class _Channel:
         self._latched = qos.durability == Durability.TRANSIENT_LOCAL
         self._lock = threading.Lock()
         self._arrivals = _Arrivals()
+        self._full_buffers = FullBuffers(topic)
         self._feed: _Feed | None = None
         self._subscription: base.Subscription | None = None
 
@@ -270,7 +265,12 @@ class _Channel:
         if former is not None and self._latched:
             former.close()
         self._feed = _Feed(
-            members, self._topic, self._qos, static=self._static, arrivals=self._arrivals
+            members,
+            self._topic,
+            self._qos,
+            static=self._static,
+            arrivals=self._arrivals,
+            full_buffers=self._full_buffers,
         )
         type_id = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
         self._subscription = members[0].node.create_subscription(

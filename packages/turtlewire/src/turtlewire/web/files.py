@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
-__all__ = ["Content", "File", "find_files", "headers", "policy"]
+__all__ = ["Content", "File", "find_files", "headers", "policy", "script_hash"]
 
 #: Suffix to media type. A page consists of nothing else.
 _MEDIA_TYPES = {
@@ -87,13 +87,13 @@ def policy(files: Mapping[str, File], sources: Mapping[str, str]) -> str:
         if path.endswith(".html")
         for text in _IMPORT_MAP.findall(file.path.read_bytes())
     ]
-    for directive, more in [("script-src", _hash(text)) for text in maps] + [*sources.items()]:
+    for directive, more in [("script-src", script_hash(text)) for text in maps] + [*sources.items()]:
         given = allowed.get(directive, "'none'")
         allowed[directive] = more if given == "'none'" else f"{given} {more}"
     return "; ".join(f"{directive} {value}" for directive, value in allowed.items())
 
 
-def _hash(script: bytes) -> str:
+def script_hash(script: bytes) -> str:
     """Return the source expression that allows a script by its text."""
     import base64
     import hashlib
