@@ -42,7 +42,6 @@ ONLY_CYCLONE = "*"
 
 _FAST_DDS = b"\x01\x0f"
 _MIDDLEWARES = {
-    b"\x00\x00": "an unknown middleware (it has left already)",
     b"\x01\x01": "Connext DDS (rmw_connextdds)",
     _FAST_DDS: "Fast DDS (rmw_fastrtps_cpp)",
     b"\x01\x12": "RustDDS",

@@ -26,6 +26,7 @@ from . import library as dds
 from .endpoint import matched_handles
 from .ports import is_cyclone
 from .servers import Servers, foreign_among, foreign_middleware, matched_endpoints
+from .subscription import is_identified
 
 if TYPE_CHECKING:
     from turtlewire.wire.base import RequestId
@@ -118,7 +119,9 @@ class CycloneService(TopicService):
         requests = []
         for payload, info in self.requests.take(limit):
             split = split_header(payload)
-            if not is_cyclone(info.publisher_gid):
+            if not is_identified(info.publisher_gid):
+                self._warn_unidentified()
+            elif not is_cyclone(info.publisher_gid):
                 self._warn_foreign(info.publisher_gid)
             elif split is None:
                 self.warn_short("request")
@@ -126,6 +129,14 @@ class CycloneService(TopicService):
                 self._remember(split[0].client_id, info.publisher_gid)
                 requests.append(split)
         return requests
+
+    def _warn_unidentified(self) -> None:
+        """Say that a request may have another layout; nobody waits for its response."""
+        warn_once(
+            f"{self.service} request unidentified",
+            f"dropped a request of service {self.service}: its client has left, before it was "
+            "known on which middleware it runs",
+        )
 
     def _warn_foreign(self, client: bytes) -> None:
         """Say that a request had another layout: ours would be read out of 16 wrong bytes."""

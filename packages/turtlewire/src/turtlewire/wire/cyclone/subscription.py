@@ -33,10 +33,18 @@ if TYPE_CHECKING:
 
     from .participant import Participant
 
-__all__ = ["CycloneSubscription", "deliver_rest_to", "deliver_to"]
+__all__ = ["CycloneSubscription", "deliver_rest_to", "deliver_to", "is_identified"]
 
 _BATCH = 32
 _EVERYTHING = 1_000_000
+#: How the stand-in begins for the gid of a publisher that left before it was asked for it; the
+#: number follows by which Cyclone knew it. A gid begins with the number of a vendor.
+_NO_GID = bytes(8)
+
+
+def is_identified(gid: bytes) -> bool:
+    """Return False if the publisher of a message left before its gid was known."""
+    return not gid.startswith(_NO_GID)
 
 
 class CycloneSubscription(Endpoint, Subscription):
@@ -173,7 +181,7 @@ class CycloneSubscription(Endpoint, Subscription):
     def _gid_of(self, publisher: int) -> bytes:
         endpoint = dds.matched_publication_data(self.handle, publisher)
         if not endpoint:  # it has gone already
-            return publisher.to_bytes(16, "big")
+            return publisher.to_bytes(len(_NO_GID) + 8, "big")
         try:
             gid = bytes(endpoint.contents.key)
             user_data = read_user_data(endpoint.contents.qos)
