@@ -18,11 +18,11 @@ import tomllib
 OWN = {"turtlewire", "turtlewire-ros", "turtlewire-class", "learning-tf2-py"}
 
 
-def locked(name):
+def locked(name, folder="scripts/locks"):
     """The releases in a file: name and versions; each has a hash."""
-    text = (SCRIPTS / "locks" / f"{name}.txt").read_text(encoding="utf-8")
+    text = (ROOT / folder / f"{name}.txt").read_text(encoding="utf-8")
     assert "://" not in text
-    assert "index" not in text
+    assert "index-url" not in text
     releases = {}
     for entry in re.split(r"\n(?! )", text.strip()):
         first, *hashes = entry.replace("\\\n", "\n").split("\n")
@@ -77,3 +77,33 @@ def test_each_distribution_ships_the_licence():
     licence = (ROOT / "LICENSE").read_text(encoding="utf-8")
     for path in ROOT.glob("packages/*/pyproject.toml"):
         assert (path.parent / "LICENSE").read_text(encoding="utf-8") == licence
+
+
+@pytest.mark.parametrize("distro", ["jazzy", "kilted"])
+def test_real_nodes(distro):
+    releases = locked(distro, "tests/peers")
+    for package in ("rclpy", "rmw-fastrtps-cpp", "common-interfaces", "test-msgs"):
+        assert len(releases[f"ros-{distro}-{package}"]) == 1
+    script = (ROOT / "scripts" / "peers").read_text(encoding="utf-8")
+    assert "--no-deps --require-hashes" in script
+
+
+def test_actions_are_pinned_by_commit():
+    files = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
+    used = [
+        line
+        for file in files
+        for line in file.read_text(encoding="utf-8").splitlines()
+        if re.match(r"\s*(- )?uses:", line)
+    ]
+    assert len(used) > len(files) == 3
+    for line in used:
+        assert re.fullmatch(r"\s*(- )?uses: [\w/-]+@[0-9a-f]{40} # v\d+\.\d+\.\d+", line), line
+
+
+def test_ci_installs_what_is_locked():
+    text = (ROOT / ".github" / "workflows" / "check.yml").read_text(encoding="utf-8")
+    installs = re.findall(r"pip install (?:.|\n(?! *- | *\w+:))*", text)
+    assert installs
+    for words in installs:
+        assert "--require-hashes" in words or "--no-deps --no-build-isolation" in words, words
