@@ -21,16 +21,20 @@ from turtlewire.tf import inspection
 
 PAGE = ROOT / "SECURITY.md"
 
-# Beginning of a point, and below it its tests.
+# Beginning of a sentence, and below it its tests, or the function that makes it true.
 TESTED = """
 Nodes look for others on this computer only
   wire/test_environment.py test_the_range_is_localhost_unless_said_otherwise
   wire/test_two_hosts.py test_nobody_from_outside_gets_in_by_default
+  wire/test_two_hosts.py test_datagrams_from_outside_reach_no_socket_by_default
+  wire/test_two_hosts.py test_zenoh_follows_no_call_from_outside_by_default
   wire/test_two_hosts.py test_static_peers_find_the_other_host_without_multicast
 The web servers of turtlesim, the 3D view and the class listen on loopback only
   web/test_lan.py test_without_the_option_only_loopback_is_bound_and_no_token_needed
-  web/test_lan.py test_every_route_demands_the_token test_with_it_every_address_answers_to_the_token
   web/test_server.py test_foreign_names_and_pages_are_refused
+With `--lan` they serve the network
+  web/test_lan.py test_every_route_demands_the_token test_with_it_every_address_answers_to_the_token
+  web/test_lan.py test_two_runs_have_two_tokens
 The Foxglove server listens on loopback only
   foxglove/test_hostile.py test_a_foreign_name_is_refused_with_one_line
   foxglove/test_hostile.py test_other_pages_are_refused_with_one_line
@@ -40,7 +44,9 @@ The Foxglove server listens on loopback only
   site/test_static_server.py test_nothing_outside_the_folder_is_served test_folders_are_not_listed
 Bytes from the wire are checked
   wire/test_bad_input.py test_a_malformed_message_is_named_once_and_the_next_good_one_arrives
+Names and texts of other processes are escaped
   test_printable.py test_no_character_leaves_a_control_behind
+  ros2cli/test_output.py test_every_verb_is_escaped test_messages_on_stderr_are_escaped
 Parameter files, bags, saved buffers, URDF and `.rviz` files are data
   test_security.py test_no_python_objects_come_out_of_yaml
   test_security.py test_a_buffer_of_pickled_objects_is_refused
@@ -50,48 +56,68 @@ The code of a student who is graded reaches neither the checks nor their results
   turtle_class/test_forging.py test_an_attack_gives_no_points
   turtle_class/test_forging.py test_the_processes_of_the_graders_are_closed
 DDS traffic is neither encrypted nor authenticated
+  wire/test_two_hosts.py test_subnet_range_finds_the_other_host
+  wire/test_two_hosts.py test_the_sockets_of_wider_ranges_hear_all_interfaces
+On macOS and Windows, and on Linux before 5.7 without root
+  wire/test_loopback.py test_a_kernel_that_refuses_is_warned_of
+  ../src/turtlewire/wire/loopback.py bind_to_loopback
+Otherwise use a network that you trust, a VPN, or [Zenoh with TLS]
   wire/zenoh/test_security.py test_the_commands_of_each_section_work
   wire/zenoh/test_security.py test_a_peer_without_a_certificate_sees_nothing
   wire/zenoh/test_security.py test_no_user_and_password
   wire/zenoh/test_security.py test_the_student_hears_and_does_not_speak
 SROS 2 is not supported
+  wire/test_security.py test_no_program_starts_in_the_clear
+With `ROS_SECURITY_ENABLE=true` turtlewire warns
   wire/test_security.py test_permissive_security_is_warned_of_once
   wire/test_security.py test_no_program_starts_in_the_clear
 A page that `--lan` opens is not encrypted
   web/test_lan.py test_with_it_every_address_answers_to_the_token
+The Foxglove server with another `--address` has no token
+  foxglove/test_hostile.py test_all_names_are_served_to_the_network_and_to_all_pages
   foxglove/test_command.py test_an_address_for_others_is_said_plainly
 Launch files are programs
+  test_security.py test_launching_a_file_runs_its_code
+`ros2 launch --show-args` and `--print` run the code of Python files only
   ros2cli/test_launch_command.py test_arguments_are_shown_without_running_code
-  test_security.py test_launching_a_file_runs_its_substitutions
+  test_security.py test_showing_the_arguments_of_a_python_file_runs_it
+Xacro files evaluate expressions
+  robots/test_urdf_tutorial.py test_xacro_finds_the_packages_of_the_workspace
 Grading is no sandbox
   test_security.py test_grading_runs_as_this_user
 """
+# Advice, which nothing can test.
+ADVICE = ("Run and open only those that you trust", "See [what remains]")
 
 
-def points() -> list[str]:
-    """The points of the page, each in one line."""
+def sentences() -> list[str]:
+    """The sentences of the page, each in one line."""
     text = PAGE.read_text(encoding="utf-8").partition("## Supported")[0]
-    return [" ".join(point.split()) for point in re.split(r"^- ", text, flags=re.MULTILINE)[1:]]
+    points = re.split(r"^- |^#.*$", text, flags=re.MULTILINE)
+    lines = [" ".join(point.split()) for point in points]
+    split = [sentence for line in lines for sentence in re.split(r"(?<=\.) (?=[A-Z`])", line)]
+    return [sentence for sentence in split if sentence and not sentence.startswith(ADVICE)]
 
 
 def table() -> dict[str, list[tuple[str, str]]]:
-    """The tests of each point."""
+    """The tests of each sentence."""
     found: dict[str, list[tuple[str, str]]] = {}
-    point = ""
+    sentence = ""
     for line in TESTED.strip().splitlines():
         if line.startswith("  "):
             file, *names = line.split()
-            found[point] += [(file, name) for name in names]
+            found[sentence] += [(file, name) for name in names]
         else:
-            point = line
-            found[point] = []
+            sentence = line
+            found[sentence] = []
     return found
 
 
-def test_every_point_has_its_tests():
-    for point in points():
-        assert sum(point.startswith(beginning) for beginning in table()) == 1, point
-    assert len(points()) == len(table())
+def test_every_sentence_has_its_tests():
+    for sentence in sentences():
+        assert sum(sentence.startswith(beginning) for beginning in table()) == 1, sentence
+    assert len(sentences()) == len(table())
+    assert all(table().values())
 
 
 @pytest.mark.parametrize(
@@ -144,6 +170,12 @@ def test_a_buffer_of_pickled_objects_is_refused(ran, tmp_path):
 
 
 TOUCH = "__import__('pathlib').Path('ran').touch()"
+PYTHON = f"""
+from launch import LaunchDescription
+def generate_launch_description():
+    {TOUCH}
+    return LaunchDescription()
+"""
 
 
 @pytest.mark.parametrize(
@@ -173,18 +205,36 @@ def test_a_definition_in_a_bag_cannot_hold_code(ran, request, text, is_refused):
     assert not ran.exists()
 
 
-def test_launching_a_file_runs_its_substitutions(ran, tmp_path):
+@pytest.mark.parametrize(
+    "content",
+    [
+        "<let name='a' value=\"$(command 'touch ran')\"/>",
+        f'<let name="a" value="$(eval &quot;{TOUCH}&quot;)"/>',
+        '<include file="$(dirname)/b.launch.py"/>',
+    ],
+)
+def test_launching_a_file_runs_its_code(ran, tmp_path, content):
     from launch import LaunchService
     from launch.actions import IncludeLaunchDescription
     from launch.launch_description_sources import AnyLaunchDescriptionSource
 
     file = tmp_path / "a.launch.xml"
-    file.write_text("<launch><let name='a' value=\"$(command 'touch ran')\"/></launch>")
+    file.write_text(f"<launch>{content}</launch>")
+    (tmp_path / "b.launch.py").write_text(PYTHON)
     service = LaunchService(noninteractive=True)
     service.include_launch_description(
         IncludeLaunchDescription(AnyLaunchDescriptionSource(str(file)))
     )
     assert service.run() == 0
+    assert ran.exists()
+
+
+@pytest.mark.parametrize("option", ["--show-args", "--print"])
+def test_showing_the_arguments_of_a_python_file_runs_it(ran, tmp_path, option):
+    from ros2cli.main import main
+
+    (tmp_path / "b.launch.py").write_text(PYTHON)
+    assert main(["launch", "b.launch.py", option]) == 0
     assert ran.exists()
 
 

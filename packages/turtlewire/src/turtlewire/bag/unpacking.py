@@ -52,7 +52,7 @@ def _check_room(folder: str, path: str, least_free: int) -> None:
     if shutil.disk_usage(folder).free < least_free:
         raise BagError(
             f"{path}: its decompressed copy in {folder} would leave less than {least_free:,} bytes "
-            "of the disk free; what fitted is read"
+            "of the disk free; only the part before that is read"
         ).with_hint("TMPDIR names a folder with more room.")
 
 
