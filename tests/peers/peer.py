@@ -10,6 +10,7 @@ import sys
 import rclpy
 import rclpy.executors
 from geometry_msgs.msg import TransformStamped
+from lifecycle_msgs.srv import GetState
 from rclpy.action import ActionServer
 from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
@@ -36,6 +37,7 @@ class Peer(Node):
         self.listen(Image, "image", self.look, 10)
         self.listen(Image, "camera", self.look, qos_profile_sensor_data)
         self.create_service(BasicTypes, "echo", self.echo)
+        self.create_service(GetState, "~/get_state", lambda _, response: response)
         self.action = ActionServer(self, Fibonacci, "fibonacci", self.count)
 
     def listen(self, message_class, topic, callback, qos):

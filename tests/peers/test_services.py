@@ -36,6 +36,8 @@ COMMANDS = [
     (["param", "describe", "/peer", "speed"], "/peer/describe_parameters"),
     (["param", "delete", "/peer", "speed"], "/peer/set_parameters"),
     (["param", "dump", "/peer"], LIST),
+    (["lifecycle", "get"], "/peer/get_state"),
+    (["lifecycle", "get", "/peer"], "/peer/get_state"),
     (["service", "call", "/echo", "test_msgs/srv/BasicTypes"], "/echo"),
     (
         ["action", "send_goal", "/fibonacci", "test_msgs/action/Fibonacci", "{order: 3}"],

@@ -68,6 +68,13 @@ def test_topic_info_shows_no_history_that_was_not_announced(peer, command):
     assert "  History (Depth): UNKNOWN\n" in text
 
 
+def test_a_node_that_publishes_its_statistics_is_no_trouble(start_peer, command):
+    start_peer(FASTDDS_STATISTICS="NETWORK_LATENCY_TOPIC;RTPS_SENT_TOPIC;DISCOVERY_TOPIC")
+    status, text = command("ros2", "topic", "echo", "--once", "/chatter", "std_msgs/msg/String")
+    assert status == 0
+    assert text == "data: from Fast DDS\n---"
+
+
 def publish_images(context, peer, topic, qos, size):
     name = "sensor_msgs/msg/Image"
     publisher = matched_publisher(context, peer, topic, name, qos)
