@@ -8,6 +8,7 @@ module               what it holds
 `console_keyboard`   keys of the console of Windows
 `demo`               ``python -m turtlewire.demo``: one turtle follows another
 `errors`             every error that turtlewire raises on purpose
+`geometry`           quaternions, poses and matrices as numbers
 `keyboard`           keys, as teleop and ``ros2 bag`` read them
 `msg`                interface definitions, message classes, CDR and type hashes
 `platforms`          what this platform can do, and which core is asked for

@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 
 from turtlewire.trajectory import (
     Trajectory,
-    quaternions,
     read_csv,
     read_euroc,
     read_kitti,
@@ -172,30 +171,6 @@ def test_stamps():
         Trajectory([2, 2], poses)
     with pytest.raises(ValueError, match=r"expected poses of shape \(3, 7\)"):
         Trajectory([1, 2, 3], poses)
-
-
-def test_quaternions_agree_with_scipy():
-    from scipy.spatial.transform import Rotation
-
-    a, b = (Rotation.random(200, rng=seed) for seed in (1, 2))
-    qa, qb = a.as_quat(), b.as_quat()
-    product = quaternions.multiply(qa, qb)
-    assert np.abs(np.sum(product * (a * b).as_quat(), axis=1)) == pytest.approx(1)
-    vectors = np.random.default_rng(3).normal(size=(200, 3))
-    assert quaternions.rotate(qa, vectors) == pytest.approx(a.apply(vectors))
-    assert quaternions.matrices(qa) == pytest.approx(a.as_matrix())
-    assert quaternions.angle(qa) == pytest.approx(a.magnitude())
-    assert quaternions.euler(qa) == pytest.approx(a.as_euler("xyz"))
-    back = quaternions.from_matrices(a.as_matrix())
-    assert np.abs(np.sum(back * qa, axis=1)) == pytest.approx(1)
-    assert np.all(back[:, 3] >= 0)
-
-
-def test_half_turns_about_each_axis():
-    for axis in range(3):
-        q = np.zeros((1, 4))
-        q[0, axis] = 1
-        assert np.abs(quaternions.from_matrices(quaternions.matrices(q))) == pytest.approx(q)
 
 
 @pytest.mark.parametrize("kind", ["tum", "kitti", "euroc", "csv"])

@@ -81,9 +81,9 @@ def test_umeyama(pair, with_scale):
     reference, estimate = pair
     r, t, c = umeyama_alignment(estimate.positions.T, reference.positions.T, with_scale)
     found = align(reference, estimate, "sim3" if with_scale else "se3")
-    from turtlewire.trajectory import quaternions
+    from turtlewire.geometry import arrays
 
-    assert quaternions.matrices(found.rotation) == pytest.approx(r, abs=1e-9)
+    assert arrays.matrices(found.rotation) == pytest.approx(r, abs=1e-9)
     assert found.translation == pytest.approx(t, abs=1e-8)
     assert found.scale == pytest.approx(c)
 
@@ -95,9 +95,9 @@ def test_a_reflection_is_no_rotation():
     stamps = np.arange(20)
     found = align(Trajectory(stamps, points), Trajectory(stamps, mirrored), "se3")
     r, _, _ = umeyama_alignment(mirrored[:, :3].T, points[:, :3].T, False)
-    from turtlewire.trajectory import quaternions
+    from turtlewire.geometry import arrays
 
-    assert quaternions.matrices(found.rotation) == pytest.approx(r, abs=1e-9)
+    assert arrays.matrices(found.rotation) == pytest.approx(r, abs=1e-9)
 
 
 @pytest.mark.parametrize("how", ["se3", "sim3", "yaw", "origin"])
@@ -128,9 +128,9 @@ def test_no_better_yaw_exists(pair):
         turn = np.array((0.0, 0.0, np.sin(small), np.cos(small)))
         aligned = compare(reference, estimate, "yaw", max_diff_ns=10**9).estimate
         centre = aligned.positions.mean(axis=0)
-        from turtlewire.trajectory import quaternions
+        from turtlewire.geometry import arrays
 
-        around = Alignment(turn, centre - quaternions.rotate(turn, centre), 1.0)
+        around = Alignment(turn, centre - arrays.rotate(turn, centre), 1.0)
         assert ape(reference, around.apply(aligned)).statistics.sse > best
 
 

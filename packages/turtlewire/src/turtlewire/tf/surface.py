@@ -10,7 +10,7 @@ import weakref
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.tf.plain.pose import canonical, compose, interpolate
+from turtlewire.geometry.poses import canonical, compose, interpolate
 
 if TYPE_CHECKING:
     import os
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from turtlewire._native import Buffer, Transform
-    from turtlewire.tf.plain.pose import Pose
+    from turtlewire.geometry.poses import Pose
 
     AnyBuffer = TypeVar("AnyBuffer", bound=Buffer)
 

@@ -19,7 +19,6 @@ module         what it holds
 `comparison`   `compare`: association, alignment and errors in one call
 `alignment`    nearest stamps; Umeyama's and others' alignment
 `metrics`      APE, RPE and their statistics
-`quaternions`  quaternion algebra over arrays
 `plots`        paths, positions, angles and speeds as pictures
 `error_plots`  errors as pictures
 `chart`        axes, lines and boxes as SVG

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from turtlewire.trajectory import quaternions
+from turtlewire.geometry import arrays
 from turtlewire.trajectory.trajectory import Trajectory
 
 if TYPE_CHECKING:
@@ -38,9 +38,9 @@ class Alignment(NamedTuple):
     def apply(self, trajectory: Trajectory) -> Trajectory:
         """Return the trajectory with this transform applied."""
         positions = (
-            self.scale * quaternions.rotate(self.rotation, trajectory.positions) + self.translation
+            self.scale * arrays.rotate(self.rotation, trajectory.positions) + self.translation
         )
-        rotations = quaternions.multiply(self.rotation, trajectory.rotations)
+        rotations = arrays.multiply(self.rotation, trajectory.rotations)
         return Trajectory(
             trajectory.stamps_ns,
             np.hstack((positions, rotations)),
@@ -124,10 +124,10 @@ def align(reference: Trajectory, estimate: Trajectory, how: str) -> Alignment:
     if how == "none":
         return Alignment(np.array((0.0, 0.0, 0.0, 1.0)), np.zeros(3), 1.0)
     if how == "origin":
-        rotation = quaternions.multiply(
-            reference.rotations[0], quaternions.conjugate(estimate.rotations[0])
+        rotation = arrays.multiply(
+            reference.rotations[0], arrays.conjugate(estimate.rotations[0])
         )
-        moved = quaternions.rotate(rotation, estimate.positions[0])
+        moved = arrays.rotate(rotation, estimate.positions[0])
         return Alignment(rotation, reference.positions[0] - moved, 1.0)
     if how == "yaw":
         return _align_yaw(estimate.positions, reference.positions)
@@ -143,7 +143,7 @@ def _align_yaw(x: NDArray[np.float64], y: NDArray[np.float64]) -> Alignment:
     cosine = float(np.sum(a[:, 0] * b[:, 0] + a[:, 1] * b[:, 1]))
     yaw = np.arctan2(sine, cosine)
     rotation = np.array((0.0, 0.0, np.sin(yaw / 2), np.cos(yaw / 2)))
-    return Alignment(rotation, mean_y - quaternions.rotate(rotation, mean_x), 1.0)
+    return Alignment(rotation, mean_y - arrays.rotate(rotation, mean_x), 1.0)
 
 
 def _umeyama(x: NDArray[np.float64], y: NDArray[np.float64], *, with_scale: bool) -> Alignment:
@@ -157,6 +157,6 @@ def _umeyama(x: NDArray[np.float64], y: NDArray[np.float64], *, with_scale: bool
             "line or in one place; 'none', 'origin' and 'yaw' align them"
         )
     signs = np.array((1.0, 1.0, np.sign(np.linalg.det(u) * np.linalg.det(vt))))
-    rotation = quaternions.from_matrices(u @ np.diag(signs) @ vt)
+    rotation = arrays.from_matrices(u @ np.diag(signs) @ vt)
     scale = float(np.sum(d * signs) / (np.sum(a * a) / len(x))) if with_scale else 1.0
-    return Alignment(rotation, mean_y - scale * quaternions.rotate(rotation, mean_x), scale)
+    return Alignment(rotation, mean_y - scale * arrays.rotate(rotation, mean_x), scale)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from turtlewire.trajectory import quaternions
+from turtlewire.geometry import arrays
 from turtlewire.trajectory.sampling import find_gaps
 from turtlewire.trajectory.trajectory import Trajectory, as_stamps
 
@@ -111,7 +111,7 @@ def read_kitti(
     """
     _, rows = _read_table(path, None, 12, "12 numbers: the rows of a 3x4 matrix", timed=False)
     matrices = rows.reshape(-1, 3, 4)
-    poses = np.hstack((matrices[:, :, 3], quaternions.from_matrices(matrices[:, :, :3])))
+    poses = np.hstack((matrices[:, :, 3], arrays.from_matrices(matrices[:, :, :3])))
     if times is None:
         return Trajectory(np.arange(len(poses), dtype=np.int64) * _SECOND, poses, timed=False)
     stamps, _ = _read_table(times, None, 1, "one number: the time in seconds")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from turtlewire.trajectory import quaternions
+from turtlewire.geometry import arrays
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -108,10 +108,10 @@ def ape(reference: Trajectory, estimate: Trajectory, relation: str = "trans_part
     """
     _check(reference, estimate, relation, tuple(RELATIONS)[:-1])
     rows = np.arange(len(reference))
-    distance = quaternions.distances(reference.positions, estimate.positions)
+    distance = arrays.distances(reference.positions, estimate.positions)
     if relation in ("trans_part", "point_distance"):
         return Errors("APE", relation, distance, rows)
-    turn = quaternions.multiply(quaternions.conjugate(reference.rotations), estimate.rotations)
+    turn = arrays.multiply(arrays.conjugate(reference.rotations), estimate.rotations)
     return Errors("APE", relation, _value(relation, distance, turn), rows)
 
 
@@ -150,11 +150,11 @@ def rpe(
         raise ValueError(f"no two of {len(source)} poses are {delta:g} {UNITS[unit]} apart")
     if relation.startswith("point_distance"):
         return _rpe_of_distances(reference, estimate, relation, i, j)
-    distance = quaternions.lengths(_move(estimate, i, j) - _move(reference, i, j))
+    distance = arrays.lengths(_move(estimate, i, j) - _move(reference, i, j))
     if relation == "trans_part":
         return Errors("RPE", relation, distance, j)
-    back = quaternions.conjugate(_turn(reference, i, j))
-    turn = quaternions.multiply(back, _turn(estimate, i, j))
+    back = arrays.conjugate(_turn(reference, i, j))
+    turn = arrays.multiply(back, _turn(estimate, i, j))
     return Errors("RPE", relation, _value(relation, distance, turn), j)
 
 
@@ -165,8 +165,8 @@ def _rpe_of_distances(
     i: NDArray[np.intp],
     j: NDArray[np.intp],
 ) -> Errors:
-    q = quaternions.lengths(reference.positions[i] - reference.positions[j])
-    p = quaternions.lengths(estimate.positions[i] - estimate.positions[j])
+    q = arrays.lengths(reference.positions[i] - reference.positions[j])
+    p = arrays.lengths(estimate.positions[i] - estimate.positions[j])
     errors = np.abs(q - p)
     if relation == "point_distance_error_ratio":
         moved = q > 0
@@ -178,14 +178,14 @@ def _rpe_of_distances(
 
 def _move(trajectory: Trajectory, i: NDArray[np.intp], j: NDArray[np.intp]) -> NDArray[np.float64]:
     """Return the position of pose j as pose i sees it."""
-    back = quaternions.conjugate(trajectory.rotations[i])
-    return quaternions.rotate(back, trajectory.positions[j] - trajectory.positions[i])
+    back = arrays.conjugate(trajectory.rotations[i])
+    return arrays.rotate(back, trajectory.positions[j] - trajectory.positions[i])
 
 
 def _turn(trajectory: Trajectory, i: NDArray[np.intp], j: NDArray[np.intp]) -> NDArray[np.float64]:
     """Return the rotation of pose j as pose i sees it."""
-    return quaternions.multiply(
-        quaternions.conjugate(trajectory.rotations[i]), trajectory.rotations[j]
+    return arrays.multiply(
+        arrays.conjugate(trajectory.rotations[i]), trajectory.rotations[j]
     )
 
 
@@ -194,10 +194,10 @@ def _value(
 ) -> NDArray[np.float64]:
     """Return the error of each difference, given the length of its translation and its rotation."""
     if relation.startswith("angle"):
-        angles = quaternions.angle(turn)
+        angles = arrays.angle(turn)
         return np.degrees(angles) if relation == "angle_deg" else angles
     # The Frobenius norm of R - I is 2 sqrt(2) |sin(angle / 2)|, and that sine is the length of xyz.
-    sine = quaternions.lengths(turn[:, :3])
+    sine = arrays.lengths(turn[:, :3])
     squares = 8 * sine**2 if relation == "rot_part" else 8 * sine**2 + distance**2
     norms: NDArray[np.float64] = np.sqrt(squares)
     return norms
@@ -229,10 +229,10 @@ def pairs(
         delta = np.radians(delta) if unit == "d" else delta
         if all_pairs:
             return _angle_pairs(trajectory.rotations, delta, delta * tolerance)
-        turns = quaternions.multiply(
-            quaternions.conjugate(trajectory.rotations[:-1]), trajectory.rotations[1:]
+        turns = arrays.multiply(
+            arrays.conjugate(trajectory.rotations[:-1]), trajectory.rotations[1:]
         )
-        along = np.concatenate(([0.0], np.cumsum(quaternions.angle(turns))))
+        along = np.concatenate(([0.0], np.cumsum(arrays.angle(turns))))
     else:
         raise ValueError(f"unknown unit '{unit}'; known are f, m, d and r")
     if all_pairs:
@@ -274,7 +274,7 @@ def _angle_pairs(
 
 
 def _turned(first: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray[np.float64]:
-    return quaternions.angle(quaternions.multiply(quaternions.conjugate(first), others))
+    return arrays.angle(arrays.multiply(arrays.conjugate(first), others))
 
 
 def _all_pairs(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from turtlewire.trajectory import quaternions
+from turtlewire.geometry import arrays
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -111,7 +111,7 @@ class Trajectory:
     @property
     def euler(self) -> NDArray[np.float64]:
         """(N, 3) roll, pitch, yaw in radians, without jumps by full turns."""
-        return np.unwrap(quaternions.euler(self.rotations), axis=0)
+        return np.unwrap(arrays.euler(self.rotations), axis=0)
 
     @property
     def speeds(self) -> NDArray[np.float64]:
@@ -124,7 +124,7 @@ class Trajectory:
     def as_matrices(self) -> NDArray[np.float64]:
         """(N, 4, 4) homogeneous matrices, acting on column vectors from the left."""
         matrices = np.tile(np.eye(4), (len(self), 1, 1))
-        matrices[:, :3, :3] = quaternions.matrices(self.rotations)
+        matrices[:, :3, :3] = arrays.matrices(self.rotations)
         matrices[:, :3, 3] = self.positions
         return matrices
 

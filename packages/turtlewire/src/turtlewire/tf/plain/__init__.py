@@ -5,7 +5,6 @@ It gives the same answers as the compiled core, whose files have the same names.
 =====================  ==================================================
 module                 what it holds
 =====================  ==================================================
-`pose`                 arithmetic of poses as plain tuples
 `link`                 the history of one link
 `tree`                 the tree of frames and tf2's search in it
 `shared_tree`          the tree with a lock, waiting and listeners

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from turtlewire.tf.plain import arguments
 from turtlewire.tf.plain.checks import check_frames, nanoseconds, numbers
 from turtlewire.tf.plain.failure import Failure
-from turtlewire.tf.plain.pose import (
+from turtlewire.geometry.poses import (
     IDENTITY,
     Pose,
     Quaternion,

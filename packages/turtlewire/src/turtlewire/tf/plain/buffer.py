@@ -10,7 +10,7 @@ from turtlewire.errors import CdrError, TransformException
 from turtlewire.tf.plain import batch, inspection
 from turtlewire.tf.plain.checks import check_frames, nanoseconds, numbers
 from turtlewire.tf.plain.failure import Failure, Question, Refusal, Verdict
-from turtlewire.tf.plain.pose import Pose, Quaternion, Vector, canonical, compose
+from turtlewire.geometry.poses import Pose, Quaternion, Vector, canonical, compose
 from turtlewire.tf.plain.report import frames_as_dot, frames_as_string, frames_as_yaml
 from turtlewire.tf.plain.shared_tree import SharedTree
 from turtlewire.tf.plain.tf_message import decode_tf_message

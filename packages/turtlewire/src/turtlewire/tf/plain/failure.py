@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from turtlewire.tf.plain.link import Link
-    from turtlewire.tf.plain.pose import Pose
+    from turtlewire.geometry.poses import Pose
 
 Question: TypeAlias = Literal["lookupTransform", "canTransform", "get_latest_common_time"]
 

@@ -7,7 +7,7 @@ from bisect import bisect_left, bisect_right
 from itertools import pairwise
 from typing import NamedTuple
 
-from turtlewire.tf.plain.pose import Pose, interpolate
+from turtlewire.geometry.poses import Pose, interpolate
 from turtlewire.tf.status import LookupStatus
 
 MOST_SENDERS = 16

@@ -10,7 +10,7 @@ from turtlewire.errors import CdrError
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from turtlewire.tf.plain.pose import Pose
+    from turtlewire.geometry.poses import Pose
 
 
 def decode_tf_message(data: bytes) -> list[tuple[int, bytes, bytes, Pose]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.tf.plain.pose import IDENTITY, Pose, Quaternion, Vector, between, canonical
+from turtlewire.geometry.poses import IDENTITY, Pose, Quaternion, Vector, between, canonical
 
 if TYPE_CHECKING:
     import numpy as np

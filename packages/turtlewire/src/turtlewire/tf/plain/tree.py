@@ -15,7 +15,7 @@ from turtlewire.tf.plain.failure import (
     time_failure,
 )
 from turtlewire.tf.plain.link import Link, Sample, is_nan
-from turtlewire.tf.plain.pose import IDENTITY, Pose, between, canonical, compose, through_matrix
+from turtlewire.geometry.poses import IDENTITY, Pose, between, canonical, compose, through_matrix
 from turtlewire.tf.plain.refusals import Refusals
 from turtlewire.tf.plain.report import frames_as_string
 from turtlewire.tf.status import LookupStatus
