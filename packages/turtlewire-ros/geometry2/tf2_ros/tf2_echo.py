@@ -15,6 +15,7 @@ from rclpy.time import Time
 from rclpy.utilities import remove_ros_args
 from tf_transformations import euler_from_quaternion
 from turtlewire.errors import TransformException
+from turtlewire.geometry import quaternions
 from turtlewire.printable import printable_lines
 
 from .buffer import Buffer
@@ -162,15 +163,12 @@ def describe(transform: TransformStamped, options: argparse.Namespace) -> str:
 
 def _matrix(t: Any, q: Any) -> list[list[float]]:
     """Return the transform as a 4x4 matrix, on plain floats: a browser tab has no NumPy."""
-    squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w
-    root = (
-        math.sqrt(2.0 / squared) if squared > 0.0 else 0.0
-    )  # no rotation: as in quaternion_matrix
-    x, y, z, w = q.x * root, q.y * root, q.z * root, q.w * root
+    no_rotation = not (q.x or q.y or q.z or q.w)
+    rows = quaternions.matrix((0.0, 0.0, 0.0, 1.0) if no_rotation else (q.x, q.y, q.z, q.w))
     return [
-        [1.0 - y * y - z * z, x * y - z * w, x * z + y * w, t.x],
-        [x * y + z * w, 1.0 - x * x - z * z, y * z - x * w, t.y],
-        [x * z - y * w, y * z + x * w, 1.0 - x * x - y * y, t.z],
+        [*rows[:3], t.x],
+        [*rows[3:6], t.y],
+        [*rows[6:], t.z],
         [0.0, 0.0, 0.0, 1.0],
     ]
 

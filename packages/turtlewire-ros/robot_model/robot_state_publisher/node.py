@@ -27,10 +27,10 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
 from turtlewire.errors import CdrError
+from turtlewire.geometry import quaternions
 from turtlewire.printable import printable
 from turtlewire.urdf import UrdfError, followers_of
 from turtlewire.urdf.joint_messages import JointMessages, stamp_of
-from turtlewire.urdf.joint_model import quaternion_from_rpy
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -302,5 +302,5 @@ def _transform(joint: Joint, prefix: str, stamp: Time) -> TransformStamped:
     message.child_frame_id = prefix + joint.child
     translation, rotation = message.transform.translation, message.transform.rotation
     translation.x, translation.y, translation.z = joint.origin.xyz
-    rotation.x, rotation.y, rotation.z, rotation.w = quaternion_from_rpy(joint.origin.rpy)
+    rotation.x, rotation.y, rotation.z, rotation.w = quaternions.from_rpy(*joint.origin.rpy)
     return message

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from turtlewire.geometry import quaternions
+
 from ._matrices import (
     TRANSLATION_IDENTITY,
     ZOOM_IDENTITY,
@@ -60,29 +62,9 @@ def quaternion_from_matrix(matrix: ArrayLike) -> Quaternion:
     rotation, _ = orthogonal_parts(array)
     if np.linalg.det(rotation) < 0.0:
         rotation[:, 0] *= -1.0
-    return _quaternion_from_rotation(rotation.tolist())
-
-
-def _quaternion_from_rotation(rotation: Sequence[Sequence[float]]) -> Quaternion:
-    trace = rotation[0][0] + rotation[1][1] + rotation[2][2]
-    if trace > 0.0:
-        s = 2.0 * math.sqrt(1.0 + trace)
-        x, y, z = (
-            (rotation[2][1] - rotation[1][2]) / s,
-            (rotation[0][2] - rotation[2][0]) / s,
-            (rotation[1][0] - rotation[0][1]) / s,
-        )
-        return x + 0.0, y + 0.0, z + 0.0, s / 4.0  # no negative zeros
-    i = max(range(3), key=lambda axis: rotation[axis][axis])
-    j, k = (i + 1) % 3, (i + 2) % 3
-    s = 2.0 * math.sqrt(1.0 + rotation[i][i] - rotation[j][j] - rotation[k][k])
-    vector = [0.0, 0.0, 0.0]
-    vector[i] = s / 4.0
-    vector[j] = (rotation[j][i] + rotation[i][j]) / s
-    vector[k] = (rotation[k][i] + rotation[i][k]) / s
-    w = (rotation[k][j] - rotation[j][k]) / s
+    x, y, z, w = quaternions.from_matrix(tuple(rotation.ravel().tolist()))
     sign = -1.0 if w < 0.0 else 1.0
-    return sign * vector[0] + 0.0, sign * vector[1] + 0.0, sign * vector[2] + 0.0, sign * w + 0.0
+    return sign * x + 0.0, sign * y + 0.0, sign * z + 0.0, sign * w + 0.0  # no negative zeros
 
 
 def orthogonal_parts(linear: ArrayLike) -> tuple[Matrix, Matrix]:

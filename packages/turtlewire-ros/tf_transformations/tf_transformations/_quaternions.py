@@ -5,10 +5,13 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from turtlewire.geometry import quaternions
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    Quaternion = tuple[float, float, float, float]
+    from turtlewire.geometry.quaternions import Quaternion
+
     #: ``"sxyz"``, or the numbers (inner axis, parity, repetition, frame) that stand for it.
     Axes = str | Sequence[int]
 
@@ -93,30 +96,18 @@ def rotation_from_quaternion(quaternion: Sequence[float]) -> tuple[tuple[float, 
     norm = x * x + y * y + z * z + w * w
     if norm < EPSILON / 4.0:
         return (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
-    s = 2.0 / norm
-    return (
-        (1.0 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)),
-        (s * (x * y + w * z), 1.0 - s * (x * x + z * z), s * (y * z - w * x)),
-        (s * (x * z - w * y), s * (y * z + w * x), 1.0 - s * (x * x + y * y)),
-    )
+    rows = quaternions.matrix(quaternion)
+    return rows[:3], rows[3:6], rows[6:]
 
 
 def quaternion_multiply(quaternion1: Sequence[float], quaternion0: Sequence[float]) -> Quaternion:
     """Hamilton product: the rotation ``quaternion0``, followed by the rotation ``quaternion1``."""
-    x1, y1, z1, w1 = quaternion1
-    x0, y0, z0, w0 = quaternion0
-    return (
-        w1 * x0 + x1 * w0 + y1 * z0 - z1 * y0,
-        w1 * y0 - x1 * z0 + y1 * w0 + z1 * x0,
-        w1 * z0 + x1 * y0 - y1 * x0 + z1 * w0,
-        w1 * w0 - x1 * x0 - y1 * y0 - z1 * z0,
-    )
+    return quaternions.multiply(quaternion1, quaternion0)
 
 
 def quaternion_conjugate(quaternion: Sequence[float]) -> Quaternion:
     """Return the opposite rotation of a unit quaternion."""
-    x, y, z, w = quaternion
-    return -x, -y, -z, w
+    return quaternions.conjugate(quaternion)
 
 
 def quaternion_inverse(quaternion: Sequence[float]) -> Quaternion:

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from tests.needs import COMPILED_CORE
 
 from turtlewire import errors
-from turtlewire.geometry import poses as geometry_poses
+from turtlewire.geometry import quaternions
 from turtlewire.tf import plain
 
 if TYPE_CHECKING:
@@ -207,7 +207,7 @@ class TestLaws:
         )
 
         def angle(p: Any, q: Any) -> float:
-            x, y, z, w = geometry_poses.multiply(geometry_poses.conjugate(p.rotation), q.rotation)
+            x, y, z, w = quaternions.multiply(quaternions.conjugate(p.rotation), q.rotation)
             return 2 * math.atan2(math.hypot(x, y, z), abs(w))
 
         assert angle(begin, middle) == pytest.approx(angle(begin, end) * part / 1000, abs=1e-7)

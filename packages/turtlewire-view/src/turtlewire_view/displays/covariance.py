@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from turtlewire.geometry import arrays
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -44,25 +46,6 @@ def covariance_shape(covariance: Any, warn: Callable[[str], None]) -> dict[str, 
         vectors[:, 0] = -vectors[:, 0]
     return {
         "radii": [float(radius) for radius in radii],
-        "rotation": _quaternion(vectors),
+        "rotation": arrays.from_matrices(vectors).tolist(),
         "yaw": min(math.pi, math.sqrt(float(matrix[5, 5]))),
     }
-
-
-def _quaternion(rotation: Any) -> list[float]:
-    """x, y, z, w of a rotation matrix: the eigenvector of Bar-Itzhack's symmetric matrix.
-
-    See I. Y. Bar-Itzhack, "New method for extracting the quaternion from a rotation matrix",
-    Journal of Guidance, Control, and Dynamics 23(6), 2000.
-    """
-    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = rotation
-    symmetric = np.array(
-        [
-            [xx - yy - zz, yx + xy, zx + xz, zy - yz],
-            [yx + xy, yy - xx - zz, zy + yz, xz - zx],
-            [zx + xz, zy + yz, zz - xx - yy, yx - xy],
-            [zy - yz, xz - zx, yx - xy, xx + yy + zz],
-        ]
-    )
-    quaternion = np.linalg.eigh(symmetric)[1][:, -1]
-    return [float(value) for value in quaternion]

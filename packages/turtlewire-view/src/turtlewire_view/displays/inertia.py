@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from turtlewire.geometry import quaternions
 from turtlewire.tf.conversions import matrix_from_quaternion, quaternion_from_matrix
 
 if TYPE_CHECKING:
@@ -40,7 +41,7 @@ def pose_of_origin(pose: Pose) -> list[float] | None:
     """x, y, z, qx, qy, qz, qw of an origin; None if it is not finite."""
     if not all(abs(value) < _LARGEST for value in (*pose.xyz, *pose.rpy)):
         return None
-    return [*pose.xyz, *_quaternion(*pose.rpy)]
+    return [*pose.xyz, *quaternions.from_rpy(*pose.rpy)]
 
 
 def _box(inertial: Inertial, origin: list[float]) -> dict[str, Any] | None:
@@ -68,13 +69,3 @@ def _box(inertial: Inertial, origin: list[float]) -> dict[str, Any] | None:
         "color": _COLOR,
         "origin": [*origin[:3], *(float(value) for value in turned)],
     }
-
-
-def _quaternion(roll: float, pitch: float, yaw: float) -> list[float]:
-    (sr, cr), (sp, cp), (sy, cy) = ((math.sin(a / 2), math.cos(a / 2)) for a in (roll, pitch, yaw))
-    return [
-        sr * cp * cy - cr * sp * sy,
-        cr * sp * cy + sr * cp * sy,
-        cr * cp * sy - sr * sp * cy,
-        cr * cp * cy + sr * sp * sy,
-    ]

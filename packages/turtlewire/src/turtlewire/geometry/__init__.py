@@ -1,7 +1,8 @@
 """Rotations and poses as numbers: one at a time on plain floats, or many at once in arrays.
 
-Quaternions are ``x, y, z, w`` and, unless a function says otherwise, of unit length. Poses are ``x,
-y, z, qx, qy, qz, qw`` and named ``parent_from_child``. Matrices act on column vectors from the left.
+Quaternions are ``x, y, z, w`` and, unless a function says otherwise, of unit length. Poses are
+``x, y, z, qx, qy, qz, qw`` and named ``parent_from_child``. Matrices act on column vectors from the
+left.
 
 =============  ====================================================
 module         what it holds

@@ -1,4 +1,7 @@
-"""Quaternion algebra over arrays: ``(N, 4)``, order x, y, z, w, unit length."""
+"""The arithmetic of many quaternions, in arrays of the shape ``(..., 4)``.
+
+`turtlewire.tf.conversions` has functions for callers that check their arguments.
+"""
 
 from __future__ import annotations
 
@@ -19,11 +22,12 @@ __all__ = [
     "matrices",
     "multiply",
     "rotate",
+    "upper",
 ]
 
 
 def multiply(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the rotations ``a`` after ``b``; shapes (N, 4) or (4,), broadcast."""
+    """Return the rotations that do ``b`` first, then ``a``; the leading axes are broadcast."""
     ax, ay, az, aw = np.moveaxis(a, -1, 0)
     bx, by, bz, bw = np.moveaxis(b, -1, 0)
     return np.stack(
@@ -44,7 +48,7 @@ def conjugate(q: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def rotate(q: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the vectors ``v`` (N, 3) turned by ``q`` (N, 4)."""
+    """Return the vectors ``v``, turned by ``q``; the leading axes are broadcast."""
     axis, w = q[..., :3], q[..., 3:]
     t = 2.0 * _cross(axis, v)
     turned: NDArray[np.float64] = v + w * t + _cross(axis, t)
@@ -81,18 +85,23 @@ def angle(q: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def matrices(q: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rotation matrices (N, 3, 3), acting on column vectors from the left."""
+    """Return the rotation matrices, shape (..., 3, 3)."""
     x, y, z, w = np.moveaxis(q, -1, 0)
-    rows = (
-        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
-        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
-        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
-    )
-    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+    matrix = np.empty((*q.shape[:-1], 3, 3))
+    matrix[..., 0, 0] = 1 - 2 * (y * y + z * z)
+    matrix[..., 0, 1] = 2 * (x * y - w * z)
+    matrix[..., 0, 2] = 2 * (x * z + w * y)
+    matrix[..., 1, 0] = 2 * (x * y + w * z)
+    matrix[..., 1, 1] = 1 - 2 * (x * x + z * z)
+    matrix[..., 1, 2] = 2 * (y * z - w * x)
+    matrix[..., 2, 0] = 2 * (x * z - w * y)
+    matrix[..., 2, 1] = 2 * (y * z + w * x)
+    matrix[..., 2, 2] = 1 - 2 * (x * x + y * y)
+    return matrix
 
 
 def from_matrices(m: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Unit quaternions (N, 4) of rotation matrices (N, 3, 3), with w not negative.
+    """Return the quaternions, with w >= 0, of rotation matrices of the shape (..., 3, 3).
 
     Each component is computed where it is the largest, which loses no precision (Shepperd 1978).
     """
@@ -115,8 +124,12 @@ def from_matrices(m: NDArray[np.float64]) -> NDArray[np.float64]:
     )
     chosen = np.take_along_axis(columns, largest[..., None, None], axis=-2)[..., 0, :]
     q = chosen / np.linalg.norm(chosen, axis=-1, keepdims=True)
-    signed: NDArray[np.float64] = np.where(q[..., 3:] < 0, -q, q)
-    return signed
+    return upper(q)
+
+
+def upper(q: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the quaternions of the same rotations with w >= 0."""
+    return np.where(q[..., 3:] < 0.0, -q, q)
 
 
 def euler(q: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
+from turtlewire.geometry import quaternions
+
 if TYPE_CHECKING:
     from numpy.typing import DTypeLike, NDArray
 
@@ -41,12 +43,7 @@ def pose_matrix(transform: HasPose) -> NDArray[np.float64]:
 
     It multiplies column vectors from the left.
     """
-    x, y, z, w = transform.rotation
     matrix = np.eye(4)
-    matrix[:3, :3] = (
-        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
-        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
-        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
-    )
+    matrix[:3, :3] = np.reshape(quaternions.matrix(transform.rotation), (3, 3))
     matrix[:3, 3] = transform.translation
     return matrix

@@ -17,6 +17,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from turtlewire.geometry import arrays
+
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
@@ -53,19 +55,7 @@ def matrix_from_quaternion(quaternion: ArrayLike) -> Array:
     Raises:
         ValueError: The last axis is not 4 long, or a quaternion has no length.
     """
-    q = _unit(quaternion)
-    x, y, z, w = np.moveaxis(q, -1, 0)
-    matrix = np.empty((*q.shape[:-1], 3, 3))
-    matrix[..., 0, 0] = 1 - 2 * (y * y + z * z)
-    matrix[..., 0, 1] = 2 * (x * y - w * z)
-    matrix[..., 0, 2] = 2 * (x * z + w * y)
-    matrix[..., 1, 0] = 2 * (x * y + w * z)
-    matrix[..., 1, 1] = 1 - 2 * (x * x + z * z)
-    matrix[..., 1, 2] = 2 * (y * z - w * x)
-    matrix[..., 2, 0] = 2 * (x * z - w * y)
-    matrix[..., 2, 1] = 2 * (y * z + w * x)
-    matrix[..., 2, 2] = 1 - 2 * (x * x + y * y)
-    return matrix
+    return arrays.matrices(_unit(quaternion))
 
 
 def quaternion_from_matrix(matrix: ArrayLike) -> Array:
@@ -76,19 +66,7 @@ def quaternion_from_matrix(matrix: ArrayLike) -> Array:
     Raises:
         ValueError: The last two axes are not 3 by 3.
     """
-    m = _shaped(matrix, (3, 3), "rotation matrices")
-    diagonal = np.diagonal(m, axis1=-2, axis2=-1)
-    trace = diagonal.sum(axis=-1)
-    # Four ways to the same quaternion (times four of one component): the largest component makes
-    # the one that loses no digits.
-    ways = np.empty((*m.shape[:-2], 4, 4))
-    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-        ways[..., i, i] = 1 + 2 * diagonal[..., i] - trace
-        ways[..., i, j] = ways[..., j, i] = m[..., j, i] + m[..., i, j]
-        ways[..., i, 3] = ways[..., 3, i] = m[..., k, j] - m[..., j, k]
-    ways[..., 3, 3] = 1 + trace
-    largest = np.argmax(np.diagonal(ways, axis1=-2, axis2=-1), axis=-1)[..., None, None]
-    return _upper(_unit(np.take_along_axis(ways, largest, axis=-2)[..., 0, :]))
+    return arrays.from_matrices(_shaped(matrix, (3, 3), "rotation matrices"))
 
 
 def matrix_from_pose(pose: ArrayLike) -> Array:
@@ -128,11 +106,9 @@ def quaternion_from_euler(angles: ArrayLike, axes: str = "sxyz") -> Array:
     half = 0.5 * _shaped(angles, (3,), "Euler angles")
     static, (i, j, k) = _axes(axes)
     first, second, third = (_about(axis, half[..., n]) for n, axis in enumerate((i, j, k)))
-    return _upper(
-        _product(_product(third, second), first)
-        if static
-        else _product(_product(first, second), third)
-    )
+    if static:
+        first, third = third, first
+    return arrays.upper(arrays.multiply(arrays.multiply(first, second), third))
 
 
 def euler_from_quaternion(quaternion: ArrayLike, axes: str = "sxyz") -> Array:
@@ -200,29 +176,11 @@ def _unit(quaternion: ArrayLike) -> Array:
     return result
 
 
-def _upper(q: Array) -> Array:
-    return np.where(q[..., 3:] < 0.0, -q, q)
-
-
 def _about(axis: int, half_angle: Array) -> Array:
     q = np.zeros((*half_angle.shape, 4))
     q[..., axis] = np.sin(half_angle)
     q[..., 3] = np.cos(half_angle)
     return q
-
-
-def _product(p: Array, q: Array) -> Array:
-    x, y, z, w = np.moveaxis(p, -1, 0)
-    i, j, k, r = np.moveaxis(q, -1, 0)
-    return np.stack(
-        (
-            w * i + x * r + y * k - z * j,
-            w * j - x * k + y * r + z * i,
-            w * k + x * j - y * i + z * r,
-            w * r - x * i - y * j - z * k,
-        ),
-        axis=-1,
-    )
 
 
 def _wrapped(angles: Array) -> Array:

@@ -124,9 +124,7 @@ def align(reference: Trajectory, estimate: Trajectory, how: str) -> Alignment:
     if how == "none":
         return Alignment(np.array((0.0, 0.0, 0.0, 1.0)), np.zeros(3), 1.0)
     if how == "origin":
-        rotation = arrays.multiply(
-            reference.rotations[0], arrays.conjugate(estimate.rotations[0])
-        )
+        rotation = arrays.multiply(reference.rotations[0], arrays.conjugate(estimate.rotations[0]))
         moved = arrays.rotate(rotation, estimate.positions[0])
         return Alignment(rotation, reference.positions[0] - moved, 1.0)
     if how == "yaw":

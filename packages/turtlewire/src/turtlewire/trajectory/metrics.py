@@ -184,9 +184,7 @@ def _move(trajectory: Trajectory, i: NDArray[np.intp], j: NDArray[np.intp]) -> N
 
 def _turn(trajectory: Trajectory, i: NDArray[np.intp], j: NDArray[np.intp]) -> NDArray[np.float64]:
     """Return the rotation of pose j as pose i sees it."""
-    return arrays.multiply(
-        arrays.conjugate(trajectory.rotations[i]), trajectory.rotations[j]
-    )
+    return arrays.multiply(arrays.conjugate(trajectory.rotations[i]), trajectory.rotations[j])
 
 
 def _value(

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from turtlewire.geometry import arrays
 from turtlewire.suggestion import did_you_mean
 from turtlewire.urdf.joint_model import NUMBER_OF_CONSTANTS, joint_constants
 from turtlewire.urdf.mimic import followers_of
@@ -136,8 +137,8 @@ class Kinematics:
             parents = poses[:, self._parents[begin:end]]
             below = local[:, begin:end]
             target = poses[:, begin + 1 : end + 1]
-            target[..., :3] = parents[..., :3] + _rotated(parents[..., 3:], below[..., :3])
-            target[..., 3:] = _product(parents[..., 3:], below[..., 3:])
+            target[..., :3] = parents[..., :3] + arrays.rotate(parents[..., 3:], below[..., :3])
+            target[..., 3:] = arrays.multiply(parents[..., 3:], below[..., 3:])
             begin = end
         return poses
 
@@ -198,24 +199,3 @@ def _levels(robot: Robot) -> list[list[str]]:
     while level := [joint.child for name in level for joint in robot.child_joints[name]]:
         levels.append(level)
     return levels
-
-
-def _rotated(rotation: Array, vector: Array) -> Array:
-    axis, angle_part = rotation[..., :3], rotation[..., 3:]
-    twice = 2.0 * np.cross(axis, vector)
-    turned: Array = vector + angle_part * twice + np.cross(axis, twice)
-    return turned
-
-
-def _product(left: Array, right: Array) -> Array:
-    a, b, c, d = np.moveaxis(left, -1, 0)
-    x, y, z, w = np.moveaxis(right, -1, 0)
-    return np.stack(
-        [
-            d * x + a * w + b * z - c * y,
-            d * y - a * z + b * w + c * x,
-            d * z + a * y - b * x + c * w,
-            d * w - a * x - b * y - c * z,
-        ],
-        axis=-1,
-    )

@@ -9,19 +9,11 @@ import math
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from turtlewire.geometry.poses import IDENTITY, Pose, compose
+from turtlewire.geometry.quaternions import Quaternion, Vector, conjugate, multiply, rotate
 from turtlewire.tf.plain import arguments
 from turtlewire.tf.plain.checks import check_frames, nanoseconds, numbers
 from turtlewire.tf.plain.failure import Failure
-from turtlewire.geometry.poses import (
-    IDENTITY,
-    Pose,
-    Quaternion,
-    Vector,
-    compose,
-    conjugate,
-    multiply,
-    rotate,
-)
 from turtlewire.tf.status import LookupStatus
 
 if TYPE_CHECKING:

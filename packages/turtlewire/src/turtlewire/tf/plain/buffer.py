@@ -7,10 +7,10 @@ from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
 from turtlewire.errors import CdrError, TransformException
+from turtlewire.geometry.poses import Pose, canonical, compose
 from turtlewire.tf.plain import batch, inspection
 from turtlewire.tf.plain.checks import check_frames, nanoseconds, numbers
 from turtlewire.tf.plain.failure import Failure, Question, Refusal, Verdict
-from turtlewire.geometry.poses import Pose, Quaternion, Vector, canonical, compose
 from turtlewire.tf.plain.report import frames_as_dot, frames_as_string, frames_as_yaml
 from turtlewire.tf.plain.shared_tree import SharedTree
 from turtlewire.tf.plain.tf_message import decode_tf_message
@@ -20,6 +20,8 @@ from turtlewire.tf.status import LookupStatus
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from turtlewire.geometry.quaternions import Quaternion, Vector
 
 _Answer = TypeVar("_Answer")
 

@@ -12,8 +12,8 @@ from turtlewire.tf.status import LookupStatus
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from turtlewire.tf.plain.link import Link
     from turtlewire.geometry.poses import Pose
+    from turtlewire.tf.plain.link import Link
 
 Question: TypeAlias = Literal["lookupTransform", "canTransform", "get_latest_common_time"]
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.geometry.poses import IDENTITY, Pose, Quaternion, Vector, between, canonical
+from turtlewire.geometry.poses import IDENTITY, Pose, between, canonical
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import DTypeLike, NDArray
+
+    from turtlewire.geometry.quaternions import Quaternion, Vector
 
 
 class Transform:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypeAlias
 
+from turtlewire.geometry.poses import IDENTITY, Pose, between, canonical, compose
+from turtlewire.geometry.quaternions import through_matrix
 from turtlewire.tf.plain.failure import (
     Failure,
     Question,
@@ -15,7 +17,6 @@ from turtlewire.tf.plain.failure import (
     time_failure,
 )
 from turtlewire.tf.plain.link import Link, Sample, is_nan
-from turtlewire.geometry.poses import IDENTITY, Pose, between, canonical, compose, through_matrix
 from turtlewire.tf.plain.refusals import Refusals
 from turtlewire.tf.plain.report import frames_as_string
 from turtlewire.tf.status import LookupStatus

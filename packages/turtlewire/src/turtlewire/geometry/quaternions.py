@@ -1,0 +1,128 @@
+"""The arithmetic of one quaternion ``(x, y, z, w)``, on plain floats."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, TypeAlias
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = [
+    "Matrix",
+    "Quaternion",
+    "Vector",
+    "conjugate",
+    "from_matrix",
+    "from_rpy",
+    "matrix",
+    "multiply",
+    "rotate",
+    "through_matrix",
+]
+
+Vector: TypeAlias = tuple[float, float, float]
+Quaternion: TypeAlias = tuple[float, float, float, float]
+Matrix: TypeAlias = tuple[float, float, float, float, float, float, float, float, float]
+"""A 3x3 matrix, row by row."""
+
+_NO_NUMBERS: Quaternion = (math.nan, math.nan, math.nan, math.nan)
+
+
+def multiply(a: Sequence[float], b: Sequence[float]) -> Quaternion:
+    """Return the rotation that does ``b`` first, then ``a``."""
+    ax, ay, az, aw = a
+    bx, by, bz, bw = b
+    return (
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by + ay * bw + az * bx - ax * bz,
+        aw * bz + az * bw + ax * by - ay * bx,
+        aw * bw - ax * bx - ay * by - az * bz,
+    )
+
+
+def conjugate(q: Sequence[float]) -> Quaternion:
+    """Return the opposite rotation."""
+    return (-q[0], -q[1], -q[2], q[3])
+
+
+def rotate(q: Quaternion, v: Vector) -> Vector:
+    """Return the vector ``v``, turned by ``q``."""
+    x, y, z, w = q
+    vx, vy, vz = v
+    tx, ty, tz = 2.0 * (y * vz - z * vy), 2.0 * (z * vx - x * vz), 2.0 * (x * vy - y * vx)
+    return (
+        vx + w * tx + (y * tz - z * ty),
+        vy + w * ty + (z * tx - x * tz),
+        vz + w * tz + (x * ty - y * tx),
+    )
+
+
+def from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
+    """Return the rotation by ``roll``, ``pitch`` and ``yaw`` [rad] about fixed axes x, y and z."""
+    sr, cr = math.sin(roll / 2.0), math.cos(roll / 2.0)
+    sp, cp = math.sin(pitch / 2.0), math.cos(pitch / 2.0)
+    sy, cy = math.sin(yaw / 2.0), math.cos(yaw / 2.0)
+    return (
+        sr * cp * cy - cr * sp * sy,
+        cr * sp * cy + sr * cp * sy,
+        cr * cp * sy - sr * sp * cy,
+        cr * cp * cy + sr * sp * sy,
+    )
+
+
+def matrix(q: Sequence[float]) -> Matrix:
+    """Return the rotation matrix of a quaternion of any length but zero.
+
+    Raises:
+        ZeroDivisionError: The quaternion has no length.
+    """
+    x, y, z, w = q
+    s = 2.0 / (x * x + y * y + z * z + w * w)
+    xs, ys, zs = x * s, y * s, z * s
+    wx, wy, wz = w * xs, w * ys, w * zs
+    xx, xy, xz = x * xs, x * ys, x * zs
+    yy, yz, zz = y * ys, y * zs, z * zs
+    return (
+        1.0 - (yy + zz), xy - wz, xz + wy,
+        xy + wz, 1.0 - (xx + zz), yz - wx,
+        xz - wy, yz + wx, 1.0 - (xx + yy),
+    )  # fmt: skip
+
+
+def from_matrix(rows: Matrix) -> Quaternion:
+    """Return the quaternion of a rotation matrix, with the sign that tf2 gives it.
+
+    ``w`` is positive if the trace is; else the largest of ``x, y, z`` is.
+    """
+    m00, m01, m02, m10, m11, m12, m20, m21, m22 = rows
+    trace = m00 + m11 + m22
+    if math.isnan(trace):
+        return _NO_NUMBERS
+    if trace > 0.0:
+        root = math.sqrt(trace + 1.0)
+        f = 0.5 / root
+        return ((m21 - m12) * f, (m02 - m20) * f, (m10 - m01) * f, root * 0.5)
+    if m00 >= m11 and m00 >= m22:
+        root = math.sqrt(m00 - m11 - m22 + 1.0)
+        f = 0.5 / root
+        return (root * 0.5, (m10 + m01) * f, (m20 + m02) * f, (m21 - m12) * f)
+    if m11 >= m22:
+        root = math.sqrt(m11 - m22 - m00 + 1.0)
+        f = 0.5 / root
+        return ((m10 + m01) * f, root * 0.5, (m21 + m12) * f, (m02 - m20) * f)
+    root = math.sqrt(m22 - m00 - m11 + 1.0)
+    f = 0.5 / root
+    return ((m20 + m02) * f, (m21 + m12) * f, root * 0.5, (m10 - m01) * f)
+
+
+def through_matrix(q: Quaternion) -> Quaternion:
+    """Return a quaternion of any length as tf2 stores it: converted to a matrix and back.
+
+    The result is unit, and its sign and last bits are tf2's. A length beyond the range of floats
+    gives the identity, a length of zero gives NaN.
+    """
+    try:
+        return from_matrix(matrix(q))
+    except ZeroDivisionError:
+        return _NO_NUMBERS
