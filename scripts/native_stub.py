@@ -31,7 +31,6 @@ def main(stub: Path) -> int:
     """Compare, and print each difference on a line."""
     try:
         module = importlib.import_module("turtlewire._native")
-        importlib.import_module("turtlewire.tf.buffer")  # which adds methods in Python
     except ModuleNotFoundError:
         print("_native.pyi: not compared, for the core is not compiled here")
         return 0

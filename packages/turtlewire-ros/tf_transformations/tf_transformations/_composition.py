@@ -26,8 +26,10 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike
 
+    from turtlewire.geometry.quaternions import Quaternion
+
     from ._matrices import Matrix
-    from ._quaternions import Axes, Quaternion
+    from ._quaternions import Axes
 
 
 def euler_matrix(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Matrix:

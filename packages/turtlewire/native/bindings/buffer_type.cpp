@@ -286,6 +286,17 @@ BufferObject* buffer_of(PyObject* self) {
   return nb::inst_ptr<BufferObject>(self);
 }
 
+// CPython calls a C method without a detour only if it was made for the very class of the object:
+// 8 ns of a lookup's 50. `turtlewire.Buffer` is derived, so it gets the methods once more.
+void bind_hot_methods(nb::handle buffer_type) {
+  for (PyMethodDef* method = hot_methods; method->ml_name != nullptr; ++method) {
+    const nb::object bound =
+        nb::steal(PyDescr_NewMethod(reinterpret_cast<PyTypeObject*>(buffer_type.ptr()), method));
+    if (!bound.is_valid()) throw nb::python_error();
+    nb::setattr(buffer_type, method->ml_name, bound);
+  }
+}
+
 void add_buffer_type(nb::module_& module) {
   nb::class_<BufferObject> cls(
       module, "Buffer", nb::type_slots(buffer_slots), nb::is_weak_referenceable(),
@@ -378,6 +389,9 @@ void add_buffer_type(nb::module_& module) {
           "none.\n\n"
           "For signal handling that does not interrupt the main thread's system call, such as "
           "rclpy's.");
+  module.def("bind_hot_methods", &bind_hot_methods, "buffer_type"_a,
+             "Gives a class that derives from Buffer its own descriptors of the hot methods, which "
+             "CPython calls faster than inherited ones.");
   add_batch_methods(cls);
   add_inspection_methods(cls);
 }

@@ -142,6 +142,20 @@ PyObject* as_matrix(PyObject* self, PyObject*) {
   return call_helper("turtlewire.tf.arrays", "pose_matrix", self);
 }
 
+// The slot is asked for both operands; the right one may be anything.
+PyObject* product(PyObject* left, PyObject* right) {
+  if (Py_TYPE(left) != transform_type) Py_RETURN_NOTIMPLEMENTED;
+  PyObject* arguments = PyTuple_Pack(1, right);
+  if (arguments == nullptr) return nullptr;
+  PyObject* result = call_helper("turtlewire.tf.products", "product", left, arguments, nullptr);
+  Py_DECREF(arguments);
+  return result;
+}
+
+PyObject* interpolated(PyObject* self, PyObject* arguments, PyObject* keywords) {
+  return call_helper("turtlewire.tf.products", "interpolated", self, arguments, keywords);
+}
+
 PyObject* as_html(PyObject* self, PyObject*) {
   return call_helper("turtlewire.tf.notebook", "transform_html", self);
 }
@@ -175,6 +189,10 @@ PyGetSetDef properties[] = {
 PyMethodDef methods[] = {
     {"inverse", inverse_of, METH_NOARGS,
      "inverse($self)\n--\n\nThe transform the other way round: source_from_target."},
+    {"interpolate", reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(interpolated)),
+     METH_VARARGS | METH_KEYWORDS,
+     "interpolate($self, other, stamp_ns)\n--\n\n"
+     "The transform at a time between two of the same frames: lerp and slerp, as tf2 does."},
     {"as_matrix", as_matrix, METH_NOARGS,
      "as_matrix($self)\n--\n\nThe 4x4 matrix that acts on column vectors from the left."},
     {"__array__", reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(as_array)),
@@ -204,6 +222,7 @@ PyType_Slot slots[] = {
     {Py_tp_members, members},
     {Py_tp_getset, properties},
     {Py_tp_methods, methods},
+    {Py_nb_matrix_multiply, reinterpret_cast<void*>(product)},
     {0, nullptr},
 };
 

@@ -1,16 +1,11 @@
 # The compiled core; use it through turtlewire.Buffer. The module itself has the docstrings.
 
-import os
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, final
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 from typing_extensions import Buffer as AnyBuffer
-from typing_extensions import Self
-
-from turtlewire.bag.transform_report import TransformReport
-from turtlewire.trajectory.trajectory import Trajectory
 
 @final
 class Transform:
@@ -48,33 +43,6 @@ class Transform:
 
 class Buffer:
     def __init__(self, cache_time_ns: int | None = ..., max_frames: int | None = ...) -> None: ...
-    @classmethod
-    def from_bag(
-        cls,
-        path: str | os.PathLike[str],
-        *,
-        topics: str | Iterable[str] = "/tf",
-        static_topics: str | Iterable[str] = "/tf_static",
-        start_ns: int = 0,
-        end_ns: int = ...,
-        cache_time_ns: int | None = None,
-        max_frames: int | None = None,
-        progress: Callable[[float], None] | None = None,
-    ) -> Self: ...
-    @property
-    def bag_report(self) -> TransformReport | None: ...
-    def trajectory(
-        self,
-        target_frame: str,
-        source_frame: str,
-        *,
-        stamps: ArrayLike | None = None,
-        rate_hz: float | None = None,
-        max_gap_ns: int | None = None,
-    ) -> Trajectory: ...
-    def __len__(self) -> int: ...
-    def __iter__(self) -> Iterator[str]: ...
-    def __contains__(self, frame: object) -> bool: ...
     @property
     def cache_time_ns(self) -> int | None: ...
     @property
@@ -208,6 +176,8 @@ class Buffer:
     def _describe_malformed(self) -> tuple[int, str, str]: ...
     def _rename_sender(self, name: str, shown: str) -> None: ...
     def _fault(self) -> str: ...
+
+def bind_hot_methods(buffer_type: type[Buffer]) -> None: ...
 
 class JointFrames:
     def __init__(

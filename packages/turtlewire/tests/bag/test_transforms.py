@@ -29,6 +29,40 @@ def test_one_call_fills_a_buffer(tmp_path, options):
     assert (report.gaps, report.jumps, report.conflicts, report.problems) == ({}, [], [], [])
 
 
+def test_a_storage_file_walks_its_transforms_in_its_own_way(tmp_path, monkeypatch):
+    """The reader asks the file, whatever class it is; only a file that refuses is read by rows."""
+    path = write_bag(tmp_path / "made")
+    asked = []
+
+    class Wrapped:
+        def __init__(self, file):
+            self._file = file
+
+        def __getattr__(self, name):
+            return getattr(self._file, name)
+
+        def walk_transforms(self, names, start_ns, end_ns, target):
+            asked.append(sorted(names))
+            return self._file.walk_transforms(names, start_ns, end_ns, target)
+
+        def messages(self, *_):
+            raise AssertionError("an MCAP file has chunks")
+
+    open_storage = storage.open_storage
+    monkeypatch.setattr("turtlewire.bag.reader.open_storage", lambda p: Wrapped(open_storage(p)))
+    _, report = load_transforms(path)
+    assert (report.messages, report.problems) == (101, [])
+    assert asked == [["/tf_static"], ["/tf"]]
+
+
+def test_files_without_chunks_refuse_the_walk(tmp_path):
+    path = write_bag(tmp_path / "made", storage="sqlite3")
+    (file,) = (storage.open_storage(str(each)) for each in path.glob("*.db3"))
+    assert file.walk_transforms({"/tf"}, 0, 1, None) is False
+    assert file.counted_messages() is None
+    file.close()
+
+
 def test_history_is_not_limited(tmp_path):
     buffer, _ = load_transforms(write_bag(tmp_path / "made", count=3000))
     assert buffer.lookup_transform("odom", "base_link", START).stamp_ns == START

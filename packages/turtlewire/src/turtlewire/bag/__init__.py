@@ -13,7 +13,8 @@
 module              what it holds
 ==================  ========================================================================
 `reader`            `Bag`, `open_bag`: messages in order of time over all files; `reindex`
-`transforms`        `load_transforms`: the TF of a bag in a buffer
+`buffers`           `load_transforms`: the TF of a bag in a new buffer
+`transforms`        the TF of a bag read into a buffer
 `transform_report`  `TransformReport`: its links, and what is wrong with them
 `trajectories`      `load_trajectory`: odometry and poses of a topic
 `progress`          a line that shows how far something is
@@ -26,6 +27,7 @@ module              what it holds
 `recording`         `Recording`: messages of several threads, written on a thread of its own
 `storage`           one file of a bag, MCAP or sqlite3, behind one interface
 `mcap_reader`       the MCAP format: summary, chunks, files without a summary
+`chunk_walk`        its chunks, decompressed one ahead of the reader
 `mcap_records`      the records of MCAP as bytes and objects
 `mcap_writer`       writes MCAP files
 `sqlite_reader`     rosbag2's sqlite3 schema, versions 1 to 4
@@ -50,9 +52,9 @@ from turtlewire.bag.reader import Bag, open_bag, reindex
 from turtlewire.bag.writer import BagWriter
 
 if TYPE_CHECKING:
+    from turtlewire.bag.buffers import load_transforms
     from turtlewire.bag.trajectories import load_trajectory, pose_topics
     from turtlewire.bag.transform_report import Jump, TransformReport
-    from turtlewire.bag.transforms import load_transforms
 
 __all__ = [
     "Bag",
@@ -76,7 +78,7 @@ _LOADED_WHEN_USED = {
     "Jump": "transform_report",
     "TransformReport": "transform_report",
     "load_trajectory": "trajectories",
-    "load_transforms": "transforms",
+    "load_transforms": "buffers",
     "pose_topics": "trajectories",
 }
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from turtlewire.bag.definitions import has_interface, learn_types
 from turtlewire.bag.files import joined, overlapping, storage_files
 from turtlewire.bag.metadata import BagMetadata, TopicInfo, read_metadata, write_metadata
-from turtlewire.bag.storage import McapStorage, StorageFile, open_storage
+from turtlewire.bag.storage import StorageFile, open_storage
 from turtlewire.bag.unpacking import unpack_file, unpacked
 from turtlewire.errors import BagError, InterfaceError
 from turtlewire.tf.datetimes import as_nanoseconds
@@ -60,16 +60,16 @@ class Bag:
         self._files: dict[str, StorageFile] = {}
         self._scratch: str | None = None
         self._types_seen: set[str] = set()
-        self._told_counts: dict[str, int] = {}
+        self._expected_counts: dict[str, int] = {}
         if not os.path.exists(self.path):
             raise FileNotFoundError(f"there is no bag at {self.path}")
         if os.path.isdir(self.path):
             self._folder = self.path
-            told = read_metadata(self.path) if trust_metadata else None
-            if told:
-                counts = (file.message_count for file in told.files)
-                self._told_counts = dict(zip(told.paths, counts, strict=False))
-            self.metadata = told or self._metadata_of(storage_files(self.path))
+            written = read_metadata(self.path) if trust_metadata else None
+            if written:
+                counts = (file.message_count for file in written.files)
+                self._expected_counts = dict(zip(written.paths, counts, strict=False))
+            self.metadata = written or self._metadata_of(storage_files(self.path))
         else:
             self._folder = os.path.dirname(self.path)
             self.metadata = self._metadata_of([os.path.basename(self.path)])
@@ -271,12 +271,10 @@ class Bag:
 
     def _check_count(self, path: str, file: StorageFile) -> None:
         """Tell of a file without other problems that holds less than ``metadata.yaml`` says."""
-        if not isinstance(file, McapStorage) or file.problems:
-            return
-        found, told = file.file.statistics.message_count, self._told_counts.get(path, 0)
-        if found < told:
+        found, expected = file.counted_messages(), self._expected_counts.get(path, 0)
+        if found is not None and found < expected and not file.problems:
             full = os.path.join(self._folder, path)
-            self.complain(f"{full}: {found:,} of {told:,} messages are found: it is damaged")
+            self.complain(f"{full}: {found:,} of {expected:,} messages are found: it is damaged")
 
     def _open(self, path: str) -> StorageFile:
         plain = self._plain_file(path)

@@ -71,6 +71,16 @@ class Ros1Storage:
         """None: those in the file are of ROS 1."""
         return {}
 
+    def walk_transforms(
+        self, _names: object, _start_ns: int, _end_ns: int, _target: object
+    ) -> bool:
+        """Return False: ROS 1's messages are converted one by one."""
+        return False
+
+    def counted_messages(self) -> int | None:
+        """Return None: a ROS 1 bag keeps no statistics."""
+        return None
+
     def messages(
         self,
         wanted: Callable[[TopicInfo], bool],

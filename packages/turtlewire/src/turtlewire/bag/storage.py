@@ -22,12 +22,44 @@ if TYPE_CHECKING:
 
     from turtlewire.bag.mcap_records import ChunkIndex
 
-__all__ = ["McapStorage", "SqliteStorage", "StorageFile", "open_storage"]
+__all__ = ["McapStorage", "SqliteStorage", "StorageFile", "TransformTarget", "open_storage"]
 
 #: Log time, channel, publish time and bytes of a message in an MCAP file.
 _Raw = tuple[int, int, int, bytes]
 
 _SQLITE_MAGIC = b"SQLite format 3\0"
+
+
+class TransformTarget(Protocol):
+    """The reader of a bag's transforms, as far as `StorageFile.walk_transforms` needs it.
+
+    Attributes:
+        messages: How many messages it has taken.
+        problems: What is damaged, one sentence each.
+    """
+
+    @property
+    def messages(self) -> int: ...
+    @property
+    def problems(self) -> list[str]: ...
+
+    def take(self, records: bytes | memoryview, topics: dict[int, str]) -> int:
+        """Store the transforms of a chunk's records.
+
+        Args:
+            records: The records of an MCAP chunk.
+            topics: The topics to read, by channel.
+
+        Returns:
+            Where the records are damaged; -1 if they are not.
+        """
+        ...
+
+    def complain(self, problem: str) -> None:
+        """Add to `problems` what is not among them yet."""
+
+    def tell(self, share: float) -> None:
+        """Report which share of the file was read."""
 
 
 class StorageFile(Protocol):
@@ -62,6 +94,19 @@ class StorageFile(Protocol):
             end_ns: The last log time.
             damaged: Called for each part that cannot be read.
         """
+
+    def walk_transforms(
+        self, names: Container[str], start_ns: int, end_ns: int, target: TransformTarget
+    ) -> bool:
+        """Pass the records of the topics ``names`` to ``target``, chunk by chunk.
+
+        Returns:
+            False if the file has no chunks: nothing was read, and `messages` has the transforms.
+        """
+        ...
+
+    def counted_messages(self) -> int | None:
+        """Return how many messages the file's statistics count; None if it has no statistics."""
 
     def close(self) -> None:
         """Release the file."""
@@ -190,7 +235,7 @@ class McapStorage:
         """Yield messages; only chunks whose times overlap are in memory together."""
         channels = self._wanted_channels(wanted)
         waiting: list[_Raw] = []
-        lacking = self.told(channels, start_ns, end_ns)
+        missing = self.expected_count(channels, start_ns, end_ns)
         for chunk in self.chunks(wanted, start_ns, end_ns):
             if waiting and waiting[-1][0] < chunk.start_ns:
                 yield from self._finished(waiting)
@@ -200,21 +245,55 @@ class McapStorage:
                 yield from self._finished(waiting[:count])
                 del waiting[:count]
             found = self._messages_of(chunk, channels, start_ns, end_ns, damaged)
-            lacking -= len(found)
+            missing -= len(found)
             waiting += found
             waiting.sort(key=_log_time)
         yield from self._finished(waiting)
-        if lacking > 0:
-            damaged(self.lack(lacking))
+        if missing > 0:
+            damaged(self.missing_messages_error(missing))
 
-    def told(self, channels: Container[int], start_ns: int, end_ns: int) -> int:
+    def walk_transforms(
+        self, names: Container[str], start_ns: int, end_ns: int, target: TransformTarget
+    ) -> bool:
+        """Pass the records to ``target``, each chunk decompressed while the last is taken."""
+        from turtlewire.bag.chunk_walk import decompressed  # its threads take 10 ms to import
+
+        topics = {
+            number: topic.name
+            for number in self.file.channels
+            if (topic := self.topic(number)).name in names
+        }
+        chunks = self.chunks(lambda topic: topic.name in names, start_ns, end_ns)
+        total, done = sum(chunk.length for chunk in chunks) or 1, 0
+        expected = target.messages + self.expected_count(topics, start_ns, end_ns)
+        known_problems = len(target.problems)
+        for chunk, records in decompressed(self.file, chunks):
+            if isinstance(records, BagError):
+                target.complain(str(records))
+            else:
+                damaged_at = target.take(records, topics)
+                if damaged_at >= 0:
+                    target.complain(str(self.file.cut(chunk, damaged_at)))
+            self.file.forget(chunk)
+            done += chunk.length
+            target.tell(done / total)
+        missing = expected - target.messages
+        if missing > 0 and len(target.problems) == known_problems:
+            target.complain(str(self.missing_messages_error(missing)))
+        return True
+
+    def counted_messages(self) -> int | None:
+        """Return the message count of the file's statistics."""
+        return self.file.statistics.message_count
+
+    def expected_count(self, channels: Container[int], start_ns: int, end_ns: int) -> int:
         """Return the channels' message count by the statistics; 0 for a part of the file's time."""
         statistics = self.file.statistics
         if start_ns > statistics.start_ns or end_ns < statistics.end_ns:
             return 0
         return sum(n for number, n in statistics.channel_counts.items() if number in channels)
 
-    def lack(self, count: int) -> BagError:
+    def missing_messages_error(self, count: int) -> BagError:
         """Return the error of a file that holds fewer messages than its statistics say."""
         return BagError(f"{self.path}: damaged: {count:,} of the messages that it tells of lack")
 
@@ -290,6 +369,16 @@ class SqliteStorage:
     def definitions(self) -> dict[str, tuple[str, str]]:
         """Encoding and text of the definition of each type."""
         return self.file.definitions()
+
+    def walk_transforms(
+        self, _names: Container[str], _start_ns: int, _end_ns: int, _target: TransformTarget
+    ) -> bool:
+        """Return False: rows are no chunks."""
+        return False
+
+    def counted_messages(self) -> int | None:
+        """Return None: sqlite3 keeps no statistics."""
+        return None
 
     def messages(
         self,

@@ -8,12 +8,14 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.printable import printable
-from turtlewire.tf.inspection import Conflict, conflicts, links, malformed, refusals
+from turtlewire.tf.faults import Conflict, conflicts, malformed, refusals
+from turtlewire.tf.links import links
 from turtlewire.trajectory import find_gaps
 
 if TYPE_CHECKING:
-    from turtlewire.tf.buffer import Buffer
-    from turtlewire.tf.inspection import LinkInfo, Malformed, Refused
+    from turtlewire.tf.faults import Malformed, Refused
+    from turtlewire.tf.implementation import BaseBuffer
+    from turtlewire.tf.links import LinkInfo
     from turtlewire.trajectory import Gap
 
 __all__ = ["Jump", "NewParent", "StepsBack", "TransformReport", "describe", "group_jumps"]
@@ -136,7 +138,7 @@ class TransformReport:
         return "\n".join((self.headline(), *_table(self.links), *self.complaints()))
 
 
-def describe(buffer: Buffer, report: TransformReport) -> None:
+def describe(buffer: BaseBuffer, report: TransformReport) -> None:
     """Add to the report what the filled buffer tells."""
     report.links = links(buffer)
     report.conflicts = conflicts(buffer)
@@ -152,7 +154,7 @@ def describe(buffer: Buffer, report: TransformReport) -> None:
             report.gaps[link.child_frame] = found
 
 
-def _note_parents(buffer: Buffer, report: TransformReport, link: LinkInfo) -> None:
+def _note_parents(buffer: BaseBuffer, report: TransformReport, link: LinkInfo) -> None:
     """Add the changes of a frame's parent, or that it is static in one and moves in another."""
     child = link.child_frame
     if link.parent_changes:

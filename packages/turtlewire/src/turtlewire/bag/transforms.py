@@ -1,4 +1,4 @@
-"""The transforms of a bag, in a buffer.
+"""Reads the transforms of a bag into a buffer.
 
 The bytes of the messages go straight into the buffer. Chunks without transforms are skipped by
 their index, and a second thread decompresses the next chunk while the buffer takes the last one.
@@ -8,25 +8,22 @@ from __future__ import annotations
 
 import os
 import struct
-from concurrent.futures import ThreadPoolExecutor
 from itertools import islice
 from typing import TYPE_CHECKING
 
 from turtlewire.bag.encodings import is_cdr, not_in_cdr
 from turtlewire.bag.progress import progress_line
 from turtlewire.bag.reader import Bag, window
-from turtlewire.bag.storage import McapStorage
 from turtlewire.bag.transform_report import StepsBack, TransformReport, describe, group_jumps
 from turtlewire.errors import BagError
-from turtlewire.tf.buffer import Buffer, RecordWalk
+from turtlewire.tf.implementation import RecordWalk
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
-    from turtlewire.bag.mcap_records import ChunkIndex
-    from turtlewire.bag.metadata import TopicInfo
+    from turtlewire.tf.implementation import BaseBuffer
 
-__all__ = ["TransformReport", "fill_buffer", "load_transforms"]
+__all__ = ["fill_buffer"]
 
 _TF_TYPE = "tf2_msgs/msg/TFMessage"
 _FOREVER = (1 << 64) - 1
@@ -37,52 +34,8 @@ _MESSAGE_FIELDS = 22
 _ROWS_AT_A_TIME = 1000
 
 
-def load_transforms(
-    path: str | os.PathLike[str],
-    *,
-    topics: str | Iterable[str] = "/tf",
-    static_topics: str | Iterable[str] = "/tf_static",
-    start_ns: int = 0,
-    end_ns: int = _FOREVER,
-    cache_time_ns: int | None = None,
-    progress: Callable[[float], None] | None = None,
-) -> tuple[Buffer, TransformReport]:
-    """Read the transforms of a bag into a new buffer.
-
-    Args:
-        path: The bag; see `turtlewire.bag.open_bag`.
-        topics: Where transforms were published, ``"/tf"`` or other names.
-        static_topics: Where static transforms were published. They are taken whatever the window.
-        start_ns: Log time of the first message to take, in nanoseconds or as ``datetime64``.
-        end_ns: Log time of the last message to take.
-        cache_time_ns: How much history the buffer keeps; None keeps all.
-        progress: Called with the share that was read, from 0 to 1; by default a line is drawn on a
-            terminal when reading takes more than a second.
-
-    Returns:
-        The buffer, and what was found.
-
-    Raises:
-        FileNotFoundError: There is nothing at ``path``.
-        BagError: It is no bag, none of the topics is in it, or one that is not the default is
-            missing or of another type.
-        ValueError: The window ends before it begins.
-    """
-    buffer = Buffer(cache_time_ns)
-    report = fill_buffer(
-        buffer,
-        path,
-        topics=topics,
-        static_topics=static_topics,
-        start_ns=start_ns,
-        end_ns=end_ns,
-        progress=progress,
-    )
-    return buffer, report
-
-
 def fill_buffer(
-    buffer: Buffer,
+    buffer: BaseBuffer,
     path: str | os.PathLike[str],
     *,
     topics: str | Iterable[str] = "/tf",
@@ -91,7 +44,7 @@ def fill_buffer(
     end_ns: int = _FOREVER,
     progress: Callable[[float], None] | None = None,
 ) -> TransformReport:
-    """Read the transforms of a bag into a buffer; see `load_transforms`."""
+    """Read the transforms of a bag into a buffer; see `turtlewire.bag.load_transforms`."""
     start_ns, end_ns = window(start_ns, end_ns)
     moving, fixed = _names(topics), _names(static_topics)
     name = os.path.basename(os.path.abspath(path))
@@ -158,102 +111,71 @@ def _check_topics(bag: Bag, wanted: set[str], chosen: set[str]) -> None:
 
 
 class _Reader:
-    """Reads the messages of some topics into a buffer."""
+    """Reads the messages of some topics into a buffer; a `TransformTarget`."""
 
     def __init__(
-        self, bag: Bag, walk: RecordWalk, buffer: Buffer, tell: Callable[[float], None]
+        self, bag: Bag, walk: RecordWalk, buffer: BaseBuffer, tell: Callable[[float], None]
     ) -> None:
         self._bag = bag
         self._walk = walk
         self._buffer = buffer
         self._tell = tell
+        self._static = False
+        self._files_read = 0
 
     def read(self, names: set[str], start_ns: int, end_ns: int, *, static: bool) -> None:
         """Read the messages of topics whose log time lies in the walk's window."""
         if not names:
             return
+        self._static = static
         if static:
             start_ns, end_ns = 0, _FOREVER
-        paths = self._bag.metadata.paths
-        for i, path in enumerate(paths):
+        for number, path in enumerate(self._bag.metadata.paths):
+            self._files_read = number
             try:
                 file = self._bag.file(path)
             except (BagError, OSError) as error:
                 self._bag.complain(str(error))
                 continue
-            if isinstance(file, McapStorage) and self._bag.metadata.compression_mode != "MESSAGE":
-                self._read_chunks(file, names, start_ns, end_ns, static, (i, len(paths)))
-            else:
-                self._read_rows(names, start_ns, end_ns, static)
+            if self._bag.metadata.compression_mode == "MESSAGE" or not file.walk_transforms(
+                names, start_ns, end_ns, self
+            ):
+                self._read_rows(names, start_ns, end_ns)
                 return  # rows come in order of time over all files
 
-    def _read_chunks(
-        self,
-        file: McapStorage,
-        names: set[str],
-        start_ns: int,
-        end_ns: int,
-        static: bool,
-        place: tuple[int, int],
-    ) -> None:
-        """Read one file, each chunk decompressed while the last is taken."""
+    @property
+    def messages(self) -> int:
+        """Number of messages taken so far."""
+        return self._walk.messages
 
-        def wanted(topic: TopicInfo) -> bool:
-            return topic.name in names
+    @property
+    def problems(self) -> list[str]:
+        """What is damaged in the bag."""
+        return self._bag.problems
 
-        channels = {
-            number: (topic.name, static)
-            for number in file.file.channels
-            if wanted(topic := file.topic(number))
-        }
-        chunks = file.chunks(wanted, start_ns, end_ns)
-        total, done = sum(chunk.length for chunk in chunks) or 1, 0
-        expected = self._walk.messages + file.told(channels, start_ns, end_ns)
-        known_problems = len(self._bag.problems)
-        for chunk, records in self._decompressed(file, chunks):
-            if isinstance(records, BagError):
-                self._bag.complain(str(records))
-            else:
-                damaged_at = self._walk.walk(self._buffer, records, channels)
-                if damaged_at >= 0:
-                    self._bag.complain(str(file.file.cut(chunk, damaged_at)))
-            file.file.forget(chunk)
-            done += chunk.length
-            self._tell((place[0] + done / total) / place[1])
-        lacking = expected - self._walk.messages
-        if lacking > 0 and len(self._bag.problems) == known_problems:
-            self._bag.complain(str(file.lack(lacking)))
+    def take(self, records: bytes | memoryview, topics: dict[int, str]) -> int:
+        """Store the transforms of a chunk's records; return where they are damaged, else -1."""
+        channels = {number: (name, self._static) for number, name in topics.items()}
+        return self._walk.walk(self._buffer, records, channels)
 
-    @staticmethod
-    def _decompressed(
-        file: McapStorage, chunks: list[ChunkIndex]
-    ) -> Iterator[tuple[ChunkIndex, bytes | memoryview | BagError]]:
-        """Yield each chunk with its records, which another thread decompresses one chunk ahead."""
+    def complain(self, problem: str) -> None:
+        """Add to the bag's problems."""
+        self._bag.complain(problem)
 
-        def load(chunk: ChunkIndex) -> bytes | memoryview | BagError:
-            try:
-                return file.file.records(chunk)
-            except BagError as error:
-                return error
+    def tell(self, share: float) -> None:
+        """Report which share of the present file was read."""
+        self._tell((self._files_read + share) / len(self._bag.metadata.paths))
 
-        with ThreadPoolExecutor(1, "bag") as thread:
-            following = iter(chunks)
-            ahead = [(chunk, thread.submit(load, chunk)) for chunk in islice(following, 1)]
-            while ahead:
-                chunk, current = ahead.pop()
-                ahead += [(chunk, thread.submit(load, chunk)) for chunk in islice(following, 1)]
-                yield chunk, current.result()
-
-    def _read_rows(self, names: set[str], start_ns: int, end_ns: int, static: bool) -> None:
+    def _read_rows(self, names: set[str], start_ns: int, end_ns: int) -> None:
         """Read storages without chunks, as records that are made here."""
         numbers = {name: number for number, name in enumerate(sorted(names))}
-        channels = {number: (name, static) for name, number in numbers.items()}
+        topics = {number: name for name, number in numbers.items()}
         known = self._bag.topics
         expected = sum(known[name].message_count for name in names) or 1
         records = self._records(names, numbers, start_ns, end_ns)
         done = 0
         while batch := list(islice(records, _ROWS_AT_A_TIME)):
-            self._walk.walk(self._buffer, b"".join(batch), channels)
+            self.take(b"".join(batch), topics)
             done += len(batch)
             self._tell(min(1.0, done / expected))
 

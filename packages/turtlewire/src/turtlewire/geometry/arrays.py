@@ -103,28 +103,21 @@ def matrices(q: NDArray[np.float64]) -> NDArray[np.float64]:
 def from_matrices(m: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the quaternions, with w >= 0, of rotation matrices of the shape (..., 3, 3).
 
-    Each component is computed where it is the largest, which loses no precision (Shepperd 1978).
+    Scale and shear are not detected.
     """
-    m00, m11, m22 = m[..., 0, 0], m[..., 1, 1], m[..., 2, 2]
-    squares = np.stack(
-        (1 + m00 - m11 - m22, 1 - m00 + m11 - m22, 1 - m00 - m11 + m22, 1 + m00 + m11 + m22),
-        axis=-1,
-    )
-    largest = np.argmax(squares, axis=-1)
-    a, b, c = m[..., 2, 1], m[..., 0, 2], m[..., 1, 0]
-    d, e, f = m[..., 1, 2], m[..., 2, 0], m[..., 0, 1]
-    columns = np.stack(
-        (
-            np.stack((squares[..., 0], c + f, b + e, a - d), axis=-1),
-            np.stack((c + f, squares[..., 1], a + d, b - e), axis=-1),
-            np.stack((b + e, a + d, squares[..., 2], c - f), axis=-1),
-            np.stack((a - d, b - e, c - f, squares[..., 3]), axis=-1),
-        ),
-        axis=-2,
-    )
-    chosen = np.take_along_axis(columns, largest[..., None, None], axis=-2)[..., 0, :]
-    q = chosen / np.linalg.norm(chosen, axis=-1, keepdims=True)
-    return upper(q)
+    diagonal = np.diagonal(m, axis1=-2, axis2=-1)
+    trace = diagonal.sum(axis=-1)
+    # Four ways to the same quaternion, times four of one component. The largest component makes the
+    # one that loses no digits (Shepperd 1978).
+    ways = np.empty((*m.shape[:-2], 4, 4))
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        ways[..., i, i] = 1 + 2 * diagonal[..., i] - trace
+        ways[..., i, j] = ways[..., j, i] = m[..., j, i] + m[..., i, j]
+        ways[..., i, 3] = ways[..., 3, i] = m[..., k, j] - m[..., j, k]
+    ways[..., 3, 3] = 1 + trace
+    largest = np.argmax(np.diagonal(ways, axis1=-2, axis2=-1), axis=-1)[..., None, None]
+    q = np.take_along_axis(ways, largest, axis=-2)[..., 0, :]
+    return upper(q / np.sqrt(np.einsum("...i,...i", q, q))[..., None])
 
 
 def upper(q: NDArray[np.float64]) -> NDArray[np.float64]:

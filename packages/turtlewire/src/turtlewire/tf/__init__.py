@@ -7,8 +7,10 @@ Many classes are called some kind of Buffer. From the inside out:
                           (``native/core/tree.hpp``), once in Python (``plain/tree.py``)
 ``SharedBuffer``          C++: a ``Tree`` behind a lock, with threads that wait for data
 ``BufferObject``          C++: the Python object around a ``SharedBuffer``
-``turtlewire.Buffer``     what programs use: the Python class of ``BufferObject``, or its plain
-                          twin ``turtlewire.tf.plain.Buffer``; see :mod:`turtlewire.tf.buffer`
+``BaseBuffer``            the Python class of ``BufferObject``, or its plain twin
+                          ``turtlewire.tf.plain.Buffer``
+``turtlewire.Buffer``     what programs use: a ``BaseBuffer`` that knows bags, trajectories and
+                          pickling; see :mod:`turtlewire.tf.buffer`
 ``tf2_py.BufferCore``     ROS 2's lowest interface, with messages; holds a ``turtlewire.Buffer``
 ``tf2_ros.Buffer``        ROS 2's buffer: a ``BufferCore`` that transforms messages of any type
 ``tf2_ros.BufferClient``  the same interface (``BufferInterface``) to a buffer in another process
@@ -17,14 +19,18 @@ Many classes are called some kind of Buffer. From the inside out:
 =========================  =========================================================================
 module                     what it holds
 =========================  =========================================================================
-`buffer`                   `Buffer`: the compiled core, or its plain twin
-`surface`                  what buffers of both cores offer in Python: bags, trajectories, operators
+`buffer`                   `Buffer`: the chosen core, with bags, trajectories, pickling
+`implementation`           chooses the compiled core or its plain twin
+`products`                 products of transforms, and interpolation
+`archive`                  a buffer as a file
 `datetimes`                stamps given as ``datetime64``
 `plain`                    the plain-Python twin of the compiled core
 `status`                   `LookupStatus`: one answer of a batch lookup
 `listener`                 `TransformListener`: puts the bytes of TF messages into buffers
 `publisher_names`          the node that published a message
-`links`, `inspection`      the links of a buffer as rows, and as objects with rates and ages
+`links`                    the links of a buffer with rates and ages
+`faults`                   refused transforms, malformed messages, and conflicts of senders
+`inspection`               links and faults together, and buffers saved to files
 `restarts`                 notices that a simulation has started again
 `conversions`              quaternions, Euler angles, matrices and poses as arrays
 `arrays`                   a transform as an array

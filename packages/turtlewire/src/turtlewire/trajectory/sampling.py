@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from turtlewire.tf.inspection import links
+from turtlewire.tf.links import links
 from turtlewire.trajectory.trajectory import Gap, Trajectory, as_stamps
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from turtlewire.tf.buffer import Buffer
+    from turtlewire.tf.implementation import BaseBuffer
 
 __all__ = ["find_gaps", "moving_links", "sample_trajectory"]
 
@@ -26,7 +26,7 @@ _MOST_POSES = 20_000_000
 
 
 def sample_trajectory(
-    buffer: Buffer,
+    buffer: BaseBuffer,
     target_frame: str,
     source_frame: str,
     *,
@@ -93,7 +93,7 @@ def find_gaps(stamps_ns: NDArray[np.int64], max_gap_ns: int | None = None) -> li
     ]
 
 
-def moving_links(buffer: Buffer, target: str, source: str) -> list[str]:
+def moving_links(buffer: BaseBuffer, target: str, source: str) -> list[str]:
     """Return the children of the moving links between two frames.
 
     Raises:
@@ -118,7 +118,7 @@ def moving_links(buffer: Buffer, target: str, source: str) -> list[str]:
     ]
 
 
-def _stamps_of(buffer: Buffer, child: str) -> NDArray[np.int64]:
+def _stamps_of(buffer: BaseBuffer, child: str) -> NDArray[np.int64]:
     return np.unique(buffer.stamps(child))
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.geometry.poses import IDENTITY, Pose, between, canonical
+from turtlewire.tf.products import interpolated, product
 
 if TYPE_CHECKING:
     import numpy as np
@@ -75,6 +76,13 @@ class Transform:
         """Return the transform the other way round: source_from_target."""
         back = canonical(between(self._pose, IDENTITY))
         return Transform(self.child_frame_id, self.frame_id, self.stamp_ns, back[:3], back[3:])
+
+    def __matmul__(self, other: Transform) -> Transform:
+        return product(self, other)
+
+    def interpolate(self, other: Transform, stamp_ns: int) -> Transform:
+        """Return the transform at a time between two of the same frames."""
+        return interpolated(self, other, stamp_ns)
 
     def as_matrix(self) -> NDArray[np.float64]:
         """Return the 4x4 matrix that acts on column vectors from the left."""

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import importlib.util
 import os
 import pickle
 import subprocess
 import sys
+import types
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,12 +20,17 @@ SECOND = 1_000_000_000
 
 
 @pytest.fixture(scope="session")
-def equipped(core):
-    """The core with what `turtlewire.Buffer` offers: only the chosen one has it from the start."""
-    from turtlewire.tf.surface import equip
-
-    equip(core.Buffer, core.Transform)
-    return core
+def buffer_type(core):
+    """`turtlewire.Buffer` on each core: the module is run again with the other one chosen."""
+    spec = importlib.util.find_spec("turtlewire.tf.buffer")
+    other = types.ModuleType("buffer_on_another_core")
+    other.__dict__["__name__"] = "buffer_on_another_core"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("turtlewire.tf.implementation.BaseBuffer", core.Buffer)
+        native = core.__name__ == "turtlewire._native"
+        patch.setattr("turtlewire.tf.implementation.CORE", "native" if native else "python")
+        exec(compile(Path(spec.origin).read_text(), spec.origin, "exec"), vars(other))
+    return other.Buffer
 
 
 def poses():
@@ -39,17 +47,17 @@ def made(core, names, pose, stamp=0):
 
 
 @given(poses(), poses())
-def test_matmul_multiplies_the_matrices(equipped, first, second):
-    a, b = made(equipped, ("a", "b"), first), made(equipped, ("b", "c"), second)
+def test_matmul_multiplies_the_matrices(core, first, second):
+    a, b = made(core, ("a", "b"), first), made(core, ("b", "c"), second)
     assert (a @ b).as_matrix() == pytest.approx(a.as_matrix() @ b.as_matrix(), abs=1e-9)
     assert ((a @ b).frame_id, (a @ b).child_frame_id) == ("a", "c")
     assert (a @ a.inverse()).as_matrix() == pytest.approx(np.eye(4), abs=1e-9)
 
 
 @given(poses(), poses(), st.integers(0, SECOND))
-def test_interpolation_is_lerp_and_slerp(equipped, first, second, at):
-    a = made(equipped, ("a", "b"), first, 10 * SECOND)
-    b = made(equipped, ("a", "b"), second, 11 * SECOND)
+def test_interpolation_is_lerp_and_slerp(core, first, second, at):
+    a = made(core, ("a", "b"), first, 10 * SECOND)
+    b = made(core, ("a", "b"), second, 11 * SECOND)
     between = a.interpolate(b, 10 * SECOND + at)
     assert between == b.interpolate(a, 10 * SECOND + at)
     u = at / SECOND
@@ -62,17 +70,17 @@ def test_interpolation_is_lerp_and_slerp(equipped, first, second, at):
     assert between.stamp_ns == 10 * SECOND + at
 
 
-def test_stamps_of_products(equipped):
+def test_stamps_of_products(core):
     identity = ((0, 0, 0), (0, 0, 0, 1))
-    a, b = made(equipped, ("a", "b"), identity, 5), made(equipped, ("b", "c"), identity, 3)
-    fixed = made(equipped, ("b", "c"), identity, 0)
+    a, b = made(core, ("a", "b"), identity, 5), made(core, ("b", "c"), identity, 3)
+    fixed = made(core, ("b", "c"), identity, 0)
     assert (a @ b).stamp_ns == 3
     assert (a @ fixed).stamp_ns == 5
 
 
-def test_what_does_not_fit(equipped):
+def test_what_does_not_fit(core):
     identity = ((0, 0, 0), (0, 0, 0, 1))
-    a, c = made(equipped, ("a", "b"), identity, 5), made(equipped, ("c", "b"), identity, 7)
+    a, c = made(core, ("a", "b"), identity, 5), made(core, ("c", "b"), identity, 7)
     with pytest.raises(ValueError, match=r"do not meet: 'b' is not 'c'; inverse\(\)"):
         a @ c
     with pytest.raises(TypeError):
@@ -82,11 +90,11 @@ def test_what_does_not_fit(equipped):
     with pytest.raises(ValueError, match="different frames"):
         a.interpolate(c, 6)
     with pytest.raises(ValueError, match="9 is not between 5 and 8"):
-        a.interpolate(made(equipped, ("a", "b"), identity, 8), 9)
+        a.interpolate(made(core, ("a", "b"), identity, 8), 9)
 
 
-def test_a_buffer_is_a_container_of_frames(equipped):
-    buffer = equipped.Buffer(None)
+def test_a_buffer_is_a_container_of_frames(buffer_type):
+    buffer = buffer_type(None)
     assert (len(buffer), bool(buffer), list(buffer)) == (0, True, [])
     assert repr(buffer) == "<Buffer: 0 frames, 0 links>"
     buffer.set_transform("map", "base", 10 * SECOND, (1, 0, 0), (0, 0, 0, 1))
@@ -112,11 +120,27 @@ def test_a_buffer_is_pickled():
     assert copy.cache_time_ns is None
     assert copy.lookup_transform("map", "laser", 50 * SECOND).translation == (50, 1, 0)
 
+    assert type(copy) is Buffer
+
     class Own(Buffer):
         pass
 
     with pytest.raises(TypeError, match="cannot pickle Own"):
         pickle.dumps(Own())
+
+
+def test_a_buffer_is_one_class_of_its_core():
+    from turtlewire import Buffer
+    from turtlewire.tf import buffer, implementation
+
+    assert Buffer is buffer.Buffer
+    assert issubclass(Buffer, implementation.BaseBuffer)
+    assert (Buffer.__module__, Buffer.__qualname__) == ("turtlewire", "Buffer")
+    assert not hasattr(implementation.BaseBuffer, "from_bag")  # nothing is added from outside
+    if buffer.CORE == "native":  # CPython calls only an exact class's own C methods directly
+        assert Buffer.lookup_transform.__objclass__ is Buffer
+    with pytest.raises(AttributeError):
+        Buffer().note = "a misspelt attribute"
 
 
 def test_shortcuts(tmp_path):
