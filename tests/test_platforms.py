@@ -14,7 +14,7 @@ import pytest
 from tests.places import ENGINE, ROOT, SCRIPTS
 
 from turtlewire import demo
-from turtlewire.console_keyboard import Keyboard
+from turtlewire.terminal.console_keyboard import Keyboard
 from turtlewire.wire.wheels import Platform, advice
 
 

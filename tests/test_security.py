@@ -45,7 +45,7 @@ The Foxglove server listens on loopback only
 Bytes from the wire are checked
   wire/test_bad_input.py test_a_malformed_message_is_named_once_and_the_next_good_one_arrives
 Names and texts of other processes are escaped
-  test_printable.py test_no_character_leaves_a_control_behind
+  terminal/test_printable.py test_no_character_leaves_a_control_behind
   ros2cli/test_output.py test_every_verb_is_escaped test_messages_on_stderr_are_escaped
 Parameter files, bags, saved buffers, URDF and `.rviz` files are data
   test_security.py test_no_python_objects_come_out_of_yaml

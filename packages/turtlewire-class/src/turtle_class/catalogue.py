@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import turtle_lesson
 from turtle_class.errors import ClassError
-from turtlewire.suggestion import did_you_mean
+from turtlewire.terminal.suggestion import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from turtle_class.errors import ClassError
-from turtlewire.cli.parser import seconds
+from turtlewire.terminal.parser import seconds
 from turtlewire.web.options import add_page_options
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ from turtle_class.junit import as_junit
 from turtle_class.launch_file import launch_text
 from turtle_class.pages import overview, student_page
 from turtle_class.runner import Limits
-from turtlewire.printable import printable
+from turtlewire.terminal.printable import printable
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -17,7 +17,7 @@ from turtlewire import msg
 from turtlewire.cli.graph_findings import graph_findings
 from turtlewire.cli.tf_findings import tf_findings
 from turtlewire.cli.tf_traffic import TfListener, tf_publishers
-from turtlewire.printable import printable
+from turtlewire.terminal.printable import printable
 from turtlewire.wire import open_context
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.names import fully_qualified_node_name, is_hidden, validate_full_topic_name

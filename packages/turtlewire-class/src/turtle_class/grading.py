@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from turtle_class.errors import ClassError
 from turtle_class.runner import CheckResult, Outcome, Runner
 from turtle_class.seclusion import hidden
-from turtlewire.printable import printable
-from turtlewire.signal_watch import watched
+from turtlewire.terminal.printable import printable
+from turtlewire.terminal.signal_watch import watched
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree as ET
 
-from turtlewire.printable import printable, printable_lines
+from turtlewire.terminal.printable import printable, printable_lines
 
 if TYPE_CHECKING:
     from turtle_class.grading import Report

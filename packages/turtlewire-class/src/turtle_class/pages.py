@@ -9,7 +9,7 @@ import html
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
-from turtlewire.printable import printable, printable_lines
+from turtlewire.terminal.printable import printable, printable_lines
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

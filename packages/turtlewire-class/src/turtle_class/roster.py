@@ -7,7 +7,7 @@ import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtle_class.errors import ClassError
-from turtlewire.printable import printable
+from turtlewire.terminal.printable import printable
 from turtlewire.wire.environment import MAX_DOMAIN_ID
 
 if TYPE_CHECKING:

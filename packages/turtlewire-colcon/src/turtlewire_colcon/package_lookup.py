@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from turtlewire.suggestion import did_you_mean
+from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire_ros.prefix import MARKERS, editable_source, own_prefix
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ from rclpy.utilities import remove_ros_args
 from tf_transformations import euler_from_quaternion
 from turtlewire.errors import TransformException
 from turtlewire.geometry import quaternions
-from turtlewire.printable import printable_lines
+from turtlewire.terminal.printable import printable_lines
 
 from .buffer import Buffer
 from .command_line import Parser, count, digits, frame_id

@@ -18,7 +18,7 @@ from rclpy.utilities import remove_ros_args
 from tf2_ros import DEFAULT_STATIC_TF_TOPIC, DEFAULT_TF_TOPIC, Buffer, TransformListener
 from tf2_tools.dot import dot_from_tree, generate_dot
 from tf2_tools.pdf import pdf_from_drawing
-from turtlewire.printable import printable
+from turtlewire.terminal.printable import printable
 from turtlewire.tf.drawing import svg_from_drawing
 from turtlewire.tf.frame_tree import FrameTree, read_frame_tree
 from turtlewire.tf.tree_drawing import draw_tree

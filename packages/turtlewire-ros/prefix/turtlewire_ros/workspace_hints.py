@@ -8,7 +8,7 @@ import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from turtlewire.suggestion import did_you_mean
+from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire_ros.executables import executable_paths
 from turtlewire_ros.prefix import MARKERS, package_names, package_prefix
 from turtlewire_ros.rqt import equivalent

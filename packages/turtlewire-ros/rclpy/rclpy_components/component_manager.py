@@ -11,7 +11,7 @@ from composition_interfaces.srv import ListNodes, LoadNode, UnloadNode
 from rclpy.executors import ExternalShutdownException, ShutdownException, SingleThreadedExecutor
 from rclpy.node import Node, component_arguments
 from rclpy.parameter import parameter_value_to_python
-from turtlewire.printable import printable, printable_lines
+from turtlewire.terminal.printable import printable, printable_lines
 
 if TYPE_CHECKING:
     from rclpy.context import Context

@@ -28,7 +28,7 @@ from std_msgs.msg import String
 from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
 from turtlewire.errors import CdrError
 from turtlewire.geometry import quaternions
-from turtlewire.printable import printable
+from turtlewire.terminal.printable import printable
 from turtlewire.urdf import UrdfError, followers_of
 from turtlewire.urdf.joint_messages import JointMessages, stamp_of
 

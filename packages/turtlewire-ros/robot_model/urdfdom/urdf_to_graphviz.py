@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 
 from tf2_tools.pdf import pdf_from_drawing
-from turtlewire.printable import printable
+from turtlewire.terminal.printable import printable
 from turtlewire.program import program
 from turtlewire.urdf import UrdfError
 from urdfdom.dot import dot_from_robot

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from turtlewire.printable import printable
+from turtlewire.terminal.printable import printable
 from turtlewire.wire import names
 from turtlewire.wire.base import NodeInfo
 

@@ -7,7 +7,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.errors import UncallableServiceError
-from turtlewire.printable import printable_lines
+from turtlewire.terminal.printable import printable_lines
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.output import tell
-from turtlewire import suggestion
+from turtlewire.terminal import suggestion
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Mapping

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from rclpy.logging import get_logger
 from turtlewire.bag import reindex
 from turtlewire.errors import BagError
-from turtlewire.printable import printable
+from turtlewire.terminal.printable import printable
 
 if TYPE_CHECKING:
     from rosbag2_py._storage import StorageOptions

@@ -17,7 +17,7 @@ from rosbag2_transport.rewrite import Output, rewrite
 from turtlewire.bag import open_bag
 from turtlewire.bag.qos_yaml import load_yaml
 from turtlewire.errors import BagError
-from turtlewire.suggestion import did_you_mean
+from turtlewire.terminal.suggestion import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

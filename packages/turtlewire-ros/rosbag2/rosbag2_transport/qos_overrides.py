@@ -14,7 +14,7 @@ from rclpy.qos import (
 )
 from turtlewire.bag.qos_yaml import load_yaml
 from turtlewire.errors import BagError
-from turtlewire.suggestion import did_you_mean
+from turtlewire.terminal.suggestion import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -14,7 +14,7 @@ from rosbag2_transport.recorder_qos import misses, refusal, subscription_qos
 from rosbag2_transport.topic_filter import TopicFilter
 from turtlewire.errors import BagError, InterfaceError, WireError
 from turtlewire.msg import type_hash
-from turtlewire.printable import printable
+from turtlewire.terminal.printable import printable
 from turtlewire.wire.base import Subscription, TypeId
 from turtlewire.wire.qos import Durability
 

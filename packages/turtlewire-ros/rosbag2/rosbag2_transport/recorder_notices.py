@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from rosbag2_transport.topic_filter import EVENT_TOPIC, pattern
-from turtlewire.suggestion import did_you_mean
+from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire.wire.names import is_hidden
 
 if TYPE_CHECKING:

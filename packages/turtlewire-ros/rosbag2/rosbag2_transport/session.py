@@ -13,8 +13,8 @@ from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from turtlewire.keyboard import Keyboard
-from turtlewire.signal_watch import watched
+from turtlewire.terminal.keyboard import Keyboard
+from turtlewire.terminal.signal_watch import watched
 
 if TYPE_CHECKING:
     import queue

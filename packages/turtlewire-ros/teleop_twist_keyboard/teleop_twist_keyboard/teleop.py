@@ -15,7 +15,7 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from rclpy.unheard import warn_if_unheard
-from turtlewire.keyboard import (
+from turtlewire.terminal.keyboard import (
     ENDING_SIGNALS,
     Keyboard,
     foreground_terminal,

@@ -16,7 +16,7 @@ from rclpy.unheard import warn_if_unheard
 from turtlesim.action import RotateAbsolute
 from turtlesim.cpp_node import CppNode
 from turtlesim.turtle_endpoints import QUEUE_DEPTH
-from turtlewire.keyboard import (
+from turtlewire.terminal.keyboard import (
     ENDING_SIGNALS,
     Keyboard,
     foreground_terminal,

@@ -24,7 +24,7 @@ from turtlesim.page_actions import PageActions
 from turtlesim.path import PathImage
 from turtlesim.srv import Kill, Spawn
 from turtlesim.turtle_endpoints import TurtleEndpoints, are_finite
-from turtlewire.printable import printable, printable_lines
+from turtlewire.terminal.printable import printable, printable_lines
 
 if TYPE_CHECKING:
     from rclpy.timer import Timer

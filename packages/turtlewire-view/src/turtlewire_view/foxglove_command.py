@@ -8,7 +8,7 @@ import sys
 import threading
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.printable import printable
+from turtlewire.terminal.printable import printable
 
 if TYPE_CHECKING:
     import argparse

@@ -13,7 +13,7 @@ import sys
 from typing import TYPE_CHECKING, NamedTuple
 from urllib.parse import quote, unquote, urlsplit
 
-from turtlewire.printable import printable
+from turtlewire.terminal.printable import printable
 from turtlewire.web import Content
 
 if TYPE_CHECKING:

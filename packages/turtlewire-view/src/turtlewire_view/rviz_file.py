@@ -11,7 +11,7 @@ import hashlib
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.printable import printable
+from turtlewire.terminal.printable import printable
 from turtlewire_view.rviz_camera import Camera, camera_from
 from turtlewire_view.rviz_options import CLASSES, from_rviz
 

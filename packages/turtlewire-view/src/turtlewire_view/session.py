@@ -8,7 +8,7 @@ import time
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from turtlewire.errors import TurtlewireError
-from turtlewire.printable import printable
+from turtlewire.terminal.printable import printable
 from turtlewire_view.display_feed import Base, DisplayFeed
 from turtlewire_view.displays.options import OptionError
 from turtlewire_view.frames import FrameScene

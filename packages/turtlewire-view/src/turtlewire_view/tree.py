@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from turtlewire.errors import ExtrapolationException, TransformException
-from turtlewire.suggestion import did_you_mean
+from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire.tf import inspection
 from turtlewire.tf.conversions import euler_from_quaternion
 from turtlewire_view.frames import FRAME_TIMEOUT_S

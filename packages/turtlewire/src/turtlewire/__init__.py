@@ -5,19 +5,14 @@ module               what it holds
 ===================  =====================================================================
 `bag`                rosbag2 folders, MCAP and sqlite3, read and written
 `cli`                the ``turtlewire`` command and its verbs
-`console_keyboard`   keys of the console of Windows
 `demo`               ``python -m turtlewire.demo``: one turtle follows another
 `errors`             every error that turtlewire raises on purpose
 `geometry`           quaternions, poses and matrices as numbers
-`keyboard`           keys, as teleop and ``ros2 bag`` read them
 `msg`                interface definitions, message classes, CDR and type hashes
 `platforms`          what this platform can do, and which core is asked for
 `plugins`            entry points that installed packages declare
-`printable`          text from other processes, made safe for a terminal
 `program`            how a command ends whose output cannot be written
-`signal_watch`       signals that are acted on while the main thread waits
-`suggestion`         the nearest names to one that does not exist
-`terminal_keyboard`  keys of a terminal
+`terminal`           command lines, keys and text of terminals
 `testing`            a domain, a filled buffer and waiting, for users' tests
 `tf`                 the transform buffer, the listener that fills it, and its pictures
 `trajectory`         poses over time: sampled, in files, compared

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
-from turtlewire.printable import printable
+from turtlewire.terminal.printable import printable
 from turtlewire_view.displays.options import Options
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeGuard
 
-from turtlewire.suggestion import did_you_mean
+from turtlewire.terminal.suggestion import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, cast
 from websockets.asyncio.server import serve
 from websockets.exceptions import ConnectionClosed
 
-from turtlewire.printable import printable
+from turtlewire.terminal.printable import printable
 from turtlewire.web import origin as web_origin
 from turtlewire.web.connections import Connections
 from turtlewire_view.foxglove import origins

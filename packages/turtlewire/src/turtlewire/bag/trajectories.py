@@ -9,7 +9,7 @@ import numpy as np
 from turtlewire.bag.progress import progress_line
 from turtlewire.bag.reader import Bag, window
 from turtlewire.errors import BagError
-from turtlewire.suggestion import did_you_mean
+from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire.trajectory import Trajectory, find_gaps
 
 if TYPE_CHECKING:

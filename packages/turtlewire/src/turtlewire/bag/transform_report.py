@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
-from turtlewire.printable import printable
+from turtlewire.terminal.printable import printable
 from turtlewire.tf.faults import Conflict, conflicts, malformed, refusals
 from turtlewire.tf.links import links
 from turtlewire.trajectory import find_gaps

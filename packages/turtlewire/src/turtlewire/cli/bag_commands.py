@@ -7,7 +7,7 @@ import math
 import sys
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.cli.parser import add_tf_topics, seconds, tf_topics
+from turtlewire.terminal.parser import add_tf_topics, seconds, tf_topics
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -207,7 +207,7 @@ def reporting_errors(
 
     def guarded(args: argparse.Namespace) -> int:
         from turtlewire.errors import BagError, TransformException
-        from turtlewire.printable import printable_lines
+        from turtlewire.terminal.printable import printable_lines
 
         try:
             return run(args)

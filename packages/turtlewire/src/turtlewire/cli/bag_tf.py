@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from turtlewire.bag import load_transforms
 from turtlewire.cli.frame_picture import take_picture
-from turtlewire.printable import printable
+from turtlewire.terminal.printable import printable
 
 if TYPE_CHECKING:
     from turtlewire.bag import TransformReport

@@ -6,9 +6,9 @@ import json
 import os
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.cli.parser import tf_topics
+from turtlewire.terminal.parser import tf_topics
 from turtlewire.cli.trajectory_sources import TrajectoryReader, parse_source
-from turtlewire.printable import printable
+from turtlewire.terminal.printable import printable
 from turtlewire.trajectory import (
     compare,
     plot_box,

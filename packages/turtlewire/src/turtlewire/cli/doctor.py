@@ -14,7 +14,7 @@ from turtlewire.cli.setup_findings import looks_for_others, network_findings, se
 from turtlewire.cli.tf_findings import tf_findings
 from turtlewire.cli.tf_traffic import TfListener, tf_publishers
 from turtlewire.errors import WireError
-from turtlewire.printable import printable
+from turtlewire.terminal.printable import printable
 from turtlewire.wire.environment import discovery, is_installed, middleware_name
 
 if TYPE_CHECKING:

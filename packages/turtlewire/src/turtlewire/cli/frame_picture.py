@@ -7,8 +7,8 @@ import os
 import re
 from typing import TYPE_CHECKING, NamedTuple
 
-from turtlewire.printable import printable
-from turtlewire.suggestion import did_you_mean
+from turtlewire.terminal.printable import printable
+from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire.tf import inspection
 from turtlewire.tf.frame_tree import read_frame_tree
 

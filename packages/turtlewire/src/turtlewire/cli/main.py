@@ -10,7 +10,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.cli.bag_commands import add_bag_commands, complete_bags, reporting_errors
-from turtlewire.cli.parser import Parser, add_tf_topics, seconds, tf_topics
+from turtlewire.terminal.parser import Parser, add_tf_topics, seconds, tf_topics
 from turtlewire.plugins import declared
 from turtlewire.program import program
 

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from turtlewire.cli.parser import tf_topics
+from turtlewire.terminal.parser import tf_topics
 from turtlewire.cli.trajectory_sources import Source, TrajectoryReader
-from turtlewire.printable import printable
+from turtlewire.terminal.printable import printable
 from turtlewire.trajectory import write_trajectory
 from turtlewire.trajectory.files import kitti_times
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from turtlewire.printable import printable
+from turtlewire.terminal.printable import printable
 from turtlewire.tf.drawing import text_width
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from turtlewire.errors import TurtlewireError
-from turtlewire.printable import printable
+from turtlewire.terminal.printable import printable
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from turtlewire.geometry import arrays
-from turtlewire.suggestion import did_you_mean
+from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire.urdf.joint_model import NUMBER_OF_CONSTANTS, joint_constants
 from turtlewire.urdf.mimic import followers_of
 

@@ -6,7 +6,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument, exclusive
-from turtlewire.cli.parser import seconds
+from turtlewire.terminal.parser import seconds
 
 if TYPE_CHECKING:
     import argparse

@@ -8,14 +8,14 @@ from __future__ import annotations
 import sys
 
 if sys.platform == "win32":
-    from turtlewire.console_keyboard import (
+    from turtlewire.terminal.console_keyboard import (
         ENDING_SIGNALS,
         Keyboard,
         foreground_terminal,
         signals_for_this_thread,
     )
 else:
-    from turtlewire.terminal_keyboard import (
+    from turtlewire.terminal.posix_keyboard import (
         ENDING_SIGNALS,
         Keyboard,
         foreground_terminal,

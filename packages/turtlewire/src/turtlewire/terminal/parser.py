@@ -7,7 +7,7 @@ import math
 import re
 from typing import TYPE_CHECKING
 
-from turtlewire.suggestion import did_you_mean
+from turtlewire.terminal.suggestion import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from turtlewire.printable import printable, printable_lines
+from turtlewire.terminal.printable import printable, printable_lines
 from turtlewire.wire.report import warn
 
 

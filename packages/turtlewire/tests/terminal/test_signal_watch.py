@@ -8,7 +8,7 @@ import threading
 
 import pytest
 
-from turtlewire.signal_watch import watched
+from turtlewire.terminal.signal_watch import watched
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="SIGUSR1 is a signal of POSIX")
 LIMIT_S = 120
