@@ -31,7 +31,7 @@ PREFIX = ROS / "prefix" / "turtlewire_ros"
 COLCON_CODE = COLCON / "src" / "turtlewire_colcon"
 #: Files in which such a string is right, and the reason.
 REASONS = {
-    ENGINE / "src/turtlewire/cli/network.py": "does without where the file is missing",
+    ENGINE / "src/turtlewire/doctor/network.py": "does without where the file is missing",
     ENGINE / "src/turtlewire/wire/loopback.py": "reads it on Linux only",
     ENGINE / "src/turtlewire/wire/cyclone/ports.py": "does without where the file is missing",
     ENGINE / "src/turtlewire/wire/libddsc.py": "looks for folders, and finds none",

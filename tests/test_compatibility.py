@@ -355,7 +355,7 @@ a verb whose output `head` has closed, or that a full disk refuses, ends with a 
 without a route to the group, `ros2 multicast` ends with `No such device`
   ros2cli/test_multicast.py test_without_a_network_it_arrives_on_the_same_host
 `ros2 doctor` counts checks
-  cli/test_doctor.py test_the_command_says_problems_first_and_fails
+  doctor/test_doctor.py test_the_command_says_problems_first_and_fails
 `dependent_joints` have no effect once there is a description
   joint_state_publisher/test_golden.py test_dependent_joints_outlive_the_description
 a mimic joint of an unknown joint ends joint_state_publisher with `KeyError`

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any
 
 from turtlesim.transform_view import TransformView
 from turtlewire import msg
-from turtlewire.cli.graph_findings import graph_findings
-from turtlewire.cli.tf_findings import tf_findings
-from turtlewire.cli.tf_traffic import TfListener, tf_publishers
+from turtlewire.doctor.graph_findings import graph_findings
+from turtlewire.doctor.tf_findings import tf_findings
+from turtlewire.doctor.tf_traffic import TfListener, tf_publishers
 from turtlewire.terminal.printable import printable
 from turtlewire.wire import open_context
 from turtlewire.wire.base import TypeId
@@ -25,7 +25,7 @@ from turtlewire.wire.qos import QoS, Reliability
 
 if TYPE_CHECKING:
     from turtle_class.roster import Seat
-    from turtlewire.cli.finding import Finding
+    from turtlewire.doctor.finding import Finding
     from turtlewire.wire.base import Subscription
 
 __all__ = ["DomainWatch"]

@@ -10,10 +10,10 @@ from rosidl_runtime_py import message_to_yaml
 from rosidl_runtime_py.utilities import get_message
 from tf2_ros import Buffer, TransformException, TransformListener
 from tf2_ros.tf2_echo import describe
-from turtlewire.cli.doctor import report
-from turtlewire.cli.graph_findings import graph_findings
-from turtlewire.cli.tf_findings import tf_findings
-from turtlewire.cli.tf_traffic import TfListener
+from turtlewire.doctor.examination import report
+from turtlewire.doctor.graph_findings import graph_findings
+from turtlewire.doctor.tf_findings import tf_findings
+from turtlewire.doctor.tf_traffic import TfListener
 
 if TYPE_CHECKING:
     from rclpy.node import Node

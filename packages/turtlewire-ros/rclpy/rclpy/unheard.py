@@ -33,7 +33,7 @@ def warn_if_unheard(node: Node, publisher: Publisher) -> None:
 
 
 def _unheard(topic: str, domain: int) -> str:
-    from turtlewire.cli.network import domains_of, udp_ports
+    from turtlewire.doctor.network import domains_of, udp_ports
 
     text = f"No node subscribes to {topic} on domain {domain}."
     others = sorted(domains_of(udp_ports()) - {domain})

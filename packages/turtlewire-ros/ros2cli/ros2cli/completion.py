@@ -102,7 +102,7 @@ def node_names(**_: Any) -> list[str]:
 
 def frame_names(**_: Any) -> list[str]:
     """Names of the frames that are published now."""
-    from turtlewire.cli.tf_traffic import frame_names
+    from turtlewire.doctor.tf_traffic import frame_names
 
     return frame_names()
 

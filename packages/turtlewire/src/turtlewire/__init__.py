@@ -6,6 +6,7 @@ module               what it holds
 `bag`                rosbag2 folders, MCAP and sqlite3, read and written
 `cli`                the ``turtlewire`` command and its verbs
 `demo`               ``python -m turtlewire.demo``: one turtle follows another
+`doctor`             checks of the installation, the graph and the transforms
 `errors`             every error that turtlewire raises on purpose
 `geometry`           quaternions, poses and matrices as numbers
 `msg`                interface definitions, message classes, CDR and type hashes

@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from turtlewire.cli.setup_findings import setup_findings
+from turtlewire.doctor.setup_findings import setup_findings
 from turtlewire.errors import WireError
 from turtlewire.wire import open_context, report
 

@@ -12,7 +12,7 @@ import pytest
 
 from rclpy import unheard
 from std_msgs.msg import String
-from turtlewire.cli import network
+from turtlewire.doctor import network
 
 
 @pytest.fixture

@@ -211,7 +211,7 @@ class _OwnCheck(DoctorCheck):
         return "turtlewire"
 
     def check(self) -> Result:
-        from turtlewire.cli.doctor import examine
+        from turtlewire.doctor.examination import examine
 
         result = Result()
         for finding in examine():

@@ -24,9 +24,9 @@ from turtlesim.testing.faults import (
     WrongTime,
 )
 from turtlesim.testing.programs import ProgramError
-from turtlewire.cli.graph_findings import graph_findings
-from turtlewire.cli.tf_findings import tf_findings
-from turtlewire.cli.tf_traffic import TfListener
+from turtlewire.doctor.graph_findings import graph_findings
+from turtlewire.doctor.tf_findings import tf_findings
+from turtlewire.doctor.tf_traffic import TfListener
 
 VERBATIM = ROOT / "tests" / "tutorial" / "verbatim" / "learning_tf2_py" / "learning_tf2_py"
 TICK_S = 0.016

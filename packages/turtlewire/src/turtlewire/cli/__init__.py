@@ -4,15 +4,6 @@
 module                what it holds
 ====================  ============================================================
 `main`                the command and its verbs
-`parser`              command lines that suggest the nearest name for a wrong word
-`doctor`              the verb ``doctor``: runs the checks and prints the findings
-`finding`             one finding: what is wrong and what to do
-`setup_findings`      checks of the installation, the environment and the network
-`graph_findings`      checks of nodes and topics
-`tf_findings`         checks of the published transforms
-`tf_gaps`             transforms that are missing from a rhythm
-`tf_traffic`          who published which transforms during the checks
-`network`             sockets of other domains, and multicast
 `frames`              the verb ``frames``: ages, rates and publishers
 `frame_picture`       that tree at one moment, as text and as JSON
 `bag_commands`        the parsers of ``bag``, ``trajectory`` and ``compare``

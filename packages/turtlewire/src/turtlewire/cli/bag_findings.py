@@ -9,9 +9,9 @@ import numpy as np
 
 from turtlewire.bag import load_transforms, open_bag
 from turtlewire.bag.encodings import not_in_cdr
-from turtlewire.cli.finding import Finding, note, problem
-from turtlewire.cli.tf_findings import recorded_findings
-from turtlewire.cli.tf_traffic import FASTEST_M_S, JITTER_NS, LEAP_M, TfTraffic
+from turtlewire.doctor.finding import Finding, note, problem
+from turtlewire.doctor.tf_findings import recorded_findings
+from turtlewire.doctor.tf_traffic import FASTEST_M_S, JITTER_NS, LEAP_M, TfTraffic
 from turtlewire.errors import BagError
 from turtlewire.wire.qos import Durability
 

@@ -153,13 +153,13 @@ def _complete(parser: Parser) -> None:
 
 
 def _frame_names(**_: Any) -> list[str]:
-    from turtlewire.cli.tf_traffic import frame_names
+    from turtlewire.doctor.tf_traffic import frame_names
 
     return frame_names()
 
 
 def _doctor(args: argparse.Namespace) -> int:
-    from turtlewire.cli.doctor import as_json, examine, full_report, report
+    from turtlewire.doctor.examination import as_json, examine, full_report, report
 
     as_text = full_report if args.bag is None else report
     if args.bag is None:

@@ -63,7 +63,7 @@ def main(args: argparse.Namespace) -> int:
         for other in api.reports_of_others():
             printing.format_print(other)
         return 0
-    from turtlewire.cli.doctor import examine, full_report
+    from turtlewire.doctor.examination import examine, full_report
 
     findings = examine(args.listen)
     failed = [finding for finding in findings if finding.is_problem or args.include_warnings]

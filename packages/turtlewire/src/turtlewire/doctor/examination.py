@@ -8,11 +8,11 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
-from turtlewire.cli.finding import Finding, problem
-from turtlewire.cli.graph_findings import graph_findings
-from turtlewire.cli.setup_findings import looks_for_others, network_findings, setup_findings
-from turtlewire.cli.tf_findings import tf_findings
-from turtlewire.cli.tf_traffic import TfListener, tf_publishers
+from turtlewire.doctor.finding import Finding, problem
+from turtlewire.doctor.graph_findings import graph_findings
+from turtlewire.doctor.setup_findings import looks_for_others, network_findings, setup_findings
+from turtlewire.doctor.tf_findings import tf_findings
+from turtlewire.doctor.tf_traffic import TfListener, tf_publishers
 from turtlewire.errors import WireError
 from turtlewire.terminal.printable import printable
 from turtlewire.wire.environment import discovery, is_installed, middleware_name

@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
-from turtlewire.cli.finding import Finding, note, problem
-from turtlewire.cli.network import multicast_works
+from turtlewire.doctor.finding import Finding, note, problem
+from turtlewire.doctor.network import multicast_works
 from turtlewire.wire.environment import Range, discovery
 from turtlewire.wire.libddsc import find_libddsc
 from turtlewire.wire.security import (

@@ -6,9 +6,9 @@ import os
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from turtlewire.cli.finding import Finding, note, problem
-from turtlewire.cli.network import domains_of, udp_ports
-from turtlewire.cli.setup_findings import looks_for_others, only_this_host
+from turtlewire.doctor.finding import Finding, note, problem
+from turtlewire.doctor.network import domains_of, udp_ports
+from turtlewire.doctor.setup_findings import looks_for_others, only_this_host
 from turtlewire.wire.environment import compares_qos, discovery, domain_id
 from turtlewire.wire.names import fully_qualified_node_name, is_hidden
 from turtlewire.wire.qos import Durability, Reliability

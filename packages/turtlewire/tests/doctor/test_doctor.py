@@ -14,15 +14,15 @@ from pathlib import Path
 import pytest
 
 from turtlewire import msg
-from turtlewire.cli import doctor
-from turtlewire.cli import setup_findings as setup
-from turtlewire.cli.finding import Finding
-from turtlewire.cli.graph_findings import graph_findings
+from turtlewire.doctor import examination
+from turtlewire.doctor import setup_findings as setup
+from turtlewire.doctor.finding import Finding
+from turtlewire.doctor.graph_findings import graph_findings
 from turtlewire.cli.main import main
-from turtlewire.cli.network import domains_of, multicast_works, udp_ports
-from turtlewire.cli.setup_findings import network_findings, setup_findings
-from turtlewire.cli.tf_findings import tf_findings
-from turtlewire.cli.tf_traffic import TfListener, TfTraffic, frame_names
+from turtlewire.doctor.network import domains_of, multicast_works, udp_ports
+from turtlewire.doctor.setup_findings import network_findings, setup_findings
+from turtlewire.doctor.tf_findings import tf_findings
+from turtlewire.doctor.tf_traffic import TfListener, TfTraffic, frame_names
 from turtlewire.errors import WireError
 from turtlewire.wire import open_context
 from turtlewire.wire.base import TypeId
@@ -348,8 +348,8 @@ def test_what_is_not_right_is_listened_to_for_all_the_time(context, monkeypatch,
             super().wait(60.0, {static.gid: 1})
 
     monkeypatch.setattr("turtlewire.wire.open_context", lambda: context)
-    monkeypatch.setattr(doctor, "TfListener", Hears)
-    doctor.examine()
+    monkeypatch.setattr(examination, "TfListener", Hears)
+    examination.examine()
     assert len(asked) == len(parents)
     assert asked[1:] == [None] * (len(parents) - 1)
 
@@ -358,8 +358,8 @@ def test_listening_ends_when_each_publisher_was_heard_often(context, monkeypatch
     """The time limit is longer than the test's: only the event can end the wait."""
     heard = []
     # A machine that is busy publishes late, which would be a finding, and a reason to go on.
-    monkeypatch.setattr(doctor, "tf_findings", lambda _, traffic: heard.append(traffic) or [])
-    monkeypatch.setattr(doctor, "_LISTEN_S", 1000.0)
+    monkeypatch.setattr(examination, "tf_findings", lambda _, traffic: heard.append(traffic) or [])
+    monkeypatch.setattr(examination, "_LISTEN_S", 1000.0)
     monkeypatch.setattr("turtlewire.wire.open_context", lambda: context)
     publisher = context.create_node("one").create_publisher("/tf", TF, QoS())
     end = threading.Event()
@@ -372,7 +372,7 @@ def test_listening_ends_when_each_publisher_was_heard_often(context, monkeypatch
     sender = threading.Thread(target=send)
     sender.start()
     try:
-        doctor.examine()
+        examination.examine()
     finally:
         end.set()
         sender.join()
@@ -381,13 +381,13 @@ def test_listening_ends_when_each_publisher_was_heard_often(context, monkeypatch
 
 def test_beside_static_transforms_alone_listening_ends_when_they_came(context, monkeypatch):
     """The time limit is longer than the test's: only the event can end the wait."""
-    monkeypatch.setattr(doctor, "_LISTEN_S", 1000.0)
+    monkeypatch.setattr(examination, "_LISTEN_S", 1000.0)
     monkeypatch.setattr("turtlewire.wire.open_context", lambda: context)
     latched = QoS(durability=Durability.TRANSIENT_LOCAL)
     for name in ("one", "two"):
         publisher = context.create_node(name).create_publisher("/tf_static", TF, latched)
         publisher.publish(msg.serialize(transform("world", "shared")))
-    assert "The frame 'shared' is published by /one and /two." in texts(doctor.examine())
+    assert "The frame 'shared' is published by /one and /two." in texts(examination.examine())
 
 
 def test_completion_offers_frames_without_control_characters(context, monkeypatch):
@@ -422,7 +422,7 @@ def test_the_command_says_problems_first_and_fails(monkeypatch, capsys):
     monkeypatch.setenv("ROS_DOMAIN_ID", "7")
     network = "middleware local, discovery range LOCALHOST, domain 7."
     findings = [Finding(False, "small", "do a"), *[Finding(True, "big", "do b")] * 2]
-    monkeypatch.setattr(doctor, "examine", lambda _seconds: findings)
+    monkeypatch.setattr(examination, "examine", lambda _seconds: findings)
     assert main(["doctor"]) == 1
     big = "PROBLEM: big\n    do b\n"
     small = "note: small\n    do a\n"
@@ -452,14 +452,14 @@ def test_right_after_the_installation_all_is_well(run):
 
 
 def test_without_a_middleware_none_is_named(monkeypatch):
-    monkeypatch.setattr(doctor, "is_installed", lambda _name: False)
-    first, *_ = doctor.full_report([Finding(True, "no network", "install one")]).splitlines()
+    monkeypatch.setattr(examination, "is_installed", lambda _name: False)
+    first, *_ = examination.full_report([Finding(True, "no network", "install one")]).splitlines()
     assert first.startswith("1 problem found: middleware none, ")
 
 
 def test_findings_as_json(monkeypatch, capsys):
     findings = [Finding(False, "small", "do a"), Finding(True, "big", "do b")]
-    monkeypatch.setattr(doctor, "examine", lambda _seconds: findings)
+    monkeypatch.setattr(examination, "examine", lambda _seconds: findings)
     assert main(["doctor", "--json"]) == 1
     assert json.loads(capsys.readouterr().out) == {
         "findings": [
@@ -470,13 +470,13 @@ def test_findings_as_json(monkeypatch, capsys):
 
 
 def test_names_from_the_wire_do_not_steer_the_terminal():
-    text = doctor.report([Finding(True, "node /a\x1b[2J", "rename /a\x1b[2J")])
+    text = examination.report([Finding(True, "node /a\x1b[2J", "rename /a\x1b[2J")])
     assert text == "PROBLEM: node /a\\x1b[2J\n    rename /a\\x1b[2J"
 
 
 def test_a_domain_that_cannot_be_joined_is_a_finding(monkeypatch):
     monkeypatch.setenv("ROS_DOMAIN_ID", "999")
-    assert any("ROS_DOMAIN_ID" in text and "999" in text for text in texts(doctor.examine(0.0)))
+    assert any("ROS_DOMAIN_ID" in text and "999" in text for text in texts(examination.examine(0.0)))
 
 
 def test_stamps_that_jump_back_and_frames_that_leap(context, broadcasters):
@@ -511,7 +511,7 @@ def test_the_domains_of_ports():
 def test_nodes_on_another_domain_of_this_host_are_named(context, monkeypatch):
     monkeypatch.setenv("ROS_DOMAIN_ID", "5")  # the domain of the tests may be any
     monkeypatch.setattr(
-        "turtlewire.cli.graph_findings.udp_ports", lambda: {7410 + 250 * 100, 7410 + 250 * 5}
+        "turtlewire.doctor.graph_findings.udp_ports", lambda: {7410 + 250 * 100, 7410 + 250 * 5}
     )
     (finding,) = graph_findings(context.graph)
     assert (
@@ -527,7 +527,7 @@ def test_the_ports_of_a_context_are_seen():
 
 
 def test_multicast_matters_only_where_others_are_looked_for(monkeypatch):
-    monkeypatch.setattr("turtlewire.cli.setup_findings.multicast_works", lambda: False)
+    monkeypatch.setattr("turtlewire.doctor.setup_findings.multicast_works", lambda: False)
     assert network_findings() == []
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET")
     (finding,) = network_findings()
@@ -538,7 +538,7 @@ def test_multicast_matters_only_where_others_are_looked_for(monkeypatch):
 def test_multicast_that_does_not_come_back(monkeypatch):
     assert multicast_works(0.01) in (True, False)
     monkeypatch.setattr(
-        "turtlewire.cli.network._GROUP", "127.0.0.1"
+        "turtlewire.doctor.network._GROUP", "127.0.0.1"
     )  # no group: joining it fails as without a network
     assert not multicast_works(0.01)
 
@@ -579,7 +579,7 @@ def test_the_multicast_of_a_real_network(run, network, problems):
 
 def test_an_empty_domain_costs_no_listening(monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
-    assert "No node publishes transforms." in texts(doctor.examine(1000.0))
+    assert "No node publishes transforms." in texts(examination.examine(1000.0))
 
 
 def test_everything_at_once_on_the_wire(run):

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from turtlewire.cli.finding import Finding, note, problem
-from turtlewire.cli.graph_findings import owner_of
-from turtlewire.cli.tf_gaps import find_gaps
-from turtlewire.cli.tf_traffic import tf_publishers
+from turtlewire.doctor.finding import Finding, note, problem
+from turtlewire.doctor.graph_findings import owner_of
+from turtlewire.doctor.tf_gaps import find_gaps
+from turtlewire.doctor.tf_traffic import tf_publishers
 from turtlewire.tf.frame_tree import find_loops
 
 if TYPE_CHECKING:
-    from turtlewire.cli.tf_traffic import TfTraffic
+    from turtlewire.doctor.tf_traffic import TfTraffic
     from turtlewire.wire.base import Graph
 
 __all__ = ["recorded_findings", "tf_findings"]

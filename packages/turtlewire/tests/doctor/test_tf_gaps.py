@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from turtlewire.cli.tf_gaps import find_gaps
+from turtlewire.doctor.tf_gaps import find_gaps
 
 SEEDS = st.integers(0, 10_000)
 
