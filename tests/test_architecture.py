@@ -51,6 +51,24 @@ def test_circles_of_imports_only_become_fewer(architecture, house):
     assert not grown, f"modules in circles of imports; see {house.circles('run', 'late', 'type')}"
 
 
+def test_nobody_imports_the_command_turtlewire_from_outside(house):
+    cli = "turtlewire.cli"
+    assert [
+        (found.source, found.target)
+        for found in house.imports
+        if found.target.startswith(cli) and not found.source.startswith(cli)
+    ] == []
+
+
+def test_one_module_writes_svg(house):
+    writers = {
+        name
+        for name, path in house.paths.items()
+        if "<svg xmlns" in path.read_text(encoding="utf-8")
+    }
+    assert writers == {"turtlewire.tf.svg"}
+
+
 def test_no_circle_at_import_time(house):
     assert house.circles("run") == []
 

@@ -12,8 +12,8 @@ from rclpy.node import Node
 from rclpy.time import Time
 from rclpy.utilities import remove_ros_args
 from turtlewire import msg
-from turtlewire.terminal.parser import seconds
 from turtlewire.errors import TransformException
+from turtlewire.terminal.parser import seconds
 from turtlewire.terminal.printable import printable_lines
 from turtlewire.tf.frame_tree import read_frame_tree
 from turtlewire.tf.listener import QOS, STATIC_QOS, STATIC_TOPIC, TOPIC, TYPE_NAME

@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from turtlewire.terminal.printable import printable
 from turtlewire.program import program
+from turtlewire.terminal.printable import printable
 from turtlewire.urdf import UrdfError
 from urdfdom.reading import read_robot
 

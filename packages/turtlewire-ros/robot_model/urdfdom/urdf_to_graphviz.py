@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 
 from tf2_tools.pdf import pdf_from_drawing
-from turtlewire.terminal.printable import printable
 from turtlewire.program import program
+from turtlewire.terminal.printable import printable
 from turtlewire.urdf import UrdfError
 from urdfdom.dot import dot_from_robot
 from urdfdom.drawing import draw_robot

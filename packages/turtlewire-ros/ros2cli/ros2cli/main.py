@@ -3,10 +3,8 @@
 
 from __future__ import annotations
 
-import argparse
 import io
 import os
-import re
 import signal
 import sys
 from contextlib import nullcontext, suppress
@@ -15,16 +13,16 @@ from typing import TYPE_CHECKING
 
 from ros2cli.commands import COMMANDS
 from turtlewire.program import program
+from turtlewire.terminal.parser import INVALID_CHOICE, Parser
 
 if TYPE_CHECKING:
+    import argparse
     from types import ModuleType
     from typing import NoReturn
 
 __all__ = ["define", "main", "make_parser"]
 
 _EXIT_INTERRUPTED = 2  # the number of SIGINT
-_INVALID_CHOICE = re.compile(r"invalid choice: '([^']*)' \(choose from")
-_OPTION = re.compile(r"(?<![\w-])--?[a-z][\w-]*")
 
 #: Commands that have another's module.
 _ALIASES = {"wtf": "doctor"}
@@ -38,23 +36,15 @@ _NOT_HERE = {
 }
 
 
-class _Parser(argparse.ArgumentParser):
-    """A parser that helps on a further line when a word is not known."""
+class _Parser(Parser):
+    """A parser that names what ROS 2 has and this distribution has not."""
 
     def error(self, message: str) -> NoReturn:
         """Print usage and message as argparse does, and a hint."""
-        match = _INVALID_CHOICE.search(message)
-        if match:
-            if self.prog == "ros2" and match[1] in _NOT_HERE:
-                self.exit(2, f"ros2 {match[1]}: {_NOT_HERE[match[1]]}\n")
-            message += _hint(match[1], re.findall(r"[\w-]+", message[match.end() :]))
+        match = INVALID_CHOICE.search(message)
+        if match and self.prog == "ros2" and match[1] in _NOT_HERE:
+            self.exit(2, f"ros2 {match[1]}: {_NOT_HERE[match[1]]}\n")
         super().error(message)
-
-
-def _hint(word: str, known: list[str]) -> str:
-    from ros2cli.suggestion import did_you_mean
-
-    return did_you_mean(word, known)
 
 
 @program
@@ -95,8 +85,7 @@ def _parse(words: list[str]) -> argparse.Namespace:
     args, unknown = parser.parse_known_args(words)
     if unknown:
         chosen = getattr(args, "parser", parser)
-        hint = _hint(unknown[0], _OPTION.findall(chosen.format_usage()))
-        chosen.error(f"unrecognized arguments: {' '.join(unknown)}{hint}")
+        chosen.error(f"unrecognized arguments: {' '.join(unknown)}")
     if isinstance(sys.stdout, io.TextIOWrapper):  # it is None if it was closed at the start
         # A character that the encoding of a pipe or terminal does not have must not end a verb.
         sys.stdout.reconfigure(errors="backslashreplace")

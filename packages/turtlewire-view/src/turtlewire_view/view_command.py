@@ -18,7 +18,7 @@ __all__ = ["add_view_command"]
 
 def add_view_command(commands: Any) -> None:
     """Add ``view`` to the command's words."""
-    from turtlewire.cli.bag_commands import complete_bags, reporting_errors
+    from turtlewire.terminal.file_arguments import complete_bags, reporting_errors
     from turtlewire.web.options import add_page_options
 
     summary = "Show the frames of the wire, or of a bag, in 3D in the browser"

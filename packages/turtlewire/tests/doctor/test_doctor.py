@@ -14,11 +14,11 @@ from pathlib import Path
 import pytest
 
 from turtlewire import msg
+from turtlewire.cli.main import main
 from turtlewire.doctor import examination
 from turtlewire.doctor import setup_findings as setup
 from turtlewire.doctor.finding import Finding
 from turtlewire.doctor.graph_findings import graph_findings
-from turtlewire.cli.main import main
 from turtlewire.doctor.network import domains_of, multicast_works, udp_ports
 from turtlewire.doctor.setup_findings import network_findings, setup_findings
 from turtlewire.doctor.tf_findings import tf_findings
@@ -476,7 +476,9 @@ def test_names_from_the_wire_do_not_steer_the_terminal():
 
 def test_a_domain_that_cannot_be_joined_is_a_finding(monkeypatch):
     monkeypatch.setenv("ROS_DOMAIN_ID", "999")
-    assert any("ROS_DOMAIN_ID" in text and "999" in text for text in texts(examination.examine(0.0)))
+    assert any(
+        "ROS_DOMAIN_ID" in text and "999" in text for text in texts(examination.examine(0.0))
+    )
 
 
 def test_stamps_that_jump_back_and_frames_that_leap(context, broadcasters):

@@ -12,6 +12,6 @@ module                what it holds
 `trajectory_command`  the verb ``trajectory``
 `compare_command`     the verb ``compare``
 `trajectory_sources`  trajectories of bags and files, for these verbs
-`keyboard`            keys with which ``frames`` is scrolled
+`scroll_keys`         keys with which ``frames`` is scrolled
 ====================  ============================================================
 """

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import argparse
 import math
-import sys
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from turtlewire.terminal.file_arguments import complete_bags, complete_files, reporting_errors
 from turtlewire.terminal.parser import add_tf_topics, seconds, tf_topics
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-__all__ = ["add_bag_commands", "complete_bags", "reporting_errors"]
+__all__ = ["add_bag_commands"]
 
 _FORMATS = ("tum", "kitti", "euroc", "csv")
 _ALIGNMENTS = ("none", "origin", "yaw", "se3", "sim3")
@@ -65,7 +62,7 @@ def _add_trajectory(commands: Any) -> None:
     )
     names.completer = _complete_names
     output = parser.add_argument("-o", "--output", metavar="FILE", help="Write the trajectory")
-    output.completer = _complete_any
+    output.completer = complete_files
     parser.add_argument(
         "--format",
         choices=_FORMATS,
@@ -85,7 +82,7 @@ def _add_trajectory(commands: Any) -> None:
     )
     add_tf_topics(parser)
     plot = parser.add_argument("--plot", metavar="FILE", help="Draw it: .svg, .pdf or .png")
-    plot.completer = _complete_any
+    plot.completer = complete_files
     parser.add_argument(
         "--kind",
         choices=("path", "positions", "angles", "speeds"),
@@ -118,7 +115,7 @@ def _add_compare(commands: Any) -> None:
     _add_pairing(parser)
     add_tf_topics(parser)
     plot = parser.add_argument("--plot", metavar="FILE", help="Draw it: .svg, .pdf or .png")
-    plot.completer = _complete_any
+    plot.completer = complete_files
     parser.add_argument(
         "--kind",
         choices=("path", "error-path", "errors", "box", "histogram"),
@@ -164,20 +161,7 @@ def _add_pairing(parser: argparse.ArgumentParser) -> None:
 
 def _add_file(parser: Any, name: str, metavar: str, text: str, nargs: str | None = None) -> None:
     argument = parser.add_argument(name, metavar=metavar, help=text, nargs=nargs)
-    argument.completer = complete_bags if metavar == "BAG" else _complete_any
-
-
-def complete_bags(prefix: str, **_: Any) -> list[str]:
-    """For the shell: bags."""
-    from turtlewire.cli.trajectory_sources import complete_files
-
-    return complete_files(prefix, bags=True)
-
-
-def _complete_any(prefix: str, **_: Any) -> list[str]:
-    from turtlewire.cli.trajectory_sources import complete_files
-
-    return complete_files(prefix)
+    argument.completer = complete_bags if metavar == "BAG" else complete_files
 
 
 def _complete_names(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
@@ -198,34 +182,6 @@ def _positive(text: str) -> float:
     if not 0.0 < value < math.inf:
         raise argparse.ArgumentTypeError(f"{text!r} is not a number above 0")
     return value
-
-
-def reporting_errors(
-    command: str, run: Callable[[argparse.Namespace], int]
-) -> Callable[[argparse.Namespace], int]:
-    """Return the function, but what it cannot read is one line on stderr and the exit status 2."""
-
-    def guarded(args: argparse.Namespace) -> int:
-        from turtlewire.errors import BagError, TransformException
-        from turtlewire.terminal.printable import printable_lines
-
-        try:
-            return run(args)
-        except (BagError, TransformException, ModuleNotFoundError, OSError, ValueError) as error:
-            text = _text_of(error)
-            if hint := getattr(error, "hint", ""):
-                text = f"{text}{'' if text.rstrip().endswith('.') else '.'} {hint}"
-            print(f"turtlewire {command}: {printable_lines(text)}", file=sys.stderr)
-            return 2
-
-    return guarded
-
-
-def _text_of(error: Exception) -> str:
-    """Return the error's text; of the system's errors without their number."""
-    if isinstance(error, OSError) and error.strerror and error.filename:
-        return f"{error.filename}: {error.strerror}"
-    return str(error)
 
 
 def _bag_tf(args: argparse.Namespace) -> int:

@@ -6,8 +6,8 @@ import json
 import os
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.terminal.parser import tf_topics
 from turtlewire.cli.trajectory_sources import TrajectoryReader, parse_source
+from turtlewire.terminal.parser import tf_topics
 from turtlewire.terminal.printable import printable
 from turtlewire.trajectory import (
     compare,

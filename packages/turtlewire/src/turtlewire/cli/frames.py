@@ -9,14 +9,14 @@ import time
 from typing import TYPE_CHECKING
 
 from turtlewire.cli.frame_picture import take_picture
-from turtlewire.cli.keyboard import open_keyboard
+from turtlewire.cli.scroll_keys import open_scroll_keys
 from turtlewire.tf.buffer import Buffer
 from turtlewire.tf.listener import TransformListener
 from turtlewire.tf.restarts import RestartWatch
 
 if TYPE_CHECKING:
     from turtlewire.cli.frame_picture import Picture
-    from turtlewire.cli.keyboard import Keyboard
+    from turtlewire.cli.scroll_keys import ScrollKeys
 
 __all__ = ["Window", "show_frames"]
 
@@ -43,9 +43,9 @@ def show_frames(top: str | None, *, once: bool, as_json: bool, period_s: float) 
     buffer = Buffer()
     restarts = RestartWatch(buffer)
     window = Window()
-    with TransformListener(buffer), open_keyboard(wanted=live) as keyboard:
+    with TransformListener(buffer), open_scroll_keys(wanted=live) as keys:
         while True:
-            if _browse(keyboard, window, period_s) == _QUIT:
+            if _browse(keys, window, period_s) == _QUIT:
                 return 0
             restarts.look()
             picture = take_picture(buffer, time.time_ns(), top)
@@ -57,12 +57,12 @@ def show_frames(top: str | None, *, once: bool, as_json: bool, period_s: float) 
                 return 0 if picture.rows else 1
 
 
-def _browse(keyboard: Keyboard, window: Window, seconds: float) -> str:
+def _browse(keys: ScrollKeys, window: Window, seconds: float) -> str:
     """Scroll as the keys say until the time is over or the user quits; the last key."""
     end = time.monotonic() + seconds
     key = ""
     while key != _QUIT and (rest := end - time.monotonic()) > 0.0:
-        key = keyboard.read(rest)
+        key = keys.read(rest)
         if key:
             window.press(key)
     return key

@@ -9,10 +9,11 @@ import os
 import sys
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.cli.bag_commands import add_bag_commands, complete_bags, reporting_errors
-from turtlewire.terminal.parser import Parser, add_tf_topics, seconds, tf_topics
+from turtlewire.cli.bag_commands import add_bag_commands
 from turtlewire.plugins import declared
 from turtlewire.program import program
+from turtlewire.terminal.file_arguments import complete_bags, reporting_errors
+from turtlewire.terminal.parser import Parser, add_tf_topics, seconds, tf_topics
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from turtlewire.terminal.parser import tf_topics
 from turtlewire.cli.trajectory_sources import Source, TrajectoryReader
+from turtlewire.terminal.parser import tf_topics
 from turtlewire.terminal.printable import printable
 from turtlewire.trajectory import write_trajectory
 from turtlewire.trajectory.files import kitti_times

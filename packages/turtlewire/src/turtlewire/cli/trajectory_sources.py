@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from turtlewire.tf.buffer import Buffer
     from turtlewire.trajectory import Trajectory
 
-__all__ = ["Source", "TrajectoryReader", "complete_files", "complete_names", "parse_source"]
+__all__ = ["Source", "TrajectoryReader", "complete_names", "parse_source"]
 
 #: How much of a bag completion looks at.
 _COMPLETION_NS = 10_000_000_000
@@ -139,14 +139,6 @@ def _names_are_missing(path: str) -> str:
         f"{path} is a bag: name a topic, or a target and a source frame. It has {has}; "
         f"`turtlewire bag tf {path}` shows its frames"
     )
-
-
-def complete_files(prefix: str, *, bags: bool = False) -> list[str]:
-    """For the shell: files and folders; of the files only bags, if those are wanted."""
-    from argcomplete.completers import FilesCompleter
-
-    endings = ("mcap", "db3", "zstd") if bags else ()
-    return list(FilesCompleter(allowednames=endings)(prefix))
 
 
 def complete_names(path: str) -> list[str]:

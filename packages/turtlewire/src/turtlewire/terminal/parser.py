@@ -13,9 +13,10 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from typing import NoReturn
 
-__all__ = ["Parser", "add_tf_topics", "seconds", "tf_topics"]
+__all__ = ["INVALID_CHOICE", "Parser", "add_tf_topics", "seconds", "tf_topics"]
 
-_INVALID_CHOICE = re.compile(r"invalid choice: '([^']*)' \(choose from")
+#: argparse's message about a word that is none of the known ones.
+INVALID_CHOICE = re.compile(r"invalid choice: '([^']*)' \(choose from")
 _UNRECOGNIZED = re.compile(r"unrecognized arguments: (\S+)")
 _OPTION = re.compile(r"(?<![\w-])--?[a-z][\w-]*")
 
@@ -34,7 +35,7 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Print the usage, the message and a suggestion; exit with status 2."""
-        choice = _INVALID_CHOICE.search(message)
+        choice = INVALID_CHOICE.search(message)
         unknown = _UNRECOGNIZED.match(message)
         suggestion = ""
         if choice:

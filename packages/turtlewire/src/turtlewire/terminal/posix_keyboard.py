@@ -47,6 +47,7 @@ class Keyboard:
         except termios.error as error:
             raise OSError(*error.args) from error
         self._wake_read, self._wake_write = os.pipe()
+        self._stopped = False
 
     def __enter__(self) -> Self:
         self._take()
@@ -54,7 +55,7 @@ class Keyboard:
             number: signal.signal(number, handler)
             for number, handler in (
                 (signal.SIGTSTP, self._suspend),
-                (signal.SIGCONT, lambda *_: self._take()),
+                (signal.SIGCONT, self._resume),
             )
         }
         return self
@@ -96,20 +97,44 @@ class Keyboard:
         signal.raise_signal(signal.SIGSTOP)
         # The kernel may hand SIGCONT to another thread. This one would then wait for a key again
         # before the signal's handler can run here.
+        self._resume()
+
+    def _resume(self, *_: object) -> None:
         self._take()
+        os.write(self._wake_write, b"\0")
 
     def read(self) -> bytes:
         """Wait for the next byte; empty when the terminal is gone or :meth:`stop` was called."""
-        ready, _, _ = select.select([self._fd, self._wake_read], [], [])
+        while (typed := self._next(1, None)) is None:
+            pass
+        return typed
+
+    def read_within(self, seconds: float) -> bytes | None:
+        """Return what is typed within a time.
+
+        Returns:
+            None if nothing was typed, or if the process was stopped and goes on: its screen is to
+            be drawn again. Empty when the terminal is gone or :meth:`stop` was called.
+        """
+        return self._next(64, seconds)
+
+    def _next(self, most: int, seconds: float | None) -> bytes | None:
+        ready, _, _ = select.select([self._fd, self._wake_read], [], [], seconds)
         if self._wake_read in ready:
-            return b""
+            if self._stopped:
+                return b""
+            os.read(self._wake_read, 1)
+            return None
+        if not ready:
+            return None
         try:
-            return os.read(self._fd, 1)
+            return os.read(self._fd, most)
         except OSError:  # what a terminal that was closed says
             return b""
 
     def stop(self) -> None:
         """End the present and all later reads. Safe from any thread."""
+        self._stopped = True
         os.write(self._wake_write, b"\0")
 
 

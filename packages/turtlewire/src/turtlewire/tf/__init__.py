@@ -36,7 +36,8 @@ module                     what it holds
 `arrays`                   a transform as an array
 `frame_tree`               the frames with the figures of their links, for pictures
 `tidy_tree`                positions of the nodes of a drawn tree
-`tree_drawing`, `drawing`  the picture of the tree; boxes, lines and text as SVG
+`tree_drawing`, `drawing`  the picture of the tree; boxes, lines and text on a page
+`svg`                      elements of SVG documents
 `pdf`                      a PDF file of one page
 `notebook`                 how buffers and transforms show themselves in Jupyter
 =========================  =========================================================================

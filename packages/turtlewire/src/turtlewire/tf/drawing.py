@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import re
 from typing import NamedTuple, TypeAlias
-from xml.sax.saxutils import escape
+
+from turtlewire.tf import svg
 
 __all__ = ["Box", "Drawing", "Line", "Shape", "Text", "svg_from_drawing", "text_width"]
 
@@ -20,8 +20,6 @@ _ASCII_WIDTHS = (
 _WIDTHS = tuple(map(int, _ASCII_WIDTHS.split()))
 _WIDE = 1000
 _BOLD = 1.08
-
-_NOT_IN_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 class Box(NamedTuple):
@@ -75,32 +73,15 @@ def text_width(text: str, size: float, *, bold: bool = False) -> float:
 
 def svg_from_drawing(drawing: Drawing) -> str:
     """Return the drawing as a complete SVG document, which may stand in a page as it is."""
-    width, height = f"{drawing.width:.0f}", f"{drawing.height:.0f}"
-    opening = (
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
-        f'viewBox="0 0 {width} {height}" '
-        'style="max-width:100%;height:auto" font-family="Helvetica, Arial, sans-serif">'
-    )
-    return "\n".join([opening, *map(_element, drawing.shapes), "</svg>\n"])
+    return svg.document(drawing.width, drawing.height, map(_element, drawing.shapes))
 
 
 def _element(shape: Shape) -> str:
     if isinstance(shape, Box):
-        x, y, width, height = (f"{value:.1f}" for value in shape[:4])
-        return (
-            f'<rect x="{x}" y="{y}" width="{width}" height="{height}" rx="4" fill="#ffffff" '
-            f'stroke="{shape.colour}"/>'
-        )
+        style = f' rx="4" fill="#ffffff" stroke="{shape.colour}"'
+        return svg.rectangle(shape.x, shape.y, shape.width, shape.height, style)
     if isinstance(shape, Line):
-        points = " ".join(f"{x:.1f},{y:.1f}" for x, y in shape.points)
         dashes = ' stroke-dasharray="5 3"' if shape.dashed else ""
-        return (
-            f'<polyline points="{points}" fill="none" stroke="{shape.colour}" '
-            f'stroke-width="{shape.width:g}"{dashes}/>'
-        )
+        return svg.polyline(shape.points, shape.colour, shape.width, dashes)
     weight = ' font-weight="bold"' if shape.bold else ""
-    text = escape(_NOT_IN_XML.sub("\N{REPLACEMENT CHARACTER}", shape.text))
-    return (
-        f'<text x="{shape.x:.1f}" y="{shape.y:.1f}" font-size="{shape.size:g}" '
-        f'fill="{shape.colour}"{weight}>{text}</text>'
-    )
+    return svg.text(shape.x, shape.y, shape.text, shape.size, shape.colour, weight)

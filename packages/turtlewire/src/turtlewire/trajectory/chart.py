@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 import os
 from dataclasses import dataclass
-from html import escape
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from turtlewire.terminal.printable import printable
+from turtlewire.tf import svg
 from turtlewire.tf.drawing import text_width
 
 if TYPE_CHECKING:
@@ -83,17 +83,12 @@ def page(panels: Sequence[Panel], width: float, legend: Iterable[tuple[str, str]
         needed = 34 + text_width(shown, _SIZE)
         if x > _LEFT and x + needed > width:
             x, y = _LEFT, y + 18
-        parts.append(_line_element(x, y, x + 18, y, colour, 3))
+        parts.append(svg.line(x, y, x + 18, y, colour, 3))
         parts.append(_text(x + 24, y + 4, shown))
         x += needed + 12
         height = y + 14
-    size = f'width="{width:.0f}" height="{height:.0f}" viewBox="0 0 {width:.0f} {height:.0f}"'
-    head = (
-        f'<svg xmlns="http://www.w3.org/2000/svg" {size} style="max-width:100%;height:auto" '
-        'font-family="Helvetica, Arial, sans-serif">'
-    )
     ground = f'<rect width="{width:.0f}" height="{height:.0f}" fill="#ffffff"/>'
-    return Plot("\n".join((head, ground, *parts, "</svg>\n")))
+    return Plot(svg.document(width, height, [ground, *parts]))
 
 
 def colour_of(share: float) -> str:
@@ -171,45 +166,38 @@ class Panel:
         """Draw a line through points (N,)."""
         step = -(-len(x) // _MOST_POINTS)
         rows = np.unique(np.append(np.arange(0, len(x), max(step, 1)), max(len(x) - 1, 0)))
-        points = " ".join(
-            f"{self.x(a):.1f},{self.y(b):.1f}"
-            for a, b in zip(x[rows].tolist(), y[rows].tolist(), strict=True)
+        points = (
+            (self.x(a), self.y(b)) for a, b in zip(x[rows].tolist(), y[rows].tolist(), strict=True)
         )
         style = ' stroke-dasharray="6 4" opacity="0.6"' if dashed else ""
-        self._parts.append(
-            f'<polyline points="{points}" fill="none" stroke="{colour}" '
-            f'stroke-width="{width:g}" stroke-linejoin="round"{style}/>'
-        )
+        self._parts.append(svg.polyline(points, colour, width, f' stroke-linejoin="round"{style}'))
 
     def level(self, y: float, colour: str) -> None:
         """Draw a horizontal line."""
         left, _, width, _ = self._box
         at = self.y(y)
-        self._parts.append(_line_element(left, at, left + width, at, colour, 1))
+        self._parts.append(svg.line(left, at, left + width, at, colour, 1))
 
     def rectangle(
         self, x: tuple[float, float], y: tuple[float, float], colour: str, opacity: float = 1.0
     ) -> None:
         """Fill the area between two numbers of each axis."""
         low, high = sorted((self.y(y[0]), self.y(y[1])))
-        self._parts.append(
-            f'<rect x="{self.x(x[0]):.1f}" y="{low:.1f}" width="{self.x(x[1]) - self.x(x[0]):.1f}" '
-            f'height="{high - low:.1f}" fill="{colour}" opacity="{opacity:g}"/>'
-        )
+        left, width = self.x(x[0]), self.x(x[1]) - self.x(x[0])
+        style = f' fill="{colour}" opacity="{opacity:g}"'
+        self._parts.append(svg.rectangle(left, low, width, high - low, style))
 
     def circle(self, x: float, y: float, colour: str) -> None:
         """Draw a ring, as at the beginning of a path."""
-        self._front.append(
-            f'<circle cx="{self.x(x):.1f}" cy="{self.y(y):.1f}" r="4" fill="#ffffff" '
-            f'stroke="{colour}" stroke-width="2"/>'
-        )
+        style = f' fill="#ffffff" stroke="{colour}" stroke-width="2"'
+        self._front.append(svg.circle(self.x(x), self.y(y), 4, style))
 
     def cross(self, x: float, y: float, colour: str) -> None:
         """Draw a cross, as at the end of a path."""
         a, b = self.x(x), self.y(y)
         self._front += [
-            _line_element(a - 4, b - 4, a + 4, b + 4, colour, 2),
-            _line_element(a - 4, b + 4, a + 4, b - 4, colour, 2),
+            svg.line(a - 4, b - 4, a + 4, b + 4, colour, 2),
+            svg.line(a - 4, b + 4, a + 4, b - 4, colour, 2),
         ]
 
     def _draw_axes(self, labels: tuple[str, str], title: str, names: Sequence[str]) -> None:
@@ -218,16 +206,14 @@ class Panel:
         ticks = [(float(i), printable(name)) for i, name in enumerate(names)] or _ticks(*self._x, 7)
         for number, text in ticks:
             at = self.x(number)
-            self._parts.append(_line_element(at, top, at, base, _GRID, 1))
+            self._parts.append(svg.line(at, top, at, base, _GRID, 1))
             self._parts.append(_text(at, base + 15, text, anchor="middle"))
         for number, text in _ticks(*self._y, 5):
             at = self.y(number)
-            self._parts.append(_line_element(left, at, left + width, at, _GRID, 1))
+            self._parts.append(svg.line(left, at, left + width, at, _GRID, 1))
             self._parts.append(_text(left - 6, at + 4, text, anchor="end"))
-        self._front.append(
-            f'<rect x="{left:.1f}" y="{top:.1f}" width="{width:.1f}" height="{height:.1f}" '
-            'fill="none" stroke="#999999"/>'
-        )
+        frame = svg.rectangle(left, top, width, height, ' fill="none" stroke="#999999"')
+        self._front.append(frame)
         self._front.append(_text(left + width / 2, base + 32, labels[0], anchor="middle"))
         turn = f' transform="rotate(-90 {left - 46:.1f} {middle:.1f})"'
         self._front.append(_text(left - 46, middle, labels[1], anchor="middle", extra=turn))
@@ -251,15 +237,5 @@ def _ticks(low: float, high: float, about: int) -> list[tuple[float, str]]:
     return [(float(n), f"{n + 0.0:.{decimals}f}") for n in numbers]
 
 
-def _line_element(a: float, b: float, c: float, d: float, colour: str, width: float) -> str:
-    return (
-        f'<line x1="{a:.1f}" y1="{b:.1f}" x2="{c:.1f}" y2="{d:.1f}" stroke="{colour}" '
-        f'stroke-width="{width:g}"/>'
-    )
-
-
 def _text(x: float, y: float, text: str, *, anchor: str = "start", extra: str = "") -> str:
-    return (
-        f'<text x="{x:.1f}" y="{y:.1f}" font-size="{_SIZE}" fill="{_TEXT}" '
-        f'text-anchor="{anchor}"{extra}>{escape(text)}</text>'
-    )
+    return svg.text(x, y, text, _SIZE, _TEXT, f' text-anchor="{anchor}"{extra}')

@@ -1,4 +1,4 @@
-"""Keys of a terminal, one at a time and without echo."""
+"""The keys that scroll a picture in the terminal, by name."""
 
 from __future__ import annotations
 
@@ -8,13 +8,16 @@ import re
 import signal
 import sys
 import threading
+import time
 from collections import deque
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["Keyboard", "open_keyboard"]
+    from turtlewire.terminal.keyboard import Keyboard
+
+__all__ = ["ScrollKeys", "open_scroll_keys"]
 
 #: What terminals send for the keys that scroll; letters are those of less and vi.
 _NAMES = {
@@ -38,11 +41,11 @@ _NAMES = {
     "G": "end",
 }
 _KEY = re.compile(r"\033(?:\[[0-9;]*[A-Za-z~]|O[A-Z])|.", re.DOTALL)
-#: What :meth:`Keyboard.read` returns after Ctrl-Z and ``fg``: the screen must be drawn again.
+#: What :meth:`ScrollKeys.read` returns after Ctrl-Z and ``fg``: the screen must be drawn again.
 _CONTINUE = "continue"
 
 
-class Keyboard:
+class ScrollKeys:
     """No keys: for a program whose input is no terminal of its own."""
 
     def read(self, seconds: float) -> str:
@@ -51,76 +54,50 @@ class Keyboard:
         return ""
 
 
-class _TerminalKeyboard(Keyboard):
-    """Reads from a terminal that gives each key as it is pressed."""
+class _TerminalKeys(ScrollKeys):
+    """Names the keys of a terminal."""
 
-    def __init__(self, fd: int) -> None:
-        self._fd = fd
-        self._wake_read, self._wake_write = os.pipe()
+    def __init__(self, keyboard: Keyboard) -> None:
+        self._keyboard = keyboard
         self._typed: deque[str] = deque()
 
     def read(self, seconds: float) -> str:
-        import select
-
         if self._typed:
             return self._typed.popleft()
-        ready, _, _ = select.select([self._fd, self._wake_read], [], [], seconds)
-        if self._wake_read in ready:
-            os.read(self._wake_read, 1)
-            return _CONTINUE
-        if self._fd not in ready:
-            return ""
-        typed = os.read(self._fd, 64)
+        end = time.monotonic() + seconds
+        typed = self._keyboard.read_within(seconds)
+        if typed is None:
+            return _CONTINUE if time.monotonic() < end else ""
         if not typed:  # the terminal is gone
             raise KeyboardInterrupt
         keys = _KEY.findall(typed.decode(errors="replace"))
         self._typed.extend(_NAMES.get(key, key) for key in keys)
         return self._typed.popleft() if self._typed else ""
 
-    def wake(self) -> None:
-        """End the present or the next read with ``continue``."""
-        os.write(self._wake_write, b"\0")
-
-    def close(self) -> None:
-        """Close the pipe that wakes reads."""
-        os.close(self._wake_read)
-        os.close(self._wake_write)
-
 
 @contextlib.contextmanager
-def open_keyboard(*, wanted: bool) -> Iterator[Keyboard]:
+def open_scroll_keys(*, wanted: bool) -> Iterator[ScrollKeys]:
     """The keys of standard input, if that is a terminal in whose foreground this process is.
 
     The terminal is put back at the end, also when SIGTERM or SIGHUP ends the process, and set up
     again after Ctrl-Z and ``fg``.
 
     Args:
-        wanted: False gives a keyboard without keys.
+        wanted: False gives no keys.
     """
     if sys.platform == "win32" or not wanted or not _in_foreground():
-        yield Keyboard()
+        yield ScrollKeys()
         return
-    import termios
+    from turtlewire.terminal.keyboard import Keyboard
 
-    fd = sys.stdin.fileno()
-    cooked = termios.tcgetattr(fd)
-    keyboard = _TerminalKeyboard(fd)
-
-    def set_up(*_: Any) -> None:
-        _give_each_key(fd)
-        keyboard.wake()
-
-    handlers = {signal.SIGCONT: set_up, signal.SIGTERM: _leave, signal.SIGHUP: _leave}
-    former = {signum: signal.signal(signum, handler) for signum, handler in handlers.items()}
+    ending = (signal.SIGTERM, signal.SIGHUP)
+    former = {signum: signal.signal(signum, _leave) for signum in ending}
     try:
-        _give_each_key(fd)
-        yield keyboard
+        with Keyboard(sys.stdin.fileno()) as keyboard:
+            yield _TerminalKeys(keyboard)
     finally:
         for signum, handler in former.items():
             signal.signal(signum, handler)
-        with contextlib.suppress(termios.error):  # the terminal is gone: nothing to put back
-            termios.tcsetattr(fd, termios.TCSANOW, cooked)
-        keyboard.close()
 
 
 def _in_foreground() -> bool:
@@ -128,17 +105,6 @@ def _in_foreground() -> bool:
     if sys.platform == "win32" or sys.stdin is None or not sys.stdin.isatty():
         return False
     return os.tcgetpgrp(sys.stdin.fileno()) == os.getpgrp()
-
-
-def _give_each_key(fd: int) -> None:
-    if sys.platform == "win32":
-        return
-    import termios
-
-    raw = termios.tcgetattr(fd)
-    raw[3] &= ~(termios.ICANON | termios.ECHO)
-    raw[6][termios.VMIN], raw[6][termios.VTIME] = 1, 0
-    termios.tcsetattr(fd, termios.TCSANOW, raw)
 
 
 def _leave(signum: int, _frame: Any) -> None:
