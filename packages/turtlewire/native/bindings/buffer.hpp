@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "../core/shared_buffer.hpp"
-#include "../core/tf_message.hpp"
+#include "../feeds/tf_message.hpp"
 #include "python.hpp"
 
 namespace turtlewire::python {

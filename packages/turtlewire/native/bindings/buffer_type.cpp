@@ -3,7 +3,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/string_view.h>
 
-#include "../core/tf_message.hpp"
+#include "../feeds/tf_message.hpp"
 #include "batch.hpp"
 #include "buffer.hpp"
 #include "bytes.hpp"

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "../core/intake.hpp"
-#include "../core/sink.hpp"
+#include "../feeds/intake.hpp"
+#include "../feeds/sink.hpp"
 #include "buffer.hpp"
 #include "gil.hpp"
 
@@ -56,9 +56,9 @@ class IntakeObject final : public Sink {
   }
 
   nb::list serve(const nb::callable& gid_of) {
-    std::deque<Intake::Kept> left = take({});
+    std::deque<WaitingMessage> left = take({});
     std::vector<std::uint64_t> asked;
-    const auto is_new = [&](const Intake::Kept& kept) {
+    const auto is_new = [&](const WaitingMessage& kept) {
       return core.needs_name(kept.publisher) &&
              std::find(asked.begin(), asked.end(), kept.publisher) == asked.end();
     };
@@ -69,7 +69,7 @@ class IntakeObject final : public Sink {
     }
     tell();
     nb::list list;
-    for (const Intake::Kept& kept : left) {
+    for (const WaitingMessage& kept : left) {
       list.append(nb::make_tuple(nb::bytes(kept.bytes.data(), kept.bytes.size()), kept.publisher,
                                  kept.sent));
     }
@@ -91,7 +91,7 @@ class IntakeObject final : public Sink {
   }
 
  private:
-  std::deque<Intake::Kept> take(std::deque<Intake::Kept> former) {
+  std::deque<WaitingMessage> take(std::deque<WaitingMessage> former) {
     const Unlocked unlocked;
     return core.take(std::move(former));
   }

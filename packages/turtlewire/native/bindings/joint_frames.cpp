@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "../core/joint_frames.hpp"
+#include "../feeds/joint_frames.hpp"
 
 namespace turtlewire::python {
 namespace {

@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "../core/joint_relay.hpp"
-#include "../core/outlet.hpp"
-#include "../core/sink.hpp"
+#include "../feeds/joint_relay.hpp"
+#include "../feeds/outlet.hpp"
+#include "../feeds/sink.hpp"
 
 namespace turtlewire::python {
 namespace {
@@ -37,7 +37,7 @@ class JointRelayObject final : public Sink {
 
   nb::list serve(const nb::object&) {
     nb::list list;
-    if (const std::optional<JointRelay::Kept> kept = core.take())
+    if (const std::optional<WaitingMessage> kept = core.take())
       list.append(nb::make_tuple(nb::bytes(kept->bytes.data(), kept->bytes.size()), kept->publisher,
                                  kept->sent));
     return list;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "../core/record_walk.hpp"
+#include "../feeds/record_walk.hpp"
 #include "buffer.hpp"
 #include "bytes.hpp"
 #include "gil.hpp"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "../core/sink.hpp"
+#include "../feeds/sink.hpp"
 #include "../zenoh/origins.hpp"
 #include "gil.hpp"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "fork.hpp"
-#include "tf_message.hpp"
+#include "received_transform.hpp"
 #include "tree.hpp"
 
 namespace turtlewire {

@@ -4,7 +4,7 @@
 #include <new>
 #include <vector>
 
-#include "../core/sink.hpp"
+#include "../feeds/sink.hpp"
 #include "library.hpp"
 
 namespace turtlewire::cyclone {

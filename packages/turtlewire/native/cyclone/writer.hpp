@@ -6,7 +6,7 @@
 #include <mutex>
 #include <span>
 
-#include "../core/outlet.hpp"
+#include "../feeds/outlet.hpp"
 #include "library.hpp"
 
 namespace turtlewire::cyclone {

@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "../core/batch.hpp"
-#include "../core/intake.hpp"
-#include "../core/joint_relay.hpp"
-#include "../core/record_walk.hpp"
 #include "../core/shared_buffer.hpp"
-#include "../core/tf_message.hpp"
+#include "../feeds/intake.hpp"
+#include "../feeds/joint_relay.hpp"
+#include "../feeds/record_walk.hpp"
+#include "../feeds/tf_message.hpp"
 
 namespace {
 
@@ -455,7 +455,7 @@ std::vector<unsigned char> message_at(std::int32_t second) {
 std::vector<Stamp> take_rest(Intake& intake) {
   std::vector<Stamp> sent;
   for (auto kept = intake.take(); !kept.empty(); kept = intake.take()) {
-    for (const Intake::Kept& message : kept) sent.push_back(message.sent);
+    for (const WaitingMessage& message : kept) sent.push_back(message.sent);
   }
   return sent;
 }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -80,6 +81,26 @@ def test_a_build_leaves_nothing_beside_the_sources() -> None:
     ).stdout
     build_files = [line for line in unknown.splitlines() if not line.endswith((".cpp", ".hpp"))]
     assert build_files == []
+
+
+def test_the_core_knows_neither_messages_nor_python() -> None:
+    """Messages and records are feeds; those stand on the core, and the bindings on both."""
+    included = {
+        folder: {
+            line.split('"')[1]
+            for path in (NATIVE / folder).iterdir()
+            for line in path.read_text(encoding="utf-8").splitlines()
+            if line.startswith('#include "')
+        }
+        for folder in ("core", "feeds")
+    }
+    own = {folder: {path.name for path in (NATIVE / folder).iterdir()} for folder in included}
+    assert included["core"] <= own["core"]
+    assert included["feeds"] <= own["feeds"] | {f"../core/{name}" for name in own["core"]}
+    for path in (NATIVE / "core").iterdir():
+        assert not re.search("TFMessage|JointState|Python.h", path.read_text(encoding="utf-8")), (
+            path
+        )
 
 
 STUB = ENGINE / "src" / "turtlewire" / "_native.pyi"

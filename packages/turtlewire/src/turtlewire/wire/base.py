@@ -87,7 +87,7 @@ class Event(Entity):
 class Sink(Protocol):
     """Native code that takes the messages of a subscription on the middleware's own threads.
 
-    It is a ``turtlewire::Sink`` (``native/core/sink.hpp``). When its ``receive`` returns true, the
+    It is a ``turtlewire::Sink`` (``native/feeds/sink.hpp``). When its ``receive`` returns true, the
     middleware's reader thread calls :meth:`serve` until nothing is left, or the subscription
     without ``on_message`` becomes ready, and its ``take`` calls :meth:`serve`.
     """
@@ -107,7 +107,7 @@ class Sink(Protocol):
 
 
 class Outlet(Protocol):
-    """Native code that sends messages: a ``turtlewire::Outlet`` (``native/core/outlet.hpp``)."""
+    """Native code that sends messages: a ``turtlewire::Outlet`` (``native/feeds/outlet.hpp``)."""
 
 
 class Publisher(Entity):

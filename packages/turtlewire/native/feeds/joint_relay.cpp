@@ -26,13 +26,12 @@ JointRelay::Nanoseconds stamp_of(std::span<const unsigned char> bytes) {
 bool JointRelay::receive(std::uint64_t publisher, Nanoseconds sent,
                          std::span<const unsigned char> bytes) {
   const std::scoped_lock lock(mutex_);
-  if (busy_ || !kept_.empty() || !relay(bytes)) {
-    if (kept_.size() >= most_kept_) kept_.pop_front();
-    kept_.push_back({publisher, sent, {bytes.begin(), bytes.end()}});
+  if (backlog_.must_wait() || !relay(bytes)) {
+    backlog_.add(publisher, sent, bytes);
   } else {
     ++relayed_;
   }
-  return !kept_.empty() && !std::exchange(called_, true);
+  return !backlog_.empty() && backlog_.call_python();
 }
 
 // Call with the lock held. False if the message needs Python; then nothing has changed.
@@ -53,14 +52,12 @@ bool JointRelay::relay(std::span<const unsigned char> bytes) {
   return true;
 }
 
-std::optional<JointRelay::Kept> JointRelay::take() {
+std::optional<WaitingMessage> JointRelay::take() {
   const std::scoped_lock lock(mutex_);
-  called_ = false;
-  busy_ = !kept_.empty();
-  if (!busy_) return std::nullopt;
-  std::optional<Kept> next(std::move(kept_.front()));
-  kept_.pop_front();
-  return next;
+  backlog_.python_came();
+  backlog_.python_is_busy(!backlog_.empty());
+  if (backlog_.empty()) return std::nullopt;
+  return backlog_.take_front();
 }
 
 void JointRelay::set_rules(Rules rules) {
@@ -79,7 +76,7 @@ void JointRelay::add_layout(Layout layout) {
   std::erase_if(layouts_, [&](const Known& known) { return known.layout.head == layout.head; });
   if (layouts_.size() >= kMostLayouts) layouts_.pop_back();
   layouts_.push_front({std::move(layout), std::move(joints)});
-  busy_ = false;
+  backlog_.python_is_busy(false);
 }
 
 void JointRelay::forget_layouts() {

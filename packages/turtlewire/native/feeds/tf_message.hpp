@@ -2,26 +2,13 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "pose.hpp"
-#include "samples.hpp"
+#include "../core/received_transform.hpp"
 
 namespace turtlewire {
-
-// One transform of a message, still in the bytes.
-struct ReceivedTransform {
-  Stamp stamp;
-  std::string_view parent, child;
-  const unsigned char* numbers;
-  bool swapped;  // the numbers have the other byte order
-
-  Pose pose() const;
-};
 
 // A TFMessage taken apart; its transforms point into the bytes given. Reusing one saves memory
 // allocations.

@@ -13,7 +13,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "shared_buffer.hpp"
+#include "../core/shared_buffer.hpp"
+#include "backlog.hpp"
 #include "tf_message.hpp"
 
 namespace turtlewire {
@@ -23,14 +24,8 @@ namespace turtlewire {
 // further messages are kept back as well.
 class Intake final : public ForkAware {
  public:
-  struct Kept {
-    std::uint64_t publisher;
-    Stamp sent;
-    std::vector<unsigned char> bytes;
-  };
-
   // At most `most_kept` messages are kept back, the newest ones; 0: any number.
-  Intake(bool is_static, std::size_t most_kept) : is_static_(is_static), most_kept_(most_kept) {}
+  Intake(bool is_static, std::size_t most_kept) : is_static_(is_static), backlog_(most_kept) {}
 
   // Stores a message, or keeps it back. True if the reader thread is to be woken, which was not
   // told to come before.
@@ -49,7 +44,7 @@ class Intake final : public ForkAware {
   // For the reader thread, which repeats it until there is nothing: the next messages kept back
   // that need Python. Those before them that do not need it any more are stored. `former` is what
   // the last call returned, if an introduction may have changed the need.
-  std::deque<Kept> take(std::deque<Kept> former = {});
+  std::deque<WaitingMessage> take(std::deque<WaitingMessage> former = {});
   // Whether a buffer that somebody listens to has got data since the last time.
   bool take_news();
 
@@ -77,15 +72,12 @@ class Intake final : public ForkAware {
   bool may_tell_of_room();
 
   const bool is_static_;
-  const std::size_t most_kept_;
   std::mutex mutex_;  // guards all that follows
   std::vector<SharedBuffer*> buffers_;
   std::unordered_map<std::uint64_t, Publisher> publishers_;
   std::unordered_map<std::string, std::string> early_names_;  // by gid, of publishers to come
   TfMessage message_;
-  std::deque<Kept> kept_;
-  bool taken_care_of_ = false;  // the reader thread is busy with what it took
-  bool called_ = false;         // the reader thread was told to come
+  Backlog backlog_;
   bool news_ = false;
   std::uint64_t stored_ = 0;  // messages, without those that were kept back for good
   bool expecting_ = false;    // the next message is expected

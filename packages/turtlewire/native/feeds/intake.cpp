@@ -6,11 +6,8 @@ namespace turtlewire {
 
 bool Intake::receive(std::uint64_t publisher, Stamp sent, std::span<const unsigned char> bytes) {
   const std::scoped_lock lock(mutex_);
-  if (taken_care_of_ || !kept_.empty() || !store(publisher, bytes)) {
-    if (most_kept_ != 0 && kept_.size() >= most_kept_) kept_.pop_front();
-    kept_.push_back({publisher, sent, {bytes.begin(), bytes.end()}});
-  }
-  return (news_ || expected_came_ || !kept_.empty()) && !std::exchange(called_, true);
+  if (backlog_.must_wait() || !store(publisher, bytes)) backlog_.add(publisher, sent, bytes);
+  return (news_ || expected_came_ || !backlog_.empty()) && backlog_.call_python();
 }
 
 // Call with the lock held. Null if the publisher was not introduced, or has no name.
@@ -75,24 +72,24 @@ void Intake::name(std::string_view gid, std::string_view name) {
   early_names_.insert_or_assign(std::string(gid), std::string(name));
 }
 
-std::deque<Intake::Kept> Intake::take(std::deque<Kept> former) {
+std::deque<WaitingMessage> Intake::take(std::deque<WaitingMessage> former) {
   const std::scoped_lock lock(mutex_);
-  called_ = false;
-  for (; !former.empty(); former.pop_back()) kept_.push_front(std::move(former.back()));
-  while (!kept_.empty() && store(kept_.front().publisher, kept_.front().bytes)) kept_.pop_front();
-  std::deque<Kept> taken;
-  while (!kept_.empty() &&
-         (taken.empty() || buffers_.empty() || name_of(kept_.front().publisher) == nullptr)) {
-    taken.push_back(std::move(kept_.front()));
-    kept_.pop_front();
+  backlog_.python_came();
+  backlog_.put_back(std::move(former));
+  while (!backlog_.empty() && store(backlog_.front().publisher, backlog_.front().bytes))
+    backlog_.take_front();
+  std::deque<WaitingMessage> taken;
+  while (!backlog_.empty() &&
+         (taken.empty() || buffers_.empty() || name_of(backlog_.front().publisher) == nullptr)) {
+    taken.push_back(backlog_.take_front());
   }
-  taken_care_of_ = !taken.empty();
+  backlog_.python_is_busy(!taken.empty());
   return taken;
 }
 
 bool Intake::take_news() {
   const std::scoped_lock lock(mutex_);
-  called_ = false;
+  backlog_.python_came();
   return std::exchange(news_, false);
 }
 
@@ -108,7 +105,7 @@ void Intake::expect() {
 
 bool Intake::take_expected() {
   const std::scoped_lock lock(mutex_);
-  called_ = false;
+  backlog_.python_came();
   return std::exchange(expected_came_, false);
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdint>
 #include <cstring>
+#include <string_view>
 
 namespace turtlewire {
 namespace {
@@ -75,16 +77,6 @@ class Reader {
 };
 
 }  // namespace
-
-Pose ReceivedTransform::pose() const {
-  double v[7];
-  std::memcpy(v, numbers, sizeof v);
-  if (swapped) {
-    for (int i = 0; i < 7; ++i)
-      v[i] = std::bit_cast<double>(load<std::uint64_t>(numbers + 8 * i, true));
-  }
-  return {{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}};
-}
 
 std::string TfMessage::decode(const unsigned char* bytes, std::size_t size) {
   count_ = 0;

@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "shared_buffer.hpp"
+#include "../core/shared_buffer.hpp"
 #include "tf_message.hpp"
 
 namespace turtlewire {

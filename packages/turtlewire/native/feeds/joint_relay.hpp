@@ -13,7 +13,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "fork.hpp"
+#include "../core/fork.hpp"
+#include "backlog.hpp"
 #include "joint_frames.hpp"
 #include "outlet.hpp"
 
@@ -42,21 +43,16 @@ class JointRelay final : public ForkAware {
     bool ignores_stamps = false;
     bool tells_of_skipping = true;  // Python wants to see what is skipped
   };
-  struct Kept {
-    std::uint64_t publisher;
-    Nanoseconds sent;
-    std::vector<unsigned char> bytes;
-  };
 
   // The outlet must not block, for the receiving thread would block. At most `most_kept` messages
   // are kept back, the newest ones.
-  JointRelay(Outlet& outlet, std::size_t most_kept) : outlet_(outlet), most_kept_(most_kept) {}
+  JointRelay(Outlet& outlet, std::size_t most_kept) : outlet_(outlet), backlog_(most_kept) {}
 
   // Answers or skips a message, or keeps it back. True if Python is to be woken, which was not told
   // to come before.
   bool receive(std::uint64_t publisher, Nanoseconds sent, std::span<const unsigned char> bytes);
   // For Python, which repeats it until there is nothing: the next message that was kept back.
-  std::optional<Kept> take();
+  std::optional<WaitingMessage> take();
 
   void set_rules(Rules rules);
   // The time of a simulated clock; nothing: the system's time counts.
@@ -92,7 +88,6 @@ class JointRelay final : public ForkAware {
   Nanoseconds earliest(const std::vector<std::size_t>& joints, Nanoseconds now) const;
 
   Outlet& outlet_;
-  const std::size_t most_kept_;
   std::mutex mutex_;  // guards all that follows
   Rules rules_;
   std::optional<Nanoseconds> time_;
@@ -101,9 +96,7 @@ class JointRelay final : public ForkAware {
   std::unordered_map<std::string, std::size_t> joints_;
   std::vector<Nanoseconds> stamps_;  // when each was published last
   std::vector<unsigned char> message_;
-  std::deque<Kept> kept_;
-  bool busy_ = false;    // Python handles what it took
-  bool called_ = false;  // Python was told to come
+  Backlog backlog_;
   std::uint64_t relayed_ = 0;
   const ForkRegistration registration_{*this, Order::outer};
 };
