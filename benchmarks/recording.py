@@ -127,7 +127,7 @@ def lateness() -> Iterator[tuple[float, list[float]]]:
     """Play at three rates; each with the milliseconds by which its messages are late, in order."""
     from rosbag2_transport.options import PlayOptions
     from rosbag2_transport.player import Player
-    from rosbag2_transport.session import Session
+    from rosbag2_transport.session import BagSession
 
     with tempfile.TemporaryDirectory() as folder, isolated_domain():
         path = f"{folder}/bag"
@@ -138,7 +138,7 @@ def lateness() -> Iterator[tuple[float, list[float]]]:
         for rate in RATES:
             errors: list[float] = []
             options = PlayOptions(rate=rate, playback_duration=5.0 * rate)
-            with Session("timing") as session:
+            with BagSession("timing") as session:
                 player = Player(session.node, path, options)
                 player.on_publish.append(partial(note, player, errors))
                 player.play()

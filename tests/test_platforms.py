@@ -14,7 +14,7 @@ import pytest
 from tests.places import ENGINE, ROOT, SCRIPTS
 
 from turtlewire import demo
-from turtlewire.terminal.console_keyboard import Keyboard
+from turtlewire.terminal.console_keyboard import ConsoleKeyboard
 from turtlewire.wire.wheels import Platform, advice
 
 
@@ -62,12 +62,12 @@ def test_the_lint_lets_pass_what_is_guarded(platforms, monkeypatch, tmp_path, so
     assert list(platforms.faults(tmp_path / "module.py")) == []
 
 
-def typed(*characters: str) -> Keyboard:
+def typed(*characters: str) -> ConsoleKeyboard:
     """A console on which these were typed; then nobody types any more."""
     keys: queue.SimpleQueue[str] = queue.SimpleQueue()
     for character in characters:
         keys.put(character)
-    return Keyboard(read_character=keys.get)
+    return ConsoleKeyboard(read_character=keys.get)
 
 
 def test_the_console_gives_the_bytes_of_a_terminal():

@@ -11,8 +11,8 @@ import base64
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.wire.base import MessageInfo, NodeInfo, TypeId
-from turtlewire.wire.local.core import NodeCore
 from turtlewire.wire.local.endpoint import EndpointSpec
+from turtlewire.wire.local.node_state import LocalNodeState
 from turtlewire.wire.local.publisher import LocalPublisher
 from turtlewire.wire.local.subscription import LocalSubscription
 from turtlewire.wire.qos import Durability, History, Liveliness, QoS, Reliability
@@ -42,7 +42,7 @@ class _End:
         self._told: dict[str, LocalEndpoint] = {}
         self._told_nodes: list[NodeInfo] = []
         self._mirrors: dict[str, LocalEndpoint] = {}
-        self._mirrored_nodes: dict[NodeInfo, NodeCore] = {}
+        self._mirrored_nodes: dict[NodeInfo, LocalNodeState] = {}
         self._messages: list[list[Any]] = []
         self._graph_changed = True
         bus.listeners.append(self._note_change)
@@ -106,7 +106,7 @@ class _End:
             self._remove_node(node)
         for node in nodes:
             if node not in self._mirrored_nodes:
-                core = NodeCore(NodeInfo(*node), self._bus, ReaderThread())
+                core = LocalNodeState(NodeInfo(*node), self._bus, ReaderThread())
                 self._mirrored_nodes[node] = core
                 self._bus.nodes.append(core.info)
         for described in news["opened"]:
@@ -123,7 +123,9 @@ class _End:
         info = self._mirrored_nodes.pop(node).info
         self._bus.nodes[:] = [other for other in self._bus.nodes if other is not info]
 
-    def _mirror(self, kind: str, gid: str, core: NodeCore, spec: EndpointSpec) -> LocalEndpoint:
+    def _mirror(
+        self, kind: str, gid: str, core: LocalNodeState, spec: EndpointSpec
+    ) -> LocalEndpoint:
         if kind == "publisher":
             return LocalPublisher(core, spec)
         return _MirroredSubscription(core, spec, lambda message: self._heard(gid, message))
@@ -184,7 +186,7 @@ class _MirroredSubscription(LocalSubscription):
     """Passes each message on instead of keeping it."""
 
     def __init__(
-        self, node: NodeCore, spec: EndpointSpec, heard: Callable[[Message], None]
+        self, node: LocalNodeState, spec: EndpointSpec, heard: Callable[[Message], None]
     ) -> None:
         self._heard = heard
         super().__init__(node, spec)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from turtle_lesson.grading import grade_as_json
 from turtle_lesson.lesson import load_lesson
-from turtle_lesson.session import Session
+from turtle_lesson.session import LessonSession
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -18,7 +18,7 @@ __all__ = ["grade", "open_session"]
 _LESSONS = Path(__file__).resolve().parent / "lessons"
 
 
-def open_session(lesson: str, files: str, faults: str) -> Session:
+def open_session(lesson: str, files: str, faults: str) -> LessonSession:
     """Run a lesson.
 
     Args:
@@ -26,7 +26,7 @@ def open_session(lesson: str, files: str, faults: str) -> Session:
         files: JSON object of the student's files.
         faults: JSON list of the names of faults that are switched on.
     """
-    return Session(load_lesson(_LESSONS / lesson), json.loads(files), json.loads(faults))
+    return LessonSession(load_lesson(_LESSONS / lesson), json.loads(files), json.loads(faults))
 
 
 def grade(

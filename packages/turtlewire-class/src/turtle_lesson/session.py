@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from turtle_lesson.lesson import Lesson
     from turtlesim.testing import Simulation
 
-__all__ = ["Session"]
+__all__ = ["LessonSession"]
 
 #: Simulated time between two texts for the page [ticks].
 _WATCH_TICKS = 12
@@ -29,7 +29,7 @@ _WATCH_TICKS = 12
 _DOCTOR_TICKS = 188
 
 
-class Session:
+class LessonSession:
     """A lesson that runs. The page makes one at each press of Run, and closes it before the next.
 
     Args:

@@ -12,7 +12,7 @@ from tests.places import LESSON_CODE, LESSONS
 
 from turtle_lesson import classroom
 from turtle_lesson.lesson import load_lesson
-from turtle_lesson.session import Session
+from turtle_lesson.session import LessonSession
 
 WISHES = json.dumps({"target": "turtle2", "source": "turtle1", "topic": "/turtle1/pose"})
 
@@ -28,7 +28,7 @@ def open_session():
         for old, new in changes:
             assert old in files[lesson.files[0]]
             files[lesson.files[0]] = files[lesson.files[0]].replace(old, new)
-        sessions.append(Session(lesson, files, faults))
+        sessions.append(LessonSession(lesson, files, faults))
         return sessions[-1]
 
     yield open_session
@@ -167,11 +167,11 @@ sys.path.insert(0, {python!r})
 import json
 from pathlib import Path
 from turtle_lesson.lesson import load_lesson
-from turtle_lesson.session import Session
+from turtle_lesson.session import LessonSession
 import turtlewire.tf.buffer
 from turtlewire.wire.environment import middleware_name
 lesson = load_lesson(Path({lesson!r}))
-session = Session(lesson, lesson.sources("starter"))
+session = LessonSession(lesson, lesson.sources("starter"))
 assert session.mistake is None, session.mistake
 for _ in range(50):
     texts = session.step(12, json.dumps(

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from turtlewire.wire import base
 
     from ._execution.entity import Work
-    from ._node.core import NodeCore
+    from ._node.state import NodeState
     from .callback_groups import CallbackGroup
     from .qos import QoSProfile
 
@@ -59,7 +59,7 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
         srv_name: str,
         qos_profile: QoSProfile,
         callback_group: CallbackGroup,
-        core: NodeCore,
+        core: NodeState,
     ) -> None:
         super().__init__(wire, core, srv_type, callback_group)
         self.srv_name = srv_name

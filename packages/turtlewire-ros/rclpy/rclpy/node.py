@@ -17,10 +17,10 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 
 from turtlewire.wire import names
 
-from ._node.core import NodeCore
 from ._node.endpoints import NodeEndpoints, QosOverrides
 from ._node.graph import NodeGraph
 from ._node.parameters import NodeParameters
+from ._node.state import NodeState
 from ._rclpy_pybind11 import NodeNameNonExistentError
 from .client import Client, SrvType, SrvTypeRequest, SrvTypeResponse
 from .clock import ROSClock
@@ -149,7 +149,7 @@ class Node:
         self._context = _usable_context(context)
         arguments = _arguments(self._context, cli_args, use_global_arguments=use_global_arguments)
         name, namespace = _names(node_name, namespace or "/", arguments)
-        self.__core = core = NodeCore(
+        self.__core = core = NodeState(
             self._context, name, namespace, arguments, enable_rosout=enable_rosout
         )
         self._logger = core.logger

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from turtlewire.wire import base
 
-    from ._node.core import NodeCore
+    from ._node.state import NodeState
     from .qos import QoSProfile
 
 __all__ = ["MsgType", "Publisher"]
@@ -44,7 +44,7 @@ class Publisher(Generic[MsgT]):
     """
 
     def __init__(
-        self, wire: base.Publisher, msg_type: type[MsgT], qos_profile: QoSProfile, core: NodeCore
+        self, wire: base.Publisher, msg_type: type[MsgT], qos_profile: QoSProfile, core: NodeState
     ) -> None:
         self.msg_type = msg_type
         self.qos_profile = qos_profile

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from turtlewire.wire import base
 
     from ._execution.entity import Work
-    from ._node.core import NodeCore
+    from ._node.state import NodeState
     from .callback_groups import CallbackGroup
     from .qos import QoSProfile
 
@@ -51,7 +51,7 @@ class Service(IntrospectedEndpoint, Generic[SrvT_co]):
         callback: Callable[[Any, Any], Any],
         callback_group: CallbackGroup,
         qos_profile: QoSProfile,
-        core: NodeCore,
+        core: NodeState,
     ) -> None:
         super().__init__(wire, core, srv_type, callback_group)
         self.srv_name = srv_name

@@ -16,7 +16,7 @@ from .type_support import type_id
 if TYPE_CHECKING:
     from turtlewire.wire import base
 
-    from ._node.core import NodeCore
+    from ._node.state import NodeState
     from .callback_groups import CallbackGroup
     from .clock import Clock
     from .qos import QoSProfile
@@ -58,7 +58,7 @@ class IntrospectedEndpoint(Entity):
     def __init__(
         self,
         wire: base.Client | base.Service,
-        core: NodeCore,
+        core: NodeState,
         srv_type: Any,
         callback_group: CallbackGroup,
     ) -> None:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from turtlewire.wire import base
 
-    from ._node.core import NodeCore
+    from ._node.state import NodeState
     from .callback_groups import CallbackGroup
     from .qos import QoSProfile
 
@@ -56,7 +56,7 @@ class Subscription(Entity, Generic[MsgT]):
         callback_group: CallbackGroup,
         qos_profile: QoSProfile,
         raw: bool,
-        core: NodeCore,
+        core: NodeState,
     ) -> None:
         super().__init__(callback_group)
         self.msg_type = msg_type

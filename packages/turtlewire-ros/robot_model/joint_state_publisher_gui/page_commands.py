@@ -6,13 +6,13 @@ import json
 import math
 from typing import Any, NamedTuple
 
-__all__ = ["Center", "Command", "CommandError", "Play", "Randomize", "Set", "parse_command"]
+__all__ = ["Center", "Command", "JointCommandError", "Play", "Randomize", "Set", "parse_command"]
 
 #: Longest name that a page may send.
 _MAX_NAME = 1024
 
 
-class CommandError(ValueError):
+class JointCommandError(ValueError):
     """The browser sent something that is not a command; the text says what is wrong."""
 
 
@@ -49,25 +49,25 @@ def parse_command(text: str | bytes) -> Command:
     An example: ``{"type": "set", "joint": "elbow", "position": 0.5}``.
 
     Raises:
-        CommandError: The text is not JSON or too deeply nested, the type is unknown, or a field is
-            missing, unknown or of the wrong kind.
+        JointCommandError: The text is not JSON or too deeply nested, the type is unknown, or a
+            field is missing, unknown or of the wrong kind.
     """
     try:
         message = json.loads(text)
     except ValueError as error:
-        raise CommandError(f"not JSON: {error}") from error
+        raise JointCommandError(f"not JSON: {error}") from error
     except RecursionError as error:
-        raise CommandError("not a command: the JSON is nested too deeply") from error
+        raise JointCommandError("not a command: the JSON is nested too deeply") from error
     if (
         not isinstance(message, dict)
         or not isinstance(message.get("type"), str)
         or message["type"] not in _COMMANDS
     ):
-        raise CommandError(f"expected an object whose type is one of {', '.join(_COMMANDS)}")
+        raise JointCommandError(f"expected an object whose type is one of {', '.join(_COMMANDS)}")
     kind = _COMMANDS[message.pop("type")]
     if message.keys() != set(kind._fields):
         expected, got = (", ".join(names) or "no fields" for names in (kind._fields, message))
-        raise CommandError(f"{kind.__name__.lower()} has {expected}; got {got}")
+        raise JointCommandError(f"{kind.__name__.lower()} has {expected}; got {got}")
     command: Command = kind(**{name: _checked(name, message[name]) for name in kind._fields})
     return command
 
@@ -75,14 +75,14 @@ def parse_command(text: str | bytes) -> Command:
 def _checked(name: str, value: object) -> str | float | bool:
     if name == "on":
         if not isinstance(value, bool):
-            raise CommandError("on is true or false")
+            raise JointCommandError("on is true or false")
         return value
     if name == "joint":
         if not isinstance(value, str) or len(value) > _MAX_NAME:
-            raise CommandError(f"joint is a text of at most {_MAX_NAME} characters")
+            raise JointCommandError(f"joint is a text of at most {_MAX_NAME} characters")
         return value
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not _finite(value):
-        raise CommandError("position is a finite number")
+        raise JointCommandError("position is a finite number")
     return float(value)
 
 

@@ -11,7 +11,7 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from joint_state_publisher_gui.page_commands import CommandError, parse_command
+from joint_state_publisher_gui.page_commands import JointCommandError, parse_command
 from turtlewire.web import Server
 from turtlewire.web.desktop import wanted_port
 
@@ -93,7 +93,7 @@ class _Session:
     def receive(self, message: str | bytes) -> None:
         try:
             command = parse_command(message)
-        except CommandError as error:
+        except JointCommandError as error:
             self._errors.append(str(error))
             return
         self._screen._obey(command)

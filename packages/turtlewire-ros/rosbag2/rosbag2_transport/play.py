@@ -10,7 +10,7 @@ from rosbag2_transport.player import Player
 from rosbag2_transport.player_clock import ClockPublisher
 from rosbag2_transport.player_services import PlayerServices
 from rosbag2_transport.progress import ProgressLine, time_text
-from rosbag2_transport.session import Session, handle_keys, stopped_by_signals
+from rosbag2_transport.session import BagSession, handle_keys, stopped_by_signals
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ def _with_player(
     try:
         with (
             stopped_by_signals(stop),
-            Session(name, remap=tuple(words)) as session,
+            BagSession(name, remap=tuple(words)) as session,
         ):
             player = Player(session.node, path, options)
             try:
@@ -122,7 +122,7 @@ def _run(
 
 
 def _bindings(
-    player: Player, session: Session, options: PlayOptions
+    player: Player, session: BagSession, options: PlayOptions
 ) -> dict[bytes, Callable[[], object]]:
     """Return the action of each key, and print the keys."""
     if not options.disable_keyboard_controls:

@@ -12,7 +12,7 @@ from rclpy.logging import get_logger
 from rosbag2_transport.progress import ProgressLine, bytes_text, time_text
 from rosbag2_transport.recorder import Recorder
 from rosbag2_transport.recorder_services import RecorderServices
-from rosbag2_transport.session import Session, handle_keys, stopped_by_signals
+from rosbag2_transport.session import BagSession, handle_keys, stopped_by_signals
 from rosbag2_transport.topic_filter import EVENT_TOPIC, check_patterns
 from turtlewire.bag.metadata import METADATA_FILE
 from turtlewire.bag.recording import Recording
@@ -59,7 +59,7 @@ def record(
         raise RuntimeError(f"'{name}' cannot be the name of a node: {fault.message}")
     with (
         stopped_by_signals(stop),  # an interrupt never leaves a bag without metadata
-        Session(name, use_sim_time=options.use_sim_time) as session,
+        BagSession(name, use_sim_time=options.use_sim_time) as session,
         contextlib.ExitStack() as at_end,  # the node still tells of the last files
     ):
         writer = make_writer()
@@ -97,7 +97,7 @@ def _finish(recording: Recording, writer: BagWriter) -> None:
 
 
 def _run(
-    session: Session,
+    session: BagSession,
     recording: Recording,
     writer: BagWriter,
     options: RecordOptions,

@@ -23,13 +23,13 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-__all__ = ["Session", "handle_keys", "stopped_by_signals"]
+__all__ = ["BagSession", "handle_keys", "stopped_by_signals"]
 
 _NO_TERMINAL = "stdin is not a terminal device. Keyboard handling disabled."
 _ESCAPE = b"\x1b"
 
 
-class Session:
+class BagSession:
     """A node in a context of its own, and the thread that serves it; a context manager.
 
     Args:

@@ -10,7 +10,6 @@ __all__ = [
     "Cancel",
     "Clear",
     "Command",
-    "CommandError",
     "Drive",
     "Kill",
     "Pen",
@@ -19,6 +18,7 @@ __all__ = [
     "Spawn",
     "Speed",
     "Teleport",
+    "TurtleCommandError",
     "Unwatch",
     "Watch",
     "parse_command",
@@ -37,7 +37,7 @@ _MAX_NAME = 255
 _LARGEST_NUMBER = 1_000_000
 
 
-class CommandError(ValueError):
+class TurtleCommandError(ValueError):
     """The browser sent something that is not a command; the text names the mistake."""
 
 
@@ -173,25 +173,25 @@ def parse_command(text: str | bytes) -> Command:
     An example: ``{"type": "drive", "turtle": "turtle1", "linear": 2.0, "angular": 0.0}``.
 
     Raises:
-        CommandError: The text is not JSON or too deeply nested, the type is unknown, or a field is
-            missing, unknown or of the wrong kind.
+        TurtleCommandError: The text is not JSON or too deeply nested, the type is unknown, or a
+            field is missing, unknown or of the wrong kind.
     """
     try:
         message = json.loads(text)
     except ValueError as error:
-        raise CommandError(f"not JSON: {error}") from error
+        raise TurtleCommandError(f"not JSON: {error}") from error
     except RecursionError as error:
-        raise CommandError("not a command: the JSON is nested too deeply") from error
+        raise TurtleCommandError("not a command: the JSON is nested too deeply") from error
     if (
         not isinstance(message, dict)
         or not isinstance(message.get("type"), str)
         or message["type"] not in _COMMANDS
     ):
-        raise CommandError(f"expected an object whose type is one of {', '.join(_COMMANDS)}")
+        raise TurtleCommandError(f"expected an object whose type is one of {', '.join(_COMMANDS)}")
     kind = _COMMANDS[message.pop("type")]
     if message.keys() != set(kind._fields):
         expected, got = (", ".join(names) or "no fields" for names in (kind._fields, message))
-        raise CommandError(f"{kind.__name__.lower()} has {expected}; got {got}")
+        raise TurtleCommandError(f"{kind.__name__.lower()} has {expected}; got {got}")
     command: Command = kind(**{name: _checked(name, message[name]) for name in kind._fields})
     return command
 
@@ -199,20 +199,22 @@ def parse_command(text: str | bytes) -> Command:
 def _checked(name: str, value: object) -> str | float | bool:
     if name in _FLAG_FIELDS:
         if not isinstance(value, bool):
-            raise CommandError(f"{name} is true or false")
+            raise TurtleCommandError(f"{name} is true or false")
         return value
     if name in _TEXT_FIELDS:
         if not isinstance(value, str) or len(value) > _MAX_NAME:
-            raise CommandError(f"{name} is a text of at most {_MAX_NAME} characters")
+            raise TurtleCommandError(f"{name} is a text of at most {_MAX_NAME} characters")
         return value
     if (
         isinstance(value, bool)
         or not isinstance(value, (int, float))
         or not abs(value) <= _LARGEST_NUMBER  # true for NaN, too
     ):
-        raise CommandError(f"{name} is a number between -{_LARGEST_NUMBER} and {_LARGEST_NUMBER}")
+        raise TurtleCommandError(
+            f"{name} is a number between -{_LARGEST_NUMBER} and {_LARGEST_NUMBER}"
+        )
     if name in _BYTE_FIELDS and not (value == int(value) and 0 <= value <= 255):
-        raise CommandError(f"{name} is a whole number between 0 and 255")
+        raise TurtleCommandError(f"{name} is a whole number between 0 and 255")
     if name == "factor" and not 0.0 <= value <= _LARGEST_FACTOR:
-        raise CommandError(f"factor is a number between 0 and {_LARGEST_FACTOR:.0f}")
+        raise TurtleCommandError(f"factor is a number between 0 and {_LARGEST_FACTOR:.0f}")
     return int(value) if name in _BYTE_FIELDS else float(value)

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from turtlesim.drawing import RECORD_SIZE, Drawing
 from turtlesim.looks import shown_pen
-from turtlesim.page_commands import CommandError, Unwatch, Watch, parse_command
+from turtlesim.page_commands import TurtleCommandError, Unwatch, Watch, parse_command
 from turtlesim.transform_view import field_frames
 from turtlewire.web import Server
 from turtlewire.web.desktop import wanted_port
@@ -215,7 +215,7 @@ class _Session:
     def receive(self, message: str | bytes) -> None:
         try:
             command = parse_command(message)
-        except CommandError as error:
+        except TurtleCommandError as error:
             self._errors.append(str(error))
             return
         if isinstance(command, (Watch, Unwatch)):

@@ -21,14 +21,14 @@ if TYPE_CHECKING:
     from turtlewire_view.rviz_file import SavedView
     from turtlewire_view.source import Source
 
-__all__ = ["CommandError", "Host", "Session"]
+__all__ = ["Host", "ViewCommandError", "ViewSession"]
 
 _FRAMES_S, _RELATION_S, _TREE_S = 1 / 31, 0.1, 1.0
 _LONGEST_NAME = 1000
 _MOST_DISPLAYS = 100
 
 
-class CommandError(ValueError):
+class ViewCommandError(ValueError):
     """A command of a page that makes no sense; the text is its answer."""
 
 
@@ -63,7 +63,7 @@ class Host(Protocol):
         """Displays must be placed anew."""
         ...
 
-    def forget(self, session: Session) -> None:
+    def forget(self, session: ViewSession) -> None:
         """A page is gone."""
         ...
 
@@ -76,7 +76,7 @@ class _Wish(NamedTuple):
     options: dict[str, object]
 
 
-class Session:
+class ViewSession:
     """The server's thread calls all methods but :meth:`base`."""
 
     def __init__(self, viewer: Host) -> None:
@@ -137,7 +137,7 @@ class Session:
         """Take a command; a wrong one is answered by an ``error``."""
         try:
             self._run(message)
-        except (CommandError, TurtlewireError) as error:
+        except (ViewCommandError, TurtlewireError) as error:
             self._refuse(error)
 
     def _refuse(self, error: Exception) -> None:
@@ -155,12 +155,12 @@ class Session:
         try:
             command = json.loads(message)
         except (ValueError, RecursionError):
-            raise CommandError("The page sent something that is no JSON.") from None
+            raise ViewCommandError("The page sent something that is no JSON.") from None
         kind = command.get("type") if isinstance(command, dict) else None
         run = self._commands.get(kind) if isinstance(kind, str) else None
         if run is None:
             known = ", ".join(self._commands)
-            raise CommandError(f"There is no command {kind!r:.100}; there are {known}.")
+            raise ViewCommandError(f"There is no command {kind!r:.100}; there are {known}.")
         run(command)
         self._due.clear()
 
@@ -244,9 +244,9 @@ class Session:
     def _add(self, command: dict[str, Any]) -> None:
         name, kind, topic = (_text(command, word) for word in ("id", "kind", "topic"))
         if name in self._feeds:
-            raise CommandError(f"There is a display {name!r} already.")
+            raise ViewCommandError(f"There is a display {name!r} already.")
         if len(self._feeds) >= _MOST_DISPLAYS:
-            raise CommandError(f"There are {_MOST_DISPLAYS} displays already.")
+            raise ViewCommandError(f"There are {_MOST_DISPLAYS} displays already.")
         wish = _Wish(kind, topic, _options(command))
         self._feeds[name] = self._viewer.new_feed(name, *wish)
         self._wishes[name] = wish
@@ -263,7 +263,7 @@ class Session:
                 continue
             try:
                 new = self._viewer.new_feed(name, *wish)
-            except (CommandError, TurtlewireError) as error:
+            except (ViewCommandError, TurtlewireError) as error:
                 self._refuse(error)
                 continue
             new.paused = feed.paused
@@ -283,12 +283,12 @@ class Session:
     def _set_options(self, command: dict[str, Any]) -> None:
         name = _text(command, "id")
         if name not in self._feeds:
-            raise CommandError(f"There is no display {name!r}.")
+            raise ViewCommandError(f"There is no display {name!r}.")
         try:
             self._feeds[name].set_options(_options(command))
             self._wishes[name] = self._wishes[name]._replace(options=_options(command))
         except OptionError as error:
-            raise CommandError(f"This stays as it was: {error}.") from error
+            raise ViewCommandError(f"This stays as it was: {error}.") from error
 
     def _set_budget(self, command: dict[str, Any]) -> None:
         self._budget = int(_number(command, "points", least=1))
@@ -321,7 +321,7 @@ class Session:
         try:
             sent = message_of_tool(command, frame, self._base.origin, self._source.now_ns())
         except RequestError as error:
-            raise CommandError(f"Nothing was published: {error}.") from error
+            raise ViewCommandError(f"Nothing was published: {error}.") from error
         heard = self._source.publish(*sent) > 0
         answer = {"type": "published", "topic": sent.topic, "heard": heard}
         self._answers.append(encode_packet(answer))
@@ -332,7 +332,7 @@ class Session:
             former = self._viewer.documents.get(str(command.get("document")))
             text = text_of_view(command, types, former)
         except RequestError as error:
-            raise CommandError(f"The view was not saved: {error}.") from error
+            raise ViewCommandError(f"The view was not saved: {error}.") from error
         self._answers.append(encode_packet({"type": "saved", "text": text}))
 
     def _load(self, command: dict[str, Any]) -> None:
@@ -340,7 +340,7 @@ class Session:
         try:
             view = read_rviz(text if isinstance(text, str) else "")
         except RvizFileError as error:
-            raise CommandError(f"This is no view: {error}.") from error
+            raise ViewCommandError(f"This is no view: {error}.") from error
         self._viewer.keep_document(view)
         self._answers.append(encode_packet(view.header()))
 
@@ -352,21 +352,23 @@ class Session:
 def _text(command: dict[str, Any], word: str) -> str:
     value = command.get(word)
     if not isinstance(value, str) or len(value) > _LONGEST_NAME:
-        raise CommandError(f"{word!r} must be a text of at most {_LONGEST_NAME} characters.")
+        raise ViewCommandError(f"{word!r} must be a text of at most {_LONGEST_NAME} characters.")
     return value
 
 
 def _number(command: dict[str, Any], word: str, *, least: float) -> float:
     value = command.get(word)
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise CommandError(f"{word!r} must be a number.")
+        raise ViewCommandError(f"{word!r} must be a number.")
     if not least <= value < 1e12 or not math.isfinite(value):
-        raise CommandError(f"{word!r} must be a number from {least:g} to 1e12, got {value!r:.50}.")
+        raise ViewCommandError(
+            f"{word!r} must be a number from {least:g} to 1e12, got {value!r:.50}."
+        )
     return value
 
 
 def _options(command: dict[str, Any]) -> dict[str, object]:
     options = command.get("options", {})
     if not isinstance(options, dict):
-        raise CommandError("'options' must be an object.")
+        raise ViewCommandError("'options' must be an object.")
     return options

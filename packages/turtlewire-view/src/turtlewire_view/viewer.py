@@ -14,7 +14,7 @@ from turtlewire_view.displays import display_for, display_types
 from turtlewire_view.displays.options import OptionError
 from turtlewire_view.meshes import MeshLibrary
 from turtlewire_view.packets import encode_packet
-from turtlewire_view.session import CommandError, Session
+from turtlewire_view.session import ViewCommandError, ViewSession
 
 if TYPE_CHECKING:
     from turtlewire_view.rviz_file import SavedView
@@ -65,7 +65,7 @@ class Viewer:
         self.source = source
         self.fixed_frame = fixed_frame
         self._lock = threading.Lock()
-        self._sessions: list[Session] = []
+        self._sessions: list[ViewSession] = []
         self._changed, self._work = threading.Event(), threading.Event()
         self._closing = threading.Event()
         self._meshes = MeshLibrary()
@@ -132,7 +132,7 @@ class Viewer:
         """Subscribe for a display.
 
         Raises:
-            CommandError: There is no such display or topic, or an option is refused.
+            ViewCommandError: There is no such display or topic, or an option is refused.
             WireError: The topic cannot be subscribed.
         """
         topics = sorted(self.source.topics(), key=lambda each: each.publishers)
@@ -143,14 +143,14 @@ class Viewer:
             asked = next(iter(of_kind), "")
         type_name = types_there.get(topic) or asked
         if type_name not in of_kind or not (topic or kind == "robot_model"):
-            raise CommandError(f"No display {kind!r} shows {topic} of type {type_name or '?'}.")
+            raise ViewCommandError(f"No display {kind!r} shows {topic} of type {type_name or '?'}.")
         display_type = of_kind[type_name]
         types = {topic: type_name} if topic else {}  # a robot may come from a parameter or file
         types |= {topic + suffix: each for suffix, each in display_type.companions.items()}
         try:
             display = display_type(options)
         except OptionError as error:
-            raise CommandError(f"{topic or kind} is not shown: {error}.") from error
+            raise ViewCommandError(f"{topic or kind} is not shown: {error}.") from error
         feed = DisplayFeed(name, display, types, lambda _: self._work.set(), self._changed.set)
         feed.on_packages = self._meshes.permit
         feed.ask = self.source.ask_parameter
@@ -163,13 +163,13 @@ class Viewer:
         """Displays of a page must be placed anew; one thread serves all, and finds out which."""
         self._work.set()
 
-    def forget(self, session: Session) -> None:
+    def forget(self, session: ViewSession) -> None:
         """A page is gone."""
         with self._lock:
             self._sessions.remove(session)
 
-    def _connect(self) -> Session:
-        session = Session(self)
+    def _connect(self) -> ViewSession:
+        session = ViewSession(self)
         with self._lock:
             self._sessions.append(session)
         return session

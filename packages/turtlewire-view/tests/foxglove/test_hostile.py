@@ -25,7 +25,7 @@ from turtlewire_view.foxglove.protocol import (
     parse_binary,
     parse_text,
 )
-from turtlewire_view.foxglove.session import Session
+from turtlewire_view.foxglove.session import FoxgloveSession
 
 from .conftest import Client
 
@@ -305,7 +305,7 @@ def test_nothing_stays_of_clients_and_topics_that_have_gone(serve, client, robot
     client(server).channel("/last")  # the server has seen all that came before
     gc.collect()
     kinds = [type(each) for each in gc.get_objects()]
-    assert kinds.count(Session) == kinds.count(Channel) == 1
+    assert kinds.count(FoxgloveSession) == kinds.count(Channel) == 1
 
 
 def test_a_server_is_closed_twice_and_with_clients(serve, client):

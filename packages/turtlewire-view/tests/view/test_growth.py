@@ -37,7 +37,7 @@ def test_pages_displays_and_topics_that_come_and_go(robot, viewer, open_view_pag
     robot.send("map", "base", (1, 0, 0), 1_800_000_000)
     watcher = open_view_page(viewer)
     watcher.wait_for("frames")
-    sessions, threads = living(session.Session), threading.active_count()
+    sessions, threads = living(session.ViewSession), threading.active_count()
     cdr = path_bytes()
     for number in range(ROUNDS):
         topic = f"/path_{number}"
@@ -56,11 +56,11 @@ def test_pages_displays_and_topics_that_come_and_go(robot, viewer, open_view_pag
     # The server may still be about to forget the last page.
     left = threading.Event()
     for _ in range(600):
-        if living(DisplayFeed) == 0 and living(session.Session) == sessions:
+        if living(DisplayFeed) == 0 and living(session.ViewSession) == sessions:
             break
         left.wait(0.1)
     assert living(DisplayFeed) == 0
-    assert living(session.Session) == sessions
+    assert living(session.ViewSession) == sessions
     assert threading.active_count() <= threads
     watcher.wait_for("topics", lambda p: not any("path_" in t["name"] for t in p["topics"]))
 

@@ -13,7 +13,7 @@ if sys.platform == "win32":
 
 import pty
 
-from turtlewire.terminal.posix_keyboard import Keyboard
+from turtlewire.terminal.posix_keyboard import PosixKeyboard
 
 ENOUGH_S = 60.0
 
@@ -28,7 +28,7 @@ def terminal():
 
 def test_bytes_come_one_by_one_or_all_that_were_typed(terminal):
     ours, theirs = terminal
-    with Keyboard(theirs) as keyboard:
+    with PosixKeyboard(theirs) as keyboard:
         os.write(ours, b"ab\x1b[A")
         assert keyboard.read() == b"a"
         typed = b""
@@ -38,13 +38,13 @@ def test_bytes_come_one_by_one_or_all_that_were_typed(terminal):
 
 
 def test_nothing_typed_within_the_time_is_none(terminal):
-    with Keyboard(terminal[1]) as keyboard:
+    with PosixKeyboard(terminal[1]) as keyboard:
         assert keyboard.read_within(0.0) is None
 
 
 def test_a_process_that_goes_on_draws_again_but_waits_on_for_a_byte(terminal):
     ours, theirs = terminal
-    with Keyboard(theirs) as keyboard:
+    with PosixKeyboard(theirs) as keyboard:
         keyboard._resume()  # what SIGCONT does
         assert keyboard.read_within(ENOUGH_S) is None
         keyboard._resume()
@@ -54,7 +54,7 @@ def test_a_process_that_goes_on_draws_again_but_waits_on_for_a_byte(terminal):
 
 def test_stop_ends_this_read_and_all_later_ones(terminal):
     ours, theirs = terminal
-    with Keyboard(theirs) as keyboard:
+    with PosixKeyboard(theirs) as keyboard:
         keyboard._resume()
         thread = threading.Thread(target=keyboard.stop)
         thread.start()
@@ -67,4 +67,4 @@ def test_stop_ends_this_read_and_all_later_ones(terminal):
 
 def test_no_terminal_is_an_error(tmp_path):
     with open(tmp_path / "file", "w") as file, pytest.raises(OSError):
-        Keyboard(file.fileno())
+        PosixKeyboard(file.fileno())

@@ -260,11 +260,11 @@ def test_closing_at_once_returns(page, shared):
 FEW_FILES = """
 import os, pathlib, resource, sys
 from turtlewire.web import Server
-class Session:
+class PageSession:
     def outgoing(self): return []
     def receive(self, message): pass
     def closed(self): pass
-server = Server(pathlib.Path(sys.argv[1]), Session)
+server = Server(pathlib.Path(sys.argv[1]), PageSession)
 import http, websockets.http11
 limit = max(map(int, os.listdir("/proc/self/fd"))) + 8
 resource.setrlimit(resource.RLIMIT_NOFILE, (limit, limit))

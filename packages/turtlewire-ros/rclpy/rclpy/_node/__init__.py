@@ -3,7 +3,7 @@
 ============================  ==================================================================
 module                        what it holds
 ============================  ==================================================================
-`core`                        names, wire, context, logger and command line of one node
+`state`                       names, wire, context, logger and command line of one node
 `endpoints`                   makes, keeps and closes what a node owns
 `checks`                      checks of callbacks and of the quality of service
 `names`                       full names of topics and services

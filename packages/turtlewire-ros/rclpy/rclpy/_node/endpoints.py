@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from rclpy._execution.entity import Host
-    from rclpy._node.core import NodeCore
     from rclpy._node.parameters import NodeParameters
+    from rclpy._node.state import NodeState
     from rclpy.callback_groups import CallbackGroup
     from rclpy.clock import Clock
     from rclpy.qos import QoSProfile
@@ -76,7 +76,7 @@ class NodeEndpoints:
         names: The full names of topics and services.
     """
 
-    def __init__(self, core: NodeCore) -> None:
+    def __init__(self, core: NodeState) -> None:
         self._core = core
         self.names = NodeNames(core)
         self._host: tuple[weakref.ref[Host], int] | None = None

@@ -12,7 +12,7 @@ from turtlewire.wire import names
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from rclpy._node.core import NodeCore
+    from rclpy._node.state import NodeState
     from rclpy.topic_endpoint_info import TopicEndpointInfo
     from turtlewire.wire.base import EndpointInfo, Graph
 
@@ -24,7 +24,7 @@ NamesAndTypes = list[tuple[str, list[str]]]
 class NodeGraph:
     """The graph queries of one node."""
 
-    def __init__(self, core: NodeCore) -> None:
+    def __init__(self, core: NodeState) -> None:
         self._core = core
 
     @property

@@ -9,7 +9,7 @@ from rclpy.hints import described
 from turtlewire.wire import names
 
 if TYPE_CHECKING:
-    from rclpy._node.core import NodeCore
+    from rclpy._node.state import NodeState
 
 __all__ = ["NodeNames"]
 
@@ -17,7 +17,7 @@ __all__ = ["NodeNames"]
 class NodeNames:
     """Makes full names of what a program gives as names."""
 
-    def __init__(self, core: NodeCore) -> None:
+    def __init__(self, core: NodeState) -> None:
         self._core = core
 
     def resolve_topic(self, topic: str, *, only_expand: bool = False) -> str:

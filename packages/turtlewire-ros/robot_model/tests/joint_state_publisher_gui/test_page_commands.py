@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from joint_state_publisher_gui.page_commands import (
     Center,
-    CommandError,
+    JointCommandError,
     Play,
     Randomize,
     Set,
@@ -47,11 +47,11 @@ def test_commands(text, command):
     ],
 )
 def test_what_is_not_a_command(text, error):
-    with pytest.raises(CommandError, match=error):
+    with pytest.raises(JointCommandError, match=error):
         parse_command(text)
 
 
 @given(st.text() | st.binary())
 def test_anything_else_is_one_error(text):
-    with pytest.raises(CommandError):
+    with pytest.raises(JointCommandError):
         parse_command(text)

@@ -10,7 +10,6 @@ from turtlesim.page_commands import (
     Background,
     Cancel,
     Clear,
-    CommandError,
     Drive,
     Kill,
     Pen,
@@ -19,6 +18,7 @@ from turtlesim.page_commands import (
     Spawn,
     Speed,
     Teleport,
+    TurtleCommandError,
     Unwatch,
     Watch,
     parse_command,
@@ -98,5 +98,5 @@ def test_commands(message, command):
     ],
 )
 def test_what_is_no_command(text, part):
-    with pytest.raises(CommandError, match="(?s)" + part.replace("(", r"\(")):
+    with pytest.raises(TurtleCommandError, match="(?s)" + part.replace("(", r"\(")):
         parse_command(text)

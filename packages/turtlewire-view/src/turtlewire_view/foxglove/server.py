@@ -23,7 +23,7 @@ from turtlewire_view.foxglove.bridge import Bridge
 from turtlewire_view.foxglove.loop_calls import LoopCalls
 from turtlewire_view.foxglove.outbox import Outbox
 from turtlewire_view.foxglove.protocol import SUBPROTOCOLS
-from turtlewire_view.foxglove.session import Session
+from turtlewire_view.foxglove.session import FoxgloveSession
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -188,7 +188,7 @@ class FoxgloveServer:
         host, port = connection.remote_address[:2]
         name = f"{host}:{port}"
         wake = asyncio.Event()
-        session: Session | None = None
+        session: FoxgloveSession | None = None
 
         def tell_loss(subscription_id: int) -> None:
             if session is not None:
@@ -200,7 +200,7 @@ class FoxgloveServer:
             tell_loss,
             lambda: calls.soon(connection.transport.abort),
         )
-        session = Session(bridge, outbox, name, self._session_id)
+        session = FoxgloveSession(bridge, outbox, name, self._session_id)
         self._log.info(f"client {name} connected ({connection.subprotocol})")
         tasks = [
             asyncio.create_task(_send(connection, session, wake)),
@@ -219,7 +219,9 @@ class FoxgloveServer:
                 self._log.warning(f"client {name}: {result!r}")
 
 
-async def _send(connection: ServerConnection, session: Session, wake: asyncio.Event) -> None:
+async def _send(
+    connection: ServerConnection, session: FoxgloveSession, wake: asyncio.Event
+) -> None:
     clock = asyncio.get_running_loop().time
     woken = 0.0
     while True:
@@ -237,7 +239,7 @@ async def _send(connection: ServerConnection, session: Session, wake: asyncio.Ev
                 await asyncio.sleep(0)  # sending does not wait as long as the socket takes it
 
 
-async def _receive(connection: ServerConnection, session: Session) -> None:
+async def _receive(connection: ServerConnection, session: FoxgloveSession) -> None:
     async for message in connection:
         session.receive(message)
         await session.room()

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from turtlewire_view.foxglove.outbox import Outbox
     from turtlewire_view.foxglove.protocol import ServiceRequest
 
-__all__ = ["Session"]
+__all__ = ["FoxgloveSession"]
 
 #: How many calls, parameters and files a client may wait for.
 _MOST_TASKS = 100
@@ -28,7 +28,7 @@ _MOST_TASKS = 100
 _MOST_NAMES = 10_000
 
 
-class Session:
+class FoxgloveSession:
     """What one client has asked for. For the loop's thread.
 
     A wrong request is answered by a status and changes nothing.

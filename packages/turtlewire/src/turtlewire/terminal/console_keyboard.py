@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-__all__ = ["ENDING_SIGNALS", "Keyboard", "foreground_terminal", "signals_for_this_thread"]
+__all__ = ["ENDING_SIGNALS", "ConsoleKeyboard", "foreground_terminal", "signals_for_this_thread"]
 
 #: Windows has none that would have to be handled.
 ENDING_SIGNALS: tuple[int, ...] = ()
@@ -26,7 +26,7 @@ _ARROWS = {"H": b"\x1b[A", "P": b"\x1b[B", "M": b"\x1b[C", "K": b"\x1b[D"}
 _CTRL_C = "\x03"
 
 
-class Keyboard:
+class ConsoleKeyboard:
     """The keys of the console within a ``with`` block.
 
     A thread reads them, because the console cannot be waited for together with anything else. It

@@ -10,16 +10,20 @@ import sys
 if sys.platform == "win32":
     from turtlewire.terminal.console_keyboard import (
         ENDING_SIGNALS,
-        Keyboard,
         foreground_terminal,
         signals_for_this_thread,
+    )
+    from turtlewire.terminal.console_keyboard import (
+        ConsoleKeyboard as Keyboard,
     )
 else:
     from turtlewire.terminal.posix_keyboard import (
         ENDING_SIGNALS,
-        Keyboard,
         foreground_terminal,
         signals_for_this_thread,
+    )
+    from turtlewire.terminal.posix_keyboard import (
+        PosixKeyboard as Keyboard,
     )
 
 __all__ = ["ENDING_SIGNALS", "Keyboard", "foreground_terminal", "signals_for_this_thread"]

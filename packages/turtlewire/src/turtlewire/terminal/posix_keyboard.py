@@ -19,13 +19,13 @@ if TYPE_CHECKING:
 
 assert sys.platform != "win32"  # console_keyboard is for Windows
 
-__all__ = ["ENDING_SIGNALS", "Keyboard", "foreground_terminal", "signals_for_this_thread"]
+__all__ = ["ENDING_SIGNALS", "PosixKeyboard", "foreground_terminal", "signals_for_this_thread"]
 
 #: Signals that end a program without an exception, and would leave the terminal without echo.
 ENDING_SIGNALS = (signal.SIGHUP, signal.SIGQUIT)
 
 
-class Keyboard:
+class PosixKeyboard:
     """The terminal, in a mode that gives each byte as it is typed within a ``with`` block.
 
     It is put back into its own mode at the end of the block, and while Ctrl-Z stops the process.

@@ -17,6 +17,6 @@ module         what it holds
 from __future__ import annotations
 
 from turtlewire.web.files import Content
-from turtlewire.web.server import Server, Session
+from turtlewire.web.server import PageSession, Server
 
-__all__ = ["Content", "Server", "Session"]
+__all__ = ["Content", "PageSession", "Server"]

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from websockets.asyncio.server import ServerConnection
     from websockets.http11 import Request, Response
 
-__all__ = ["LIVE_PATH", "Server", "Session"]
+__all__ = ["LIVE_PATH", "PageSession", "Server"]
 
 #: Where pages open their WebSocket.
 LIVE_PATH = "/live"
@@ -37,7 +37,7 @@ _CLOSE_TIMEOUT = 0.5
 _UNINVITED = "The address lacks the token that the program has printed."
 
 
-class Session(Protocol):
+class PageSession(Protocol):
     """One browser's connection. The server's thread calls all methods, so they must be short."""
 
     def outgoing(self) -> list[str | bytes]:
@@ -72,7 +72,7 @@ class Server:
     def __init__(
         self,
         root: Path,
-        connect: Callable[[], Session],
+        connect: Callable[[], PageSession],
         *,
         port: int = 0,
         lan: bool = False,
@@ -280,7 +280,7 @@ def _response(
     return Response(status, reason, Headers({**described, **fields}), content.body)
 
 
-async def _send(connection: ServerConnection, session: Session, wake_up: asyncio.Event) -> None:
+async def _send(connection: ServerConnection, session: PageSession, wake_up: asyncio.Event) -> None:
     while True:
         await wake_up.wait()
         wake_up.clear()
@@ -288,7 +288,9 @@ async def _send(connection: ServerConnection, session: Session, wake_up: asyncio
             await connection.send(message)
 
 
-async def _receive(connection: ServerConnection, session: Session, wake_up: asyncio.Event) -> None:
+async def _receive(
+    connection: ServerConnection, session: PageSession, wake_up: asyncio.Event
+) -> None:
     async for message in connection:
         session.receive(message)
         wake_up.set()

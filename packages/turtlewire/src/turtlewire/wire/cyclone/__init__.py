@@ -16,7 +16,8 @@ module                    what it holds
 `library`                 loads ``libddsc``, and declares its functions
 `sertype`                 the type of a topic, of which samples are made
 `configuration`           Cyclone's configuration for a domain
-`context`, `core`         one participant; what it shares with its nodes
+`context`                 one participant
+`context_state`           what a context shares with its nodes
 `participant`             the DDS participant and its topics
 `node`                    makes endpoints, and announces them
 `announcer`               publishes ``ros_discovery_info``

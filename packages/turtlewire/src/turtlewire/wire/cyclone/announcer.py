@@ -19,7 +19,7 @@ from .publisher import CyclonePublisher
 
 if TYPE_CHECKING:
     from .participant import Participant
-    from .reader import ReaderThread
+    from .reader import CycloneReaderThread
 
 __all__ = ["ANNOUNCEMENT_INTERVAL_NS", "Announcer", "NodeRecord"]
 
@@ -44,7 +44,7 @@ class NodeRecord:
 class Announcer:
     """Publishes the nodes of this participant after they changed."""
 
-    def __init__(self, participant: Participant, reader: ReaderThread) -> None:
+    def __init__(self, participant: Participant, reader: CycloneReaderThread) -> None:
         qos = QoS(depth=1, durability=Durability.TRANSIENT_LOCAL)
         self._publisher = CyclonePublisher(
             participant, EndpointSpec(DISCOVERY_TOPIC, DISCOVERY_TOPIC, DISCOVERY_TYPE, qos)

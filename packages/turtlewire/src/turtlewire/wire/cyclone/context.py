@@ -11,7 +11,7 @@ from turtlewire.errors import WireError
 from turtlewire.wire import names
 from turtlewire.wire.base import Context, EventKind
 
-from .core import ContextCore
+from .context_state import CycloneContextState
 from .graph import CycloneGraph
 from .node import CycloneNode
 from .waiting import CycloneWaitSet
@@ -32,7 +32,7 @@ class CycloneContext(Context):
     def __init__(self, domain_id: int) -> None:
         self.domain_id = domain_id
         self._enclave = "/"
-        self._core = ContextCore(domain_id, self._enclave)
+        self._core = CycloneContextState(domain_id, self._enclave)
         self.gid = self._core.participant.gid
         self._lock = threading.Lock()
         self._process = os.getpid()

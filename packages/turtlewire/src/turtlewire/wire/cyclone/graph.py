@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
     from .announcer import Announcer
     from .participant import Participant
-    from .reader import ReaderThread
+    from .reader import CycloneReaderThread
 
 __all__ = ["CycloneGraph"]
 
@@ -94,7 +94,7 @@ class CycloneGraph(GraphView):
     """
 
     def __init__(
-        self, participant: Participant, announcer: Announcer, reader: ReaderThread
+        self, participant: Participant, announcer: Announcer, reader: CycloneReaderThread
     ) -> None:
         super().__init__()
         self._announcer = announcer

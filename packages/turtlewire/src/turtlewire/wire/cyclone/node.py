@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from turtlewire.wire.base import Context, ServiceTypes, Sink, TypeId
     from turtlewire.wire.qos import QoS
 
-    from .core import ContextCore
+    from .context_state import CycloneContextState
 
 __all__ = ["CycloneNode"]
 
@@ -41,7 +41,7 @@ class CycloneNode(Node):
     def __init__(
         self,
         context: Context,
-        core: ContextCore,
+        core: CycloneContextState,
         name: str,
         namespace: str,
         on_closed: Callable[[CycloneNode], None],

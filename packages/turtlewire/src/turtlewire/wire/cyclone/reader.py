@@ -17,10 +17,10 @@ from .waiting import ConditionSet
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["ReaderThread"]
+__all__ = ["CycloneReaderThread"]
 
 
-class ReaderThread:
+class CycloneReaderThread:
     """Waits in C for all of its conditions and calls the function of each one that is triggered.
 
     The functions run one after the other, without locks held; each must take what triggered it.

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from turtlewire.wire.base import RequestId
 
     from .publisher import CyclonePublisher
-    from .reader import ReaderThread
+    from .reader import CycloneReaderThread
     from .subscription import CycloneSubscription
 
 __all__ = ["CycloneClient", "CycloneService", "format_service_id"]
@@ -104,7 +104,7 @@ class CycloneService(TopicService):
         service: str,
         requests: CycloneSubscription,
         replies: CyclonePublisher,
-        reader: ReaderThread,
+        reader: CycloneReaderThread,
     ) -> None:
         super().__init__(service, requests, replies)
         self._reader = reader

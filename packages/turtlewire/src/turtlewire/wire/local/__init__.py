@@ -9,7 +9,7 @@ module                       what it holds
 ===========================  ==========================================================
 `bus`                        nodes and endpoints of a domain, and which endpoints match
 `context`                    a participant and its graph
-`node`, `core`               a node; what it shares with its endpoints
+`node`, `node_state`         a node; what it shares with its endpoints
 `endpoint`                   what publishers and subscriptions have in common
 `publisher`, `subscription`  the two kinds of endpoints
 ===========================  ==========================================================

@@ -11,9 +11,9 @@ from turtlewire.wire.queue_wait_set import QueueWaitSet
 from turtlewire.wire.reader_thread import Reader, ReaderThread
 
 from .bus import Bus, bus_of
-from .core import NodeCore
 from .endpoint import EVENTS, new_gid
 from .node import LocalNode
+from .node_state import LocalNodeState
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -71,7 +71,7 @@ class LocalContext(Context):
         self._reader = reader
 
     def create_node(self, name: str, namespace: str = "/", enclave: str = "/") -> LocalNode:
-        core = NodeCore(NodeInfo(name, namespace, enclave), self.bus, self._reader)
+        core = LocalNodeState(NodeInfo(name, namespace, enclave), self.bus, self._reader)
         node = LocalNode(self, core, self._forget)
         with self.bus.lock:
             self._require_open(f"create node {name}")

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from turtlewire.wire.base import Context, ServiceTypes, Sink, TypeId
     from turtlewire.wire.qos import QoS
 
-    from .core import NodeCore
+    from .node_state import LocalNodeState
 
 __all__ = ["LocalNode"]
 
@@ -34,7 +34,7 @@ class LocalNode(Node):
     """
 
     def __init__(
-        self, context: Context, core: NodeCore, on_closed: Callable[[LocalNode], None]
+        self, context: Context, core: LocalNodeState, on_closed: Callable[[LocalNode], None]
     ) -> None:
         self.context = context
         self.info = core.info

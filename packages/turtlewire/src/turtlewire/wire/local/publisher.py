@@ -15,8 +15,8 @@ from .endpoint import LocalEndpoint
 if TYPE_CHECKING:
     from turtlewire.wire.encapsulation import Cdr
 
-    from .core import NodeCore
     from .endpoint import EndpointSpec, Message
+    from .node_state import LocalNodeState
 
 __all__ = ["LocalPublisher"]
 
@@ -24,7 +24,7 @@ __all__ = ["LocalPublisher"]
 class LocalPublisher(LocalEndpoint, Publisher):
     """Hands its messages to the queues of the matching subscriptions."""
 
-    def __init__(self, node: NodeCore, spec: EndpointSpec) -> None:
+    def __init__(self, node: LocalNodeState, spec: EndpointSpec) -> None:
         super().__init__(spec, node.info, node.bus.lock)
         self._core = node
         with self._lock:

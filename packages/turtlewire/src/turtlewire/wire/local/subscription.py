@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
     from turtlewire.wire.base import WaitSet
 
-    from .core import NodeCore
     from .endpoint import EndpointSpec, Message
+    from .node_state import LocalNodeState
 
 __all__ = ["LocalSubscription"]
 
@@ -31,7 +31,7 @@ class LocalSubscription(LocalEndpoint, Queued, Subscription):
 
     def __init__(
         self,
-        node: NodeCore,
+        node: LocalNodeState,
         spec: EndpointSpec,
         on_message: Callable[[bytes, MessageInfo], None] | None = None,
     ) -> None:

@@ -19,7 +19,7 @@ module                       what it holds
 `library`                    the import of ``eclipse-zenoh``
 `context`                    a participant
 `calls`                      who is in Zenoh's library
-`core`                       what a context shares with its nodes and endpoints
+`context_state`              what a context shares with its nodes and endpoints
 `graph`                      nodes and endpoints, from the tokens
 `node`                       nodes
 `endpoint`                   what all endpoints have in common

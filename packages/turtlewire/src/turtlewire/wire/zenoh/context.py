@@ -17,7 +17,7 @@ from turtlewire.wire.queue_wait_set import QueueWaitSet
 from turtlewire.wire.reader_thread import ReaderThread
 
 from .configuration import session_configuration, stays_on_loopback
-from .core import ContextCore
+from .context_state import ZenohContextState
 from .graph import ZenohGraph
 from .library import reason_of
 from .node import ZenohNode
@@ -56,7 +56,7 @@ class ZenohContext(Context):
         session = _open()
         reader = ReaderThread()
         self._graph = ZenohGraph(domain_id, reader)
-        self._core = ContextCore(session, domain_id, reader, self._graph)
+        self._core = ZenohContextState(session, domain_id, reader, self._graph)
         self.gid = bytes.fromhex(self._core.session_id.zfill(32))
         self._process = os.getpid()
         self._nodes: dict[ZenohNode, None] = {}

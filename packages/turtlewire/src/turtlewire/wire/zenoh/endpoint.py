@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from turtlewire.wire.base import Event, TypeId
     from turtlewire.wire.qos import QoS
 
-    from .core import ContextCore, Owner
+    from .context_state import Owner, ZenohContextState
     from .token import Token
 
     class Declared(Protocol):
@@ -48,7 +48,7 @@ class ZenohEndpoint(Entity):
     EVENTS = frozenset({EventKind.MATCHED, EventKind.INCOMPATIBLE_QOS, EventKind.INCOMPATIBLE_TYPE})
 
     def __init__(
-        self, core: ContextCore, node: Owner, name: str, type_id: TypeId, qos: QoS
+        self, core: ZenohContextState, node: Owner, name: str, type_id: TypeId, qos: QoS
     ) -> None:
         self.topic = name
         self.qos = adapted(qos)

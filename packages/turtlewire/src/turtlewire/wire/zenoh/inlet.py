@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from turtlewire.wire.base import Sink, TypeId
     from turtlewire.wire.qos import QoS
 
-    from .core import ContextCore, Owner
+    from .context_state import Owner, ZenohContextState
     from .endpoint import Declared
     from .subscription import OnMessage
     from .token import Token
@@ -44,7 +44,7 @@ class ZenohSinkSubscription(ZenohSubscription):
 
     def __init__(
         self,
-        core: ContextCore,
+        core: ZenohContextState,
         node: Owner,
         topic: str,
         type_id: TypeId,

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     )
     from turtlewire.wire.qos import QoS
 
-    from .core import ContextCore
+    from .context_state import ZenohContextState
 
 __all__ = ["ZenohNode"]
 
@@ -49,7 +49,7 @@ class ZenohNode(Node):
     def __init__(
         self,
         context: Context,
-        core: ContextCore,
+        core: ZenohContextState,
         info: NodeInfo,
         on_closed: Callable[[ZenohNode], None],
     ) -> None:

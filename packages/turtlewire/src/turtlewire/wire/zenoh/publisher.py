@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from turtlewire.wire.encapsulation import Cdr
     from turtlewire.wire.qos import QoS
 
-    from .core import ContextCore, Owner
+    from .context_state import Owner, ZenohContextState
 
 __all__ = ["ZenohPublisher"]
 
@@ -41,7 +41,7 @@ class ZenohPublisher(ZenohEndpoint, Publisher):
     KIND = PUBLISHER
 
     def __init__(
-        self, core: ContextCore, node: Owner, topic: str, type_id: TypeId, qos: QoS
+        self, core: ZenohContextState, node: Owner, topic: str, type_id: TypeId, qos: QoS
     ) -> None:
         super().__init__(core, node, topic, type_id, qos)
         self._numbers = itertools.count(1)

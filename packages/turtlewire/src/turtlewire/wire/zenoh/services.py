@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from turtlewire.wire.base import TypeId, WaitSet
     from turtlewire.wire.qos import QoS
 
-    from .core import ContextCore, Owner
+    from .context_state import Owner, ZenohContextState
 
 __all__ = ["ZenohClient", "ZenohService"]
 
@@ -43,7 +43,7 @@ class _QueuedEndpoint(ZenohEndpoint, Queued):
     EVENTS = frozenset()
 
     def __init__(
-        self, core: ContextCore, node: Owner, service: str, type_id: TypeId, qos: QoS
+        self, core: ZenohContextState, node: Owner, service: str, type_id: TypeId, qos: QoS
     ) -> None:
         super().__init__(core, node, service, type_id, qos)
         self.service = service
@@ -84,7 +84,7 @@ class ZenohClient(_QueuedEndpoint, Client):
     KIND = CLIENT
 
     def __init__(
-        self, core: ContextCore, node: Owner, service: str, type_id: TypeId, qos: QoS
+        self, core: ZenohContextState, node: Owner, service: str, type_id: TypeId, qos: QoS
     ) -> None:
         super().__init__(core, node, service, type_id, qos)
         self.client_id = int.from_bytes(self.gid, "little")
@@ -134,7 +134,7 @@ class ZenohService(_QueuedEndpoint, Service):
     KIND = SERVICE
 
     def __init__(
-        self, core: ContextCore, node: Owner, service: str, type_id: TypeId, qos: QoS
+        self, core: ZenohContextState, node: Owner, service: str, type_id: TypeId, qos: QoS
     ) -> None:
         super().__init__(core, node, service, type_id, qos)
         self._queries: dict[RequestId, zenoh.Query] = {}

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from turtlewire.wire.base import TypeId, WaitSet
     from turtlewire.wire.qos import QoS
 
-    from .core import ContextCore, Owner
+    from .context_state import Owner, ZenohContextState
     from .endpoint import Declared
     from .token import Token
 
@@ -54,7 +54,7 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
 
     def __init__(
         self,
-        core: ContextCore,
+        core: ZenohContextState,
         node: Owner,
         topic: str,
         type_id: TypeId,

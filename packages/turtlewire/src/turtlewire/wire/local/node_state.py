@@ -11,10 +11,10 @@ if TYPE_CHECKING:
     from .bus import Bus
     from .endpoint import LocalEndpoint
 
-__all__ = ["NodeCore"]
+__all__ = ["LocalNodeState"]
 
 
-class NodeCore:
+class LocalNodeState:
     """The bus that a node's endpoints are on and the thread that calls their callbacks.
 
     Attributes:

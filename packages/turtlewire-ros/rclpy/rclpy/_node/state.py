@@ -19,10 +19,10 @@ if TYPE_CHECKING:
     from rclpy.impl.rcutils_logger import RcutilsLogger
     from turtlewire.wire import base
 
-__all__ = ["NodeCore"]
+__all__ = ["NodeState"]
 
 
-class NodeCore:
+class NodeState:
     """Names, context, logger, command line and the middleware's side of a node.
 
     The node leaves the graph with :meth:`close`, or when neither the node nor an endpoint of it is

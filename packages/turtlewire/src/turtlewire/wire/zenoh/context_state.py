@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from .graph import ZenohGraph
     from .token import Token
 
-__all__ = ["ContextCore", "Owner"]
+__all__ = ["Owner", "ZenohContextState"]
 
 
 class Owner(Protocol):
@@ -42,7 +42,7 @@ class Owner(Protocol):
         """An endpoint was closed."""
 
 
-class ContextCore:
+class ZenohContextState:
     """A session, and what belongs to it.
 
     Attributes:

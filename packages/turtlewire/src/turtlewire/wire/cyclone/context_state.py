@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 
 from .announcer import Announcer
 from .participant import Participant
-from .reader import ReaderThread
+from .reader import CycloneReaderThread
 
 if TYPE_CHECKING:
     from .graph import CycloneGraph
 
-__all__ = ["ContextCore"]
+__all__ = ["CycloneContextState"]
 
 
-class ContextCore:
+class CycloneContextState:
     """The participant of a context, its reader thread and its announcements.
 
     Attributes:
@@ -26,7 +26,7 @@ class ContextCore:
 
     def __init__(self, domain_id: int, enclave: str) -> None:
         self.participant = Participant(domain_id, enclave)
-        self.reader = ReaderThread(self.participant.handle)
+        self.reader = CycloneReaderThread(self.participant.handle)
         self.announcer = Announcer(self.participant, self.reader)
         self.graph: CycloneGraph | None = None
         self.closing = False
