@@ -210,7 +210,7 @@ def _ask(question: str) -> Any:
 def parameter_names(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
     """Names of the parameters of the node on the command line."""
     from ros2cli.direct_node import DirectNode
-    from ros2cli.parameters import RemoteParameters
+    from ros2param.parameters import RemoteParameters
 
     with DirectNode(parsed_args) as direct:
         return RemoteParameters(direct, parsed_args).names()
@@ -218,7 +218,7 @@ def parameter_names(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
 
 def container_node_names(**_: Any) -> list[str]:
     """Full names of the containers there are now."""
-    from ros2cli.containers import container_names
+    from ros2component.containers import container_names
     from ros2cli.discovery import GraphNode
 
     with GraphNode() as known:
@@ -228,7 +228,7 @@ def container_node_names(**_: Any) -> list[str]:
 def managed_node_names(**_: Any) -> list[str]:
     """Full names of the managed nodes there are now."""
     from ros2cli.discovery import GraphNode
-    from ros2cli.managed_nodes import managed_nodes
+    from ros2lifecycle.managed_nodes import managed_nodes
 
     with GraphNode() as known:
         return managed_nodes(known)

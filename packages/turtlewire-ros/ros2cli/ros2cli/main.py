@@ -176,7 +176,7 @@ def define(parser: argparse.ArgumentParser, prog: str, words: list[str], module_
         parser: Its parser.
         prog: The words before, for example ``ros2 topic``.
         words: The words behind ``prog``.
-        module_name: Its module, for example ``ros2cli.commands.topic``.
+        module_name: Its module, for example ``ros2topic.command.topic``.
     """
     from ros2cli.arguments import add_arguments
 

@@ -71,7 +71,7 @@ def get_registered_component_types() -> list[tuple[str, list[str]]]:
 
 def find_container_node_names(*, node: Any, node_names: Sequence[NodeName]) -> list[NodeName]:
     """Return the names of the component containers."""
-    from ros2cli.containers import container_names
+    from ros2component.containers import container_names
 
     known = container_names(DirectNode.around(node).graph)
     return [name for name in node_names if name.full_name in known]
@@ -82,7 +82,7 @@ def get_components_in_container(
 ) -> tuple[bool, list[ComponentInfo] | str]:
     """Return the nodes in a container: true and a list, or false and the reason."""
     from composition_interfaces.srv import ListNodes
-    from ros2cli.containers import ask
+    from ros2component.containers import ask
 
     try:
         answer = ask(
@@ -139,7 +139,7 @@ def load_component_into_container(
         RuntimeError: The container cannot load it, or does not answer.
     """
     from composition_interfaces.srv import LoadNode
-    from ros2cli.containers import ask
+    from ros2component.containers import ask
 
     request = LoadNode.Request(
         package_name=package_name,
@@ -167,7 +167,7 @@ def unload_component_from_container(
         RuntimeError: The container does not answer.
     """
     from composition_interfaces.srv import UnloadNode
-    from ros2cli.containers import ask
+    from ros2component.containers import ask
 
     direct = DirectNode.around(node)
     for uid in component_uids:
@@ -179,7 +179,7 @@ def unload_component_from_container(
 def add_component_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments that describe a component."""
     from ros2cli.arguments import add_arguments
-    from ros2cli.component_options import COMPONENT_ARGUMENTS
+    from ros2component.options import COMPONENT_ARGUMENTS
 
     add_arguments(parser, COMPONENT_ARGUMENTS)
 
@@ -205,7 +205,7 @@ def container_node_name_completer(
     prefix: str, parsed_args: argparse.Namespace, **kwargs: Any
 ) -> list[str]:
     """Full names of the containers there are now."""
-    from ros2cli.containers import container_names
+    from ros2component.containers import container_names
 
     with NodeStrategy(parsed_args) as node:
         return container_names(DirectNode.around(node).graph)

@@ -107,7 +107,7 @@ def get_value(*, parameter_value: Any) -> Any:
 
 def get_parameter_type_string(parameter_type: int) -> str:
     """Name of a number of ``rcl_interfaces/msg/ParameterType``, for example ``double array``."""
-    from ros2cli.parameters import TYPE_NAMES
+    from ros2param.parameters import TYPE_NAMES
 
     return TYPE_NAMES[parameter_type]
 

@@ -6,7 +6,7 @@ import shlex
 from typing import TYPE_CHECKING, Any
 
 from ros2cli import completion
-from ros2cli.commands.run import named, run_and_tell
+from ros2run.command.run import named, run_and_tell
 from ros2pkg.api import get_executable_paths
 
 if TYPE_CHECKING:

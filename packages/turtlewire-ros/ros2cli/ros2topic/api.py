@@ -63,7 +63,7 @@ def get_msg_class(
     Raises:
         RuntimeError: The topic has several types, or one that is not installed.
     """
-    from ros2cli.topic_type import type_of_topic
+    from ros2topic.topic_type import type_of_topic
 
     direct = DirectNode.around(node)
     return type_of_topic(direct, direct.node.resolve_topic_name(topic), blocking=blocking)

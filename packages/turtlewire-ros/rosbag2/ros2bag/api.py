@@ -6,8 +6,8 @@ import argparse
 import os
 from typing import TYPE_CHECKING, Any
 
-from ros2cli import bag_options
-from ros2cli.bag_options import STORAGES
+from ros2bag import options as bag_options
+from ros2bag.options import STORAGES
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

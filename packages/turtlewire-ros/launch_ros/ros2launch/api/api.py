@@ -6,7 +6,7 @@ import argparse
 import os
 from typing import TYPE_CHECKING, Any
 
-from ros2cli.commands import launch as command
+from ros2launch.command import launch as command
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

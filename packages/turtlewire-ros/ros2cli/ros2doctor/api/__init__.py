@@ -134,7 +134,7 @@ def generate_reports(
         categories: Only these: the titles of the own ones, and what the others say; None for all.
         exclude_packages: Accepted as in ROS 2.
     """
-    from ros2cli.system_report import sections
+    from ros2doctor.system_report import sections
 
     found = []
     for title, facts in sections():

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from ros2cli import verb
 from ros2cli.arguments import add_arguments
-from ros2cli.multicast import GROUP_ARGUMENTS
+from ros2multicast.api import GROUP_ARGUMENTS
 from ros2cli.plugin_system import PLUGIN_SYSTEM_VERSION
 from ros2cli.values import positive_int
 from ros2multicast.api import DEFAULT_GROUP, DEFAULT_PORT

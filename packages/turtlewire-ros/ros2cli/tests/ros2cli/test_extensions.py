@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from ros2cli.commands import COMMANDS
-from ros2cli.commands.doctor.hello import _Hello
+from ros2doctor.verb.hello import _Hello
 from ros2cli.main import main, make_parser
 
 ROS2 = "from ros2cli.main import main; import sys; sys.exit(main(sys.argv[1:]))"
@@ -21,7 +21,7 @@ def test_every_command_and_verb_is_listed(capsys):
         assert f"\n  {command}: " in listed
     assert "ros2doctor.verb\n  hello: " in listed
     assert main(["extensions", "-v"]) == 0
-    assert "    module: ros2cli.commands.topic.echo\n" in capsys.readouterr().out
+    assert "    module: ros2topic.verb.echo\n" in capsys.readouterr().out
 
 
 def test_every_extension_point_is_listed(capsys):

@@ -161,7 +161,7 @@ def test_extensions_are_listed(ros2):
     assert status == 0
     assert "  greet: Greet others\n    module: greeting.command\n" in shown
     assert "  shout: Shout the names of the topics\n    module: greeting.verbs\n" in shown
-    assert "  list: List the topics\n    module: ros2cli.commands.topic.list\n" in shown
+    assert "  list: List the topics\n    module: ros2topic.verb.list\n" in shown
 
 
 def test_extension_points_are_listed(ros2):

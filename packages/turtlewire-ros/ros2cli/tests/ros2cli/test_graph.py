@@ -10,7 +10,7 @@ import sys
 import pytest
 
 from ros2cli import graph as ask
-from ros2cli.commands.param.list import _serving
+from ros2param.verb.list import _serving
 from ros2cli.direct_node import DirectNode
 from ros2cli.discovery import wait_until_discovered
 from ros2cli.main import main

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from ros2cli.commands import launch
+from ros2launch.command import launch
 from ros2cli.main import main, make_parser
 
 

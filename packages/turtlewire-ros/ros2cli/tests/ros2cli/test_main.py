@@ -69,7 +69,7 @@ def test_an_unknown_verb_is_refused(capsys):
 def test_what_a_verb_raises_becomes_one_line_and_a_status(
     monkeypatch, capsys, raised, status, told
 ):
-    import ros2cli.commands.pkg.list as verb
+    import ros2pkg.verb.list as verb
 
     def fail(_args):
         raise raised
@@ -80,7 +80,7 @@ def test_what_a_verb_raises_becomes_one_line_and_a_status(
 
 
 def test_the_hint_of_an_error_is_shown(monkeypatch, capsys):
-    import ros2cli.commands.pkg.list as verb
+    import ros2pkg.verb.list as verb
     from turtlewire.errors import WireError
 
     def fail(_args):

@@ -37,7 +37,7 @@ def test_a_reader_that_has_gone_stays_gone(monkeypatch):
 
 @pytest.mark.parametrize("raised", [None, RuntimeError(f"Unknown topic '{EVIL}'")])
 def test_every_verb_is_escaped(monkeypatch, capsys, raised):
-    import ros2cli.commands.pkg.list as verb
+    import ros2pkg.verb.list as verb
 
     def fake(_args):
         print(f"/{EVIL}")

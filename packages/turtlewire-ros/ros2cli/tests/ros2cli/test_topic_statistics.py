@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ros2cli.commands.topic.statistics import Delays, Intervals, Sizes
+from ros2topic.statistics import Delays, Intervals, Sizes
 
 
 def test_the_rate_of_even_messages():

@@ -13,7 +13,7 @@ import rosbag2_py
 from example_interfaces.srv import AddTwoInts
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from ros2cli.arguments import add_arguments
-from ros2cli.commands.bag import play
+from ros2bag.command.bag import play
 from rosbag2_interfaces import srv
 from rosbag2_py import PlayOptions, ServiceRequestsSource, StorageOptions
 from rosbag2_transport.play_filter import mistakes

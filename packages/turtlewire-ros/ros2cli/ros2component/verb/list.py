@@ -1,0 +1,58 @@
+"""``ros2 component list``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.arguments import argument
+from ros2cli.completion import container_node_names
+from ros2cli.direct_node import DirectNode
+from ros2cli.discovery import STRATEGY_ARGUMENTS
+from ros2cli.output import tell_failed_call
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["ARGUMENTS", "main"]
+
+
+ARGUMENTS = (
+    *STRATEGY_ARGUMENTS,
+    argument(
+        "container_node_name",
+        nargs="?",
+        help="Full name of a container; all if it is left out",
+        completer=container_node_names,
+    ),
+    argument(
+        "--containers-only", action="store_true", help="Show the containers without their nodes"
+    ),
+)
+
+
+def main(args: argparse.Namespace) -> int:
+    """Print the containers with number and name of each node in them; 1 if one did not answer."""
+    from composition_interfaces.srv import ListNodes
+    from ros2component.containers import ask, container_names, require_container
+
+    status = 0
+    with DirectNode(args) as direct:
+        chosen = args.container_node_name
+        names = [require_container(direct.graph, chosen)] if chosen else []
+        for name in names or container_names(direct.graph):
+            if not chosen:
+                print(name)
+            if args.containers_only:
+                continue
+            try:
+                answer = ask(direct, name, "list_nodes", ListNodes, ListNodes.Request())
+            except RuntimeError as error:
+                if chosen:
+                    raise
+                tell_failed_call(name, error)
+                status = 1
+                continue
+            indent = "" if chosen else "  "
+            for number, node in zip(answer.unique_ids, answer.full_node_names, strict=True):
+                print(f"{indent}{number}  {node}")
+    return status

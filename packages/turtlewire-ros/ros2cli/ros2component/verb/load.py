@@ -1,0 +1,46 @@
+"""``ros2 component load``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.arguments import argument
+from ros2cli.completion import container_node_names
+from ros2component.options import COMPONENT_ARGUMENTS, load_request
+from ros2cli.direct_node import DirectNode
+from ros2cli.discovery import STRATEGY_ARGUMENTS
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["ARGUMENTS", "main"]
+
+
+ARGUMENTS = (
+    *STRATEGY_ARGUMENTS,
+    argument(
+        "container_node_name", help="Full name of the container", completer=container_node_names
+    ),
+    *COMPONENT_ARGUMENTS,
+    argument("-q", "--quiet", action="store_true", help="Print only the node's number"),
+)
+
+
+def main(args: argparse.Namespace) -> str | None:
+    """Load the node, and print its number and name."""
+    from composition_interfaces.srv import LoadNode
+    from ros2component.containers import ask, require_container
+
+    with DirectNode(args) as direct:
+        container = require_container(direct.graph, args.container_node_name)
+        answer = ask(direct, container, "load_node", LoadNode, load_request(args))
+    if not answer.success:
+        return f"Failed to load component: {answer.error_message}"
+    if args.quiet:
+        print(answer.unique_id)
+    else:
+        print(
+            f"Loaded component {answer.unique_id} into '{container}' container node as "
+            f"'{answer.full_node_name}'"
+        )
+    return None

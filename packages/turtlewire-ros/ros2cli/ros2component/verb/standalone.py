@@ -1,0 +1,44 @@
+"""``ros2 component standalone``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.arguments import argument
+from ros2component.options import COMPONENT_ARGUMENTS, load_request
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["ARGUMENTS", "main"]
+
+
+ARGUMENTS = (
+    argument(
+        "-c", "--container-node-name", default="standalone_container", help="Name of the container"
+    ),
+    *COMPONENT_ARGUMENTS,
+)
+
+
+def main(args: argparse.Namespace) -> str | None:
+    """Run the node until Ctrl-C."""
+    import rclpy
+    from composition_interfaces.srv import LoadNode
+    from rclpy.executors import ExternalShutdownException
+    from rclpy_components import ComponentManager
+
+    rclpy.init(args=[])
+    container = ComponentManager(args.container_node_name)
+    try:
+        answer = container.load(load_request(args), LoadNode.Response())
+        if not answer.success:
+            return f"Failed to load component: {answer.error_message}"
+        print(f"Loaded component {answer.unique_id} as '{answer.full_node_name}'")
+        rclpy.spin(container)
+    except ExternalShutdownException as error:
+        raise KeyboardInterrupt from error
+    finally:
+        container.destroy_node()
+        rclpy.try_shutdown()
+    return None

@@ -1,0 +1,46 @@
+"""``ros2 component unload``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.arguments import argument
+from ros2cli.completion import container_node_names
+from ros2cli.direct_node import DirectNode
+from ros2cli.discovery import STRATEGY_ARGUMENTS
+from ros2cli.output import tell
+from ros2cli.values import unsigned_int
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["ARGUMENTS", "main"]
+
+
+ARGUMENTS = (
+    *STRATEGY_ARGUMENTS,
+    argument(
+        "container_node_name", help="Full name of the container", completer=container_node_names
+    ),
+    argument("component_uid", type=unsigned_int, nargs="+", help="Numbers of the nodes to unload"),
+)
+
+
+def main(args: argparse.Namespace) -> int:
+    """Unload the nodes; status 1 if one of them is not there."""
+    from composition_interfaces.srv import UnloadNode
+    from ros2component.containers import ask, require_container
+
+    status = 0
+    with DirectNode(args) as direct:
+        container = require_container(direct.graph, args.container_node_name)
+        for number in args.component_uid:
+            request = UnloadNode.Request(unique_id=number)
+            answer = ask(direct, container, "unload_node", UnloadNode, request)
+            if answer.success:
+                print(f"Unloaded component {number} from '{container}' container node")
+            else:
+                status = 1
+                tell(f"Failed to unload component {number} from '{container}' container node")
+                tell(f"    {answer.error_message}")
+    return status

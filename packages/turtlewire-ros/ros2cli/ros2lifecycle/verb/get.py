@@ -1,0 +1,53 @@
+"""``ros2 lifecycle get``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.arguments import argument
+from ros2cli.completion import managed_node_names
+from ros2cli.direct_node import DirectNode
+from ros2cli.discovery import STRATEGY_ARGUMENTS
+from ros2lifecycle.managed_nodes import HIDDEN_ARGUMENT
+from ros2cli.output import tell_failed_call
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["ARGUMENTS", "main"]
+
+
+ARGUMENTS = (
+    *STRATEGY_ARGUMENTS,
+    HIDDEN_ARGUMENT,
+    argument(
+        "node_name",
+        nargs="?",
+        help="Full name of the node; all if it is left out",
+        completer=managed_node_names,
+    ),
+)
+
+
+def main(args: argparse.Namespace) -> int:
+    """Print label and number of the state; returns 1 if a node could not be asked."""
+    from lifecycle_msgs.srv import GetState
+    from ros2lifecycle.managed_nodes import ask, managed_nodes, require_managed_node
+
+    status = 0
+    with DirectNode(args) as direct:
+        one = None if args.node_name is None else require_managed_node(direct.graph, args)
+        for name in (
+            managed_nodes(direct.graph, hidden=args.include_hidden_nodes) if one is None else [one]
+        ):
+            try:
+                answer = ask(direct, GetState, f"{name}/get_state", GetState.Request())
+            except RuntimeError as error:
+                if one:
+                    raise
+                tell_failed_call(name, error)
+                status = 1
+                continue
+            state = answer.current_state
+            print(f"{'' if one else f'{name}: '}{state.label} [{state.id}]")
+    return status

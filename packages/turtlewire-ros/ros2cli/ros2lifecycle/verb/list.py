@@ -1,0 +1,45 @@
+"""``ros2 lifecycle list``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.arguments import argument
+from ros2cli.completion import managed_node_names
+from ros2cli.direct_node import DirectNode
+from ros2cli.discovery import STRATEGY_ARGUMENTS
+from ros2lifecycle.managed_nodes import HIDDEN_ARGUMENT
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["ARGUMENTS", "main"]
+
+
+ARGUMENTS = (
+    *STRATEGY_ARGUMENTS,
+    HIDDEN_ARGUMENT,
+    argument("node_name", help="Full name of the node", completer=managed_node_names),
+    argument(
+        "-a",
+        "--all",
+        action="store_true",
+        help="All transitions, not only those from the present state",
+    ),
+)
+
+
+def main(args: argparse.Namespace) -> None:
+    """Print each transition with its start and its goal."""
+    from lifecycle_msgs.srv import GetAvailableTransitions
+    from ros2lifecycle.managed_nodes import ask, require_managed_node
+
+    service = "get_transition_graph" if args.all else "get_available_transitions"
+    with DirectNode(args) as direct:
+        name = require_managed_node(direct.graph, args)
+        answer = ask(
+            direct, GetAvailableTransitions, f"{name}/{service}", GetAvailableTransitions.Request()
+        )
+    for offered in answer.available_transitions:
+        print(f"- {offered.transition.label} [{offered.transition.id}]")
+        print(f"\tStart: {offered.start_state.label}\n\tGoal: {offered.goal_state.label}")

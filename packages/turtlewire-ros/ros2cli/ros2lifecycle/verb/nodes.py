@@ -1,0 +1,36 @@
+"""``ros2 lifecycle nodes``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.arguments import argument
+from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
+from ros2cli.listing import HIDDEN_NODES, count_argument, print_names
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["ARGUMENTS", "main"]
+
+
+ARGUMENTS = (
+    *STRATEGY_ARGUMENTS,
+    argument(
+        "-a",
+        "--all",
+        "--include-hidden-nodes",
+        action="store_true",
+        help=HIDDEN_NODES,
+    ),
+    count_argument("node"),
+)
+
+
+def main(args: argparse.Namespace) -> None:
+    """Print the full names."""
+    from ros2lifecycle.managed_nodes import managed_nodes
+
+    with GraphNode(args.spin_time) as graph:
+        names = managed_nodes(graph, hidden=args.all)
+    print_names(names, args)

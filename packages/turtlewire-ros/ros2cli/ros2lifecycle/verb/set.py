@@ -1,0 +1,57 @@
+"""``ros2 lifecycle set``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.arguments import argument
+from ros2cli.completion import managed_node_names
+from ros2cli.direct_node import DirectNode
+from ros2cli.discovery import STRATEGY_ARGUMENTS
+from ros2lifecycle.managed_nodes import HIDDEN_ARGUMENT
+from ros2cli.output import tell
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["ARGUMENTS", "main"]
+
+
+ARGUMENTS = (
+    *STRATEGY_ARGUMENTS,
+    HIDDEN_ARGUMENT,
+    argument("node_name", help="Full name of the node", completer=managed_node_names),
+    argument(
+        "transition",
+        help="Label or number of a transition that the node offers, for example configure",
+    ),
+)
+
+
+def main(args: argparse.Namespace) -> str | None:
+    """Ask for the transition, and print how it went."""
+    from lifecycle_msgs.msg import Transition
+    from lifecycle_msgs.srv import ChangeState, GetAvailableTransitions
+    from ros2lifecycle.managed_nodes import ask, require_managed_node
+
+    with DirectNode(args) as direct:
+        name = require_managed_node(direct.graph, args)
+        answer = ask(
+            direct,
+            GetAvailableTransitions,
+            f"{name}/get_available_transitions",
+            GetAvailableTransitions.Request(),
+        )
+        offered = [item.transition for item in answer.available_transitions]
+        chosen = next(
+            (item for item in offered if args.transition in (item.label, str(item.id))), None
+        )
+        if chosen is None:
+            known = "".join(f"\n- {item.label} [{item.id}]" for item in offered)
+            return f"Unknown transition requested, available ones are:{known}"
+        request = ChangeState.Request(transition=Transition(id=chosen.id, label=chosen.label))
+        if not ask(direct, ChangeState, f"{name}/change_state", request).success:
+            tell("Transitioning failed")
+            return None
+    print("Transitioning successful")
+    return None

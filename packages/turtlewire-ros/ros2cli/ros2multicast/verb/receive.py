@@ -1,0 +1,23 @@
+"""``ros2 multicast receive``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2multicast.api import GROUP_ARGUMENTS, MulticastSocket
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["ARGUMENTS", "main"]
+
+
+ARGUMENTS = (*GROUP_ARGUMENTS,)
+
+
+def main(args: argparse.Namespace) -> None:
+    """Print the first datagram that arrives."""
+    with MulticastSocket(args.group, args.port) as group:
+        print("Waiting for UDP multicast datagram...")
+        data, (host, port) = group.receive()
+    print(f"Received from {host}:{port}: '{data.decode('utf-8', 'backslashreplace')}'")

@@ -1,0 +1,27 @@
+"""``ros2 multicast send``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.arguments import argument
+from ros2multicast.api import GROUP_ARGUMENTS, MulticastSocket
+from ros2cli.values import unsigned_int
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["ARGUMENTS", "main"]
+
+
+ARGUMENTS = (
+    *GROUP_ARGUMENTS,
+    argument("--ttl", type=unsigned_int, help="How many routers the datagram may pass"),
+)
+
+
+def main(args: argparse.Namespace) -> None:
+    """Send a greeting to the group."""
+    print("Sending one UDP multicast datagram...")
+    with MulticastSocket(args.group, args.port, args.ttl) as group:
+        group.send(b"Hello World!")

@@ -1,0 +1,31 @@
+"""``ros2 param delete``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.direct_node import DirectNode
+from ros2cli.output import tell
+from ros2param.options import NAME_ARGUMENT, node_arguments
+from ros2param.parameters import RemoteParameters
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["ARGUMENTS", "main"]
+
+
+ARGUMENTS = (*node_arguments(), NAME_ARGUMENT)
+
+
+def main(args: argparse.Namespace) -> None:
+    """Delete it, and print the result."""
+    with DirectNode(args) as direct:
+        parameters = RemoteParameters(direct, args)
+        (result,) = parameters.delete([args.parameter_name])
+        meant = "" if result.successful else parameters.meant(args.parameter_name)
+    reason = f": {result.reason}" if result.reason else ""
+    if result.successful:
+        print(f"Deleted parameter successfully{reason}")
+    else:
+        tell(f"Deleting parameter failed{reason}{meant}")

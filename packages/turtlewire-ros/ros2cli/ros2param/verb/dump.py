@@ -1,0 +1,44 @@
+"""``ros2 param dump``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ros2cli.direct_node import DirectNode
+from ros2param.options import node_arguments
+from ros2param.parameters import RemoteParameters
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["ARGUMENTS", "insert", "main"]
+
+
+ARGUMENTS = (*node_arguments(),)
+
+
+def main(args: argparse.Namespace) -> None:
+    """Print all values as YAML."""
+    import yaml
+
+    from rclpy.parameter import parameter_value_to_python
+
+    with DirectNode(args) as direct:
+        remote = RemoteParameters(direct, args)
+        names = remote.names()
+        values = remote.values(names)
+    tree: dict[str, Any] = {}
+    for name, message in zip(names, values, strict=True):
+        insert(tree, name.split("."), _plain(parameter_value_to_python(message)))
+    print(yaml.safe_dump({remote.node_name: {"ros__parameters": tree}}, default_flow_style=False))
+
+
+def insert(tree: dict[str, Any], path: list[str], value: Any) -> None:
+    """Put a value into nested dictionaries, one for each part of its name."""
+    for part in path[:-1]:
+        tree = tree.setdefault(part, {})
+    tree[path[-1]] = value
+
+
+def _plain(value: Any) -> Any:
+    return list(value) if hasattr(value, "typecode") else value

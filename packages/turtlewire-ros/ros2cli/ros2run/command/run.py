@@ -1,0 +1,73 @@
+"""``ros2 run``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shlex
+import signal
+
+from ros2cli.arguments import argument
+from ros2run.child import run
+from ros2cli.completion import arguments_of_executable, executables, packages
+
+__all__ = ["ARGUMENTS", "main", "named", "run_and_tell"]
+
+
+ARGUMENTS = (
+    argument(
+        "--prefix",
+        help="Command to put before the executable, for example a debugger: "
+        "--prefix 'gdb -ex run --args'",
+    ),
+    argument("package_name", help="Name of the package", completer=packages),
+    argument("executable_name", help="Name of the executable", completer=executables),
+    argument(
+        "argv",
+        nargs=argparse.REMAINDER,
+        help="Arguments for the executable",
+        completer=arguments_of_executable,
+    ),
+)
+
+
+def main(args: argparse.Namespace) -> int | str:
+    """Run the executable, and end as it ends."""
+    from turtlewire_ros.executables import argv_for, executable_paths
+
+    paths = executable_paths(args.package_name)
+    if paths is None:
+        from ros2cli.suggestion import package_meant
+
+        raise RuntimeError(
+            f"Package '{args.package_name}' not found{package_meant(args.package_name)}"
+        )
+    found = named(paths, args.executable_name)
+    if not found:
+        from turtlewire_ros.workspace_hints import executable_hint
+
+        hint = executable_hint(args.package_name, args.executable_name)
+        return f"No executable found\n{hint}".rstrip()
+    if len(found) > 1:
+        return "Multiple executables found:" + "".join(f"\n- {path}" for path in found)
+    prefix = [] if args.prefix is None else shlex.split(args.prefix)
+    return run_and_tell([*prefix, *argv_for(found[0]), *args.argv])
+
+
+def named(paths: list[str], executable: str) -> list[str]:
+    """Return the paths whose file name is the executable's."""
+    names = (executable, f"{executable}.exe")
+    return [path for path in paths if os.path.basename(path) in names]
+
+
+def run_and_tell(command: list[str]) -> int:
+    """Run a command to its end, and print it if the end is a failure; returns the status."""
+    status = run(command)
+    if status == 0:
+        return 0
+    end = signal.strsignal(-status) if status < 0 else f"Process exited with failure {status}"
+    try:
+        print(f"[ros2run]: {end}", flush=True)
+    except SystemExit as unwritten:  # as the program's own output was, which has said so
+        raise SystemExit(status if status > 0 else unwritten.code) from None
+    return status

@@ -1,0 +1,173 @@
+"""``ros2 topic pub``."""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import TYPE_CHECKING, Any
+
+from ros2cli.arguments import argument, exclusive
+from ros2cli.completion import message_values, topic_names, topic_types
+from ros2cli.discovery import SPIN_ARGUMENTS
+from ros2cli.qos_options import QOS_ARGUMENTS, with_options
+from ros2cli.values import positive_float, positive_int, read_values, shortened, unsigned_int
+
+if TYPE_CHECKING:
+    import argparse
+
+    from ros2cli.direct_node import DirectNode
+
+__all__ = ["ARGUMENTS", "main"]
+
+_SAY_WAITING_EVERY_S = 1.0
+
+
+ARGUMENTS = (
+    argument(
+        "topic_name", help="Name of the topic, for example /turtle1/cmd_vel", completer=topic_names
+    ),
+    argument(
+        "message_type",
+        help="Type of the messages, for example geometry_msgs/msg/Twist",
+        completer=topic_types,
+    ),
+    exclusive(
+        argument(
+            "values",
+            nargs="?",
+            default="{}",
+            help="Values as YAML, for example '{linear: {x: 2.0}}'; a header may be 'auto'",
+            completer=message_values,
+        ),
+        argument("--stdin", action="store_true", help="Read the values from stdin"),
+    ),
+    argument(
+        "-r", "--rate", metavar="N", type=positive_float, default=1.0, help="Messages a second"
+    ),
+    argument(
+        "-p",
+        "--print",
+        metavar="N",
+        type=positive_int,
+        default=1,
+        help="Show only every Nth message",
+    ),
+    exclusive(
+        argument("-1", "--once", action="store_true", help="Publish one message"),
+        argument(
+            "-t", "--times", type=positive_int, default=0, help="Publish this number of messages"
+        ),
+    ),
+    argument(
+        "-w",
+        "--wait-matching-subscriptions",
+        type=unsigned_int,
+        help="Number of subscriptions to wait for; 1 by default with --once and --times",
+    ),
+    argument(
+        "--max-wait-time-secs", type=positive_float, help="Longest time to wait for subscriptions"
+    ),
+    argument(
+        "--keep-alive",
+        metavar="N",
+        type=positive_float,
+        default=0.1,
+        help="Stay for N seconds after the last message",
+    ),
+    argument("-n", "--node-name", help="Name of the publishing node"),
+    *QOS_ARGUMENTS,
+    *SPIN_ARGUMENTS,
+)
+
+
+def main(args: argparse.Namespace) -> str | None:
+    """Publish."""
+    from ros2cli.direct_node import DirectNode
+    from ros2cli.suggestion import field_meant, warn_of_other_type
+    from ros2topic.topic_type import message_class
+    from rosidl_runtime_py import set_message_fields
+    from turtlewire.msg import type_name
+
+    message = message_class(args.message_type)()
+    values = read_values(sys.stdin.read() if args.stdin else args.values)
+    try:
+        stamps = set_message_fields(message, values, expand_header_auto=True, expand_time_now=True)
+    except Exception as error:  # noqa: BLE001  any value may be wrong in any way
+        return f"Failed to populate field: {shortened(error)}{field_meant(error)}"
+    times = 1 if args.once else args.times
+    with DirectNode(args, name=args.node_name, lingers=True) as direct:
+        topic = direct.node.resolve_topic_name(args.topic_name)
+        if not direct.node.count_subscribers(topic):  # of subscriptions the publisher will warn
+            known = direct.graph.topic_names_and_types()
+            warn_of_other_type("topic", topic, type_name(type(message)), known)
+        publisher = direct.node.create_publisher(
+            type(message), args.topic_name, with_options(args, "default")
+        )
+        wanted = args.wait_matching_subscriptions
+        message_or_none = _wait_for_subscriptions(
+            direct,
+            publisher,
+            (1 if times else 0) if wanted is None else wanted,
+            args.max_wait_time_secs,
+        )
+        if message_or_none is not None:
+            return message_or_none
+        print("publisher: beginning loop")
+        _publish(args, direct, publisher, message, stamps, times)
+        if times:
+            direct.pause(args.keep_alive)
+    return None
+
+
+def _wait_for_subscriptions(
+    direct: DirectNode, publisher: Any, wanted: int, limit: float | None
+) -> str | None:
+    """Wait; a text when the time is over."""
+    deadline = None if limit is None else time.monotonic() + limit
+    while (count := publisher.get_subscription_count()) < wanted:
+        print(f"Waiting for at least {wanted} matching subscription(s)...")
+        rest = (
+            _SAY_WAITING_EVERY_S
+            if deadline is None
+            else min(_SAY_WAITING_EVERY_S, deadline - time.monotonic())
+        )
+        if rest <= 0:
+            return (
+                f"Timed out waiting for subscribers: Expected {wanted} subscribers"
+                f" but only got {count} subscribers"
+            )
+        direct.wait_for(lambda: publisher.get_subscription_count() >= wanted, rest)
+    return None
+
+
+def _publish(
+    args: argparse.Namespace,
+    direct: DirectNode,
+    publisher: Any,
+    message: Any,
+    stamps: list[Any],
+    times: int,
+) -> None:
+    from rclpy.task import Future
+
+    count = 0
+    end = Future()
+
+    def publish_next() -> None:
+        nonlocal count
+        if end.done():
+            return
+        now = direct.node.get_clock().now().to_msg()
+        for stamp in stamps:
+            stamp.sec, stamp.nanosec = now.sec, now.nanosec
+        count += 1
+        if count % args.print == 0:
+            print(f"publishing #{count}: {message!r}\n")
+        publisher.publish(message)
+        if count == times:
+            end.set_result(None)
+
+    publish_next()
+    timer = direct.node.create_timer(1.0 / args.rate, publish_next)
+    direct.result(end)
+    direct.node.destroy_timer(timer)

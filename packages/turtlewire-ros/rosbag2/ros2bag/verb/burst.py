@@ -1,0 +1,74 @@
+"""``ros2 bag burst``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.arguments import argument
+from ros2bag.options import (
+    BAG_PATH,
+    QOS_OVERRIDES,
+    READ_AHEAD,
+    REMAP,
+    STORAGE,
+    STORAGE_CONFIG,
+    bag_topics,
+    event_topics,
+    qos_overrides,
+    remap_words,
+)
+from ros2cli.values import unsigned_int
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["ARGUMENTS", "main"]
+
+ARGUMENTS = (
+    BAG_PATH,
+    STORAGE,
+    READ_AHEAD,
+    argument(
+        "--topics",
+        metavar="topic",
+        nargs="+",
+        default=[],
+        help="Topics to publish; by default all",
+        completer=bag_topics,
+    ),
+    argument(
+        "--services",
+        metavar="service",
+        nargs="+",
+        default=[],
+        help="Services whose events are published; by default all",
+    ),
+    QOS_OVERRIDES,
+    REMAP,
+    STORAGE_CONFIG,
+    argument("--start-offset", type=float, default=0.0, help="Where in the bag to begin [s]"),
+    argument(
+        "-n",
+        "--num-messages",
+        type=unsigned_int,
+        default=0,
+        help="How many messages to publish; 0 for all",
+    ),
+)
+
+
+def main(args: argparse.Namespace) -> None:
+    """Publish the messages at once, then wait paused until Ctrl-C."""
+    from rosbag2_py import Player, PlayOptions, StorageOptions
+
+    options = PlayOptions(
+        read_ahead_queue_size=args.read_ahead_queue_size,
+        topics_to_filter=args.topics,
+        services_to_filter=event_topics(args.services),
+        topic_qos_profile_overrides=qos_overrides(args.qos_profile_overrides_path),
+        topic_remapping_options=remap_words(args.remap),
+        start_offset=args.start_offset,
+        start_paused=True,
+    )
+    storage = StorageOptions(uri=args.bag_path, storage_id=args.storage)
+    Player().burst(storage, options, args.num_messages)

@@ -1,0 +1,72 @@
+"""``ros2 bag convert``."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING, Any
+
+from ros2cli.arguments import argument
+from ros2bag.options import STORAGES, bag_path
+from ros2cli.completion import files
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = ["ARGUMENTS", "main"]
+
+
+class _Input(argparse.Action):
+    """Collects ``-i URI [STORAGE_ID]``."""
+
+    def __call__(
+        self,
+        _parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: str | Sequence[Any] | None,
+        _option: str | None = None,
+    ) -> None:
+        """Check one bag's words."""
+        words = [str(value) for value in values or ()]
+        if len(words) > 2:
+            raise argparse.ArgumentError(
+                self, f"expected a bag and perhaps its storage, got {len(words)} words"
+            )
+        storage = words[1] if len(words) == 2 else ""
+        if storage and storage not in STORAGES:
+            raise argparse.ArgumentError(
+                self, f"invalid storage '{storage}' (choose from {', '.join(STORAGES)})"
+            )
+        try:
+            uri = bag_path(words[0])
+        except argparse.ArgumentTypeError as error:
+            raise argparse.ArgumentError(self, str(error)) from None
+        namespace.input = [*(namespace.input or []), (uri, storage)]
+
+
+ARGUMENTS = (
+    argument(
+        "-i",
+        "--input",
+        required=True,
+        action=_Input,
+        nargs="+",
+        metavar=("uri", "storage_id"),
+        help="A bag to read, and perhaps its storage; can be given several times",
+        completer=files,
+    ),
+    argument(
+        "-o",
+        "--output-options",
+        required=True,
+        help="YAML file whose key output_bags lists the bags to write",
+        completer=files,
+    ),
+)
+
+
+def main(args: argparse.Namespace) -> None:
+    """Write the messages of the bags into others."""
+    from rosbag2_py import StorageOptions, bag_rewrite
+
+    inputs = [StorageOptions(uri=uri, storage_id=storage) for uri, storage in args.input]
+    bag_rewrite(inputs, args.output_options)

@@ -1,0 +1,207 @@
+"""``ros2 bag play``."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from typing import TYPE_CHECKING
+
+from ros2cli.arguments import argument, exclusive
+from ros2bag.options import (
+    BAG_PATH,
+    LOG_LEVEL,
+    QOS_OVERRIDES,
+    READ_AHEAD,
+    REMAP,
+    STORAGE,
+    STORAGE_CONFIG,
+    bag_topics,
+    event_topics,
+    qos_overrides,
+    remap_words,
+)
+
+if TYPE_CHECKING:
+    from rosbag2_py import PlayOptions
+
+__all__ = ["ARGUMENTS", "main"]
+
+
+def _more_than_zero(text: str) -> float:
+    value = _number(text)
+    if not value > 0 or math.isinf(value):
+        raise argparse.ArgumentTypeError(f"{text} is not in the valid range (> 0.0)")
+    return value
+
+
+def _not_negative(text: str) -> float:
+    value = _number(text)
+    if not value >= 0 or math.isinf(value):
+        raise argparse.ArgumentTypeError(f"{text} is not in the valid range (>= 0.0)")
+    return value
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text} is not the valid type (float)") from None
+
+
+ARGUMENTS = (
+    BAG_PATH,
+    STORAGE,
+    READ_AHEAD,
+    argument("-r", "--rate", type=_more_than_zero, default=1.0, help="Bag seconds in one second"),
+    argument(
+        "--topics",
+        metavar="topic",
+        nargs="+",
+        default=[],
+        help="Topics to play; by default all",
+        completer=bag_topics,
+    ),
+    argument(
+        "--services",
+        metavar="service",
+        nargs="+",
+        default=[],
+        help="Services whose events are played; by default all",
+    ),
+    argument("-e", "--regex", default="", help="Play what this pattern matches the name of"),
+    argument("-x", "--exclude-regex", default="", help="Leave out what this pattern matches"),
+    argument(
+        "--exclude-topics",
+        metavar="topic",
+        nargs="+",
+        default=[],
+        help="Topics that are left out",
+        completer=bag_topics,
+    ),
+    argument(
+        "--exclude-services",
+        metavar="service",
+        nargs="+",
+        default=[],
+        help="Services whose events are left out",
+    ),
+    QOS_OVERRIDES,
+    argument("-l", "--loop", action="store_true", help="Begin again at the end"),
+    REMAP,
+    STORAGE_CONFIG,
+    exclusive(
+        argument(
+            "--clock",
+            type=_more_than_zero,
+            nargs="?",
+            const=40,
+            default=0,
+            help="Publish /clock so many times a second; by default 40 times",
+        ),
+        argument(
+            "--clock-topics",
+            nargs="+",
+            default=[],
+            help="Publish /clock with the messages of these topics",
+            completer=bag_topics,
+        ),
+        argument(
+            "--clock-topics-all", action="store_true", help="Publish /clock with each message"
+        ),
+    ),
+    argument(
+        "-d", "--delay", type=_not_negative, default=0.0, help="Wait before each playback [s]"
+    ),
+    argument(
+        "--playback-duration",
+        type=float,
+        default=-1.0,
+        help="How much of the bag to play [s]; negative for all",
+    ),
+    exclusive(
+        argument(
+            "--playback-until-sec",
+            type=float,
+            default=-1.0,
+            help="Time of the bag at which to end [s]; negative for its end",
+        ),
+        argument(
+            "--playback-until-nsec",
+            type=int,
+            default=-1,
+            help="Time of the bag at which to end [ns]; negative for its end",
+        ),
+    ),
+    argument("--disable-keyboard-controls", action="store_true", help="Do not read keys"),
+    argument("-p", "--start-paused", action="store_true", help="Begin paused"),
+    argument(
+        "--start-offset",
+        type=_not_negative,
+        default=0.0,
+        help="Where in the bag to begin [s]; latched messages from before are published first",
+    ),
+    argument(
+        "--wait-for-all-acked",
+        metavar="TIMEOUT",
+        type=int,
+        default=-1,
+        help="Wait at the end until all reliable subscriptions have everything [ms]; 0 for ever",
+    ),
+    argument(
+        "--disable-loan-message", action="store_true", help="Accepted as in ROS 2; none is loaned"
+    ),
+    argument(
+        "--publish-service-requests",
+        action="store_true",
+        help="Send recorded requests to services instead of publishing their events",
+    ),
+    argument(
+        "--service-requests-source",
+        choices=("service_introspection", "client_introspection"),
+        default="service_introspection",
+        help="Whose record of a request is sent",
+    ),
+    LOG_LEVEL,
+)
+
+
+def main(args: argparse.Namespace) -> None:
+    """Play to the end of the bag, or until Ctrl-C."""
+    from rosbag2_py import Player, StorageOptions
+
+    Player(args.log_level).play(
+        StorageOptions(uri=args.bag_path, storage_id=args.storage), _play_options(args)
+    )
+
+
+def _play_options(args: argparse.Namespace) -> PlayOptions:
+    from rosbag2_py import PlayOptions, ServiceRequestsSource
+
+    until_ns = args.playback_until_nsec
+    if args.playback_until_sec >= 0:
+        until_ns = int(args.playback_until_sec * 1_000_000_000)
+    return PlayOptions(
+        read_ahead_queue_size=args.read_ahead_queue_size,
+        rate=args.rate,
+        topics_to_filter=args.topics,
+        services_to_filter=event_topics(args.services),
+        regex_to_filter=args.regex,
+        exclude_regex_to_filter=args.exclude_regex,
+        exclude_topics_to_filter=args.exclude_topics,
+        exclude_service_events_to_filter=event_topics(args.exclude_services),
+        topic_qos_profile_overrides=qos_overrides(args.qos_profile_overrides_path),
+        loop=args.loop,
+        topic_remapping_options=remap_words(args.remap),
+        clock_publish_frequency=args.clock,
+        clock_publish_on_topic_publish=args.clock_topics_all,
+        clock_trigger_topics=args.clock_topics,
+        delay=args.delay,
+        playback_duration=args.playback_duration,
+        playback_until_timestamp=until_ns,
+        start_paused=args.start_paused,
+        start_offset=args.start_offset,
+        disable_keyboard_controls=args.disable_keyboard_controls,
+        wait_acked_timeout=args.wait_for_all_acked,
+        publish_service_requests=args.publish_service_requests,
+        service_requests_source=ServiceRequestsSource[args.service_requests_source.upper()],
+    )

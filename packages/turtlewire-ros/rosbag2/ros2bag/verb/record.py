@@ -1,0 +1,333 @@
+"""``ros2 bag record``."""
+
+from __future__ import annotations
+
+import os
+import time
+from typing import TYPE_CHECKING
+
+from ros2cli.arguments import argument, exclusive
+from ros2bag.options import (
+    LOG_LEVEL,
+    QOS_OVERRIDES,
+    STORAGES,
+    absolute,
+    custom_data,
+    event_topics,
+    existing_file,
+    qos_overrides,
+)
+from ros2cli.completion import files, message_types, service_names, topic_names
+from ros2cli.values import unsigned_int
+
+if TYPE_CHECKING:
+    import argparse
+
+    from rosbag2_py import RecordOptions, StorageOptions
+
+__all__ = ["ARGUMENTS", "main"]
+
+_ERROR, _WARN = "[ERROR] [ros2bag]: ", "[WARN] [ros2bag]: "
+_NOTHING_CHOSEN = (
+    "Need to specify at least one option out of --all, --all-topics, --all-services, --services, "
+    "--topics, --topic-types or --regex"
+)
+_TWO_CLOCKS = (
+    "--use-sim-time and --no-discovery both set, but are incompatible settings. The /clock topic "
+    "needs to be discovered to record with sim time."
+)
+_FORMAT_ALONE = "Invalid choice: Cannot specify compression format without a compression mode."
+_POSITIONAL = (
+    'Positional "topics" argument deprecated. Please use optional "--topics" argument instead.'
+)
+
+ARGUMENTS = (
+    exclusive(
+        argument(
+            "topics_positional",
+            metavar="topic",
+            nargs="*",
+            default=[],
+            help="Names of topics to record; --topics is better",
+            completer=topic_names,
+        ),
+        argument(
+            "--topics",
+            metavar="topic",
+            nargs="+",
+            default=[],
+            help="Names of topics to record",
+            completer=topic_names,
+        ),
+    ),
+    argument("-o", "--output", help="Folder of the bag to make; by default named after the time"),
+    argument(
+        "-s",
+        "--storage",
+        choices=STORAGES,
+        default="mcap",
+        help="How the bag is stored; by default mcap",
+    ),
+    argument(
+        "--services",
+        metavar="service",
+        nargs="+",
+        default=[],
+        help="Names of services whose events are recorded",
+        completer=service_names,
+    ),
+    argument(
+        "--topic-types",
+        metavar="type",
+        nargs="+",
+        default=[],
+        help="Types whose topics are recorded",
+        completer=message_types,
+    ),
+    argument("-a", "--all", action="store_true", help="Record all topics and service events"),
+    argument("--all-topics", action="store_true", help="Record all topics"),
+    argument("--all-services", action="store_true", help="Record the events of all services"),
+    argument("-e", "--regex", default="", help="Record what this pattern is found in the name of"),
+    argument("--exclude-regex", default="", help="Leave out what this pattern is found in"),
+    argument(
+        "--exclude-topic-types",
+        metavar="type",
+        nargs="+",
+        default=[],
+        help="Types whose topics are left out",
+        completer=message_types,
+    ),
+    argument(
+        "--exclude-topics",
+        metavar="topic",
+        nargs="+",
+        default=[],
+        help="Topics that are left out",
+        completer=topic_names,
+    ),
+    argument(
+        "--exclude-services",
+        metavar="service",
+        nargs="+",
+        default=[],
+        help="Services whose events are left out",
+        completer=service_names,
+    ),
+    argument(
+        "--include-unpublished-topics",
+        action="store_true",
+        help="Record topics that only have subscriptions, too",
+    ),
+    argument(
+        "--include-hidden-topics",
+        action="store_true",
+        help="Record topics whose name has a part that begins with _, too",
+    ),
+    argument("--no-discovery", action="store_true", help="Look only once for topics"),
+    argument(
+        "-p",
+        "--polling-interval",
+        type=unsigned_int,
+        default=100,
+        help="How long changes of the graph are collected before the next look [ms]",
+    ),
+    argument(
+        "--ignore-leaf-topics", action="store_true", help="Leave out topics nobody subscribes to"
+    ),
+    QOS_OVERRIDES,
+    argument(
+        "-f",
+        "--serialization-format",
+        choices=("cdr",),
+        default="",
+        help="Accepted as in ROS 2; messages are always kept as cdr",
+    ),
+    argument(
+        "-b",
+        "--max-bag-size",
+        type=unsigned_int,
+        default=0,
+        help="Size of a file at which another begins [bytes]; 0 for one file",
+    ),
+    argument(
+        "-d",
+        "--max-bag-duration",
+        type=unsigned_int,
+        default=0,
+        help="Time after which another file begins [s]; 0 for one file",
+    ),
+    argument(
+        "--max-cache-size",
+        type=unsigned_int,
+        default=100 * 1024 * 1024,
+        help="How much may wait for the disk [bytes]; 0 for no limit",
+    ),
+    argument("--disable-keyboard-controls", action="store_true", help="Do not read keys"),
+    argument("--start-paused", action="store_true", help="Begin paused"),
+    argument("--use-sim-time", action="store_true", help="Take times from /clock"),
+    argument("--node-name", default="rosbag2_recorder", help="Name of the recorder's node"),
+    argument(
+        "--custom-data",
+        type=custom_data,
+        metavar="KEY=VALUE",
+        nargs="+",
+        default=[],
+        help="Texts to keep in the bag's metadata",
+    ),
+    argument(
+        "--snapshot-mode",
+        action="store_true",
+        help="Only write at calls of the service ~/snapshot what --max-cache-size keeps",
+    ),
+    LOG_LEVEL,
+    argument(
+        "--storage-config-file",
+        type=existing_file,
+        help="YAML with options of the storage",
+        completer=files,
+    ),
+    argument(
+        "--storage-preset-profile",
+        choices=("none", "fastwrite", "zstd_fast", "zstd_small", "resilient"),
+        default="none",
+        help="Options of the storage by name",
+    ),
+    argument(
+        "--compression-queue-size",
+        type=unsigned_int,
+        default=1,
+        help="Accepted as in ROS 2; --max-cache-size bounds what waits",
+    ),
+    argument("--compression-threads", type=unsigned_int, default=0, help="Accepted as in ROS 2"),
+    argument("--compression-threads-priority", type=int, default=0, help="Accepted as in ROS 2"),
+    argument(
+        "--compression-mode",
+        choices=("none", "file", "message"),
+        default="none",
+        help="What is compressed: nothing, whole files, or (sqlite3) single messages",
+    ),
+    argument(
+        "--compression-format", choices=("zstd",), default="", help="How it is compressed: zstd"
+    ),
+)
+
+
+def main(args: argparse.Namespace) -> str | None:
+    """Record until Ctrl-C."""
+    if args.topics_positional:
+        print(f"{_WARN}{_POSITIONAL}")
+        args.topics = args.topics_positional
+    wrong = _wrong_combination(args)
+    if wrong is not None:
+        return f"{_ERROR}{wrong}"
+    from rosbag2_py import Recorder
+
+    storage, options = _storage_options(args), _record_options(args)
+    Recorder(args.log_level).record(storage, options, args.node_name)
+    return None
+
+
+def _wrong_combination(args: argparse.Namespace) -> str | None:
+    """Return the conflict between options, if any; print which options override others."""
+    topics, services = args.all or args.all_topics, args.all or args.all_services
+    chosen = (args.regex, args.topics, args.topic_types, args.services)
+    if not (topics or services or any(chosen)):
+        return _NOTHING_CHOSEN
+    for name, given in (("--topics", args.topics), ("--topic-types", args.topic_types)):
+        if topics and given:
+            print(f"{_WARN}--all or --all-topics will override {name}")
+    if services and args.services:
+        print(f"{_WARN}--all or --all-services will override --services")
+    if (topics or services) and args.regex:
+        print(f"{_WARN}--all, --all-topics or --all-services will override --regex")
+    if args.output and os.path.exists(args.output):
+        return f"Output folder '{args.output}' already exists."
+    if args.use_sim_time and args.no_discovery:
+        return _TWO_CLOCKS
+    if args.compression_format and args.compression_mode == "none":
+        return _FORMAT_ALONE
+    return _useless_exclusion(args, topics, services)
+
+
+def _useless_exclusion(args: argparse.Namespace, topics: bool, services: bool) -> str | None:
+    regex = bool(args.regex)
+    by_type = bool(args.topic_types)
+    for name, given, useful, needs in (
+        (
+            "--exclude-regex",
+            args.exclude_regex,
+            topics or services or regex or by_type,
+            "--all, --all-topics, --all-services or --regex",
+        ),
+        (
+            "--exclude-topics",
+            args.exclude_topics,
+            topics or regex or by_type,
+            "--all, --all-topics or --regex",
+        ),
+        (
+            "--exclude-topic-types",
+            args.exclude_topic_types,
+            topics or regex,
+            "--all, --all-topics or --regex",
+        ),
+        (
+            "--exclude-services",
+            args.exclude_services,
+            services or regex,
+            "--all, --all-services or --regex",
+        ),
+    ):
+        if given and not useful:
+            return f"{name} argument requires either {needs}"
+    return None
+
+
+def _storage_options(args: argparse.Namespace) -> StorageOptions:
+    from rosbag2_py import StorageOptions
+
+    return StorageOptions(
+        uri=args.output or time.strftime("rosbag2_%Y_%m_%d-%H_%M_%S"),
+        storage_id=args.storage,
+        max_bagfile_size=args.max_bag_size,
+        max_bagfile_duration=args.max_bag_duration,
+        max_cache_size=args.max_cache_size,
+        storage_preset_profile=args.storage_preset_profile,
+        storage_config_uri=args.storage_config_file or "",
+        snapshot_mode=args.snapshot_mode,
+        custom_data=dict(args.custom_data),
+    )
+
+
+def _record_options(args: argparse.Namespace) -> RecordOptions:
+    from datetime import timedelta
+
+    from rosbag2_py import RecordOptions
+
+    return RecordOptions(
+        all_topics=args.all or args.all_topics,
+        all_services=args.all or args.all_services,
+        is_discovery_disabled=args.no_discovery,
+        topics=[absolute(name) for name in args.topics],
+        topic_types=args.topic_types,
+        services=event_topics(args.services),
+        exclude_topics=[absolute(name) for name in args.exclude_topics],
+        exclude_topic_types=args.exclude_topic_types,
+        exclude_service_events=event_topics(args.exclude_services),
+        rmw_serialization_format=args.serialization_format,
+        topic_polling_interval=timedelta(milliseconds=args.polling_interval),
+        regex=args.regex,
+        exclude_regex=args.exclude_regex,
+        compression_mode=args.compression_mode,
+        compression_format=args.compression_format,
+        compression_queue_size=args.compression_queue_size,
+        compression_threads=args.compression_threads,
+        compression_threads_priority=args.compression_threads_priority,
+        topic_qos_profile_overrides=qos_overrides(args.qos_profile_overrides_path),
+        include_hidden_topics=args.include_hidden_topics,
+        include_unpublished_topics=args.include_unpublished_topics,
+        ignore_leaf_topics=args.ignore_leaf_topics,
+        start_paused=args.start_paused,
+        use_sim_time=args.use_sim_time,
+        disable_keyboard_controls=args.disable_keyboard_controls,
+    )
