@@ -1,56 +1,69 @@
-"""This distribution's commands and verbs behind ROS 2's classes.
+"""Makes ROS 2's classes of this distribution's commands and verbs.
 
-A verb is a module in :mod:`ros2cli.commands` with ``ARGUMENTS`` and ``main``. Classes such as
-``ros2topic.verb.list.ListVerb`` name the module and inherit from here what calls it.
+A verb is a module with ``ARGUMENTS`` and ``main``; a command may have a ``VERB_GROUP`` as well. The
+command line calls the module. These decorators give programs and extensions ROS 2's class of it.
 """
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any, ClassVar
+import sys
+from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["BuiltinCommand", "BuiltinVerb"]
+    from ros2cli.command import CommandExtension
+    from ros2cli.verb import VerbExtension
+
+    Command = TypeVar("Command", bound=type[CommandExtension])
+    Verb = TypeVar("Verb", bound=type[VerbExtension])
+
+__all__ = ["command_of_module", "verb_of_module"]
 
 
-class BuiltinVerb:
-    """A verb whose work a module of :mod:`ros2cli.commands` does."""
+def verb_of_module(cls: Verb) -> Verb:
+    """Give a class the ``ARGUMENTS`` and the ``main`` of its module."""
+    module = sys.modules[cls.__module__]
 
-    #: The module below ``ros2cli.commands``.
-    _module: ClassVar[str]
-
-    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:  # noqa: ARG002
+    def add_arguments(_self: Any, parser: argparse.ArgumentParser, cli_name: str) -> None:  # noqa: ARG001
         """Define the command line of the verb."""
-        from ros2cli.arguments import add_arguments
+        from ros2cli import arguments
 
-        module = import_module(f"ros2cli.commands.{self._module}")
-        add_arguments(parser, getattr(module, "ARGUMENTS", ()))
+        arguments.add_arguments(parser, getattr(module, "ARGUMENTS", ()))
 
-    def main(self, *, args: Any) -> Any:
+    def main(_self: Any, *, args: Any) -> Any:
         """Run the verb; returns the exit status, the text of an error, or None."""
-        return import_module(f"ros2cli.commands.{self._module}").main(args)
+        return module.main(args)
+
+    cls.add_arguments = add_arguments  # type: ignore[method-assign]
+    cls.main = main  # type: ignore[method-assign]
+    return cls
 
 
-class BuiltinCommand:
-    """A command whose work modules of :mod:`ros2cli.commands` do."""
-
-    #: The module below ``ros2cli.commands``.
-    _module: ClassVar[str]
+def command_of_module(cls: Command) -> Command:
+    """Give a class the command line of its module, with its verbs, and what runs them."""
+    name = cls.__module__
 
     def add_arguments(
-        self, parser: argparse.ArgumentParser, cli_name: str, *, argv: list[str] | None = None
+        _self: Any,
+        parser: argparse.ArgumentParser,
+        cli_name: str,
+        *,
+        argv: list[str] | None = None,
     ) -> None:
         """Define the command line, with that of the verb in ``argv``."""
         from ros2cli.main import define
 
-        define(parser, cli_name, argv or [], f"ros2cli.commands.{self._module}")
+        define(parser, cli_name, argv or [], name)
 
-    def main(self, *, parser: argparse.ArgumentParser, args: Any) -> Any:  # noqa: ARG002
+    def main(_self: Any, *, parser: argparse.ArgumentParser, args: Any) -> Any:  # noqa: ARG001
         """Run the command; prints the help and returns 0 if a verb is missing."""
         module = getattr(args, "module", None)
         if module is None:
             args.show_help()
             return 0
         return module.main(args)
+
+    cls.add_arguments = add_arguments  # type: ignore[method-assign]
+    cls.main = main  # type: ignore[method-assign]
+    return cls

@@ -16,7 +16,6 @@ __all__ = [
     "action_names",
     "action_types",
     "arguments_of_executable",
-    "container_node_names",
     "executables",
     "executables_of",
     "files",
@@ -25,12 +24,10 @@ __all__ = [
     "goal_values",
     "interface_packages",
     "interfaces",
-    "managed_node_names",
     "message_types",
     "message_values",
     "node_names",
     "packages",
-    "parameter_names",
     "prototype",
     "request_values",
     "service_names",
@@ -205,30 +202,3 @@ def _ask(question: str) -> Any:
 
     with GraphNode() as known:
         return getattr(graph, question)(known)
-
-
-def parameter_names(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
-    """Names of the parameters of the node on the command line."""
-    from ros2cli.direct_node import DirectNode
-    from ros2param.parameters import RemoteParameters
-
-    with DirectNode(parsed_args) as direct:
-        return RemoteParameters(direct, parsed_args).names()
-
-
-def container_node_names(**_: Any) -> list[str]:
-    """Full names of the containers there are now."""
-    from ros2component.containers import container_names
-    from ros2cli.discovery import GraphNode
-
-    with GraphNode() as known:
-        return container_names(known)
-
-
-def managed_node_names(**_: Any) -> list[str]:
-    """Full names of the managed nodes there are now."""
-    from ros2cli.discovery import GraphNode
-    from ros2lifecycle.managed_nodes import managed_nodes
-
-    with GraphNode() as known:
-        return managed_nodes(known)

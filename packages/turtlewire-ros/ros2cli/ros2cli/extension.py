@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ros2cli.entry_points import others
+from ros2cli.installed import declared
 
 if TYPE_CHECKING:
     import argparse
+
+    from turtlewire.plugins import Entry
 
 __all__ = ["define_extension", "define_options", "extensions_of_others"]
 
@@ -31,24 +33,20 @@ class _Runner:
         return self._extension.main(args=args)
 
 
-def extensions_of_others(prog: str, chosen: str | None) -> dict[str, Any]:
-    """Extensions by name; those that cannot be loaded are one line each on stderr.
+def extensions_of_others(
+    group: str, entries: dict[str, Entry], chosen: str | None
+) -> dict[str, Any]:
+    """Return extensions by name; those that cannot be loaded are one line each on stderr.
 
     Args:
-        prog: ``ros2`` for commands, ``ros2 topic`` for verbs of that.
+        group: For example ``ros2topic.verb``.
+        entries: The entry points of the group.
         chosen: Name of the only one to load; the others are None. None loads all.
     """
-    command = prog.rpartition(" ")[2]
-    group = {"ros2": "ros2cli.command", "daemon": "ros2cli.daemon.verb"}.get(
-        command, f"ros2{command}.verb"
-    )
-    names = set(others(group))
-    if not names:
-        return {}
-    from ros2cli.entry_points import get_entry_points
     from ros2cli.plugin_system import named_extensions
 
-    left_out = set(get_entry_points(group)) - (names if chosen is None else {chosen})
+    names = {name for name, entry in entries.items() if not entry.is_own}
+    left_out = set(entries) - (names if chosen is None else names & {chosen})
     found = named_extensions(group, left_out)
     return found if chosen is None else {**dict.fromkeys(names - {chosen}), **found}
 
@@ -74,7 +72,7 @@ def define_options(
         prog: The words before.
         words: The words behind ``prog``.
     """
-    if not others(group):
+    if not declared(group):
         return
     from ros2cli.plugin_system import call_add_arguments, named_extensions
 

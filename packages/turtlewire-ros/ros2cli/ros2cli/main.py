@@ -11,21 +11,19 @@ from contextlib import nullcontext, suppress
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from ros2cli.commands import COMMANDS
+from ros2cli.installed import declared, first_line, summary
 from turtlewire.program import program
 from turtlewire.terminal.parser import INVALID_CHOICE, Parser
 
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Container
     from types import ModuleType
     from typing import NoReturn
 
 __all__ = ["define", "main", "make_parser"]
 
 _EXIT_INTERRUPTED = 2  # the number of SIGINT
-
-#: Commands that have another's module.
-_ALIASES = {"wtf": "doctor"}
 
 #: Commands of ROS 2 that are not here, and what does their work.
 _NOT_HERE = {
@@ -109,54 +107,51 @@ def make_parser(words: list[str]) -> argparse.ArgumentParser:
         help="Leave the buffering of the output to Python",
     )
     parser.set_defaults(show_help=parser.print_help)
-    _add_choices(parser, "ros2", COMMANDS, words, "ros2cli.commands")
+    _add_choices(parser, "ros2", "ros2cli.command", words)
     return parser
 
 
 def _add_choices(
-    parser: argparse.ArgumentParser,
-    prog: str,
-    choices: dict[str, str],
-    words: list[str],
-    package: str,
+    parser: argparse.ArgumentParser, prog: str, group_name: str, words: list[str]
 ) -> None:
     """Add commands or verbs, and load the one on the command line."""
     title = "Verbs" if " " in prog else "Commands"
     chosen = next((word for word in words if not word.startswith("-")), None)
-    extensions = {} if chosen in choices else _extensions(prog, chosen)
-    if extensions:
-        from ros2cli.entry_points import get_first_line_doc
+    entries = declared(group_name, chosen)
+    others: dict[str, object] = {}
+    if not all(entry.is_own for entry in entries.values()):
+        from ros2cli.extension import extensions_of_others
 
-        added = {name: get_first_line_doc(extension) for name, extension in extensions.items()}
-        choices = dict(sorted({**choices, **added}.items()))
+        others = extensions_of_others(group_name, entries, chosen)
+    # An option before the chosen word may be one for the help, and shells show the lines as well.
+    is_shown = chosen not in entries or chosen != words[0] or "_ARGCOMPLETE" in os.environ
+    summaries = {
+        name: summary(entry) if is_shown or name == chosen else ""
+        for name, entry in entries.items()
+        if entry.is_own
+    }
+    summaries.update({name: first_line(extension) for name, extension in others.items()})
     group = parser.add_subparsers(
         title=title,
         metavar=f"Call `{prog} <command> -h` for more detailed usage.",
-        parser_class=_parser_class(choices, chosen),
+        parser_class=_parser_class(summaries, chosen),
     )
-    for name, summary in choices.items():
+    for name, text in sorted(summaries.items()):
         sub = group.add_parser(
-            name, help=summary, description=summary, prog=f"{prog} {name}", allow_abbrev=False
+            name, help=text, description=text, prog=f"{prog} {name}", allow_abbrev=False
         )
         if name != chosen:
             continue
         rest = words[words.index(name) + 1 :]
-        if name in extensions:
+        if name in others:
             from ros2cli.extension import define_extension
 
-            define_extension(extensions[name], sub, f"{prog} {name}", rest)
+            define_extension(others[name], sub, f"{prog} {name}", rest)
         else:
-            define(sub, f"{prog} {name}", rest, f"{package}.{_ALIASES.get(name, name)}")
+            define(sub, f"{prog} {name}", rest, entries[name].module)
 
 
-def _extensions(prog: str, chosen: str | None) -> dict[str, object]:
-    """Commands or verbs of other packages; only the chosen one is loaded if there is one."""
-    from ros2cli.extension import extensions_of_others
-
-    return extensions_of_others(prog, chosen)
-
-
-def _parser_class(choices: dict[str, str], chosen: str | None) -> type[_Parser]:
+def _parser_class(choices: Container[str], chosen: str | None) -> type[_Parser]:
     """Return the parser class of each choice; choices that cannot be called share one.
 
     Two dozen parsers would take a tenth of the time of ``ros2 --help``.
@@ -190,8 +185,8 @@ def define(parser: argparse.ArgumentParser, prog: str, words: list[str], module_
         parser.set_defaults(module=module, parser=parser)
     else:
         parser.set_defaults(show_help=parser.print_help)
-    if hasattr(module, "VERBS"):
-        _add_choices(parser, prog, module.VERBS, words, module_name)
+    if hasattr(module, "VERB_GROUP"):
+        _add_choices(parser, prog, module.VERB_GROUP, words)
 
 
 def _status(args: argparse.Namespace) -> int:

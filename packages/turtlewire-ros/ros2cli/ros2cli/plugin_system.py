@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.entry_points import load_entry_points
@@ -118,5 +117,7 @@ def call_add_arguments(
     extension: Any, parser: argparse.ArgumentParser, cli_name: str, argv: list[str]
 ) -> None:
     """Call ``add_arguments`` of a command or a verb; verbs' do not take ``argv``."""
+    import inspect
+
     takes_argv = "argv" in inspect.signature(extension.add_arguments).parameters
     extension.add_arguments(parser, cli_name, **({"argv": argv} if takes_argv else {}))

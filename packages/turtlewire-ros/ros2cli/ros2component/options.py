@@ -11,7 +11,7 @@ from ros2cli.values import assignment
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["COMPONENT_ARGUMENTS", "load_request"]
+__all__ = ["COMPONENT_ARGUMENTS", "container_node_names", "load_request"]
 
 
 _LEVELS = ("unknown", "debug", "info", "warn", "error", "fatal")
@@ -46,6 +46,15 @@ COMPONENT_ARGUMENTS = (
         help="An argument for the container, as name:=value",
     ),
 )
+
+
+def container_node_names(**_: Any) -> list[str]:
+    """Full names of the containers there are now."""
+    from ros2cli.discovery import GraphNode
+    from ros2component.containers import container_names
+
+    with GraphNode() as known:
+        return container_names(known)
 
 
 def load_request(args: argparse.Namespace) -> Any:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from ros2cli.direct_node import DirectNode
     from turtlewire.wire.base import Graph
 
-__all__ = ["HIDDEN_ARGUMENT", "ask", "managed_nodes", "require_managed_node"]
+__all__ = ["HIDDEN_ARGUMENT", "ask", "managed_node_names", "managed_nodes", "require_managed_node"]
 
 _SERVICE = "/get_state"
 _TYPE = "lifecycle_msgs/srv/GetState"
@@ -30,6 +30,14 @@ def managed_nodes(graph: Graph, *, hidden: bool = False) -> list[str]:
         if name.endswith(_SERVICE) and _TYPE in types
     ]
     return sorted(name for name in names if hidden or not is_hidden_node(name))
+
+
+def managed_node_names(**_: Any) -> list[str]:
+    """Full names of the managed nodes there are now."""
+    from ros2cli.discovery import GraphNode
+
+    with GraphNode() as known:
+        return managed_nodes(known)
 
 
 HIDDEN_ARGUMENT = argument(

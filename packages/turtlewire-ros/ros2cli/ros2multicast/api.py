@@ -16,7 +16,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from types import TracebackType
 
-__all__ = ["GROUP_ARGUMENTS", "MulticastSocket"]
+__all__ = ["DEFAULT_GROUP", "DEFAULT_PORT", "GROUP_ARGUMENTS", "MulticastSocket", "receive", "send"]
+
+DEFAULT_GROUP = "225.0.0.1"
+DEFAULT_PORT = 49150
 
 _LONGEST = 4096
 #: What Linux says, and what others say, when the system finds no interface for a group.
@@ -104,6 +107,38 @@ class MulticastSocket:
                 yield self._receiver.recvfrom(_LONGEST)
 
 
+def receive(
+    *, group: str = DEFAULT_GROUP, port: int = DEFAULT_PORT, timeout: float | None = None
+) -> tuple[bytes, tuple[str, int]]:
+    """Wait for a datagram; its bytes, and host and port of its sender.
+
+    Args:
+        group: Address of the group.
+        port: UDP port.
+        timeout: Seconds to wait; None waits without a limit.
+
+    Raises:
+        TimeoutError: None came in time.
+    """
+    with MulticastSocket(group, port) as multicast:
+        return multicast.receive(timeout)
+
+
+def send(
+    data: bytes, *, group: str = DEFAULT_GROUP, port: int = DEFAULT_PORT, ttl: int | None = None
+) -> None:
+    """Send a datagram.
+
+    Args:
+        data: Its bytes.
+        group: Address of the group.
+        port: UDP port.
+        ttl: How many routers it may pass; None leaves it to the system.
+    """
+    with MulticastSocket(group, port, ttl) as multicast:
+        multicast.send(data)
+
+
 def _group(text: str) -> str:
     try:
         is_group = ipaddress.IPv4Address(text).is_multicast
@@ -129,7 +164,12 @@ def _port(text: str) -> int:
 #: What sender and receiver have to agree on.
 GROUP_ARGUMENTS = (
     argument(
-        "--group", type=_group, default="225.0.0.1", help="Multicast group (default: 225.0.0.1)"
+        "--group",
+        type=_group,
+        default=DEFAULT_GROUP,
+        help=f"Multicast group (default: {DEFAULT_GROUP})",
     ),
-    argument("--port", type=_port, default=49150, help="UDP port (default: 49150)"),
+    argument(
+        "--port", type=_port, default=DEFAULT_PORT, help=f"UDP port (default: {DEFAULT_PORT})"
+    ),
 )

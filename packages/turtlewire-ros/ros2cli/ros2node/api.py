@@ -8,6 +8,7 @@ from ros2cli import graph
 from ros2cli.direct_node import DirectNode
 from ros2cli.node import HIDDEN_NODE_PREFIX
 from ros2cli.node.strategy import NodeStrategy
+from ros2node.verb.info import INFO_NONUNIQUE_WARNING_TEMPLATE
 
 if TYPE_CHECKING:
     import argparse
@@ -34,11 +35,6 @@ __all__ = [
     "parse_node_name",
     "wait_for_node",
 ]
-
-INFO_NONUNIQUE_WARNING_TEMPLATE = (
-    'There are {num_nodes} nodes in the graph with the exact name "{node_name}". '
-    "You are seeing information about only one of them."
-)
 
 
 class NodeName(NamedTuple):

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 from ros2cli.arguments import Argument, argument
-from ros2cli.completion import node_names, parameter_names
+from ros2cli.completion import node_names
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.listing import HIDDEN_NODES
 
-__all__ = ["NAME_ARGUMENT", "node_arguments"]
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["NAME_ARGUMENT", "node_arguments", "parameter_names"]
 
 _TIMEOUT_S = 5.0
 
@@ -35,6 +40,15 @@ def node_arguments(*, optional: bool = False) -> tuple[Argument, ...]:
             help="Wait at most N seconds for the node's answer",
         ),
     )
+
+
+def parameter_names(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+    """Names of the parameters of the node on the command line."""
+    from ros2cli.direct_node import DirectNode
+    from ros2param.parameters import RemoteParameters
+
+    with DirectNode(parsed_args) as direct:
+        return RemoteParameters(direct, parsed_args).names()
 
 
 NAME_ARGUMENT = argument("parameter_name", help="Name of the parameter", completer=parameter_names)

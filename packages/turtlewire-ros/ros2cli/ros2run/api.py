@@ -6,8 +6,8 @@ import shlex
 from typing import TYPE_CHECKING, Any
 
 from ros2cli import completion
-from ros2run.command.run import named, run_and_tell
 from ros2pkg.api import get_executable_paths
+from ros2run.command.run import named, run_and_tell
 
 if TYPE_CHECKING:
     import argparse

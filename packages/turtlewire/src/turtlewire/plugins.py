@@ -1,32 +1,72 @@
-"""Entry points that installed packages declare, found without loading the metadata of all."""
+"""Entry points that installed packages declare, those of turtlewire first.
+
+The files are read here, because importing :mod:`importlib.metadata` takes longer than most of what
+a command does.
+"""
 
 from __future__ import annotations
 
 import os
 import sys
-from typing import TYPE_CHECKING
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from importlib.metadata import EntryPoint
+    from collections.abc import Iterator
 
-__all__ = ["declared"]
+__all__ = ["Entry", "declared"]
 
 
-def declared(group: str) -> dict[str, EntryPoint]:
-    """Return the entry points of a group by name.
+class Entry:
+    """A line of an ``entry_points.txt``: a name, and the place of an object.
 
-    The files of the packages on the path are searched for the name of the group before Python's
-    own reader is imported, which takes longer than that.
+    Attributes:
+        name: For example ``echo``.
+        value: For example ``ros2topic.verb.echo:EchoVerb``.
+        is_own: Whether a distribution of turtlewire declares it.
+        module: Name of the module, for example ``ros2topic.verb.echo``.
+        attribute: Name of the object in the module, for example ``EchoVerb``.
     """
-    if not _is_declared(group):
-        return {}
-    from importlib.metadata import entry_points
 
-    return {entry.name: entry for entry in entry_points(group=group)}
+    def __init__(self, name: str, value: str, *, is_own: bool) -> None:
+        self.name = name
+        self.value = value
+        self.is_own = is_own
+        target = value.partition("[")[0]  # there may be extras
+        self.module, _, self.attribute = (part.strip() for part in target.partition(":"))
+
+    def load(self) -> Any:
+        """Import the module; return the object."""
+        found: Any = import_module(self.module)
+        for name in filter(None, self.attribute.split(".")):
+            found = getattr(found, name)
+        return found
 
 
-def _is_declared(group: str) -> bool:
-    section = f"[{group}]".encode()
+def declared(group: str, wanted: str | None = None) -> dict[str, Entry]:
+    """Return the entry points of a group by name; the first of a name wins.
+
+    Args:
+        group: For example ``ros2topic.verb``.
+        wanted: A name; if turtlewire declares it, the files of other packages are not read.
+    """
+    found: dict[str, Entry] = {}
+    for path, is_own in _files():
+        if not is_own and wanted in found:
+            break
+        try:
+            with open(path, encoding="utf-8") as file:
+                text = file.read()
+        except OSError:
+            continue
+        for name, value in _section(text, group):
+            found.setdefault(name, Entry(name, value, is_own=is_own))
+    return found
+
+
+def _files() -> Iterator[tuple[str, bool]]:
+    """Yield the files that declare entry points, those of turtlewire first."""
+    others = []
     for folder in sys.path:
         try:
             names = os.listdir(folder or ".")
@@ -35,10 +75,18 @@ def _is_declared(group: str) -> bool:
         for name in names:
             if name.endswith((".dist-info", ".egg-info")):
                 path = os.path.join(folder, name, "entry_points.txt")
-                try:
-                    with open(path, "rb") as file:
-                        if section in file.read():
-                            return True
-                except OSError:
-                    continue
-    return False
+                if name.startswith("turtlewire"):
+                    yield path, True
+                else:
+                    others.append(path)
+    for path in others:
+        yield path, False
+
+
+def _section(text: str, group: str) -> Iterator[tuple[str, str]]:
+    """Yield names and values of a section."""
+    _, found, rest = f"\n{text}".partition(f"\n[{group}]")
+    for line in rest.partition("\n[")[0].splitlines() if found else ():
+        name, equals, value = line.partition("=")
+        if equals and not name.startswith("#"):
+            yield name.strip(), value.strip()

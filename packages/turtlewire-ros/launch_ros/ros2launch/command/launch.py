@@ -9,6 +9,8 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument, exclusive
+from ros2cli.builtin import command_of_module
+from ros2cli.command import CommandExtension
 from ros2cli.completion import files, packages
 
 if TYPE_CHECKING:
@@ -23,6 +25,7 @@ __all__ = [
     "OPTION_GROUP",
     "PASSES_COLOURS_ON",
     "SUFFIXES",
+    "LaunchCommand",
     "description_of",
     "launch",
     "launch_files",
@@ -336,3 +339,8 @@ def print_description(description: LaunchDescription) -> int:
 
     print(LaunchIntrospector().format_launch_description(description))
     return 0
+
+
+@command_of_module
+class LaunchCommand(CommandExtension):
+    """Run a launch file."""

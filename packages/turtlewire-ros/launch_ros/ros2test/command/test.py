@@ -7,13 +7,15 @@ import os
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import command_of_module
+from ros2cli.command import CommandExtension
 from ros2cli.completion import files
 
 if TYPE_CHECKING:
     import argparse
     from typing import Any
 
-__all__ = ["ARGUMENTS", "PASSES_COLOURS_ON", "main"]
+__all__ = ["ARGUMENTS", "PASSES_COLOURS_ON", "TestCommand", "main"]
 
 PASSES_COLOURS_ON = True
 
@@ -59,3 +61,8 @@ def main(args: argparse.Namespace) -> int:
         from launch_testing_ros import LaunchTestRunner
 
         return run(args.parser, args, LaunchTestRunner)
+
+
+@command_of_module
+class TestCommand(CommandExtension):
+    """Run a launch test in a domain of its own."""

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-__all__ = ["VERBS"]
+from ros2cli.builtin import command_of_module
+from ros2cli.command import CommandExtension
 
-VERBS = {
-    "info": "Show who offers and may start an action",
-    "list": "List the actions",
-    "send_goal": "Start an action and wait for its end",
-    "type": "Show the type of an action",
-}
+__all__ = ["VERB_GROUP", "ActionCommand"]
+
+VERB_GROUP = "ros2action.verb"
+
+
+@command_of_module
+class ActionCommand(CommandExtension):
+    """Goals that take time: list them, send one."""

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2action.verb import VerbExtension
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import action_names
 from ros2cli.discovery import GraphNode
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "InfoVerb", "main"]
 
 
 ARGUMENTS = (
@@ -40,3 +42,8 @@ def main(args: argparse.Namespace) -> None:
         for name, types in () if args.count else nodes:
             print(f"    {name} [{', '.join(types)}]" if args.show_types else f"    {name}")
     say_what_was_meant(args.action_name, known)
+
+
+@verb_of_module
+class InfoVerb(VerbExtension):
+    """Show who offers and may start an action."""

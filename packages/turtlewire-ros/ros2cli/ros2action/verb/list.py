@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2action.verb import VerbExtension
+from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import GraphNode
 from ros2cli.listing import SHOW_TYPES, count_argument, print_names_and_types
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "ListVerb", "main"]
 
 ARGUMENTS = (SHOW_TYPES, count_argument("action"))
 
@@ -22,3 +24,8 @@ def main(args: argparse.Namespace) -> None:
     with GraphNode() as graph:
         found = actions(graph)
     print_names_and_types(found, args)
+
+
+@verb_of_module
+class ListVerb(VerbExtension):
+    """List the actions."""

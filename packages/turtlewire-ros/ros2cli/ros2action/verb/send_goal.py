@@ -5,8 +5,11 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, Any
 
+from ros2action.verb import VerbExtension
 from ros2cli.arguments import argument, exclusive
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import action_names, action_types, goal_values
+from ros2cli.node import NODE_NAME_PREFIX
 from ros2cli.values import read_values, shortened
 
 if TYPE_CHECKING:
@@ -14,7 +17,7 @@ if TYPE_CHECKING:
 
     from ros2cli.direct_node import DirectNode
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "NODE_NAME_PREFIX", "SendGoalVerb", "main"]
 
 _CANCEL_TIMEOUT_S = 5.0
 
@@ -142,3 +145,8 @@ def _status_name(status: int) -> str:
         getattr(GoalStatus, f"STATUS_{name}"): name for name in ("SUCCEEDED", "CANCELED", "ABORTED")
     }
     return names.get(status, "UNKNOWN")
+
+
+@verb_of_module
+class SendGoalVerb(VerbExtension):
+    """Start an action and wait for its end."""

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2action.verb import VerbExtension
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import action_names
 from ros2cli.discovery import GraphNode
 from ros2cli.listing import print_types
@@ -12,7 +14,7 @@ from ros2cli.listing import print_types
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "TypeVerb", "main"]
 
 ARGUMENTS = (
     argument(
@@ -30,3 +32,8 @@ def main(args: argparse.Namespace) -> int:
     with GraphNode() as graph:
         known = dict(actions(graph))
     return print_types("action", args.action_name, known)
+
+
+@verb_of_module
+class TypeVerb(VerbExtension):
+    """Show the type of an action."""

@@ -31,9 +31,10 @@ __all__ = [
 
 
 class CommandExtension:
-    """Base of the commands of ``ros2``; entry points in the group ``ros2cli.command``.
+    """The extension point for 'command' extensions.
 
-    The first line of a command's documentation is its line in ``ros2 --help``.
+    It is the base of the commands of ``ros2``; the first line of a command's documentation is its
+    line in ``ros2 --help``.
     """
 
     NAME: str | None = None

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-__all__ = ["VERBS"]
+from ros2cli.builtin import command_of_module
+from ros2cli.command import CommandExtension
 
-VERBS = {
-    "start": "Explain that there is no daemon",
-    "status": "Show that no daemon is running",
-    "stop": "Show that no daemon is running",
-}
+__all__ = ["VERB_GROUP", "DaemonCommand"]
+
+VERB_GROUP = "ros2cli.daemon.verb"
+
+
+@command_of_module
+class DaemonCommand(CommandExtension):
+    """Status of the daemon (there is none, and none is needed)."""

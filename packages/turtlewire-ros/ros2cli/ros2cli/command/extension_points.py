@@ -5,12 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
-from ros2cli.command._extension_points import extension_points
+from ros2cli.builtin import command_of_module
+from ros2cli.command import CommandExtension
+from ros2cli.installed import EXTENSION_POINT_GROUP_NAME, described
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "ExtensionPointsCommand", "main"]
 
 
 ARGUMENTS = (
@@ -26,7 +28,12 @@ ARGUMENTS = (
 
 def main(args: argparse.Namespace) -> None:
     """Print name and description of each extension point."""
-    for point in extension_points():
-        print(f"{point.name}: {point.description}")
+    for point, (description, module) in described(EXTENSION_POINT_GROUP_NAME).items():
+        print(f"{point}: {description}")
         if args.verbose:
-            print(f"  module: {point.module}")
+            print(f"  module: {module}")
+
+
+@command_of_module
+class ExtensionPointsCommand(CommandExtension):
+    """List the kinds of commands and verbs."""

@@ -5,12 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
-from ros2cli.command._extension_points import extension_points, extensions
+from ros2cli.builtin import command_of_module
+from ros2cli.command import CommandExtension
+from ros2cli.installed import EXTENSION_POINT_GROUP_NAME, described
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "ExtensionsCommand", "main"]
 
 
 ARGUMENTS = (
@@ -26,11 +28,16 @@ ARGUMENTS = (
 
 def main(args: argparse.Namespace) -> None:
     """Print the commands and verbs below their extension points."""
-    for point in extension_points():
-        found = extensions(point)
+    for point in described(EXTENSION_POINT_GROUP_NAME):
+        found = described(point)
         if found:
-            print(point.name)
+            print(point)
         for name, (summary, module) in found.items():
             print(f"  {name}: {summary}")
             if args.verbose:
                 print(f"    module: {module}")
+
+
+@command_of_module
+class ExtensionsCommand(CommandExtension):
+    """List all commands and verbs."""

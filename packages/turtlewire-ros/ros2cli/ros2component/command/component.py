@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-__all__ = ["VERBS"]
+from ros2cli.builtin import command_of_module
+from ros2cli.command import CommandExtension
 
-VERBS = {
-    "list": "List the containers and the nodes in them",
-    "load": "Load a node into a container",
-    "standalone": "Run a node in a container of its own",
-    "types": "List the components that packages have registered",
-    "unload": "Unload a node from a container",
-}
+__all__ = ["VERB_GROUP", "ComponentCommand"]
+
+VERB_GROUP = "ros2component.verb"
+
+
+@command_of_module
+class ComponentCommand(CommandExtension):
+    """Containers of nodes: list them, load and unload nodes."""

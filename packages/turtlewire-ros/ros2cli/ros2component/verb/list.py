@@ -5,15 +5,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
-from ros2cli.completion import container_node_names
+from ros2cli.builtin import verb_of_module
 from ros2cli.direct_node import DirectNode
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.output import tell_failed_call
+from ros2component.options import container_node_names
+from ros2component.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "ListVerb", "main"]
 
 
 ARGUMENTS = (
@@ -56,3 +58,8 @@ def main(args: argparse.Namespace) -> int:
             for number, node in zip(answer.unique_ids, answer.full_node_names, strict=True):
                 print(f"{indent}{number}  {node}")
     return status
+
+
+@verb_of_module
+class ListVerb(VerbExtension):
+    """List the containers and the nodes in them."""

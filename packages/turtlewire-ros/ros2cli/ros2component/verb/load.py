@@ -5,15 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
-from ros2cli.completion import container_node_names
-from ros2component.options import COMPONENT_ARGUMENTS, load_request
+from ros2cli.builtin import verb_of_module
 from ros2cli.direct_node import DirectNode
 from ros2cli.discovery import STRATEGY_ARGUMENTS
+from ros2component.options import COMPONENT_ARGUMENTS, container_node_names, load_request
+from ros2component.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "LoadVerb", "main"]
 
 
 ARGUMENTS = (
@@ -44,3 +45,8 @@ def main(args: argparse.Namespace) -> str | None:
             f"'{answer.full_node_name}'"
         )
     return None
+
+
+@verb_of_module
+class LoadVerb(VerbExtension):
+    """Load a node into a container."""

@@ -5,12 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2component.options import COMPONENT_ARGUMENTS, load_request
+from ros2component.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "StandaloneVerb", "main"]
 
 
 ARGUMENTS = (
@@ -42,3 +44,8 @@ def main(args: argparse.Namespace) -> str | None:
         container.destroy_node()
         rclpy.try_shutdown()
     return None
+
+
+@verb_of_module
+class StandaloneVerb(VerbExtension):
+    """Run a node in a container of its own."""

@@ -5,12 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import packages
+from ros2component.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "TypesVerb", "main"]
 
 _RESOURCE = "rclcpp_components"
 
@@ -40,3 +42,8 @@ def main(args: argparse.Namespace) -> str | None:
             indent = "  " if args.package_name is None else ""
             print(f"{indent}{line.partition(';')[0]}")
     return None
+
+
+@verb_of_module
+class TypesVerb(VerbExtension):
+    """List the components that packages have registered."""

@@ -5,16 +5,18 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
-from ros2cli.completion import container_node_names
+from ros2cli.builtin import verb_of_module
 from ros2cli.direct_node import DirectNode
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.output import tell
 from ros2cli.values import unsigned_int
+from ros2component.options import container_node_names
+from ros2component.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "UnloadVerb", "main"]
 
 
 ARGUMENTS = (
@@ -44,3 +46,8 @@ def main(args: argparse.Namespace) -> int:
                 tell(f"Failed to unload component {number} from '{container}' container node")
                 tell(f"    {answer.error_message}")
     return status
+
+
+@verb_of_module
+class UnloadVerb(VerbExtension):
+    """Unload a node from a container."""

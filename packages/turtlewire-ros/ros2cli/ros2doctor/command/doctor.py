@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument, exclusive
+from ros2cli.builtin import command_of_module
+from ros2cli.command import CommandExtension
 from turtlewire.terminal.parser import seconds
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "VERBS", "main"]
+__all__ = ["ARGUMENTS", "VERB_GROUP", "DoctorCommand", "WtfCommand", "main"]
 
-VERBS = {"hello": "Find out which hosts can hear each other"}
+VERB_GROUP = "ros2doctor.verb"
 
 
 ARGUMENTS = (
@@ -54,14 +55,15 @@ ARGUMENTS = (
 
 def main(args: argparse.Namespace) -> int:
     """Print the findings and what other packages find; status 1 when there is a problem."""
-    # By name: ros2doctor stands above, and brings the classes that other packages derive from.
-    api, printing = import_module("ros2doctor.api"), import_module("ros2doctor.api.format")
+    from ros2doctor import api
+    from ros2doctor.api.format import format_print
+
     if args.report:
         from ros2doctor.system_report import system_report
 
         print(system_report())
         for other in api.reports_of_others():
-            printing.format_print(other)
+            format_print(other)
         return 0
     from turtlewire.doctor.examination import examine, full_report
 
@@ -75,3 +77,12 @@ def main(args: argparse.Namespace) -> int:
     elif total:
         print(f"\nAll {total} checks of other packages passed")
     return 1 if failed or count else 0
+
+
+@command_of_module
+class DoctorCommand(CommandExtension):
+    """Look for what is wrong with the setup and the traffic."""
+
+
+class WtfCommand(DoctorCommand):
+    """The same as doctor."""

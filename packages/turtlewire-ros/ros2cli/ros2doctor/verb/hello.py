@@ -7,14 +7,24 @@ from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import SPIN_ARGUMENTS
-from ros2multicast.api import GROUP_ARGUMENTS, MulticastSocket
 from ros2cli.values import positive_float, positive_int
+from ros2doctor.verb import VerbExtension
+from ros2multicast.api import DEFAULT_GROUP, DEFAULT_PORT, GROUP_ARGUMENTS, MulticastSocket
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = [
+    "ARGUMENTS",
+    "DEFAULT_GROUP",
+    "DEFAULT_PORT",
+    "HelloVerb",
+    "main",
+    "positive_float",
+    "positive_int",
+]
 
 _WIDTH = 60
 
@@ -111,3 +121,8 @@ class _Hello:
             self._heard[way].clear()
         self._sent = 0
         return "\n".join([*lines, "-" * _WIDTH])
+
+
+@verb_of_module
+class HelloVerb(VerbExtension):
+    """Find out which hosts can hear each other."""

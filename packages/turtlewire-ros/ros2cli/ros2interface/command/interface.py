@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-__all__ = ["VERBS"]
+from ros2cli.builtin import command_of_module
+from ros2cli.command import CommandExtension
 
-VERBS = {
-    "list": "List all interfaces",
-    "package": "List the interfaces of a package",
-    "packages": "List the packages that have interfaces",
-    "proto": "Show an interface as YAML to fill in",
-    "show": "Show the definition of an interface",
-}
+__all__ = ["VERB_GROUP", "InterfaceCommand"]
+
+VERB_GROUP = "ros2interface.verb"
+
+
+@command_of_module
+class InterfaceCommand(CommandExtension):
+    """Show the definitions of messages, services and actions."""

@@ -9,4 +9,4 @@ __all__ = ["PLUGIN_SYSTEM_VERSION", "VerbExtension"]
 
 
 class VerbExtension(verb.VerbExtension):
-    """Base of the verbs of ``ros2 interface``."""
+    """Extension point for 'interface' verb extensions."""

@@ -5,11 +5,22 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
+from ros2interface.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "TITLES", "main", "print_kind"]
+__all__ = [
+    "ARGUMENTS",
+    "TITLES",
+    "ListVerb",
+    "main",
+    "print_actions",
+    "print_kind",
+    "print_messages",
+    "print_services",
+]
 
 TITLES = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 
@@ -37,3 +48,23 @@ def print_kind(kind: str) -> None:
     for package, names in sorted(msg.interface_names().items()):
         for name in sorted(names[kind]):
             print(f"    {package}/{kind}/{name}")
+
+
+def print_messages() -> None:
+    """Print the names of all messages."""
+    print_kind("msg")
+
+
+def print_services() -> None:
+    """Print the names of all services."""
+    print_kind("srv")
+
+
+def print_actions() -> None:
+    """Print the names of all actions."""
+    print_kind("action")
+
+
+@verb_of_module
+class ListVerb(VerbExtension):
+    """List all interfaces."""

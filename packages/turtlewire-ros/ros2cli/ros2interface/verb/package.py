@@ -5,12 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import interface_packages
+from ros2interface.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "PackageVerb", "main"]
 
 
 ARGUMENTS = (
@@ -35,3 +37,8 @@ def main(args: argparse.Namespace) -> str | None:
             for name in packages[args.package_name][kind]:
                 print(f"{args.package_name}/{kind}/{name}")
     return None
+
+
+@verb_of_module
+class PackageVerb(VerbExtension):
+    """List the interfaces of a package."""

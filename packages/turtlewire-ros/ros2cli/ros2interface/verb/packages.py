@@ -5,11 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
+from ros2interface.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Iterable
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "PackagesVerb", "main", "print_packages"]
 
 
 ARGUMENTS = (
@@ -25,6 +28,16 @@ def main(args: argparse.Namespace) -> None:
 
     wanted = {"msg": args.only_msgs, "srv": args.only_srvs, "action": args.only_actions}
     kinds = [kind for kind in wanted if wanted[kind]] or list(wanted)
-    for package, names in sorted(msg.interface_names().items()):
-        if any(names[kind] for kind in kinds):
-            print(package)
+    found = sorted(msg.interface_names().items())
+    print_packages(package for package, names in found if any(names[kind] for kind in kinds))
+
+
+def print_packages(packs: Iterable[str]) -> None:
+    """Print names, one on each line."""
+    for name in packs:
+        print(name)
+
+
+@verb_of_module
+class PackagesVerb(VerbExtension):
+    """List the packages that have interfaces."""

@@ -5,12 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import interfaces
+from ros2interface.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "ProtoVerb", "main"]
 
 
 ARGUMENTS = (
@@ -35,3 +37,8 @@ def main(args: argparse.Namespace) -> str | None:
         return f"{type(error).__name__}: {error}{interface_meant(args.type)}"
     print(text if args.no_quotes else f'"{text}"')
     return None
+
+
+@verb_of_module
+class ProtoVerb(VerbExtension):
+    """Show an interface as YAML to fill in."""

@@ -6,14 +6,16 @@ import sys
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument, exclusive
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import interfaces
+from ros2interface.verb import VerbExtension
 from turtlewire.msg.parser import without_comment
 
 if TYPE_CHECKING:
     import argparse
     from collections.abc import Iterator
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "ShowVerb", "main"]
 
 
 ARGUMENTS = (
@@ -79,3 +81,8 @@ def _nested(line: str, package: str) -> str | None:
         owner = "std_msgs" if kind == "Header" else package
         return f"{owner}/msg/{kind}"
     return f"{parts[0]}/msg/{parts[-1]}"
+
+
+@verb_of_module
+class ShowVerb(VerbExtension):
+    """Show the definition of an interface."""

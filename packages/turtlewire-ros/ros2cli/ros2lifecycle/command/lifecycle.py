@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-__all__ = ["VERBS"]
+from ros2cli.builtin import command_of_module
+from ros2cli.command import CommandExtension
 
-VERBS = {
-    "get": "Show the state of managed nodes",
-    "list": "List the transitions that a managed node offers",
-    "nodes": "List the managed nodes",
-    "set": "Have a managed node change its state",
-}
+__all__ = ["VERB_GROUP", "LifecycleCommand"]
+
+VERB_GROUP = "ros2lifecycle.verb"
+
+
+@command_of_module
+class LifecycleCommand(CommandExtension):
+    """Show and change the states of managed nodes."""

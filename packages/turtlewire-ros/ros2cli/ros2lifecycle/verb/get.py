@@ -5,16 +5,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
-from ros2cli.completion import managed_node_names
+from ros2cli.builtin import verb_of_module
 from ros2cli.direct_node import DirectNode
 from ros2cli.discovery import STRATEGY_ARGUMENTS
-from ros2lifecycle.managed_nodes import HIDDEN_ARGUMENT
 from ros2cli.output import tell_failed_call
+from ros2lifecycle.managed_nodes import HIDDEN_ARGUMENT, managed_node_names
+from ros2lifecycle.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "GetVerb", "main"]
 
 
 ARGUMENTS = (
@@ -51,3 +52,8 @@ def main(args: argparse.Namespace) -> int:
             state = answer.current_state
             print(f"{'' if one else f'{name}: '}{state.label} [{state.id}]")
     return status
+
+
+@verb_of_module
+class GetVerb(VerbExtension):
+    """Show the state of managed nodes."""

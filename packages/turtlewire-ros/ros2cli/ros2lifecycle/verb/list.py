@@ -5,15 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
-from ros2cli.completion import managed_node_names
+from ros2cli.builtin import verb_of_module
 from ros2cli.direct_node import DirectNode
 from ros2cli.discovery import STRATEGY_ARGUMENTS
-from ros2lifecycle.managed_nodes import HIDDEN_ARGUMENT
+from ros2lifecycle.managed_nodes import HIDDEN_ARGUMENT, managed_node_names
+from ros2lifecycle.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "ListVerb", "main"]
 
 
 ARGUMENTS = (
@@ -43,3 +44,8 @@ def main(args: argparse.Namespace) -> None:
     for offered in answer.available_transitions:
         print(f"- {offered.transition.label} [{offered.transition.id}]")
         print(f"\tStart: {offered.start_state.label}\n\tGoal: {offered.goal_state.label}")
+
+
+@verb_of_module
+class ListVerb(VerbExtension):
+    """List the transitions that a managed node offers."""

@@ -5,13 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
 from ros2cli.listing import HIDDEN_NODES, count_argument, print_names
+from ros2lifecycle.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "NodesVerb", "main"]
 
 
 ARGUMENTS = (
@@ -34,3 +36,8 @@ def main(args: argparse.Namespace) -> None:
     with GraphNode(args.spin_time) as graph:
         names = managed_nodes(graph, hidden=args.all)
     print_names(names, args)
+
+
+@verb_of_module
+class NodesVerb(VerbExtension):
+    """List the managed nodes."""

@@ -5,16 +5,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
-from ros2cli.completion import managed_node_names
+from ros2cli.builtin import verb_of_module
 from ros2cli.direct_node import DirectNode
 from ros2cli.discovery import STRATEGY_ARGUMENTS
-from ros2lifecycle.managed_nodes import HIDDEN_ARGUMENT
 from ros2cli.output import tell
+from ros2lifecycle.managed_nodes import HIDDEN_ARGUMENT, managed_node_names
+from ros2lifecycle.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "SetVerb", "main"]
 
 
 ARGUMENTS = (
@@ -55,3 +56,8 @@ def main(args: argparse.Namespace) -> str | None:
             return None
     print("Transitioning successful")
     return None
+
+
+@verb_of_module
+class SetVerb(VerbExtension):
+    """Have a managed node change its state."""

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
-__all__ = ["VERBS"]
+from ros2cli.builtin import command_of_module
+from ros2cli.command import CommandExtension
 
-VERBS = {
-    "receive": "Wait for one datagram",
-    "send": "Send one datagram",
-}
+__all__ = ["VERB_GROUP", "MulticastCommand"]
+
+VERB_GROUP = "ros2multicast.verb"
+
+
+@command_of_module
+class MulticastCommand(CommandExtension):
+    """Find out whether this network passes multicast on."""

@@ -6,10 +6,9 @@ from typing import TYPE_CHECKING
 
 from ros2cli import verb
 from ros2cli.arguments import add_arguments
-from ros2multicast.api import GROUP_ARGUMENTS
 from ros2cli.plugin_system import PLUGIN_SYSTEM_VERSION
 from ros2cli.values import positive_int
-from ros2multicast.api import DEFAULT_GROUP, DEFAULT_PORT
+from ros2multicast.api import DEFAULT_GROUP, DEFAULT_PORT, GROUP_ARGUMENTS
 
 if TYPE_CHECKING:
     import argparse
@@ -26,7 +25,7 @@ __all__ = [
 
 
 class VerbExtension(verb.VerbExtension):
-    """Base of the verbs of ``ros2 multicast``."""
+    """The extension point for 'msg' verb extensions."""
 
 
 def add_group_argument(parser: argparse.ArgumentParser) -> None:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.builtin import verb_of_module
 from ros2multicast.api import GROUP_ARGUMENTS, MulticastSocket
+from ros2multicast.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "ReceiveVerb", "main"]
 
 
 ARGUMENTS = (*GROUP_ARGUMENTS,)
@@ -21,3 +23,8 @@ def main(args: argparse.Namespace) -> None:
         print("Waiting for UDP multicast datagram...")
         data, (host, port) = group.receive()
     print(f"Received from {host}:{port}: '{data.decode('utf-8', 'backslashreplace')}'")
+
+
+@verb_of_module
+class ReceiveVerb(VerbExtension):
+    """Wait for one datagram."""

@@ -5,13 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
-from ros2multicast.api import GROUP_ARGUMENTS, MulticastSocket
+from ros2cli.builtin import verb_of_module
 from ros2cli.values import unsigned_int
+from ros2multicast.api import GROUP_ARGUMENTS, MulticastSocket
+from ros2multicast.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "SendVerb", "main"]
 
 
 ARGUMENTS = (
@@ -25,3 +27,8 @@ def main(args: argparse.Namespace) -> None:
     print("Sending one UDP multicast datagram...")
     with MulticastSocket(args.group, args.port, args.ttl) as group:
         group.send(b"Hello World!")
+
+
+@verb_of_module
+class SendVerb(VerbExtension):
+    """Send one datagram."""

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
-__all__ = ["VERBS"]
+from ros2cli.builtin import command_of_module
+from ros2cli.command import CommandExtension
 
-VERBS = {
-    "info": "Show what a node publishes, subscribes to and offers",
-    "list": "List the nodes",
-}
+__all__ = ["VERB_GROUP", "NodeCommand"]
+
+VERB_GROUP = "ros2node.verb"
+
+
+@command_of_module
+class NodeCommand(CommandExtension):
+    """List nodes, show what one of them offers."""

@@ -5,17 +5,30 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import node_names
 from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
 from ros2cli.output import tell
+from ros2node.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Iterable
 
     from turtlewire.wire.base import Graph
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = [
+    "ARGUMENTS",
+    "INFO_NONUNIQUE_WARNING_TEMPLATE",
+    "InfoVerb",
+    "main",
+    "print_names_and_types",
+]
 
+INFO_NONUNIQUE_WARNING_TEMPLATE = (
+    'There are {num_nodes} nodes in the graph with the exact name "{node_name}". '
+    "You are seeing information about only one of them."
+)
 
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
@@ -42,8 +55,7 @@ def main(args: argparse.Namespace) -> str | None:
             return f"Unable to find node '{name}'{did_you_mean(name, known)}"
         if known.count(name) > 1:
             tell(
-                f'There are {known.count(name)} nodes in the graph with the exact name "{name}". '
-                "You are seeing information about only one of them."
+                INFO_NONUNIQUE_WARNING_TEMPLATE.format(num_nodes=known.count(name), node_name=name)
             )
         print(name)
         _print_section("Subscribers", ask.subscribers(graph, name, hidden=hidden))
@@ -69,4 +81,15 @@ def _say_what_is_not_callable(graph: Graph, node_name: str) -> None:
 
 def _print_section(title: str, found: list[tuple[str, list[str]]]) -> None:
     print(f"  {title}:")
-    print("\n".join(f"    {name}: {', '.join(types)}" for name, types in found))
+    print_names_and_types(found)
+
+
+def print_names_and_types(names_and_types: Iterable[tuple[str, list[str]]]) -> None:
+    """Print topics, services or actions with their types, indented."""
+    for name, types in names_and_types:
+        print(f"    {name}: {', '.join(types)}")
+
+
+@verb_of_module
+class InfoVerb(VerbExtension):
+    """Show what a node publishes, subscribes to and offers."""

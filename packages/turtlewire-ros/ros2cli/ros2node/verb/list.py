@@ -5,14 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
 from ros2cli.listing import HIDDEN_NODES, count_argument, print_names
 from ros2cli.output import tell
+from ros2node.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "ListVerb", "main"]
 
 
 ARGUMENTS = (
@@ -37,3 +39,8 @@ def main(args: argparse.Namespace) -> None:
             "which can have unintended side effects."
         )
     print_names(names, args)
+
+
+@verb_of_module
+class ListVerb(VerbExtension):
+    """List the nodes."""

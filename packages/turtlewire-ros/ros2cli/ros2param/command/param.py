@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-__all__ = ["VERBS"]
+from ros2cli.builtin import command_of_module
+from ros2cli.command import CommandExtension
 
-VERBS = {
-    "delete": "Delete a parameter",
-    "describe": "Show what a parameter is for, and its limits",
-    "dump": "Show all parameters of a node as a parameter file",
-    "get": "Show the value of a parameter",
-    "list": "List the parameters",
-    "load": "Set the parameters of a node from a file",
-    "set": "Set a parameter",
-}
+__all__ = ["VERB_GROUP", "ParamCommand"]
+
+VERB_GROUP = "ros2param.verb"
+
+
+@command_of_module
+class ParamCommand(CommandExtension):
+    """Read and set parameters of nodes."""

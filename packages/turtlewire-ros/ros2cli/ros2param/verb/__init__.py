@@ -9,4 +9,4 @@ __all__ = ["PLUGIN_SYSTEM_VERSION", "VerbExtension"]
 
 
 class VerbExtension(verb.VerbExtension):
-    """Base of the verbs of ``ros2 param``."""
+    """The extension point for 'param' verb extensions."""

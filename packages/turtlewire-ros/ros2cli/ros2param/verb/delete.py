@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.builtin import verb_of_module
 from ros2cli.direct_node import DirectNode
 from ros2cli.output import tell
 from ros2param.options import NAME_ARGUMENT, node_arguments
 from ros2param.parameters import RemoteParameters
+from ros2param.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "DeleteVerb", "main"]
 
 
 ARGUMENTS = (*node_arguments(), NAME_ARGUMENT)
@@ -29,3 +31,8 @@ def main(args: argparse.Namespace) -> None:
         print(f"Deleted parameter successfully{reason}")
     else:
         tell(f"Deleting parameter failed{reason}{meant}")
+
+
+@verb_of_module
+class DeleteVerb(VerbExtension):
+    """Delete a parameter."""

@@ -5,16 +5,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
-from ros2cli.completion import parameter_names
+from ros2cli.builtin import verb_of_module
 from ros2cli.direct_node import DirectNode
 from ros2cli.output import tell
-from ros2param.options import node_arguments
+from ros2param.options import node_arguments, parameter_names
 from ros2param.parameters import TYPE_NAMES, RemoteParameters
+from ros2param.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "DescribeVerb", "main"]
 
 
 ARGUMENTS = (
@@ -53,3 +54,8 @@ def _print(descriptor: Any) -> None:
             print(f"    Step: {limits.step}")
     if descriptor.additional_constraints:
         print(f"    Additional constraints: {descriptor.additional_constraints}")
+
+
+@verb_of_module
+class DescribeVerb(VerbExtension):
+    """Show what a parameter is for, and its limits."""

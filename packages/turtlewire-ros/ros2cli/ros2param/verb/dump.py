@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from ros2cli.builtin import verb_of_module
 from ros2cli.direct_node import DirectNode
 from ros2param.options import node_arguments
 from ros2param.parameters import RemoteParameters
+from ros2param.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "insert", "main"]
+__all__ = ["ARGUMENTS", "PARAMETER_SEPARATOR_STRING", "DumpVerb", "insert", "main"]
 
+PARAMETER_SEPARATOR_STRING = "."
 
 ARGUMENTS = (*node_arguments(),)
 
@@ -29,7 +32,9 @@ def main(args: argparse.Namespace) -> None:
         values = remote.values(names)
     tree: dict[str, Any] = {}
     for name, message in zip(names, values, strict=True):
-        insert(tree, name.split("."), _plain(parameter_value_to_python(message)))
+        insert(
+            tree, name.split(PARAMETER_SEPARATOR_STRING), _plain(parameter_value_to_python(message))
+        )
     print(yaml.safe_dump({remote.node_name: {"ros__parameters": tree}}, default_flow_style=False))
 
 
@@ -42,3 +47,12 @@ def insert(tree: dict[str, Any], path: list[str], value: Any) -> None:
 
 def _plain(value: Any) -> Any:
     return list(value) if hasattr(value, "typecode") else value
+
+
+@verb_of_module
+class DumpVerb(VerbExtension):
+    """Show all parameters of a node as a parameter file."""
+
+    def insert_dict(self, dictionary: dict[str, Any], key: str, value: Any) -> None:
+        """Put a value into nested dictionaries, one for each part of a dotted name."""
+        insert(dictionary, key.split(PARAMETER_SEPARATOR_STRING), value)

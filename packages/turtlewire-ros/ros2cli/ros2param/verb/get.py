@@ -5,14 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.direct_node import DirectNode
 from ros2param.options import NAME_ARGUMENT, node_arguments
 from ros2param.parameters import RemoteParameters
+from ros2param.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "GetVerb", "main"]
 
 _LABELS = {
     1: "Boolean value is:",
@@ -47,3 +49,8 @@ def main(args: argparse.Namespace) -> str | None:
     shown = list(value) if hasattr(value, "typecode") else value
     print(shown if args.hide_type else f"{_LABELS[values[0].type]} {shown}")
     return None
+
+
+@verb_of_module
+class GetVerb(VerbExtension):
+    """Show the value of a parameter."""

@@ -6,17 +6,19 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.direct_node import DirectNode
 from ros2cli.output import tell_failed_call
+from ros2cli.values import regular_expression
 from ros2param.options import node_arguments
 from ros2param.parameters import TYPE_NAMES, Question
-from ros2cli.values import regular_expression
+from ros2param.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
     from collections.abc import Collection
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "ListVerb", "main"]
 
 
 ARGUMENTS = (
@@ -122,3 +124,8 @@ def _say_that_it_has_none(node_name: str) -> None:
     namespace, _, name = node_name.rpartition("/")
     shown = f"NodeName(name='{name}', namespace='{namespace or '/'}', full_name='{node_name}')"
     print(f"Wait for service timed out waiting for parameter services for node {shown}")
+
+
+@verb_of_module
+class ListVerb(VerbExtension):
+    """List the parameters."""

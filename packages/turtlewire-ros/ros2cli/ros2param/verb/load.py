@@ -5,16 +5,18 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import files
 from ros2cli.direct_node import DirectNode
 from ros2cli.output import print_set_results
 from ros2param.options import node_arguments
 from ros2param.parameters import RemoteParameters
+from ros2param.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "LoadVerb", "main"]
 
 
 ARGUMENTS = (
@@ -39,3 +41,8 @@ def main(args: argparse.Namespace) -> None:
         )
         results = remote.set(parameters)
     print_set_results(parameters, results)
+
+
+@verb_of_module
+class LoadVerb(VerbExtension):
+    """Set the parameters of a node from a file."""

@@ -5,15 +5,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.direct_node import DirectNode
 from ros2cli.output import tell
 from ros2param.options import NAME_ARGUMENT, node_arguments
 from ros2param.parameters import RemoteParameters
+from ros2param.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "SetVerb", "main"]
 
 
 ARGUMENTS = (
@@ -38,3 +40,8 @@ def main(args: argparse.Namespace) -> None:
         print(f"Set parameter successful{reason}")
     else:
         tell(f"Setting parameter failed{reason}{meant}")
+
+
+@verb_of_module
+class SetVerb(VerbExtension):
+    """Set a parameter."""

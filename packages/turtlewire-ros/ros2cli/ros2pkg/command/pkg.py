@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-__all__ = ["VERBS"]
+from ros2cli.builtin import command_of_module
+from ros2cli.command import CommandExtension
 
-VERBS = {
-    "create": "Create a package",
-    "executables": "List the executables of packages",
-    "list": "List the installed packages",
-    "prefix": "Show the prefix that a package is installed in",
-    "xml": "Show the package.xml of a package",
-}
+__all__ = ["VERB_GROUP", "PkgCommand"]
+
+VERB_GROUP = "ros2pkg.verb"
+
+
+@command_of_module
+class PkgCommand(CommandExtension):
+    """List and create packages."""

@@ -6,14 +6,16 @@ import os
 import re
 from typing import TYPE_CHECKING
 
-from ros2pkg import package_template
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import files
+from ros2pkg import package_template
+from ros2pkg.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "CreateVerb", "main"]
 
 _NAME = re.compile(r"[a-z](?:[a-z0-9]|_(?!_))*")
 _NODE_NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
@@ -128,3 +130,8 @@ def _write(folder: str, files: dict[str, str]) -> None:
         print(f"creating {target}")
         with open(target, "w", encoding="utf-8") as file:
             file.write(text)
+
+
+@verb_of_module
+class CreateVerb(VerbExtension):
+    """Create a package."""

@@ -6,12 +6,14 @@ import os
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import packages
+from ros2pkg.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "ExecutablesVerb", "main"]
 
 
 ARGUMENTS = (
@@ -38,3 +40,8 @@ def main(args: argparse.Namespace) -> str | None:
         for path in paths:
             print(path if args.full_path else f"{name} {os.path.basename(path)}")
     return None
+
+
+@verb_of_module
+class ExecutablesVerb(VerbExtension):
+    """List the executables of packages."""

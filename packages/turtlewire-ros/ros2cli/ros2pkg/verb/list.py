@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.builtin import verb_of_module
+from ros2pkg.verb import VerbExtension
+
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["main"]
+__all__ = ["ListVerb", "main"]
 
 
 def main(_args: argparse.Namespace) -> None:
@@ -16,3 +19,8 @@ def main(_args: argparse.Namespace) -> None:
 
     for name in sorted(package_names()):
         print(name)
+
+
+@verb_of_module
+class ListVerb(VerbExtension):
+    """List the installed packages."""

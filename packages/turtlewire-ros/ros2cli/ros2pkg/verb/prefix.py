@@ -5,13 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import packages
+from ros2pkg.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "PACKAGE_NOT_FOUND", "PrefixVerb", "main"]
 
+PACKAGE_NOT_FOUND = "Package not found"
 
 ARGUMENTS = (
     argument("package_name", help="Name of the package", completer=packages),
@@ -26,6 +29,11 @@ def main(args: argparse.Namespace) -> str | None:
 
     folder = (share_directory if args.share else package_prefix)(args.package_name)
     if folder is None:
-        return f"Package not found{package_meant(args.package_name)}"
+        return f"{PACKAGE_NOT_FOUND}{package_meant(args.package_name)}"
     print(folder)
     return None
+
+
+@verb_of_module
+class PrefixVerb(VerbExtension):
+    """Show the prefix that a package is installed in."""

@@ -6,13 +6,25 @@ import os
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import packages
+from ros2pkg.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = [
+    "ARGUMENTS",
+    "PACKAGE_NOT_FOUND",
+    "PACKAGE_XML_NOT_FOUND",
+    "PACKAGE_XML_TAG_NOT_FOUND",
+    "XmlVerb",
+    "main",
+]
 
+PACKAGE_NOT_FOUND = "Package not found"
+PACKAGE_XML_NOT_FOUND = "Package XML manifest not found"
+PACKAGE_XML_TAG_NOT_FOUND = "XML tag not found"
 
 ARGUMENTS = (
     argument("package_name", help="Name of the package", completer=packages),
@@ -27,7 +39,7 @@ def main(args: argparse.Namespace) -> str | None:
 
     share = share_directory(args.package_name)
     if share is None:
-        return f"Package not found{package_meant(args.package_name)}"
+        return f"{PACKAGE_NOT_FOUND}{package_meant(args.package_name)}"
     path = os.path.join(share, "package.xml")
     with open(path, encoding="utf-8") as file:
         text = file.read()
@@ -47,3 +59,8 @@ def main(args: argparse.Namespace) -> str | None:
     for element in elements:
         print("".join(element.itertext()))
     return None
+
+
+@verb_of_module
+class XmlVerb(VerbExtension):
+    """Show the package.xml of a package."""

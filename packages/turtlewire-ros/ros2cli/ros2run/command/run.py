@@ -8,10 +8,12 @@ import shlex
 import signal
 
 from ros2cli.arguments import argument
-from ros2run.child import run
+from ros2cli.builtin import command_of_module
+from ros2cli.command import CommandExtension
 from ros2cli.completion import arguments_of_executable, executables, packages
+from ros2run.child import run
 
-__all__ = ["ARGUMENTS", "main", "named", "run_and_tell"]
+__all__ = ["ARGUMENTS", "RunCommand", "main", "named", "run_and_tell"]
 
 
 ARGUMENTS = (
@@ -71,3 +73,8 @@ def run_and_tell(command: list[str]) -> int:
     except SystemExit as unwritten:  # as the program's own output was, which has said so
         raise SystemExit(status if status > 0 else unwritten.code) from None
     return status
+
+
+@command_of_module
+class RunCommand(CommandExtension):
+    """Run an executable of a package."""

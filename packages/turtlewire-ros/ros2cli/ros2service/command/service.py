@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
+from ros2cli.builtin import command_of_module
+from ros2cli.command import CommandExtension
 from ros2cli.listing import hidden_argument
 
-__all__ = ["ARGUMENTS", "VERBS"]
+__all__ = ["ARGUMENTS", "VERB_GROUP", "ServiceCommand"]
 
-VERBS = {
-    "call": "Call a service",
-    "echo": "Print the requests and responses of a service that has introspection on",
-    "find": "List the services of a type",
-    "info": "Show how many offer and may call a service",
-    "list": "List the services",
-    "type": "Show the type of a service",
-}
+VERB_GROUP = "ros2service.verb"
 
 
 ARGUMENTS = (hidden_argument("service"),)
+
+
+@command_of_module
+class ServiceCommand(CommandExtension):
+    """List services, call one, watch the calls of others."""

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+import argparse
 import sys
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument, exclusive
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import request_values, service_names, service_types
+from ros2cli.node import NODE_NAME_PREFIX
 from ros2cli.values import positive_float, read_values, shortened
+from ros2service.verb import VerbExtension
 
 if TYPE_CHECKING:
-    import argparse
-
     from ros2cli.direct_node import DirectNode
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "NODE_NAME_PREFIX", "CallVerb", "main", "requester"]
 
 
 ARGUMENTS = (
@@ -101,3 +103,32 @@ def _call(direct: DirectNode, client: Any, request: Any) -> None:
     server = f"service '{client.srv_name}'"
     response = direct.answer(client.call_async(request), server, client.service_is_ready)
     print(f"response:\n{response!r}\n")
+
+
+def requester(service_type: str, service_name: str, values: str, period: float | None) -> Any:
+    """Call a service, and print the response.
+
+    Args:
+        service_type: Its type, for example ``turtlesim/srv/Spawn``.
+        service_name: Its name.
+        values: Values of the request as YAML.
+        period: Seconds between calls; None calls once.
+
+    Returns:
+        The text of an error, or None.
+    """
+    rate = None if period is None else 1.0 / period
+    return main(
+        argparse.Namespace(
+            service_type=service_type,
+            service_name=service_name,
+            values=values,
+            stdin=False,
+            rate=rate,
+        )
+    )
+
+
+@verb_of_module
+class CallVerb(VerbExtension):
+    """Call a service."""

@@ -5,17 +5,20 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import service_names, service_types
 from ros2cli.qos_options import QOS_ARGUMENTS, with_options
 from ros2cli.values import unsigned_int
+from ros2service.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
     from turtlewire.wire.base import Graph
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "DEFAULT_TRUNCATE_LENGTH", "EchoVerb", "main"]
 
+DEFAULT_TRUNCATE_LENGTH = 128
 
 ARGUMENTS = (
     argument(
@@ -36,7 +39,7 @@ ARGUMENTS = (
         "-l",
         "--truncate-length",
         type=unsigned_int,
-        default=128,
+        default=DEFAULT_TRUNCATE_LENGTH,
         help="Length to which arrays and strings are shortened",
     ),
     argument("--no-arr", action="store_true", help="Show only the types of arrays"),
@@ -111,3 +114,8 @@ def _text(event: Any, args: argparse.Namespace) -> str:
     if number in list(EventType):  # the wire may say anything
         text = text.replace(f"event_type: {number}\n", f"event_type: {EventType(number).name}\n", 1)
     return text + "---"
+
+
+@verb_of_module
+class EchoVerb(VerbExtension):
+    """Print the requests and responses of a service that has introspection on."""

@@ -5,14 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import interfaces
 from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
 from ros2cli.listing import count_argument, hidden_argument, print_names_of_type
+from ros2service.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "FindVerb", "main"]
 
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
@@ -33,3 +35,8 @@ def main(args: argparse.Namespace) -> None:
     with GraphNode(args.spin_time) as graph:
         found = services(graph, hidden=args.include_hidden_services)
     print_names_of_type(found, args.service_type, "srv", args)
+
+
+@verb_of_module
+class FindVerb(VerbExtension):
+    """List the services of a type."""

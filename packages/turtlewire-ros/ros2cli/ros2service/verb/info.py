@@ -5,13 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import service_names
 from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
+from ros2service.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "InfoVerb", "main"]
 
 
 ARGUMENTS = (
@@ -38,3 +40,8 @@ def main(args: argparse.Namespace) -> str | None:
         print(f"Clients count: {len(endpoints_of_topic(graph, request, 'publisher'))}")
         print(f"Services count: {len(endpoints_of_topic(graph, request, 'subscription'))}")
     return None
+
+
+@verb_of_module
+class InfoVerb(VerbExtension):
+    """Show how many offer and may call a service."""

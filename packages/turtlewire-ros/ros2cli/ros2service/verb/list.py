@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
 from ros2cli.listing import SHOW_TYPES, count_argument, hidden_argument, print_names_and_types
+from ros2service.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "ListVerb", "main"]
 
 ARGUMENTS = (*STRATEGY_ARGUMENTS, SHOW_TYPES, count_argument("service"), hidden_argument("service"))
 
@@ -22,3 +24,8 @@ def main(args: argparse.Namespace) -> None:
     with GraphNode(args.spin_time) as graph:
         found = services(graph, hidden=args.include_hidden_services)
     print_names_and_types(found, args)
+
+
+@verb_of_module
+class ListVerb(VerbExtension):
+    """List the services."""

@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
+from ros2cli.builtin import command_of_module
+from ros2cli.command import CommandExtension
 from ros2cli.listing import hidden_argument
 
-__all__ = ["ARGUMENTS", "VERBS"]
+__all__ = ["ARGUMENTS", "VERB_GROUP", "TopicCommand"]
 
-VERBS = {
-    "bw": "Show the bandwidth of a topic",
-    "delay": "Show the delay of a topic, by the stamps in its headers",
-    "echo": "Show the messages of a topic",
-    "find": "List the topics of a type",
-    "hz": "Show the rate of a topic",
-    "info": "Show who publishes and subscribes to a topic",
-    "list": "List the topics",
-    "pub": "Publish messages to a topic",
-    "type": "Show the type of a topic",
-}
+VERB_GROUP = "ros2topic.verb"
 
 
 ARGUMENTS = (hidden_argument("topic"),)
+
+
+@command_of_module
+class TopicCommand(CommandExtension):
+    """List topics, listen to one, publish to one."""

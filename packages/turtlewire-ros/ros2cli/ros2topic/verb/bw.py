@@ -6,15 +6,17 @@ import time
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
-from ros2topic.statistics import Sizes
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import topic_names
 from ros2cli.discovery import SPIN_ARGUMENTS
 from ros2cli.values import positive_int
+from ros2topic.statistics import Sizes
+from ros2topic.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "BwVerb", "main"]
 
 
 ARGUMENTS = (
@@ -51,3 +53,8 @@ def main(args: argparse.Namespace) -> None:
         )
         direct.node.create_timer(1.0, lambda: print(end=sizes.report(time.monotonic())))
         direct.spin()
+
+
+@verb_of_module
+class BwVerb(VerbExtension):
+    """Show the bandwidth of a topic."""

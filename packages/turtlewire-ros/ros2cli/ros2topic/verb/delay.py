@@ -5,17 +5,19 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
-from ros2topic.statistics import Delays
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import topic_names
 from ros2cli.discovery import SPIN_ARGUMENTS
 from ros2cli.values import positive_int
+from ros2topic.statistics import Delays
+from ros2topic.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
     from rclpy.clock import Clock
 
-__all__ = ["ARGUMENTS", "age", "main"]
+__all__ = ["ARGUMENTS", "DelayVerb", "age", "main"]
 
 
 ARGUMENTS = (
@@ -61,3 +63,8 @@ def age(message: Any, clock: Clock) -> float:
     stamp = message.header.stamp
     stamp_ns: int = stamp.sec * 1_000_000_000 + stamp.nanosec
     return (clock.now().nanoseconds - stamp_ns) / 1e9
+
+
+@verb_of_module
+class DelayVerb(VerbExtension):
+    """Show the delay of a topic, by the stamps in its headers."""

@@ -6,10 +6,12 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import topic_names, topic_types
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.qos_options import QOS_ARGUMENTS, asked_for, matching_publishers, with_options
 from ros2cli.values import positive_float, unsigned_int
+from ros2topic.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
@@ -17,8 +19,9 @@ if TYPE_CHECKING:
 
     from ros2cli.direct_node import DirectNode
 
-__all__ = ["ARGUMENTS", "main", "make_filter"]
+__all__ = ["ARGUMENTS", "DEFAULT_TRUNCATE_LENGTH", "EchoVerb", "main", "make_filter"]
 
+DEFAULT_TRUNCATE_LENGTH = 128
 
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
@@ -39,7 +42,7 @@ ARGUMENTS = (
         "-l",
         "--truncate-length",
         type=unsigned_int,
-        default=128,
+        default=DEFAULT_TRUNCATE_LENGTH,
         help="Length to which arrays and strings are shortened",
     ),
     argument("--no-arr", action="store_true", help="Show only the types of arrays"),
@@ -224,3 +227,8 @@ def _lost(args: argparse.Namespace) -> Any:
         )
 
     return SubscriptionEventCallbacks(message_lost=report)
+
+
+@verb_of_module
+class EchoVerb(VerbExtension):
+    """Show the messages of a topic."""

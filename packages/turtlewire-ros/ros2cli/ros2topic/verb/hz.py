@@ -6,15 +6,17 @@ import time
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
-from ros2topic.statistics import Intervals
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import topic_names
 from ros2cli.discovery import SPIN_ARGUMENTS
 from ros2cli.values import positive_int
+from ros2topic.statistics import Intervals
+from ros2topic.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "HzVerb", "main"]
 
 
 ARGUMENTS = (
@@ -41,9 +43,9 @@ ARGUMENTS = (
 def main(args: argparse.Namespace) -> None:
     """Print the rate every second, while messages come."""
     from rclpy.qos import qos_profile_sensor_data
-    from ros2topic.verb.echo import make_filter
     from ros2cli.direct_node import DirectNode
     from ros2topic.topic_type import type_of_topic
+    from ros2topic.verb.echo import make_filter
 
     keep = make_filter(args.filter_expr)
     with DirectNode(args) as direct:
@@ -65,3 +67,8 @@ def main(args: argparse.Namespace) -> None:
         )
         direct.node.create_timer(1.0, lambda: print(end=intervals.report()))
         direct.spin()
+
+
+@verb_of_module
+class HzVerb(VerbExtension):
+    """Show the rate of a topic."""

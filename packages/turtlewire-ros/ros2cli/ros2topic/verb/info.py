@@ -5,13 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import topic_names
 from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
+from ros2topic.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "InfoVerb", "main"]
 
 
 ARGUMENTS = (
@@ -45,3 +47,8 @@ def main(args: argparse.Namespace) -> str | None:
                     print(f"\n{TopicEndpointInfo.from_wire(end)}")
         print(end=gap)
     return None
+
+
+@verb_of_module
+class InfoVerb(VerbExtension):
+    """Show who publishes and subscribes to a topic."""

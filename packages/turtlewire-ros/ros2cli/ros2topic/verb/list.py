@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
 from ros2cli.listing import (
     SHOW_TYPES,
@@ -12,6 +13,7 @@ from ros2cli.listing import (
     hidden_argument,
     print_names_and_types,
 )
+from ros2topic.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
@@ -19,7 +21,7 @@ if TYPE_CHECKING:
     from ros2cli.graph import NamesAndTypes
     from turtlewire.wire.base import Graph
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "ListVerb", "main"]
 
 
 ARGUMENTS = (
@@ -56,3 +58,8 @@ def _print_verbose(graph: Graph, found: NamesAndTypes) -> None:
             if count:
                 print(f" * {name} [{', '.join(types)}] {count} {word}{'' if count == 1 else 's'}")
         print()
+
+
+@verb_of_module
+class ListVerb(VerbExtension):
+    """List the topics."""

@@ -7,17 +7,19 @@ import time
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument, exclusive
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import message_values, topic_names, topic_types
 from ros2cli.discovery import SPIN_ARGUMENTS
 from ros2cli.qos_options import QOS_ARGUMENTS, with_options
 from ros2cli.values import positive_float, positive_int, read_values, shortened, unsigned_int
+from ros2topic.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
     from ros2cli.direct_node import DirectNode
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "PubVerb", "main"]
 
 _SAY_WAITING_EVERY_S = 1.0
 
@@ -171,3 +173,8 @@ def _publish(
     timer = direct.node.create_timer(1.0 / args.rate, publish_next)
     direct.result(end)
     direct.node.destroy_timer(timer)
+
+
+@verb_of_module
+class PubVerb(VerbExtension):
+    """Publish messages to a topic."""

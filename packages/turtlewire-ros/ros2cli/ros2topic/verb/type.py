@@ -5,14 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import topic_names
 from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
 from ros2cli.listing import print_types
+from ros2topic.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "TypeVerb", "main"]
 
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
@@ -27,3 +29,8 @@ def main(args: argparse.Namespace) -> int:
     with GraphNode(args.spin_time) as graph:
         known = dict(topics(graph, hidden=True))
     return print_types("topic", args.topic_name, known)
+
+
+@verb_of_module
+class TypeVerb(VerbExtension):
+    """Show the type of a topic."""

@@ -11,14 +11,13 @@ from tests.needs import HAS_CYCLONE_DDS
 
 import rclpy
 from ros2cli import direct_node, helpers, plugin_system
-from ros2cli.commands import COMMANDS
 from ros2cli.entry_points import get_entry_points, get_first_line_doc
+from ros2cli.installed import declared
 from ros2cli.node.daemon import DaemonNode, is_daemon_running, shutdown_daemon, spawn_daemon
 from ros2cli.node.direct import DirectNode
 from ros2cli.node.strategy import NodeStrategy
 
-GROUPS = ["ros2cli.command", "ros2cli.daemon.verb"]
-GROUPS += [f"ros2{name}.verb" for name in COMMANDS if name not in ("daemon", "wtf")]
+GROUPS = [*declared("ros2cli.extension_point")]
 
 PEER = """
 import sys, threading

@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import pytest
 
 from rclpy.task import Future
-from ros2topic.verb.echo import _field, _Printer, make_filter
 from ros2cli.main import make_parser
+from ros2topic.verb.echo import _field, _Printer, make_filter
 from turtlewire.msg import get_message
 
 

@@ -7,9 +7,9 @@ import sys
 
 import pytest
 
-from ros2cli.commands import COMMANDS
-from ros2doctor.verb.hello import _Hello
+from ros2cli.installed import declared
 from ros2cli.main import main, make_parser
+from ros2doctor.verb.hello import _Hello
 
 ROS2 = "from ros2cli.main import main; import sys; sys.exit(main(sys.argv[1:]))"
 
@@ -17,7 +17,7 @@ ROS2 = "from ros2cli.main import main; import sys; sys.exit(main(sys.argv[1:]))"
 def test_every_command_and_verb_is_listed(capsys):
     assert main(["extensions"]) == 0
     listed = capsys.readouterr().out
-    for command in COMMANDS:
+    for command in declared("ros2cli.command"):
         assert f"\n  {command}: " in listed
     assert "ros2doctor.verb\n  hello: " in listed
     assert main(["extensions", "-v"]) == 0

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from ros2launch.command import launch
 from ros2cli.main import main, make_parser
+from ros2launch.command import launch
 
 
 def parsed(*words):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-import pkgutil
 import signal
 import subprocess
 import sys
@@ -12,7 +11,7 @@ import threading
 import pytest
 
 from ros2cli import main as ros2cli_main
-from ros2cli.commands import COMMANDS
+from ros2cli.installed import declared
 from ros2cli.main import main, make_parser
 from turtlewire import msg
 from turtlewire.wire import open_context
@@ -21,7 +20,7 @@ from turtlewire.wire.qos import QoS
 
 
 def test_every_command_and_verb_can_be_loaded(capsys):
-    for command in COMMANDS:
+    for command in declared("ros2cli.command"):
         with pytest.raises(SystemExit) as end:
             main([command, "--help"])
         assert end.value.code == 0
@@ -233,9 +232,8 @@ def test_a_reader_of_messages_that_ends_early_is_no_error(verb, lines):
 
 
 def test_the_command_line_of_every_verb_is_data():
-    import ros2cli.commands
-
-    found = pkgutil.walk_packages(ros2cli.commands.__path__, "ros2cli.commands.")
-    modules = [importlib.import_module(module.name) for module in found]
+    groups = list(declared("ros2cli.extension_point"))
+    entries = [entry for group in groups for entry in declared(group).values()]
+    modules = [importlib.import_module(entry.module) for entry in entries]
     assert len(modules) > 50
     assert [module.__name__ for module in modules if hasattr(module, "add_arguments")] == []

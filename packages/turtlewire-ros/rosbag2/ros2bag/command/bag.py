@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-__all__ = ["VERBS"]
+from ros2cli.builtin import command_of_module
+from ros2cli.command import CommandExtension
 
-VERBS = {
-    "burst": "Publish the first messages of a bag at once",
-    "convert": "Write the messages of bags into others",
-    "info": "Show what a bag holds",
-    "list": "List the storages and compressions that can be used",
-    "play": "Publish the messages of a bag at their times",
-    "record": "Record topics and service events into a bag",
-    "reindex": "Write the metadata of a bag anew, for example of a recording that was killed",
-}
+__all__ = ["VERB_GROUP", "BagCommand"]
+
+VERB_GROUP = "ros2bag.verb"
+
+
+@command_of_module
+class BagCommand(CommandExtension):
+    """Look at recorded messages."""

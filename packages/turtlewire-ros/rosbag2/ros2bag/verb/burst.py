@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ros2cli.arguments import argument
 from ros2bag.options import (
     BAG_PATH,
     QOS_OVERRIDES,
@@ -17,12 +16,16 @@ from ros2bag.options import (
     qos_overrides,
     remap_words,
 )
+from ros2bag.verb import VerbExtension
+from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
+from ros2cli.node import NODE_NAME_PREFIX
 from ros2cli.values import unsigned_int
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "NODE_NAME_PREFIX", "BurstVerb", "main"]
 
 ARGUMENTS = (
     BAG_PATH,
@@ -72,3 +75,8 @@ def main(args: argparse.Namespace) -> None:
     )
     storage = StorageOptions(uri=args.bag_path, storage_id=args.storage)
     Player().burst(storage, options, args.num_messages)
+
+
+@verb_of_module
+class BurstVerb(VerbExtension):
+    """Publish the first messages of a bag at once."""

@@ -5,14 +5,16 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING, Any
 
-from ros2cli.arguments import argument
 from ros2bag.options import STORAGES, bag_path
+from ros2bag.verb import VerbExtension
+from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import files
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "ConvertVerb", "main"]
 
 
 class _Input(argparse.Action):
@@ -70,3 +72,8 @@ def main(args: argparse.Namespace) -> None:
 
     inputs = [StorageOptions(uri=uri, storage_id=storage) for uri, storage in args.input]
     bag_rewrite(inputs, args.output_options)
+
+
+@verb_of_module
+class ConvertVerb(VerbExtension):
+    """Write the messages of bags into others."""

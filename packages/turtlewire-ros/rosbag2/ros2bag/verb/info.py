@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ros2cli.arguments import argument
 from ros2bag.options import BAG_PATH, STORAGE
+from ros2bag.verb import VerbExtension
+from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "InfoVerb", "main"]
 
 
 ARGUMENTS = (
@@ -49,3 +51,8 @@ def _tell_of_other_encodings(path: str) -> None:
     with open_bag(path) as bag:
         if foreign := not_in_cdr(bag.topics.values()):
             tell(foreign)
+
+
+@verb_of_module
+class InfoVerb(VerbExtension):
+    """Show what a bag holds."""

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2bag.verb import VerbExtension
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "ListVerb", "main"]
 
 _PLUGINS = {
     "storage": {
@@ -34,3 +36,8 @@ def main(args: argparse.Namespace) -> None:
         print(name)
         if args.verbose:
             print(f"\t{what}")
+
+
+@verb_of_module
+class ListVerb(VerbExtension):
+    """List the storages and compressions that can be used."""

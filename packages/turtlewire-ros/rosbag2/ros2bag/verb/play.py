@@ -6,7 +6,6 @@ import argparse
 import math
 from typing import TYPE_CHECKING
 
-from ros2cli.arguments import argument, exclusive
 from ros2bag.options import (
     BAG_PATH,
     LOG_LEVEL,
@@ -20,11 +19,16 @@ from ros2bag.options import (
     qos_overrides,
     remap_words,
 )
+from ros2bag.verb import VerbExtension
+from ros2cli.arguments import argument, exclusive
+from ros2cli.builtin import verb_of_module
+from ros2cli.node import NODE_NAME_PREFIX
+from ros2cli.values import positive_float
 
 if TYPE_CHECKING:
     from rosbag2_py import PlayOptions
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "NODE_NAME_PREFIX", "PlayVerb", "main", "positive_float"]
 
 
 def _more_than_zero(text: str) -> float:
@@ -205,3 +209,8 @@ def _play_options(args: argparse.Namespace) -> PlayOptions:
         publish_service_requests=args.publish_service_requests,
         service_requests_source=ServiceRequestsSource[args.service_requests_source.upper()],
     )
+
+
+@verb_of_module
+class PlayVerb(VerbExtension):
+    """Publish the messages of a bag at their times."""

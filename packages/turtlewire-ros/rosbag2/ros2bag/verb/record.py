@@ -6,7 +6,6 @@ import os
 import time
 from typing import TYPE_CHECKING
 
-from ros2cli.arguments import argument, exclusive
 from ros2bag.options import (
     LOG_LEVEL,
     QOS_OVERRIDES,
@@ -17,7 +16,11 @@ from ros2bag.options import (
     existing_file,
     qos_overrides,
 )
+from ros2bag.verb import VerbExtension
+from ros2cli.arguments import argument, exclusive
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import files, message_types, service_names, topic_names
+from ros2cli.node import NODE_NAME_PREFIX
 from ros2cli.values import unsigned_int
 
 if TYPE_CHECKING:
@@ -25,7 +28,7 @@ if TYPE_CHECKING:
 
     from rosbag2_py import RecordOptions, StorageOptions
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "NODE_NAME_PREFIX", "RecordVerb", "main"]
 
 _ERROR, _WARN = "[ERROR] [ros2bag]: ", "[WARN] [ros2bag]: "
 _NOTHING_CHOSEN = (
@@ -331,3 +334,8 @@ def _record_options(args: argparse.Namespace) -> RecordOptions:
         use_sim_time=args.use_sim_time,
         disable_keyboard_controls=args.disable_keyboard_controls,
     )
+
+
+@verb_of_module
+class RecordVerb(VerbExtension):
+    """Record topics and service events into a bag."""

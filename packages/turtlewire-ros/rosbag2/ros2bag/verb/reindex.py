@@ -6,14 +6,16 @@ import os
 import time
 from typing import TYPE_CHECKING
 
-from ros2cli.arguments import argument
 from ros2bag.options import STORAGE, bag_path
+from ros2bag.verb import VerbExtension
+from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
 from ros2cli.completion import folders
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "ReindexVerb", "main"]
 
 
 ARGUMENTS = (
@@ -37,3 +39,8 @@ def main(args: argparse.Namespace) -> str | None:
         Reindexer().reindex(StorageOptions(uri=args.bag_path, storage_id=args.storage))
     logger.info("Reindexing complete.")
     return None
+
+
+@verb_of_module
+class ReindexVerb(VerbExtension):
+    """Write the metadata of a bag anew, for example of a recording that was killed."""

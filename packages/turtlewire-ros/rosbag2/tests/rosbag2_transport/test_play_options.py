@@ -12,8 +12,8 @@ from tests.places import GOLDEN
 import rosbag2_py
 from example_interfaces.srv import AddTwoInts
 from rclpy.qos import QoSProfile, ReliabilityPolicy
+from ros2bag.verb import play
 from ros2cli.arguments import add_arguments
-from ros2bag.command.bag import play
 from rosbag2_interfaces import srv
 from rosbag2_py import PlayOptions, ServiceRequestsSource, StorageOptions
 from rosbag2_transport.play_filter import mistakes

@@ -11,8 +11,8 @@ import pytest
 
 from builtin_interfaces.msg import Time
 from rclpy.qos import QoSProfile, ReliabilityPolicy
+from ros2bag.verb import record
 from ros2cli.arguments import add_arguments
-from ros2bag.command.bag import record
 from rosbag2_interfaces import srv
 from rosbag2_py import RecordOptions, StorageOptions
 from rosbag2_transport.topic_filter import TopicFilter

@@ -9,4 +9,4 @@ __all__ = ["PLUGIN_SYSTEM_VERSION", "VerbExtension", "satisfies_version"]
 
 
 class VerbExtension(verb.VerbExtension):
-    """Base of the verbs of ``ros2 daemon``."""
+    """The extension point for 'daemon' verb extensions."""

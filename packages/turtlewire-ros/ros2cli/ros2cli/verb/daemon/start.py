@@ -5,11 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from ros2cli.builtin import verb_of_module
+from ros2cli.verb.daemon import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "StartVerb", "main"]
 
 
 ARGUMENTS = (
@@ -22,3 +24,8 @@ ARGUMENTS = (
 def main(_args: argparse.Namespace) -> None:
     """Say why nothing is started."""
     print("No daemon is needed: every command discovers the nodes by itself")
+
+
+@verb_of_module
+class StartVerb(VerbExtension):
+    """Explain that there is no daemon."""
