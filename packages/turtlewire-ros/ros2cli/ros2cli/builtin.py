@@ -25,13 +25,13 @@ def verb_of_module(cls: Verb) -> Verb:
     """Give a class the ``ARGUMENTS`` and the ``main`` of its module."""
     module = sys.modules[cls.__module__]
 
-    def add_arguments(_self: Any, parser: argparse.ArgumentParser, cli_name: str) -> None:  # noqa: ARG001
+    def add_arguments(self: Any, parser: argparse.ArgumentParser, cli_name: str) -> None:  # noqa: ARG001
         """Define the command line of the verb."""
         from ros2cli import arguments
 
         arguments.add_arguments(parser, getattr(module, "ARGUMENTS", ()))
 
-    def main(_self: Any, *, args: Any) -> Any:
+    def main(self: Any, *, args: Any) -> Any:  # noqa: ARG001
         """Run the verb; returns the exit status, the text of an error, or None."""
         return module.main(args)
 
@@ -45,7 +45,7 @@ def command_of_module(cls: Command) -> Command:
     name = cls.__module__
 
     def add_arguments(
-        _self: Any,
+        self: Any,  # noqa: ARG001
         parser: argparse.ArgumentParser,
         cli_name: str,
         *,
@@ -56,7 +56,7 @@ def command_of_module(cls: Command) -> Command:
 
         define(parser, cli_name, argv or [], name)
 
-    def main(_self: Any, *, parser: argparse.ArgumentParser, args: Any) -> Any:  # noqa: ARG001
+    def main(self: Any, *, parser: argparse.ArgumentParser, args: Any) -> Any:  # noqa: ARG001
         """Run the command; prints the help and returns 0 if a verb is missing."""
         module = getattr(args, "module", None)
         if module is None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import collections
+import threading
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
@@ -9,16 +11,15 @@ from ros2cli.builtin import verb_of_module
 from ros2cli.completion import topic_names
 from ros2cli.discovery import SPIN_ARGUMENTS
 from ros2cli.values import positive_int
-from ros2topic.statistics import Delays
 from ros2topic.verb import VerbExtension
+from ros2topic.verb.hz import spread
 
 if TYPE_CHECKING:
     import argparse
 
-    from rclpy.clock import Clock
+__all__ = ["ARGUMENTS", "DEFAULT_WINDOW_SIZE", "DelayVerb", "ROSTopicDelay", "main"]
 
-__all__ = ["ARGUMENTS", "DelayVerb", "age", "main"]
-
+DEFAULT_WINDOW_SIZE = 10000
 
 ARGUMENTS = (
     argument(
@@ -29,7 +30,7 @@ ARGUMENTS = (
         "--window",
         metavar="WINDOW",
         type=positive_int,
-        default=10000,
+        default=DEFAULT_WINDOW_SIZE,
         help="How many messages count",
     ),
     *SPIN_ARGUMENTS,
@@ -40,29 +41,72 @@ def main(args: argparse.Namespace) -> None:
     """Print the delay every second, while messages come."""
     from rclpy.qos import qos_profile_sensor_data
     from ros2cli.direct_node import DirectNode
-    from ros2topic.topic_type import type_of_topic
+    from ros2topic.api import type_of_topic
 
     with DirectNode(args) as direct:
         topic = direct.node.resolve_topic_name(args.topic_name)
         kind = type_of_topic(direct, topic, blocking=True)
         if "header" not in kind.get_fields_and_field_types():
             raise RuntimeError("msg does not have header")
-        delays = Delays(args.window)
-        clock = direct.node.get_clock()
-
-        def note(message: Any) -> None:
-            delays.add(age(message, clock))
-
-        direct.node.create_subscription(kind, topic, note, qos_profile_sensor_data)
-        direct.node.create_timer(1.0, lambda: print(end=delays.report()))
+        delay = ROSTopicDelay(direct.node, args.window)
+        direct.node.create_subscription(kind, topic, delay.callback_delay, qos_profile_sensor_data)
+        direct.node.create_timer(1.0, delay.print_delay)
         direct.spin()
 
 
-def age(message: Any, clock: Clock) -> float:
-    """Seconds since the stamp in the header of a message."""
-    stamp = message.header.stamp
-    stamp_ns: int = stamp.sec * 1_000_000_000 + stamp.nanosec
-    return (clock.now().nanoseconds - stamp_ns) / 1e9
+class ROSTopicDelay:
+    """The delay of a topic; `callback_delay` is the callback of its subscription.
+
+    Args:
+        node: The node whose clock counts.
+        window_size: How many messages count.
+    """
+
+    def __init__(self, node: Any, window_size: int) -> None:
+        self.lock = threading.Lock()
+        self.window_size = window_size
+        self._clock = node.get_clock()
+        self._delays: collections.deque[float] = collections.deque(maxlen=window_size)
+        self._is_new = False
+
+    def callback_delay(self, msg: Any) -> None:
+        """Note a message.
+
+        Raises:
+            RuntimeError: It has no header.
+        """
+        if not hasattr(msg, "header"):
+            raise RuntimeError("msg does not have header")
+        stamp = msg.header.stamp
+        stamp_ns = stamp.sec * 1_000_000_000 + stamp.nanosec
+        with self.lock:
+            self._delays.append((self._clock.now().nanoseconds - stamp_ns) / 1e9)
+            self._is_new = True
+
+    def get_delay(self) -> tuple[float, float, float, float, int] | None:
+        """Mean, minimum, maximum and deviation of the delay [s], and how many messages count.
+
+        Returns:
+            None if no message came since the last call.
+        """
+        with self.lock:
+            if not self._is_new:
+                return None
+            self._is_new = False
+            delays = list(self._delays)
+        mean, deviation = spread(delays)
+        return mean, min(delays), max(delays), deviation, len(delays)
+
+    def print_delay(self) -> None:
+        """Print the delay, if messages came since the last call."""
+        found = self.get_delay()
+        if found is not None:
+            mean, shortest, longest, deviation, count = found
+            print(
+                f"average delay: {mean:.3f}\n"
+                f"\tmin: {shortest:.3f}s max: {longest:.3f}s"
+                f" std dev: {deviation:.5f}s window: {count}"
+            )
 
 
 @verb_of_module

@@ -79,7 +79,7 @@ def main(args: argparse.Namespace) -> str | None:
     from rclpy.task import Future
     from ros2cli.direct_node import DirectNode
     from ros2cli.suggestion import warn_of_other_type
-    from ros2topic.topic_type import message_class, type_of_topic
+    from ros2topic.api import message_class, type_of_topic
     from turtlewire.msg import type_name
 
     if args.message_type is not None:

@@ -11,7 +11,8 @@ from ros2cli.builtin import verb_of_module
 from ros2cli.completion import message_values, topic_names, topic_types
 from ros2cli.discovery import SPIN_ARGUMENTS
 from ros2cli.qos_options import QOS_ARGUMENTS, with_options
-from ros2cli.values import positive_float, positive_int, read_values, shortened, unsigned_int
+from ros2cli.values import positive_float, positive_int, read_values, shortened
+from ros2cli.values import unsigned_int as nonnegative_int
 from ros2topic.verb import VerbExtension
 
 if TYPE_CHECKING:
@@ -19,7 +20,9 @@ if TYPE_CHECKING:
 
     from ros2cli.direct_node import DirectNode
 
-__all__ = ["ARGUMENTS", "PubVerb", "main"]
+__all__ = ["ARGUMENTS", "DEFAULT_WAIT_TIME", "PubVerb", "main", "nonnegative_int"]
+
+DEFAULT_WAIT_TIME = 0.1
 
 _SAY_WAITING_EVERY_S = 1.0
 
@@ -63,7 +66,7 @@ ARGUMENTS = (
     argument(
         "-w",
         "--wait-matching-subscriptions",
-        type=unsigned_int,
+        type=nonnegative_int,
         help="Number of subscriptions to wait for; 1 by default with --once and --times",
     ),
     argument(
@@ -73,7 +76,7 @@ ARGUMENTS = (
         "--keep-alive",
         metavar="N",
         type=positive_float,
-        default=0.1,
+        default=DEFAULT_WAIT_TIME,
         help="Stay for N seconds after the last message",
     ),
     argument("-n", "--node-name", help="Name of the publishing node"),
@@ -86,7 +89,7 @@ def main(args: argparse.Namespace) -> str | None:
     """Publish."""
     from ros2cli.direct_node import DirectNode
     from ros2cli.suggestion import field_meant, warn_of_other_type
-    from ros2topic.topic_type import message_class
+    from ros2topic.api import message_class
     from rosidl_runtime_py import set_message_fields
     from turtlewire.msg import type_name
 

@@ -2,72 +2,144 @@
 
 from __future__ import annotations
 
+import time
+
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ros2topic.statistics import Delays, Intervals, Sizes
+from rclpy.time import Time
+from ros2topic.verb.bw import ROSTopicBandwidth
+from ros2topic.verb.delay import ROSTopicDelay
+from ros2topic.verb.hz import ROSTopicHz
+from std_msgs.msg import Header
 
 
-def test_the_rate_of_even_messages():
-    intervals = Intervals(10)
-    for index in range(4):
-        intervals.add(index * 20_000_000)
-    assert (
-        intervals.report()
-        == "average rate: 50.000\n\tmin: 0.020s max: 0.020s std dev: 0.00000s window: 4\n"
-    )
-    assert intervals.report() == ""
+class Node:
+    """A node whose clock shows what the test sets."""
+
+    def __init__(self):
+        self.now_ns = 0
+
+    def get_clock(self):
+        return self
+
+    def now(self):
+        return Time(nanoseconds=self.now_ns)
 
 
-def test_one_message_has_no_rate():
-    intervals = Intervals(10)
-    intervals.add(5)
-    assert intervals.report() == ""
+class Stamped:
+    """A message with a header."""
+
+    def __init__(self, stamp_s):
+        self.header = Header(stamp=Time(seconds=stamp_s).to_msg())
 
 
-def test_time_that_begins_anew_empties_the_window():
-    intervals = Intervals(10)
-    for now in (0, 1_000_000_000, 0, 500_000_000):
-        intervals.add(now)
-    assert intervals.report().startswith("average rate: 2.000\n")
+def rates(window, times_ns):
+    """Return the rates of messages that came at these times."""
+    node = Node()
+    hz = ROSTopicHz(node, window)
+    for node.now_ns in times_ns:
+        hz.callback_hz(None)
+    return hz
 
 
-@given(st.lists(st.integers(0, 10**12), min_size=2, max_size=50), st.integers(2, 20))
+def test_the_rate_of_even_messages(capsys):
+    hz = rates(10, range(0, 80_000_000, 20_000_000))
+    hz.print_hz()
+    text = "average rate: 50.000\n\tmin: 0.020s max: 0.020s std dev: 0.00000s window: 4\n"
+    assert capsys.readouterr().out == text
+    hz.print_hz()
+    assert capsys.readouterr().out == ""
+
+
+def test_one_message_has_no_rate(capsys):
+    hz = rates(10, [5])
+    hz.print_hz()
+    assert hz.get_hz() is None
+    assert capsys.readouterr().out == ""
+
+
+def test_time_that_begins_anew_empties_the_window(capsys):
+    second = 1_000_000_000
+    rates(10, [0, second, 0]).print_hz()
+    assert capsys.readouterr().out == "", "no interval counts"
+    rates(10, [0, second, 0, second // 2]).print_hz()
+    assert capsys.readouterr().out.startswith("average rate: 2.000\n")
+
+
+@given(st.lists(st.integers(1, 10**12), min_size=2, max_size=50), st.integers(1, 20))
 def test_a_window_never_holds_more_than_was_asked_for(steps, window):
-    intervals, now = Intervals(window), 0
+    times, now = [], 0
     for step in steps:
         now += step
-        intervals.add(now)
-    held = int(intervals.report().rsplit("window: ", 1)[1])
-    assert held == min(window, len(steps))
+        times.append(now)
+    held = rates(window, times).get_hz()[-1] + 1
+    assert held == min(max(window, 2), len(steps)), "an interval has two messages"
 
 
-def test_units_of_the_bandwidth_follow_the_rate():
-    for size, expected in (
+def test_only_messages_that_the_filter_keeps_count():
+    node = Node()
+    hz = ROSTopicHz(node, 10, lambda message: message > 0)
+    for node.now_ns, message in ((1, 1), (2, -1), (3, 1)):
+        hz.callback_hz(message)
+    assert hz.get_times() == [2]
+
+
+def test_corrections_of_the_wall_clock_are_no_intervals(monkeypatch):
+    steady = iter((0, 0, 10))
+    monkeypatch.setattr(time, "monotonic_ns", lambda: next(steady))
+    hz = ROSTopicHz(Node(), 10, use_wtime=True)
+    hz.callback_hz(None)
+    monkeypatch.setattr(time, "time_ns", lambda: 0)
+    hz.callback_hz(None)
+    assert hz.get_times() == [10]
+
+
+@pytest.mark.parametrize(
+    ("size", "text"),
+    [
         (24, "240 B/s from 5 messages\n\tMessage size mean: 24 B min: 24 B max: 24 B\n"),
         (
             2400,
             "24.00 KB/s from 5 messages\n\tMessage size mean: 2.40 KB min: 2.40 KB max: 2.40 KB\n",
         ),
-    ):
-        sizes = Sizes(100)
-        for index in range(5):
-            sizes.add(index * 0.1, size)
-        assert sizes.report(0.5) == expected
+        (
+            240_000,
+            "2.40 MB/s from 5 messages\n\tMessage size mean: 0.24 MB min: 0.24 MB max: 0.24 MB\n",
+        ),
+    ],
+)
+def test_units_of_the_bandwidth_follow_the_rate(monkeypatch, capsys, size, text):
+    now = iter((0.0, 0.1, 0.2, 0.3, 0.4, 0.5))
+    monkeypatch.setattr(time, "monotonic", lambda: next(now))
+    bandwidth = ROSTopicBandwidth(Node(), 100)
+    for _ in range(5):
+        bandwidth.callback(bytes(size))
+    bandwidth.print_bw()
+    assert capsys.readouterr().out == text
 
 
-def test_one_message_has_no_bandwidth():
-    sizes = Sizes(100)
-    sizes.add(0.0, 1)
-    assert sizes.report(1.0) == ""
+def test_one_message_has_no_bandwidth(capsys):
+    bandwidth = ROSTopicBandwidth(Node(), 100)
+    bandwidth.callback(b"x")
+    bandwidth.print_bw()
+    assert capsys.readouterr().out == ""
+    bandwidth.callback(b"x")
+    bandwidth.print_bw()
+    assert "/s from 2 messages\n" in capsys.readouterr().out
 
 
-def test_delays():
-    delays = Delays(3)
-    for delay in (9.0, 0.1, 0.2, 0.3):
-        delays.add(delay)
-    assert (
-        delays.report()
-        == "average delay: 0.200\n\tmin: 0.100s max: 0.300s std dev: 0.08165s window: 3\n"
-    )
-    assert delays.report() == ""
+def test_delays(capsys):
+    node = Node()
+    delay = ROSTopicDelay(node, 3)
+    for stamp_s, wait_ns in ((1, 9_000_000_000), (2, 100_000_000), (3, 200_000_000)):
+        node.now_ns = stamp_s * 1_000_000_000 + wait_ns
+        delay.callback_delay(Stamped(stamp_s))
+    node.now_ns = 4_300_000_000
+    delay.callback_delay(Stamped(4))
+    delay.print_delay()
+    text = "average delay: 0.200\n\tmin: 0.100s max: 0.300s std dev: 0.08165s window: 3\n"
+    assert capsys.readouterr().out == text
+    delay.print_delay()
+    assert capsys.readouterr().out == ""
