@@ -1,10 +1,10 @@
-"""``ros2 launch``, for programs and extensions; :mod:`ros2cli` does the work.
+"""The command ``ros2 launch``, and its functions for programs and extensions.
 
-=========  ========================================
+=========  ===============================
 module     what it holds
-=========  ========================================
+=========  ===============================
 `api`      launch files: found, shown, run
-`command`  the class of the command ``ros2 launch``
+`command`  the command ``ros2 launch``
 `option`   options that other packages add
-=========  ========================================
+=========  ===============================
 """

@@ -1,8 +1,8 @@
-"""``ros2 test``, for programs and extensions; :mod:`ros2cli` does the work.
+"""The command ``ros2 test``, and its functions for programs and extensions.
 
-=========  ======================================
+=========  =========================
 module     what it holds
-=========  ======================================
-`command`  the class of the command ``ros2 test``
-=========  ======================================
+=========  =========================
+`command`  the command ``ros2 test``
+=========  =========================
 """

@@ -1,10 +1,10 @@
-"""``ros2 action``, for programs and extensions; :mod:`ros2cli` does the work.
+"""The command ``ros2 action``, and its functions for programs and extensions.
 
-=========  ========================================
+=========  ===========================
 module     what it holds
-=========  ========================================
+=========  ===========================
 `api`      actions, completions
-`command`  the class of the command ``ros2 action``
-`verb`     the classes of its verbs
-=========  ========================================
+`command`  the command ``ros2 action``
+`verb`     its verbs
+=========  ===========================
 """

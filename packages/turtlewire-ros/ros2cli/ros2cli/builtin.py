@@ -12,16 +12,12 @@ from typing import TYPE_CHECKING, Any, TypeVar
 if TYPE_CHECKING:
     import argparse
 
-    from ros2cli.command import CommandExtension
-    from ros2cli.verb import VerbExtension
-
-    Command = TypeVar("Command", bound=type[CommandExtension])
-    Verb = TypeVar("Verb", bound=type[VerbExtension])
+    Class = TypeVar("Class", bound=type[Any])
 
 __all__ = ["command_of_module", "verb_of_module"]
 
 
-def verb_of_module(cls: Verb) -> Verb:
+def verb_of_module(cls: Class) -> Class:
     """Give a class the ``ARGUMENTS`` and the ``main`` of its module."""
     module = sys.modules[cls.__module__]
 
@@ -35,12 +31,12 @@ def verb_of_module(cls: Verb) -> Verb:
         """Run the verb; returns the exit status, the text of an error, or None."""
         return module.main(args)
 
-    cls.add_arguments = add_arguments  # type: ignore[method-assign]
-    cls.main = main  # type: ignore[method-assign]
+    cls.add_arguments = add_arguments
+    cls.main = main
     return cls
 
 
-def command_of_module(cls: Command) -> Command:
+def command_of_module(cls: Class) -> Class:
     """Give a class the command line of its module, with its verbs, and what runs them."""
     name = cls.__module__
 
@@ -64,6 +60,6 @@ def command_of_module(cls: Command) -> Command:
             return 0
         return module.main(args)
 
-    cls.add_arguments = add_arguments  # type: ignore[method-assign]
-    cls.main = main  # type: ignore[method-assign]
+    cls.add_arguments = add_arguments
+    cls.main = main
     return cls

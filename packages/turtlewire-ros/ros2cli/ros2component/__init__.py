@@ -1,10 +1,12 @@
-"""``ros2 component``, for programs and extensions; :mod:`ros2cli` does the work.
+"""The command ``ros2 component``, and its functions for programs and extensions.
 
-=========  ===========================================
-module     what it holds
-=========  ===========================================
-`api`      components, and those in containers
-`command`  the class of the command ``ros2 component``
-`verb`     the classes of its verbs
-=========  ===========================================
+============  =====================================
+module        what it holds
+============  =====================================
+`api`         components, and those in containers
+`command`     the command ``ros2 component``
+`verb`        its verbs
+`options`     the options that describe a component
+`containers`  calls to containers of nodes
+============  =====================================
 """

@@ -1,10 +1,11 @@
-"""``ros2 doctor``, for programs and extensions; :mod:`ros2cli` does the work.
+"""The command ``ros2 doctor``, and its functions for programs and extensions.
 
-=========  ========================================
-module     what it holds
-=========  ========================================
-`api`      checks and reports, own ones and others'
-`command`  the class of the command ``ros2 doctor``
-`verb`     the classes of its verbs
-=========  ========================================
+===============  ========================================
+module           what it holds
+===============  ========================================
+`api`            checks and reports, own ones and others'
+`command`        the command ``ros2 doctor``
+`verb`           its verbs
+`system_report`  ``ros2 doctor --report``
+===============  ========================================
 """

@@ -1,10 +1,10 @@
-"""``ros2 interface``, for programs and extensions; :mod:`ros2cli` does the work.
+"""The command ``ros2 interface``, and its functions for programs and extensions.
 
-=========  ===========================================
+=========  ===============================
 module     what it holds
-=========  ===========================================
+=========  ===============================
 `api`      interfaces as YAML, completions
-`command`  the class of the command ``ros2 interface``
-`verb`     the classes of its verbs
-=========  ===========================================
+`command`  the command ``ros2 interface``
+`verb`     its verbs
+=========  ===============================
 """

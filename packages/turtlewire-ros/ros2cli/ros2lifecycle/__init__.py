@@ -1,10 +1,11 @@
-"""``ros2 lifecycle``, for programs and extensions; :mod:`ros2cli` does the work.
+"""The command ``ros2 lifecycle``, and its functions for programs and extensions.
 
-=========  ===========================================
-module     what it holds
-=========  ===========================================
-`api`      states and transitions of managed nodes
-`command`  the class of the command ``ros2 lifecycle``
-`verb`     the classes of its verbs
-=========  ===========================================
+===============  =======================================
+module           what it holds
+===============  =======================================
+`api`            states and transitions of managed nodes
+`command`        the command ``ros2 lifecycle``
+`verb`           its verbs
+`managed_nodes`  calls to managed nodes
+===============  =======================================
 """

@@ -1,10 +1,10 @@
-"""``ros2 multicast``, for programs and extensions; :mod:`ros2cli` does the work.
+"""The command ``ros2 multicast``, and its functions for programs and extensions.
 
-=========  ===========================================
+=========  ==============================
 module     what it holds
-=========  ===========================================
+=========  ==============================
 `api`      datagrams to and from a group
-`command`  the class of the command ``ros2 multicast``
-`verb`     the classes of its verbs
-=========  ===========================================
+`command`  the command ``ros2 multicast``
+`verb`     its verbs
+=========  ==============================
 """

@@ -1,10 +1,10 @@
-"""``ros2 node``, for programs and extensions; :mod:`ros2cli` does the work.
+"""The command ``ros2 node``, and its functions for programs and extensions.
 
-=========  ======================================
+=========  =====================================
 module     what it holds
-=========  ======================================
+=========  =====================================
 `api`      nodes and what they have, completions
-`command`  the class of the command ``ros2 node``
-`verb`     the classes of its verbs
-=========  ======================================
+`command`  the command ``ros2 node``
+`verb`     its verbs
+=========  =====================================
 """

@@ -1,10 +1,12 @@
-"""``ros2 param``, for programs and extensions; :mod:`ros2cli` does the work.
+"""The command ``ros2 param``, and its functions for programs and extensions.
 
-=========  =======================================
-module     what it holds
-=========  =======================================
-`api`      parameters of other nodes, completions
-`command`  the class of the command ``ros2 param``
-`verb`     the classes of its verbs
-=========  =======================================
+============  ======================================
+module        what it holds
+============  ======================================
+`api`         parameters of other nodes, completions
+`command`     the command ``ros2 param``
+`verb`        its verbs
+`options`     options that its verbs share
+`parameters`  calls to parameter services
+============  ======================================
 """

@@ -1,10 +1,11 @@
-"""``ros2 pkg``, for programs and extensions; :mod:`ros2cli` does the work.
+"""The command ``ros2 pkg``, and its functions for programs and extensions.
 
-=========  ========================================
-module     what it holds
-=========  ========================================
-`api`      installed packages and their executables
-`command`  the class of the command ``ros2 pkg``
-`verb`     the classes of its verbs
-=========  ========================================
+==================  ========================================
+module              what it holds
+==================  ========================================
+`api`               installed packages and their executables
+`command`           the command ``ros2 pkg``
+`verb`              its verbs
+`package_template`  files of a new package
+==================  ========================================
 """

@@ -1,9 +1,10 @@
-"""``ros2 run``, for programs and extensions; :mod:`ros2cli` does the work.
+"""The command ``ros2 run``, and its functions for programs and extensions.
 
-=========  =====================================
+=========  ===========================
 module     what it holds
-=========  =====================================
+=========  ===========================
 `api`      executables: found and run
-`command`  the class of the command ``ros2 run``
-=========  =====================================
+`command`  the command ``ros2 run``
+`child`    a program in the foreground
+=========  ===========================
 """

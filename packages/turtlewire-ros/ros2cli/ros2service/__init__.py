@@ -1,10 +1,10 @@
-"""``ros2 service``, for programs and extensions; :mod:`ros2cli` does the work.
+"""The command ``ros2 service``, and its functions for programs and extensions.
 
-=========  =========================================
+=========  =======================================
 module     what it holds
-=========  =========================================
+=========  =======================================
 `api`      services and their classes, completions
-`command`  the class of the command ``ros2 service``
-`verb`     the classes of its verbs
-=========  =========================================
+`command`  the command ``ros2 service``
+`verb`     its verbs
+=========  =======================================
 """

@@ -1,10 +1,10 @@
-"""``ros2 topic``, for programs and extensions; :mod:`ros2cli` does the work.
+"""The command ``ros2 topic``, and its functions for programs and extensions.
 
 =========  ==================================================
 module     what it holds
 =========  ==================================================
 `api`      topics and their message classes, QoS, completions
-`command`  the class of the command ``ros2 topic``
-`verb`     the classes of its verbs
+`command`  the command ``ros2 topic``
+`verb`     its verbs
 =========  ==================================================
 """

@@ -1,10 +1,11 @@
-"""``ros2 bag``, for programs and extensions; :mod:`ros2cli` does the work.
+"""The command ``ros2 bag``, and its functions for programs and extensions.
 
 =========  ========================================
 module     what it holds
 =========  ========================================
 `api`      values on the command line, QoS profiles
-`command`  the class of the command ``ros2 bag``
-`verb`     the classes of its verbs
+`command`  the command ``ros2 bag``
+`verb`     its verbs
+`options`  options that its verbs share
 =========  ========================================
 """
