@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from ros2cli import completion
 from ros2cli.interface_names import interface_names
-from ros2cli.node.strategy import NodeStrategy
+from ros2cli.node.direct import DirectNode
 
 if TYPE_CHECKING:
     import argparse
@@ -33,7 +33,6 @@ def get_action_clients_and_servers(
         node: The node that looks.
         action_name: Name of the action; relative to the root unless it starts with a slash.
     """
-    from ros2cli.direct_node import DirectNode
     from ros2cli.graph import action_nodes
 
     graph = DirectNode.around(node).graph
@@ -58,7 +57,7 @@ def get_action_names(*, node: Any) -> list[str]:
 
 def action_name_completer(prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
     """Names of the actions there are now."""
-    with NodeStrategy(parsed_args) as node:
+    with DirectNode(parsed_args) as node:
         return get_action_names(node=node)
 
 
@@ -80,7 +79,7 @@ class ActionTypeCompleter:
     def __call__(self, prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
         """Return the type of the action, or all actions."""
         action = getattr(parsed_args, self.action_name_key or "", None)
-        with NodeStrategy(parsed_args) as node:
+        with DirectNode(parsed_args) as node:
             found = dict(get_action_names_and_types(node=node))
         return found.get(action or "") or action_type_completer()
 

@@ -10,7 +10,6 @@ module                             what it holds
 `main`                             the command and its help
 `arguments`                        command lines of verbs as data
 `completion`                       what TAB offers
-`direct_node`                      an rclpy node for verbs that send or receive
 `discovery`                        joins a domain long enough to discover its nodes
 `graph`, `listing`                 nodes and topics; the verbs ``list``, ``find``, ``type``
 `qos_options`                      QoS on the command line
@@ -24,7 +23,7 @@ module                             what it holds
 `installed`                        entry points, found fast
 `entry_points`, `plugin_system`    ROS 2's functions for entry points and extensions
 `extension`                        runs extensions of other packages
-`node`                             nodes for extensions: direct, strategy, daemon
+`node`                             the rclpy node of verbs, and ROS 2's names of it
 `xmlrpc`                           remote calls on this host
 =================================  ========================================================
 """

@@ -198,7 +198,7 @@ def action_types(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
 
 def _ask(question: str) -> Any:
     from ros2cli import graph
-    from ros2cli.discovery import GraphNode
+    from ros2cli.discovery import discovered_graph
 
-    with GraphNode() as known:
+    with discovered_graph() as known:
         return getattr(graph, question)(known)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import time
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
@@ -12,11 +13,17 @@ from turtlewire.wake_up import WakeUp
 from turtlewire.wire.environment import Range, discovery
 
 if TYPE_CHECKING:
-    from types import TracebackType
+    from collections.abc import Iterator
 
     from turtlewire.wire.base import Graph
 
-__all__ = ["SPIN_ARGUMENTS", "STRATEGY_ARGUMENTS", "GraphNode", "wait_until_discovered"]
+__all__ = [
+    "SPIN_ARGUMENTS",
+    "STRATEGY_ARGUMENTS",
+    "discovered_graph",
+    "hidden_node_name",
+    "wait_until_discovered",
+]
 
 # Other hosts are given so much time to answer; participants of this host are counted. Measured on
 # two cores: the last of 50 participants answers 70 ms after the first question.
@@ -97,26 +104,23 @@ def wait_until_discovered(graph: Graph, spin_time: float | None = None) -> None:
         stop_listening()
 
 
-class GraphNode:
-    """A hidden node that looks at the graph; a context manager.
+@contextmanager
+def discovered_graph(spin_time: float | None = None) -> Iterator[Graph]:
+    """Join the domain with a hidden node, wait for discovery, and yield the graph.
 
-    It starts faster than a node of rclpy, since it sends and receives nothing.
+    The node starts faster than one of rclpy, since it sends and receives nothing.
 
     Args:
         spin_time: Seconds to wait for discovery; None waits until all is known.
     """
+    from turtlewire.wire import open_context
+    from turtlewire.wire.base import TypeId
+    from turtlewire.wire.qos import Durability, QoS
 
-    def __init__(self, spin_time: float | None = None) -> None:
-        from turtlewire.wire import open_context
-        from turtlewire.wire.base import TypeId
-        from turtlewire.wire.qos import Durability, QoS
-
-        self._context = open_context()
-        name = f"_ros2cli_{os.getpid()}"
-        self.full_name = f"/{name}"
-        node = self._context.create_node(name)
-        # Every node has these; without them an empty domain's lists would differ from
-        # ROS 2.
+    context = open_context()
+    try:
+        node = context.create_node(hidden_node_name())
+        # Every node has these; without them an empty domain's lists would differ from ROS 2.
         for topic, type_name, type_hash, lifespan in _NODE_TOPICS:
             durability = Durability.TRANSIENT_LOCAL if lifespan else Durability.VOLATILE
             node.create_publisher(
@@ -124,23 +128,12 @@ class GraphNode:
                 TypeId(type_name, type_hash),
                 QoS(depth=1000, durability=durability, lifespan_ns=lifespan),
             )
-        self._spin_time = spin_time
+        wait_until_discovered(context.graph, spin_time)
+        yield context.graph
+    finally:
+        context.close()
 
-    @property
-    def graph(self) -> Graph:
-        """The graph."""
-        return self._context.graph
 
-    def __enter__(self) -> Graph:
-        """Wait for discovery; return the graph."""
-        wait_until_discovered(self.graph, self._spin_time)
-        return self.graph
-
-    def __exit__(
-        self,
-        _type: type[BaseException] | None,
-        _error: BaseException | None,
-        _traceback: TracebackType | None,
-    ) -> None:
-        """Leave the domain."""
-        self._context.close()
+def hidden_node_name() -> str:
+    """Return the name of this process's node."""
+    return f"_ros2cli_{os.getpid()}"

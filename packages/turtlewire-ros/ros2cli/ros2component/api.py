@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ros2cli.direct_node import DirectNode
-from ros2cli.node.strategy import NodeStrategy
+from ros2cli.node.direct import DirectNode
 
 if TYPE_CHECKING:
     import argparse
@@ -207,7 +206,7 @@ def container_node_name_completer(
     """Full names of the containers there are now."""
     from ros2component.containers import container_names
 
-    with NodeStrategy(parsed_args) as node:
+    with DirectNode(parsed_args) as node:
         return container_names(DirectNode.around(node).graph)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from ros2cli.direct_node import DirectNode
+    from ros2cli.node.direct import DirectNode
     from turtlewire.wire.base import Graph
 
 __all__ = ["ask", "container_names", "require_container"]

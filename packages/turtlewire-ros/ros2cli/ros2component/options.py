@@ -50,10 +50,10 @@ COMPONENT_ARGUMENTS = (
 
 def container_node_names(**_: Any) -> list[str]:
     """Full names of the containers there are now."""
-    from ros2cli.discovery import GraphNode
+    from ros2cli.discovery import discovered_graph
     from ros2component.containers import container_names
 
-    with GraphNode() as known:
+    with discovered_graph() as known:
         return container_names(known)
 
 

@@ -63,11 +63,11 @@ def _ros_information() -> dict[str, object]:
 
 
 def _topics() -> list[tuple[str, object]]:
-    from ros2cli.discovery import GraphNode
+    from ros2cli.discovery import discovered_graph
     from ros2cli.graph import endpoints_of_topic, topics
 
     own = ("/parameter_events", "/rosout")
-    with GraphNode() as graph:
+    with discovered_graph() as graph:
         found: list[tuple[str, object]] = [
             fact
             for name, _ in topics(graph)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ros2cli.direct_node import DirectNode
+from ros2cli.node.direct import DirectNode
 from ros2lifecycle import managed_nodes
 from ros2node.api import parse_node_name
 

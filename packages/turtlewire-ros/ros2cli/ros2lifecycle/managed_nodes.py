@@ -10,7 +10,7 @@ from ros2cli.listing import HIDDEN_NODES
 if TYPE_CHECKING:
     import argparse
 
-    from ros2cli.direct_node import DirectNode
+    from ros2cli.node.direct import DirectNode
     from turtlewire.wire.base import Graph
 
 __all__ = ["HIDDEN_ARGUMENT", "ask", "managed_node_names", "managed_nodes", "require_managed_node"]
@@ -34,9 +34,9 @@ def managed_nodes(graph: Graph, *, hidden: bool = False) -> list[str]:
 
 def managed_node_names(**_: Any) -> list[str]:
     """Full names of the managed nodes there are now."""
-    from ros2cli.discovery import GraphNode
+    from ros2cli.discovery import discovered_graph
 
-    with GraphNode() as known:
+    with discovered_graph() as known:
         return managed_nodes(known)
 
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros2cli import graph
-from ros2cli.direct_node import DirectNode
 from ros2cli.node import HIDDEN_NODE_PREFIX
-from ros2cli.node.strategy import NodeStrategy
+from ros2cli.node.direct import DirectNode
 from ros2node.verb.info import INFO_NONUNIQUE_WARNING_TEMPLATE
 
 if TYPE_CHECKING:
@@ -195,6 +194,6 @@ class NodeNameCompleter:
     def __call__(self, prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
         """Full names of the nodes there are now."""
         hidden = getattr(parsed_args, self.include_hidden_nodes_key or "", False)
-        with NodeStrategy(parsed_args) as node:
+        with DirectNode(parsed_args) as node:
             found = get_node_names(node=node, include_hidden_nodes=hidden)
         return [each.full_name for each in found]

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ros2cli.direct_node import DirectNode
-from ros2cli.node.strategy import NodeStrategy
+from ros2cli.node.direct import DirectNode
 
 if TYPE_CHECKING:
     import argparse
@@ -117,7 +116,7 @@ class ParameterNameCompleter:
 
     def __call__(self, prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
         """Names of the parameters there are now."""
-        with NodeStrategy(parsed_args) as node:
+        with DirectNode(parsed_args) as node:
             found = call_list_parameters(node=node, node_name=parsed_args.node_name)
         return [] if found is None else sorted(found.result.names)
 

@@ -44,7 +44,7 @@ def node_arguments(*, optional: bool = False) -> tuple[Argument, ...]:
 
 def parameter_names(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
     """Names of the parameters of the node on the command line."""
-    from ros2cli.direct_node import DirectNode
+    from ros2cli.node.direct import DirectNode
     from ros2param.parameters import RemoteParameters
 
     with DirectNode(parsed_args) as direct:

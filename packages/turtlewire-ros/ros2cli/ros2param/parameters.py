@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import argparse
 
-    from ros2cli.direct_node import DirectNode
+    from ros2cli.node.direct import DirectNode
 
 __all__ = ["TYPE_NAMES", "Question", "RemoteParameters"]
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from ros2cli import completion
 from ros2cli.interface_names import interface_names
-from ros2cli.node.strategy import NodeStrategy
+from ros2cli.node.direct import DirectNode
 
 if TYPE_CHECKING:
     import argparse
@@ -74,7 +74,7 @@ class ServiceNameCompleter:
     def __call__(self, prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
         """Names of the services there are now."""
         hidden = getattr(parsed_args, self.include_hidden_services_key or "", False)
-        with NodeStrategy(parsed_args) as node:
+        with DirectNode(parsed_args) as node:
             return get_service_names(node=node, include_hidden_services=hidden)
 
 
@@ -91,7 +91,7 @@ class ServiceTypeCompleter:
     def __call__(self, prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
         """Return the type of the service, or all services."""
         service = getattr(parsed_args, self.service_name_key or "", None)
-        with NodeStrategy(parsed_args) as node:
+        with DirectNode(parsed_args) as node:
             found = get_service_names_and_types(node=node, include_hidden_services=True)
         return dict(found).get(service or "") or service_type_completer()
 

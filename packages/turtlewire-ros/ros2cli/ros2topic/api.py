@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ros2cli import completion
-from ros2cli.direct_node import DirectNode
-from ros2cli.node.strategy import NodeStrategy
+from ros2cli.node.direct import DirectNode
 from ros2cli.values import positive_float, positive_int
 
 if TYPE_CHECKING:
@@ -135,7 +134,7 @@ class TopicNameCompleter:
     def __call__(self, prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
         """Names of the topics there are now."""
         hidden = getattr(parsed_args, self.include_hidden_topics_key or "", False)
-        with NodeStrategy(parsed_args) as node:
+        with DirectNode(parsed_args) as node:
             return get_topic_names(node=node, include_hidden_topics=hidden)
 
 
@@ -152,7 +151,7 @@ class TopicTypeCompleter:
     def __call__(self, prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
         """Return the type of the topic, or all messages."""
         topic = getattr(parsed_args, self.topic_name_key or "", None)
-        with NodeStrategy(parsed_args) as node:
+        with DirectNode(parsed_args) as node:
             found = get_topic_names_and_types(node=node, include_hidden_topics=True)
         return dict(found).get(topic or "") or message_type_completer()
 

@@ -8,7 +8,7 @@ from ros2action.verb import VerbExtension
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.completion import action_names
-from ros2cli.discovery import GraphNode
+from ros2cli.discovery import discovered_graph
 
 if TYPE_CHECKING:
     import argparse
@@ -32,7 +32,7 @@ def main(args: argparse.Namespace) -> None:
     from ros2cli.graph import action_nodes, actions
     from ros2cli.suggestion import say_what_was_meant
 
-    with GraphNode() as graph:
+    with discovered_graph() as graph:
         sides = {"clients": "subscription", "servers": "publisher"}
         found = {side: action_nodes(graph, args.action_name, kind) for side, kind in sides.items()}
         known = dict(actions(graph))

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from ros2action.verb import VerbExtension
 from ros2cli.builtin import verb_of_module
-from ros2cli.discovery import GraphNode
+from ros2cli.discovery import discovered_graph
 from ros2cli.listing import SHOW_TYPES, count_argument, print_names_and_types
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ def main(args: argparse.Namespace) -> None:
     """Print the names."""
     from ros2cli.graph import actions
 
-    with GraphNode() as graph:
+    with discovered_graph() as graph:
         found = actions(graph)
     print_names_and_types(found, args)
 

@@ -15,7 +15,7 @@ from ros2cli.values import read_values, shortened
 if TYPE_CHECKING:
     import argparse
 
-    from ros2cli.direct_node import DirectNode
+    from ros2cli.node.direct import DirectNode
 
 __all__ = ["ARGUMENTS", "NODE_NAME_PREFIX", "SendGoalVerb", "main"]
 
@@ -67,8 +67,8 @@ def main(args: argparse.Namespace) -> str | None:
     except Exception as error:  # noqa: BLE001  any value may be wrong in any way
         return f"Failed to populate message fields: {shortened(repr(error))}{field_meant(error)}"
     from rclpy.action import ActionClient
-    from ros2cli.direct_node import DirectNode
     from ros2cli.graph import actions
+    from ros2cli.node.direct import DirectNode
     from turtlewire.wire.services import require_callable
 
     with DirectNode(args) as direct:

@@ -8,7 +8,7 @@ from ros2action.verb import VerbExtension
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.completion import action_names
-from ros2cli.discovery import GraphNode
+from ros2cli.discovery import discovered_graph
 from ros2cli.listing import print_types
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ def main(args: argparse.Namespace) -> int:
     """Print the type; status 1 if there is no such action."""
     from ros2cli.graph import actions
 
-    with GraphNode() as graph:
+    with discovered_graph() as graph:
         known = dict(actions(graph))
     return print_types("action", args.action_name, known)
 

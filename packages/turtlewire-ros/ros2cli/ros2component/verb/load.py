@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
-from ros2cli.direct_node import DirectNode
 from ros2cli.discovery import STRATEGY_ARGUMENTS
+from ros2cli.node.direct import DirectNode
 from ros2component.options import COMPONENT_ARGUMENTS, container_node_names, load_request
 from ros2component.verb import VerbExtension
 

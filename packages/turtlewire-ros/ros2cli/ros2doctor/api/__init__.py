@@ -159,10 +159,10 @@ def reports_of_others(categories: Collection[str] | None = None) -> list[Report]
 
 def get_topic_names(skip_topics: Collection[str] = ()) -> list[str]:
     """Names of the topics there are now, but hidden ones and those to skip."""
-    from ros2cli.discovery import GraphNode
+    from ros2cli.discovery import discovered_graph
     from ros2cli.graph import topics
 
-    with GraphNode() as graph:
+    with discovered_graph() as graph:
         return [name for name, _ in topics(graph) if name not in skip_topics]
 
 

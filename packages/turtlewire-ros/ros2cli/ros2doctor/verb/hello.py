@@ -57,7 +57,7 @@ ARGUMENTS = (
 def main(args: argparse.Namespace) -> None:
     """Greet the other hosts and print a table of those that are heard, until Ctrl-C."""
     from rclpy.task import Future
-    from ros2cli.direct_node import DirectNode
+    from ros2cli.node.direct import DirectNode
     from std_msgs.msg import String
 
     end = Future()

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
-from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
+from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
 from ros2cli.listing import HIDDEN_NODES, count_argument, print_names
 from ros2lifecycle.verb import VerbExtension
 
@@ -33,7 +33,7 @@ def main(args: argparse.Namespace) -> None:
     """Print the full names."""
     from ros2lifecycle.managed_nodes import managed_nodes
 
-    with GraphNode(args.spin_time) as graph:
+    with discovered_graph(args.spin_time) as graph:
         names = managed_nodes(graph, hidden=args.all)
     print_names(names, args)
 

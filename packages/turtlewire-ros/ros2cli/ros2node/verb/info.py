@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.completion import node_names
-from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
+from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
 from ros2cli.output import tell
 from ros2node.verb import VerbExtension
 
@@ -49,7 +49,7 @@ def main(args: argparse.Namespace) -> str | None:
     from ros2cli.suggestion import did_you_mean
 
     name, hidden = args.node_name, args.include_hidden
-    with GraphNode(args.spin_time) as graph:
+    with discovered_graph(args.spin_time) as graph:
         known = ask.node_names(graph, hidden=hidden)
         if name not in known:
             return f"Unable to find node '{name}'{did_you_mean(name, known)}"

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
-from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
+from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph, hidden_node_name
 from ros2cli.listing import HIDDEN_NODES, count_argument, print_names
 from ros2cli.output import tell
 from ros2node.verb import VerbExtension
@@ -28,11 +28,10 @@ def main(args: argparse.Namespace) -> None:
     """Print the full names."""
     from ros2cli.graph import node_names
 
-    helper = GraphNode(args.spin_time)
-    with helper as graph:
+    with discovered_graph(args.spin_time) as graph:
         names = node_names(graph, hidden=args.all)
     if not args.no_daemon:  # ROS 2 asks its daemon then, where the command has no node
-        names = [name for name in names if name != helper.full_name]
+        names = [name for name in names if name != f"/{hidden_node_name()}"]
     if len(set(names)) < len(names) and not args.count:
         tell(
             "WARNING: Be aware that there are nodes in the graph that share an exact name, "

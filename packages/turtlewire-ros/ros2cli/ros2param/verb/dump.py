@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.builtin import verb_of_module
-from ros2cli.direct_node import DirectNode
+from ros2cli.node.direct import DirectNode
 from ros2param.options import node_arguments
 from ros2param.parameters import RemoteParameters
 from ros2param.verb import VerbExtension

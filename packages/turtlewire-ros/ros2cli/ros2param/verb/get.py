@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
-from ros2cli.direct_node import DirectNode
+from ros2cli.node.direct import DirectNode
 from ros2param.options import NAME_ARGUMENT, node_arguments
 from ros2param.parameters import RemoteParameters
 from ros2param.verb import VerbExtension

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
-from ros2cli.direct_node import DirectNode
+from ros2cli.node.direct import DirectNode
 from ros2cli.output import tell_failed_call
 from ros2cli.values import regular_expression
 from ros2param.options import node_arguments

@@ -15,7 +15,7 @@ from ros2cli.values import positive_float, read_values, shortened
 from ros2service.verb import VerbExtension
 
 if TYPE_CHECKING:
-    from ros2cli.direct_node import DirectNode
+    from ros2cli.node.direct import DirectNode
 
 __all__ = ["ARGUMENTS", "NODE_NAME_PREFIX", "CallVerb", "main", "requester"]
 
@@ -61,8 +61,8 @@ def main(args: argparse.Namespace) -> str | None:
         set_message_fields(request, values)
     except Exception as error:  # noqa: BLE001  any value may be wrong in any way
         return f"Failed to populate field: {shortened(error)}{field_meant(error)}"
-    from ros2cli.direct_node import DirectNode
     from ros2cli.graph import services
+    from ros2cli.node.direct import DirectNode
     from ros2cli.suggestion import say_why_to_wait
     from turtlewire.wire.services import require_callable
 

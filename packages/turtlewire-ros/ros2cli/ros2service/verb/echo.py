@@ -50,7 +50,7 @@ ARGUMENTS = (
 
 def main(args: argparse.Namespace) -> str | None:
     """Print the events until Ctrl-C."""
-    from ros2cli.direct_node import DirectNode
+    from ros2cli.node.direct import DirectNode
 
     if args.service_type is not None:
         # A wrong type is refused before anything is started.

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.completion import interfaces
-from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
+from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
 from ros2cli.listing import count_argument, hidden_argument, print_names_of_type
 from ros2service.verb import VerbExtension
 
@@ -32,7 +32,7 @@ def main(args: argparse.Namespace) -> None:
     """Print the names of the services."""
     from ros2cli.graph import services
 
-    with GraphNode(args.spin_time) as graph:
+    with discovered_graph(args.spin_time) as graph:
         found = services(graph, hidden=args.include_hidden_services)
     print_names_of_type(found, args.service_type, "srv", args)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.builtin import verb_of_module
-from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
+from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
 from ros2cli.listing import SHOW_TYPES, count_argument, hidden_argument, print_names_and_types
 from ros2service.verb import VerbExtension
 
@@ -21,7 +21,7 @@ def main(args: argparse.Namespace) -> None:
     """Print the names."""
     from ros2cli.graph import services
 
-    with GraphNode(args.spin_time) as graph:
+    with discovered_graph(args.spin_time) as graph:
         found = services(graph, hidden=args.include_hidden_services)
     print_names_and_types(found, args)
 

@@ -48,7 +48,7 @@ ARGUMENTS = (
 def main(args: argparse.Namespace) -> None:
     """Print the bandwidth every second, while messages come."""
     from rclpy.qos import qos_profile_sensor_data
-    from ros2cli.direct_node import DirectNode
+    from ros2cli.node.direct import DirectNode
     from ros2topic.api import type_of_topic
 
     with DirectNode(args) as direct:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Callable
 
-    from ros2cli.direct_node import DirectNode
+    from ros2cli.node.direct import DirectNode
 
 __all__ = ["ARGUMENTS", "DEFAULT_TRUNCATE_LENGTH", "EchoVerb", "main", "make_filter"]
 
@@ -77,7 +77,7 @@ ARGUMENTS = (
 def main(args: argparse.Namespace) -> str | None:
     """Print the messages until there is an end."""
     from rclpy.task import Future
-    from ros2cli.direct_node import DirectNode
+    from ros2cli.node.direct import DirectNode
     from ros2cli.suggestion import warn_of_other_type
     from ros2topic.api import message_class, type_of_topic
     from turtlewire.msg import type_name

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.completion import interfaces
-from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
+from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
 from ros2cli.listing import count_argument, hidden_argument, print_names_of_type
 from ros2topic.verb import VerbExtension
 
@@ -32,7 +32,7 @@ def main(args: argparse.Namespace) -> None:
     """Print the names of the topics."""
     from ros2cli.graph import topics
 
-    with GraphNode(args.spin_time) as graph:
+    with discovered_graph(args.spin_time) as graph:
         found = topics(graph, hidden=args.include_hidden_topics)
     print_names_of_type(found, args.topic_type, "msg", args)
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.completion import topic_names
-from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
+from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
 from ros2topic.verb import VerbExtension
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ def main(args: argparse.Namespace) -> str | None:
     from ros2cli.graph import endpoints_of_topic, topics
     from ros2cli.suggestion import did_you_mean
 
-    with GraphNode(args.spin_time) as graph:
+    with discovered_graph(args.spin_time) as graph:
         known = dict(topics(graph, hidden=True))
         if args.topic_name not in known:
             return f"Unknown topic '{args.topic_name}'{did_you_mean(args.topic_name, known)}"

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
-from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
+from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
 from ros2cli.listing import (
     SHOW_TYPES,
     count_argument,
@@ -37,7 +37,7 @@ def main(args: argparse.Namespace) -> None:
     """Print names, or what was asked for."""
     from ros2cli.graph import topics
 
-    with GraphNode(args.spin_time) as graph:
+    with discovered_graph(args.spin_time) as graph:
         found = topics(graph, hidden=args.include_hidden_topics)
         if args.verbose and not args.count:
             _print_verbose(graph, found)

@@ -18,7 +18,7 @@ from ros2topic.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-    from ros2cli.direct_node import DirectNode
+    from ros2cli.node.direct import DirectNode
 
 __all__ = ["ARGUMENTS", "DEFAULT_WAIT_TIME", "PubVerb", "main", "nonnegative_int"]
 
@@ -87,7 +87,7 @@ ARGUMENTS = (
 
 def main(args: argparse.Namespace) -> str | None:
     """Publish."""
-    from ros2cli.direct_node import DirectNode
+    from ros2cli.node.direct import DirectNode
     from ros2cli.suggestion import field_meant, warn_of_other_type
     from ros2topic.api import message_class
     from rosidl_runtime_py import set_message_fields
@@ -100,7 +100,7 @@ def main(args: argparse.Namespace) -> str | None:
     except Exception as error:  # noqa: BLE001  any value may be wrong in any way
         return f"Failed to populate field: {shortened(error)}{field_meant(error)}"
     times = 1 if args.once else args.times
-    with DirectNode(args, name=args.node_name, lingers=True) as direct:
+    with DirectNode(args, node_name=args.node_name, lingers=True) as direct:
         topic = direct.node.resolve_topic_name(args.topic_name)
         if not direct.node.count_subscribers(topic):  # of subscriptions the publisher will warn
             known = direct.graph.topic_names_and_types()

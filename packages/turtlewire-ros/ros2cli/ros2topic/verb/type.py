@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.completion import topic_names
-from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
+from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
 from ros2cli.listing import print_types
 from ros2topic.verb import VerbExtension
 
@@ -26,7 +26,7 @@ def main(args: argparse.Namespace) -> int:
     """Print the type; status 1 if there is no such topic."""
     from ros2cli.graph import topics
 
-    with GraphNode(args.spin_time) as graph:
+    with discovered_graph(args.spin_time) as graph:
         known = dict(topics(graph, hidden=True))
     return print_types("topic", args.topic_name, known)
 

@@ -10,7 +10,7 @@ import pytest
 from tests.needs import HAS_CYCLONE_DDS
 
 import rclpy
-from ros2cli import direct_node, helpers, plugin_system
+from ros2cli import helpers, plugin_system
 from ros2cli.entry_points import get_entry_points, get_first_line_doc
 from ros2cli.installed import declared
 from ros2cli.node.daemon import DaemonNode, is_daemon_running, shutdown_daemon, spawn_daemon
@@ -76,7 +76,7 @@ def test_topics_services_and_nodes(node, peer):
             and "/far/reset" in [each.name for each in nodes.get_service_server_info(**where)]
         )
 
-    assert direct_node.DirectNode.around(node).wait_for(is_known, timeout=60)
+    assert DirectNode.around(node).wait_for(is_known, timeout=60)
     assert ("/said", ["std_msgs/msg/String"]) in topics.get_topic_names_and_types(node=node)
     assert "/far/words" in topics.get_topic_names(node=node)
     assert topics.get_msg_class(node, "/said", blocking=True) is String

@@ -10,9 +10,9 @@ import sys
 import pytest
 
 from ros2cli import graph as ask
-from ros2cli.direct_node import DirectNode
 from ros2cli.discovery import wait_until_discovered
 from ros2cli.main import main
+from ros2cli.node.direct import DirectNode
 from ros2param.verb.list import _serving
 from turtlewire import msg
 from turtlewire.wire import open_context

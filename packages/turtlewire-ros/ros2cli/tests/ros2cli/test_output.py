@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import io
 import sys
+from contextlib import nullcontext
 
 import pytest
 
-from ros2cli.discovery import GraphNode
 from ros2cli.main import main
 from ros2cli.output import escaped_output, tell
 from turtlewire.wire.base import EndpointInfo, ForeignServer, NodeInfo
@@ -85,6 +85,11 @@ class HostileGraph:
         return True
 
 
+def meet_hostile_peer(monkeypatch, command, verb):
+    module = f"ros2{command}.verb.{verb}"
+    monkeypatch.setattr(f"{module}.discovered_graph", lambda _: nullcontext(HostileGraph()))
+
+
 @pytest.mark.parametrize(
     ("words", "lines"),
     [
@@ -95,13 +100,13 @@ class HostileGraph:
     ],
 )
 def test_lists_beside_a_hostile_peer(monkeypatch, capsys, words, lines):
-    monkeypatch.setattr(GraphNode, "__enter__", lambda _self: HostileGraph())
+    meet_hostile_peer(monkeypatch, *words[:2])
     assert main(words) == 0
     assert capsys.readouterr().out.splitlines() == lines
 
 
 def test_topic_info_of_a_hostile_peer(monkeypatch, capsys):
-    monkeypatch.setattr(GraphNode, "__enter__", lambda _self: HostileGraph())
+    meet_hostile_peer(monkeypatch, "topic", "info")
     assert main(["topic", "info", "-v", r"/x\nPublisher count: 9"]) == 0
     text = capsys.readouterr().out
     assert "Node name: \\x1b]0;owned\\x07\\x1b[2J\\nnode\n" in text
@@ -111,7 +116,7 @@ def test_topic_info_of_a_hostile_peer(monkeypatch, capsys):
 
 
 def test_node_info_of_a_hostile_peer(monkeypatch, capsys):
-    monkeypatch.setattr(GraphNode, "__enter__", lambda _self: HostileGraph())
+    meet_hostile_peer(monkeypatch, "node", "info")
     assert main(["node", "info", r"/\x1b]0;owned\x07\x1b[2J\nnode"]) == 0
     text, told = capsys.readouterr()
     assert "    /x\\nPublisher count: 9: a/msg/T\\n/forged\n" in text
