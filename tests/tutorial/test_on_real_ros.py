@@ -67,7 +67,7 @@ def test_the_check_finds_what_a_real_ros_lacks():
     code = """
 from turtlesim.turtlesim_node import TurtlesimNode
 from turtlesim.msg import Posture
-from rclpy.hints import with_hint
+from rclpy.impl.hints import with_hint
 import turtlewire
 try:
     import fast
@@ -77,7 +77,7 @@ except ImportError:
     assert [module for module, name in imports(code) if not is_on_real_ros(module, name)] == [
         "turtlesim.turtlesim_node",
         "turtlesim.msg",
-        "rclpy.hints",
+        "rclpy.impl.hints",
         "turtlewire",
     ]
 

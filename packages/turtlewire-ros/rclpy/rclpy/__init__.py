@@ -18,11 +18,10 @@ module                                      what it holds
 `executors`                                 `Executor`; its parts are in `_execution`
 `_node`, `_execution`                       what a node and an executor consist of
 `context`, `utilities`                      `Context`; the default context, `ok`, `try_shutdown`
-`arguments`                                 ROS arguments, and the nodes that they are for
 `publisher`, `subscription`                 endpoints of topics
 `client`, `service`                         endpoints of services
 `timer`, `guard_condition`                  timers; wake-ups by hand
-`waitable`, `handle`, `destroyable`         entities of programs; handles of all entities
+`waitable`, `destroyable`                   entities of programs
 `action`, `lifecycle`                       action clients and servers; lifecycle nodes
 `callback_groups`, `task`                   which callbacks may run together; futures and coroutines
 `clock`, `clock_type`, `time`, `duration`   clocks, times and durations
@@ -31,19 +30,18 @@ module                                      what it holds
 `parameter_client`                          parameters of another node
 `parameter_service`                         the services of a node's parameters
 `parameter_event_handler`                   callbacks for changed parameters
-`qos`, `qos_policies`                       `QoSProfile`, its policies and presets
-`qos_compatibility`                         whether two profiles match
+`qos`                                       `QoSProfile`, its policies and presets; parts in `_qos`
 `qos_overriding_options`                    QoS set by parameters
-`event_handler`, `_qos_events`              events: incompatible QoS, deadlines, matches
+`event_handler`                             events: incompatible QoS, deadlines, matches
 `qos_event`                                 the former name of `event_handler`
 `topic_endpoint_info`, `type_hash`          what the graph shows of an endpoint
-`logging`, `impl`                           loggers; their outputs, formats and filters
+`logging`                                   loggers
+`impl`                                      their outputs and formats; ROS arguments; hints
 `logging_service`                           the services of a node's log levels
 `service_introspection`                     events of requests and responses
 `type_description_service`                  the service ``~/get_type_description``
-`signals`, `excepthooks`                    Ctrl-C and SIGTERM; tracebacks at the end of a process
-`exceptions`, `hints`                       rclpy's errors; advice for common mistakes
-`unheard`                                   a warning when nothing subscribes to a publisher
+`signals`                                   Ctrl-C and SIGTERM
+`exceptions`                                rclpy's errors
 `serialization`, `type_support`             messages as bytes; checks of types
 `wait_for_message`                          `wait_for_message`
 `subscription_content_filter_options`       filters by content
@@ -55,7 +53,6 @@ module                                      what it holds
 `validate_parameter_name`                   checks of names of parameters
 `constants`, `experimental`                 names and modules that ROS 2 has, too
 `_typing`                                   type variables of `Publisher`, `Client` and others
-`_asyncio_loop`                             asyncio's loop, where one runs
 `_rclpy_pybind11`                           the few names of ROS 2's extension that programs use
 ==========================================  ========================================================
 """
@@ -65,7 +62,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 # First: an early Ctrl-C, too, ends without a traceback.
-from . import excepthooks as _excepthooks  # noqa: F401
+from .impl import excepthooks as _excepthooks  # noqa: F401
 from .signals import SignalHandlerOptions, install_signal_handlers, uninstall_signal_handlers
 from .utilities import get_default_context, ok, try_shutdown
 from .utilities import shutdown as _shutdown

@@ -16,7 +16,7 @@ from ._typing import RequestT, ResponseT, SrvT_co, T
 from ._typing import RequestT as SrvTypeRequest
 from ._typing import ResponseT as SrvTypeResponse
 from ._typing import SrvT as SrvType
-from .hints import described
+from .impl.hints import described
 from .service_introspection import EventType, IntrospectedEndpoint
 from .task import Future
 

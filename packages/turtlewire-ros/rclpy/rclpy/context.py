@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from turtlewire.wire import base
 
-    from .arguments import Arguments
+    from .impl.arguments import Arguments
 
 __all__ = ["Context"]
 
@@ -83,7 +83,7 @@ class Context:
         from turtlewire.errors import WireError
         from turtlewire.wire import open_context
 
-        from .arguments import Arguments
+        from .impl.arguments import Arguments
 
         with self._lock:
             if domain_id is not None and domain_id < 0:

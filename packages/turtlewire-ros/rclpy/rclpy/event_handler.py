@@ -12,7 +12,7 @@ from turtlewire.errors import WireError
 from turtlewire.wire.base import EventKind
 
 from ._execution.entity import Entity, Host
-from ._qos_events import (
+from ._qos.events import (
     IncompatibleTypeInfo,
     QoSDeadlineOfferedInfo,
     QoSDeadlineRequestedInfo,
@@ -37,8 +37,8 @@ if TYPE_CHECKING:
 
     from turtlewire.wire import base
 
+    from ._execution.handle import Handle
     from .callback_groups import CallbackGroup
-    from .handle import Handle
     from .impl.rcutils_logger import RcutilsLogger
     from .publisher import Publisher
     from .subscription import Subscription

@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ._rclpy_pybind11 import InvalidHandle
-from .hints import with_hint
+from .impl.hints import with_hint
 
 if TYPE_CHECKING:
     from typing_extensions import Self

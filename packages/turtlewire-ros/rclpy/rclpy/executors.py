@@ -16,7 +16,7 @@ from ._execution.exceptions import (
 from ._execution.futures import call_when_done
 from ._execution.pool import PoolScheduler
 from ._execution.scheduler import Scheduler
-from .hints import described
+from .impl.hints import described
 from .task import Future, Task
 
 if TYPE_CHECKING:

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 
 from turtlewire.wire import names
 
+from ._execution.handle import Handle
 from ._node.endpoints import NodeEndpoints, QosOverrides
 from ._node.graph import NodeGraph
 from ._node.parameters import NodeParameters
@@ -26,8 +27,7 @@ from .client import Client, SrvType, SrvTypeRequest, SrvTypeResponse
 from .clock import ROSClock
 from .exceptions import InvalidNamespaceException, InvalidNodeNameException, NotInitializedException
 from .guard_condition import GuardCondition
-from .handle import Handle
-from .hints import with_hint
+from .impl.hints import with_hint
 from .parameter import PARAMETER_SEPARATOR_STRING
 from .parameter_service import ParameterService
 from .publisher import MsgType, Publisher
@@ -47,11 +47,11 @@ if TYPE_CHECKING:
     from turtlewire.wire import base
 
     from ._typing import MsgT, SrvT
-    from .arguments import Arguments
     from .callback_groups import CallbackGroup
     from .clock import Clock
     from .context import Context
     from .executors import Executor
+    from .impl.arguments import Arguments
     from .impl.rcutils_logger import RcutilsLogger
     from .parameter import Parameter
     from .qos import QoSProfile
@@ -804,7 +804,7 @@ def _arguments(
     context: Context, cli_args: list[str] | None, *, use_global_arguments: bool
 ) -> Arguments:
     """Return the node's own command line before the context's."""
-    from .arguments import Arguments
+    from .impl.arguments import Arguments
 
     component = component_arguments.get()
     if component is not None:  # a component's process was started for others

@@ -9,12 +9,12 @@ from turtlewire.errors import WireError
 from turtlewire.msg import encode
 from turtlewire.wire.qos import BEST_AVAILABLE_NS
 
+from ._execution.handle import Handle
+from ._qos.policies import DurabilityPolicy, LivelinessPolicy
 from ._rclpy_pybind11 import InvalidHandle, RCLError
 from ._typing import MsgT
 from ._typing import MsgT as MsgType
 from .duration import Duration
-from .handle import Handle
-from .qos_policies import DurabilityPolicy, LivelinessPolicy
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -7,9 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtlewire.wire import qos as wire_qos
 
-from .duration import Duration
-from .hints import require, with_hint
-from .qos_policies import (
+from ._qos.policies import (
     DurabilityPolicy,
     HistoryPolicy,
     LivelinessPolicy,
@@ -22,6 +20,8 @@ from .qos_policies import (
     ReliabilityPolicy,
     qos_policy_name_from_kind,
 )
+from .duration import Duration
+from .impl.hints import require, with_hint
 
 __all__ = [
     "DurabilityPolicy",
@@ -370,7 +370,7 @@ def qos_check_compatible(
         ``(compatibility, reason)``; the reason is empty when they do, and a WARNING means that a
         profile leaves it open.
     """
-    from .qos_compatibility import check
+    from ._qos.compatibility import check
 
     level, reason = check(publisher_qos, subscription_qos)
     return QoSCheckCompatibleResult(QoSCompatibility(level), reason)

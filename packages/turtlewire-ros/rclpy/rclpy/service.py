@@ -13,7 +13,7 @@ from ._typing import RequestT as SrvTypeRequest
 from ._typing import ResponseT as SrvTypeResponse
 from ._typing import SrvT as SrvType
 from ._typing import SrvT_co
-from .hints import described
+from .impl.hints import described
 from .service_introspection import EventType, IntrospectedEndpoint
 
 if TYPE_CHECKING:

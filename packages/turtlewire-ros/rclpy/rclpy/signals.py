@@ -22,8 +22,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from turtlewire.platforms import in_browser
 
-from . import excepthooks
-from ._asyncio_loop import interrupted_loop
+from ._execution.asyncio_loop import interrupted_loop
+from .impl import excepthooks
 
 if TYPE_CHECKING:
     from types import FrameType

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, Generic, Protocol
 
 from turtlewire.wake_up import WakeUp
 
-from ._asyncio_loop import running_loop
+from ._execution.asyncio_loop import running_loop
 from ._typing import T
 
 if TYPE_CHECKING:

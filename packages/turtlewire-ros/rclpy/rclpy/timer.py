@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from ._execution.entity import Entity, Host, Work
 from .clock_type import ClockType
 from .exceptions import ROSInterruptException
-from .hints import with_hint
+from .impl.hints import with_hint
 
 if TYPE_CHECKING:
     from collections.abc import Callable

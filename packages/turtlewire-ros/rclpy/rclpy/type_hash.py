@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .hints import require
+from .impl.hints import require
 
 __all__ = ["TypeHash"]
 

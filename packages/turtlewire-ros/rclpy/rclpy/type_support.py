@@ -8,7 +8,7 @@ from turtlewire import msg
 from turtlewire.wire.base import ServiceTypes, TypeId
 
 from .exceptions import NoTypeSupportImportedException
-from .hints import described, with_hint
+from .impl.hints import described, with_hint
 
 __all__ = [
     "check_for_type_support",

@@ -68,7 +68,7 @@ def remove_ros_args(args: list[str] | None = None) -> list[str]:
     """
     import sys
 
-    from .arguments import Arguments
+    from .impl.arguments import Arguments
 
     return list(Arguments.parse(sys.argv if args is None else args).user_args)
 

@@ -12,9 +12,9 @@ import rclpy
 from geometry_msgs.msg import Twist, TwistStamped
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.executors import ExternalShutdownException
+from rclpy.impl.unheard import warn_if_unheard
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
-from rclpy.unheard import warn_if_unheard
 from turtlewire.terminal.keyboard import (
     ENDING_SIGNALS,
     Keyboard,

@@ -12,7 +12,7 @@ import rclpy
 from geometry_msgs.msg import Twist
 from rclpy.action import ActionClient
 from rclpy.executors import ExternalShutdownException
-from rclpy.unheard import warn_if_unheard
+from rclpy.impl.unheard import warn_if_unheard
 from turtlesim.action import RotateAbsolute
 from turtlesim.cpp_node import CppNode
 from turtlesim.turtle_endpoints import QUEUE_DEPTH

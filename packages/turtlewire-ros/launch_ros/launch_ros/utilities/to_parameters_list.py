@@ -50,7 +50,7 @@ def to_parameters_list(
 def _of_file(path: Path, full_name: str) -> dict[str, Any]:
     import yaml
 
-    from rclpy.arguments import Arguments
+    from rclpy.impl.arguments import Arguments
 
     content = yaml.safe_load(path.read_text(encoding="utf-8"))
     if isinstance(content, Mapping) and not _names_nodes(content):

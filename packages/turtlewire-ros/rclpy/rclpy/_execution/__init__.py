@@ -11,5 +11,7 @@ module                    what it holds
 `futures`                 callbacks of futures: called at once, or by an executor
 `background_events`       TF messages, stored by other threads, as events
 `exceptions`              reasons for which a wait ends without work
+`handle`                  handles, where ROS 2 has objects of its C library
+`asyncio_loop`            asyncio's loop, where one runs
 ========================  =============================================================
 """

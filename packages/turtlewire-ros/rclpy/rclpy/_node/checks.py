@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from rclpy._rclpy_pybind11 import RCLError
-from rclpy.hints import with_hint
+from rclpy.impl.hints import with_hint
 from rclpy.qos import QoSProfile
 from turtlewire.errors import WireError
 

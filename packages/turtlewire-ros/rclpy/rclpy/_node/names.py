@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
-from rclpy.hints import described
+from rclpy.impl.hints import described
 from turtlewire.wire import names
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ from rclpy.exceptions import (
     ParameterImmutableException,
     ParameterNotDeclaredException,
 )
-from rclpy.hints import described, with_hint
+from rclpy.impl.hints import described, with_hint
 from rclpy.parameter import PARAMETER_SEPARATOR_STRING, Parameter
 from rclpy.validate_parameter_name import validate_parameter_name
 

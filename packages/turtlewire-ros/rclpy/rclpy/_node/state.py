@@ -14,8 +14,8 @@ from turtlewire.wire import names
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from rclpy.arguments import Arguments
     from rclpy.context import Context
+    from rclpy.impl.arguments import Arguments
     from rclpy.impl.rcutils_logger import RcutilsLogger
     from turtlewire.wire import base
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Generic
 from rclpy._execution.futures import call_when_done
 from rclpy._node.endpoints import endpoints_of
 from rclpy._typing import ActionT_co
-from rclpy.hints import described, with_hint
+from rclpy.impl.hints import described, with_hint
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from rclpy.task import Future
 from rclpy.type_support import check_for_type_support

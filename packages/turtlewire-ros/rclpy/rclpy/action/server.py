@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from rclpy._node.endpoints import endpoints_of
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.executors import await_or_execute
-from rclpy.hints import described, with_hint
+from rclpy.impl.hints import described, with_hint
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from rclpy.service import Service
 from rclpy.timer import Timer

@@ -12,8 +12,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from rclpy._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
-from rclpy.arguments import Arguments
 from rclpy.impl import log_output
+from rclpy.impl.arguments import Arguments
 from rclpy.impl.rcl_lexer import Lexeme, Lexer, RuleError
 from rclpy.impl.rcl_yaml_param_parser import parse_file, parse_value
 from tests import places

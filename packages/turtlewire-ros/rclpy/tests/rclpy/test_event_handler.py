@@ -9,7 +9,7 @@ import pytest
 from tests.needs import needs_cyclone_dds
 
 import rclpy
-from rclpy import _qos_events, event_handler
+from rclpy._qos import event_handler, events
 from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.event_handler import (
@@ -285,7 +285,7 @@ def test_a_liveliness_change_tells_the_living_from_the_others():
     status = EventStatus(
         total_count=1, total_count_change=-2, current_count=3, current_count_change=4
     )
-    info = _qos_events._liveliness(status)
+    info = events._liveliness(status)
     assert (info.alive_count, info.alive_count_change) == (3, 4)
     assert (info.not_alive_count, info.not_alive_count_change) == (1, -2)
 

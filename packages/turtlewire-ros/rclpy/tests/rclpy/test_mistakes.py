@@ -12,11 +12,11 @@ from example_interfaces.action import Fibonacci
 from example_interfaces.srv import AddTwoInts
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.action import ActionClient, ActionServer
-from rclpy.arguments import Arguments
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.context import Context
 from rclpy.exceptions import NoTypeSupportImportedException
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.impl.arguments import Arguments
 from rclpy.node import Node
 from std_msgs.msg import Int32, String
 from std_srvs.srv import Trigger

@@ -10,7 +10,7 @@ import sys
 
 import pytest
 
-from rclpy import unheard
+from rclpy.impl import unheard
 from std_msgs.msg import String
 from turtlewire.doctor import network
 

@@ -9,8 +9,8 @@ from collections import deque
 from typing import TYPE_CHECKING
 
 import rclpy
-from rclpy.arguments import Arguments
 from rclpy.executors import SingleThreadedExecutor, TimeoutException
+from rclpy.impl.arguments import Arguments
 from turtlesim.testing.programs import nodes_of, rclpy_in_step
 from turtlewire.wire.local.context import LocalContext
 

@@ -7,9 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from turtlewire.wire.environment import compares_qos
-
-from .qos import (
+from rclpy.qos import (
     DurabilityPolicy,
     LivelinessPolicy,
     QoSCompatibility,
@@ -17,9 +15,10 @@ from .qos import (
     QoSProfile,
     ReliabilityPolicy,
 )
+from turtlewire.wire.environment import compares_qos
 
 if TYPE_CHECKING:
-    from .duration import Duration
+    from rclpy.duration import Duration
 
 __all__ = ["check"]
 

@@ -75,12 +75,13 @@ def _is_of_the_command_line(traceback: TracebackType | None) -> bool:
     while traceback is not None and traceback.tb_next is not None:
         traceback = traceback.tb_next
     return (
-        traceback is not None and traceback.tb_frame.f_globals.get("__name__") == "rclpy.arguments"
+        traceback is not None
+        and traceback.tb_frame.f_globals.get("__name__") == "rclpy.impl.arguments"
     )
 
 
 def _thread_hook(arguments: threading.ExceptHookArgs) -> None:
-    from ._execution.exceptions import ExternalShutdownException
+    from rclpy._execution.exceptions import ExternalShutdownException
 
     if not (_signal_came and issubclass(arguments.exc_type, ExternalShutdownException)):
         _previous_thread_hook(arguments)

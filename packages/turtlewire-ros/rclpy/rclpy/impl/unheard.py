@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .clock import Clock
-from .clock_type import ClockType
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
 
 if TYPE_CHECKING:
-    from .node import Node
-    from .publisher import Publisher
+    from rclpy.node import Node
+    from rclpy.publisher import Publisher
 
 __all__ = ["warn_if_unheard"]
 

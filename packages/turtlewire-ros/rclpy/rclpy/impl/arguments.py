@@ -10,13 +10,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
+from rclpy._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from .impl.rcl_remap import RemapRule
-    from .impl.rcl_yaml_param_parser import ParameterValue
+    from rclpy.impl.rcl_remap import RemapRule
+    from rclpy.impl.rcl_yaml_param_parser import ParameterValue
 
 __all__ = ["Arguments"]
 
@@ -155,7 +155,7 @@ class Arguments:
         try:
             return cls.parse(argv)
         except RCLInvalidROSArgsError as error:
-            from .logging import get_logger
+            from rclpy.logging import get_logger
 
             get_logger("rcl").error("Failed to parse global arguments")
             raise RCLError(f"failed to initialize rcl: {error}") from None
@@ -186,8 +186,8 @@ class Arguments:
 
     def configure_logging(self) -> None:
         """Apply what the process's command line says of logging; ``rclpy.init`` does it."""
-        from .impl import log_output
-        from .logging import get_logger
+        from rclpy.impl import log_output
+        from rclpy.logging import get_logger
 
         log_output.configure(
             levels=self.log_levels,
@@ -221,7 +221,7 @@ class Arguments:
     def _remap(self, kind: str, name: str, node_name: str, namespace: str) -> str:
         if not self.rules:
             return name
-        from .impl.rcl_remap import RemapKind, remap
+        from rclpy.impl.rcl_remap import RemapKind, remap
 
         return remap(self.rules, RemapKind[kind], name, node_name, namespace)
 
@@ -253,24 +253,24 @@ class Arguments:
             ) from None
 
     def _add_remap_rule(self, text: str) -> None:
-        from .impl.rcl_remap import parse_remap_rule
+        from rclpy.impl.rcl_remap import parse_remap_rule
 
         self.rules.append(parse_remap_rule(text))
 
     def _add_parameter(self, text: str) -> None:
-        from .impl.rcl_param_rule import parse_parameter_rule
+        from rclpy.impl.rcl_param_rule import parse_parameter_rule
 
         node_name, parameter_name, value = parse_parameter_rule(text)
         self.parameter_maps[0].setdefault(node_name, {})[parameter_name] = value
 
     def _add_parameter_file(self, path: str) -> None:
-        from .impl.rcl_yaml_param_parser import parse_file
+        from rclpy.impl.rcl_yaml_param_parser import parse_file
 
         for node_name, parameters in parse_file(path).items():
             self.parameter_maps[0].setdefault(node_name, {}).update(parameters)
 
     def _set_log_level(self, text: str) -> None:
-        from .logging import get_logging_severity_from_string
+        from rclpy.logging import get_logging_severity_from_string
 
         name, separator, level = text.partition(":=")
         if not separator:

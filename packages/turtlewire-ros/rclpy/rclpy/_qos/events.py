@@ -8,9 +8,8 @@ from __future__ import annotations
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from rclpy._rclpy_pybind11 import rmw_qos_policy_kind_t
 from turtlewire.wire.base import EventKind, EventStatus
-
-from ._rclpy_pybind11 import rmw_qos_policy_kind_t
 
 if TYPE_CHECKING:
     from collections.abc import Callable
