@@ -9,12 +9,10 @@ module                              what it holds
 `_rewrite`                          converting bags as a YAML file asks
 `_transport`                        these three under the name that scripts import
 `_open_writer`                      a bag to write, by storage options
-`_log_level`                        the level of the logs of recorder and player
 `_metadata`                         `BagMetadata`, and the text of ``ros2 bag info``
 `_storage`, `_compression_options`  options; the engine's types translated
 `_reindexer`                        makes ``metadata.yaml`` anew
 `_message_definitions`              definitions of types from this installation
-`_service_events`                   topics of service introspection
 ==================================  ================================================
 """
 

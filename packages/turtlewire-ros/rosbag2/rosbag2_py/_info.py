@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import os
 
-from rosbag2_py._metadata import BagMetadata, info
-from rosbag2_py._service_events import is_service_event, service_of
+from rosbag2_py._metadata import BagMetadata, info, is_service_event, service_of
 from rosbag2_py._storage import folder_size, from_engine
 from turtlewire.bag import Bag, open_bag
 from turtlewire.errors import BagError

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from rclpy.duration import Duration
 from rclpy.time import Time
-from rosbag2_py._service_events import is_service_event, service_of
 from turtlewire.bag import metadata as engine
 
 if TYPE_CHECKING:
@@ -17,8 +16,17 @@ if TYPE_CHECKING:
 
     from rclpy.qos import QoSProfile
 
-__all__ = ["BagMetadata", "FileInformation", "TopicInformation", "TopicMetadata", "info"]
+__all__ = [
+    "BagMetadata",
+    "FileInformation",
+    "TopicInformation",
+    "TopicMetadata",
+    "info",
+    "is_service_event",
+    "service_of",
+]
 
+_EVENT_TOPIC, _EVENT_TYPE = "/_service_event", "_Event"
 _UNITS = ("B", "KiB", "MiB", "GiB", "TiB")
 _LABEL_WIDTH, _SERVICE_WIDTH = 19, 21
 
@@ -176,3 +184,13 @@ def _date(nanoseconds: int) -> str:
     local = time.localtime(nanoseconds // 1_000_000_000)
     date = f"{time.strftime('%b', local)} {local.tm_mday:2d} {time.strftime('%Y %H:%M:%S', local)}"
     return f"{date}.{nanoseconds % 1_000_000_000:09d} ({_seconds(nanoseconds)})"
+
+
+def is_service_event(topic: str, type_name: str) -> bool:
+    """Return True if a topic carries the introspection events of a service."""
+    return topic.endswith(_EVENT_TOPIC) and type_name.endswith(_EVENT_TYPE)
+
+
+def service_of(topic: str, type_name: str) -> tuple[str, str]:
+    """Name and type of the service whose events a topic carries."""
+    return topic.removesuffix(_EVENT_TOPIC), type_name.removesuffix(_EVENT_TYPE)

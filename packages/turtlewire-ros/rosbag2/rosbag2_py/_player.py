@@ -5,7 +5,7 @@ from __future__ import annotations
 import queue
 from typing import TYPE_CHECKING, ClassVar
 
-from rosbag2_py._log_level import set_log_level
+from rclpy.logging import get_logging_severity_from_string, set_logger_level
 from rosbag2_transport.play import burst, play
 
 if TYPE_CHECKING:
@@ -20,12 +20,15 @@ class Player:
 
     Args:
         log_level: ``debug``, ``info``, ``warn``, ``error`` or ``fatal``.
+
+    Raises:
+        RuntimeError: There is no such level.
     """
 
     _running: ClassVar[set[queue.SimpleQueue[None]]] = set()
 
     def __init__(self, log_level: str = "info") -> None:
-        set_log_level(log_level)
+        set_logger_level("", get_logging_severity_from_string(log_level))
 
     def play(self, storage_options: StorageOptions, play_options: PlayOptions) -> None:
         """Play to the end or until `cancel`; in the main thread also until SIGINT or SIGTERM.

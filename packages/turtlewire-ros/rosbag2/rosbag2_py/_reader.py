@@ -8,7 +8,7 @@ from itertools import chain
 from typing import TYPE_CHECKING
 
 from rclpy.logging import get_logger
-from rosbag2_py._service_events import is_service_event
+from rosbag2_py._metadata import is_service_event
 from rosbag2_py._storage import (
     ConverterOptions,
     MessageDefinition,

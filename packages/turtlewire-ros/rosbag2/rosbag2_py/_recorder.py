@@ -6,8 +6,8 @@ import queue
 from functools import partial
 from typing import TYPE_CHECKING, ClassVar
 
+from rclpy.logging import get_logging_severity_from_string, set_logger_level
 from rosbag2_py._compression_options import CompressionMode, compression_mode_from_string
-from rosbag2_py._log_level import set_log_level
 from rosbag2_py._open_writer import make_writer
 from rosbag2_py._writer import get_registered_compressors
 from rosbag2_transport.record import record
@@ -24,12 +24,15 @@ class Recorder:
 
     Args:
         log_level: ``debug``, ``info``, ``warn``, ``error`` or ``fatal``.
+
+    Raises:
+        RuntimeError: There is no such level.
     """
 
     _running: ClassVar[set[queue.SimpleQueue[None]]] = set()
 
     def __init__(self, log_level: str = "info") -> None:
-        set_log_level(log_level)
+        set_logger_level("", get_logging_severity_from_string(log_level))
 
     def record(
         self,
