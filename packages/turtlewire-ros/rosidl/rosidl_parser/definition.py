@@ -21,6 +21,7 @@ from turtlewire.msg.types import (
     BoundedSequence,
     BoundedString,
     BoundedWString,
+    NamedType,
     NamespacedType,
     UnboundedSequence,
     UnboundedString,
@@ -113,19 +114,6 @@ ACTION_FEEDBACK_SUFFIX = "_Feedback"
 ACTION_GOAL_SERVICE_SUFFIX = "_SendGoal"
 ACTION_RESULT_SERVICE_SUFFIX = "_GetResult"
 ACTION_FEEDBACK_MESSAGE_SUFFIX = "_FeedbackMessage"
-
-
-class NamedType(AbstractNestableType):
-    """A type that is known by a name of its own, as a typedef has.
-
-    Attributes:
-        name: The name.
-    """
-
-    __slots__ = ("name",)
-
-    def __init__(self, name: str) -> None:
-        self.name = name
 
 
 class Annotation:

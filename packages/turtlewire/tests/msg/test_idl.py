@@ -99,6 +99,8 @@ def test_as_rosbags_reads_it():
         ("struct A { char a; };", "line 1: 'char' has no counterpart"),
         ("struct A { sequence<sequence<long>> a; };", "a sequence of sequences has no"),
         ("struct A { long a[2][3]; };", "an array of arrays has no counterpart"),
+        ("struct A {\n@default (value 1) long a; };", "line 2: expected ')', got '1'"),
+        ("struct A {\nlong a[0]; };", "line 2: '0' is not a size (a positive integer)"),
         ("struct A { ? };", "line 1: cannot read '? };'"),
         ("struct B { long a; };", "p/msg/A.idl has no struct A"),
     ],

@@ -181,6 +181,10 @@ def test_a_file_and_its_place(tmp_path, capsys):
         ("struct A { long ; };", "expected a name, got ';'"),
         ("typedef long a[2]; struct A { a b[3]; };", "an array of arrays is no field"),
         ("struct A { long b; ", "expected a name, got 'the end of the file'"),
+        (
+            "module A_Constants { const string B = 5; }; struct A { long a; };",
+            "the value of 'B' is no text: 5",
+        ),
         ("struct A { long $; };", "cannot read '$; };'"),
     ],
 )

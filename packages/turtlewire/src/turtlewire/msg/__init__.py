@@ -31,6 +31,7 @@ module                what it holds
 `type_hash`           type hashes (RIHS01)
 `shell`               lazy classes of modules such as ``geometry_msgs.msg``
 `idl`                 ``.idl`` files as the text of ``.msg``, ``.srv`` and ``.action`` files
+`idl_reader`          reads them, for `idl` and ``rosidl_parser``
 `idl_tokens`          their tokens
 `generate`, `stubs`   Python packages for a folder of definitions; their ``.pyi``
 `__main__`            ``python -m turtlewire.msg DIR``

@@ -133,6 +133,22 @@ class NamespacedType(AbstractNestableType):
         return f"{self.namespaces[0]}/{self.name}"
 
 
+class NamedType(AbstractNestableType):
+    """A type that is known by a name of its own, as a typedef has.
+
+    Attributes:
+        name: The name.
+    """
+
+    __slots__ = ("name",)
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def __str__(self) -> str:
+        return self.name
+
+
 class AbstractGenericString(AbstractNestableType):
     """Text of any kind; ``maximum_size`` exists on the bounded ones."""
 
