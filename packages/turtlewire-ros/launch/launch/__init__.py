@@ -20,7 +20,6 @@ module                             what it holds
 `descriptions`                     executables to run
 `frontend`                         what the parsers of XML and YAML share
 `child_process`                    a child process on the event loop
-`process_action`                   the base of actions that run processes
 `process_output`, `output_lines`   output of a process: logged; split into lines
 `logging`                          the screen, ``launch.log`` and files of single processes
 `utilities`                        helpers of actions and substitutions

@@ -1,4 +1,4 @@
-"""Base of all actions."""
+"""Base of all actions, and of those that run processes."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from launch.frontend import Entity, Parser
     from launch.launch_context import LaunchContext
 
-__all__ = ["Action"]
+__all__ = ["Action", "ProcessAction"]
 
 
 class Action(LaunchDescriptionEntity):
@@ -93,3 +93,7 @@ class Action(LaunchDescriptionEntity):
             context.emit_event_sync(event)
         else:
             future.add_done_callback(lambda _: context.emit_event_sync(event))
+
+
+class ProcessAction(Action):
+    """An action that runs a process; ROS 2's is ``ExecuteLocal``."""

@@ -7,6 +7,7 @@ import signal
 from typing import TYPE_CHECKING, Any
 
 from launch import logging
+from launch.action import ProcessAction
 from launch.child_process import ChildProcess, escalate, stdin_is_terminal
 from launch.conditions import evaluate_condition_expression
 from launch.event_handler import EventHandler, entity_list
@@ -22,7 +23,6 @@ from launch.events.process import (
     ShutdownProcess,
     SignalProcess,
 )
-from launch.process_action import ProcessAction
 from launch.process_output import ProcessOutput
 from launch.substitutions import LaunchConfiguration
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from launch.action import Action, ProcessAction
 from launch.event_handler import BaseEventHandler, entity_list
-from launch.process_action import ProcessAction
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from launch.action import Action
     from launch.event import Event
     from launch.launch_context import LaunchContext
     from launch.some_entities_type import SomeEntitiesType

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from launch.action import Action, ProcessAction
 from launch.event_handlers.on_action_event_base import OnActionEventBase
 from launch.events.process import ProcessExited
-from launch.process_action import ProcessAction
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from launch.action import Action
     from launch.launch_context import LaunchContext
     from launch.some_entities_type import SomeEntitiesType
 

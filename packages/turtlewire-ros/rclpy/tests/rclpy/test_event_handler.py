@@ -9,7 +9,8 @@ import pytest
 from tests.needs import needs_cyclone_dds
 
 import rclpy
-from rclpy._qos import event_handler, events
+from rclpy import event_handler
+from rclpy._qos import events
 from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.event_handler import (
