@@ -24,8 +24,8 @@ RIDDLE = re.compile(
     r"(Whether|What|Those|How|That|Which|Who|Whose|Where|When|Until|See|Of|Likewise)\b"
 )
 PHRASES = re.compile(
-    r"\b(whoever|so many \w+s|for ever|mend(s|ed|ing)?|there is none(?!, and none is needed)|those of|is to be called"
-    r"|a damage|comes? of it|is not to be had|in what)\b",
+    r"\b(whoever|so many \w+s|for ever|mend(s|ed|ing)?|there is none(?!, and none is needed)"
+    r"|those of|is to be called|a damage|comes? of it|is not to be had|in what)\b",
     re.IGNORECASE,
 )
 FILE = re.compile(r"(?<![\w/.<*-])[a-z][a-z_]+\.(?:py|cpp|hpp|js)\b")

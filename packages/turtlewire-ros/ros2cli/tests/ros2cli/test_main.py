@@ -11,7 +11,7 @@ import threading
 import pytest
 
 from ros2cli import main as ros2cli_main
-from ros2cli.installed import declared
+from ros2cli.installed import declared, first_line, summary
 from ros2cli.main import main, make_parser
 from turtlewire import msg
 from turtlewire.wire import open_context
@@ -237,3 +237,25 @@ def test_the_command_line_of_every_verb_is_data():
     modules = [importlib.import_module(entry.module) for entry in entries]
     assert len(modules) > 50
     assert [module.__name__ for module in modules if hasattr(module, "add_arguments")] == []
+
+
+def test_the_help_shows_the_first_line_of_each_class():
+    for group in declared("ros2cli.extension_point"):
+        for entry in declared(group).values():
+            assert summary(entry) == first_line(entry.load()) != "", entry.value
+
+
+def test_the_help_of_a_command_that_is_not_on_the_command_line_loads_no_verb():
+    program = """
+import sys
+from ros2cli.main import main
+try:
+    main(["topic", "--help"])
+except SystemExit:
+    pass
+print(sorted(name for name in sys.modules if name.startswith("ros2") and ".verb." in name))
+"""
+    result = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    assert result.stdout.splitlines()[-1] == "[]"
