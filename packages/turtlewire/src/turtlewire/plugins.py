@@ -1,4 +1,4 @@
-"""Entry points that installed packages declare, those of turtlewire first.
+"""Entry points that installed packages declare, turtlewire's first.
 
 The files are read here, because importing :mod:`importlib.metadata` takes longer than most of what
 a command does.
@@ -65,7 +65,7 @@ def declared(group: str, wanted: str | None = None) -> dict[str, Entry]:
 
 
 def _files() -> Iterator[tuple[str, bool]]:
-    """Yield the files that declare entry points, those of turtlewire first."""
+    """Yield the files that declare entry points, turtlewire's first."""
     others = []
     for folder in sys.path:
         try:
