@@ -16,7 +16,7 @@ module                                      what it holds
 ==========================================  ========================================================
 `node`                                      `Node`; its parts are in `_node`
 `executors`                                 `Executor`; its parts are in `_execution`
-`_node`, `_execution`                       what a node and an executor consist of
+`_node`, `_execution`, `_qos`               what a node, an executor and a QoS consist of
 `context`, `utilities`                      `Context`; the default context, `ok`, `try_shutdown`
 `publisher`, `subscription`                 endpoints of topics
 `client`, `service`                         endpoints of services

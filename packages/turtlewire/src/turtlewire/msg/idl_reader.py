@@ -27,7 +27,7 @@ from turtlewire.msg.types import (
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["BASIC_TYPES", "IdlConstant", "IdlMember", "IdlReader", "IdlStructure"]
+__all__ = ["BASIC_TYPES", "IdlConstant", "IdlMember", "IdlReader", "IdlStructure", "Notes"]
 
 _WHOLE_NUMBERS = {
     f"{sign}{idl}": f"{short}{bits}"

@@ -22,6 +22,7 @@ __all__ = [
     "BoundedSequence",
     "BoundedString",
     "BoundedWString",
+    "NamedType",
     "NamespacedType",
     "UnboundedSequence",
     "UnboundedString",
