@@ -100,7 +100,7 @@ def test_two_views_have_names_of_their_own(view):
     for program in (first, second):
         program.process.send_signal(signal.SIGTERM)
         assert program.wait() == 0
-        assert "another process has a node" not in program.text
+        assert "another process runs a node" not in program.text
 
 
 def test_rviz2_names_the_words_that_it_ignores(run):

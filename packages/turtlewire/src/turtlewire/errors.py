@@ -11,13 +11,13 @@
     └── TransformException            (the tree of ROS 2's tf2; also in tf2_py and tf2_ros)
         ├── ConnectivityException     the two frames are not in one tree
         ├── LookupException           a frame does not exist
-        ├── ExtrapolationException    the time asked for is outside of the data of a link
+        ├── ExtrapolationException    the requested time is outside the data of a transform
         ├── InvalidArgumentException  an empty frame id, or one that starts with '/'
         └── TimeoutException          a remote buffer did not answer in time
 
-``str(error)`` is the text that ROS 2 defines, where it defines one. What helps beyond it is in
-``error.hint`` (an empty string when there is nothing to add); tracebacks show it as a note on
-Python 3.11 and later.
+``str(error)`` is the text that ROS 2 defines, if it defines one. Our advice is in ``error.hint``
+(an empty string when there is nothing to add); tracebacks show it as a note on Python 3.11 and
+later.
 """
 
 from __future__ import annotations
@@ -46,8 +46,8 @@ class TurtlewireError(Exception):
     Attributes:
         hint: One or two plain sentences that say what exists and what to do; empty when there is
             nothing to add.
-        is_of_environment: Whether variables, files or the machine are at fault, and no program: one
-            that does not catch the error ends with one line instead of a traceback.
+        is_of_environment: Whether variables, files or the machine caused the error. A program that does
+            not catch it ends with one line instead of a traceback.
     """
 
     hint: str = ""
@@ -91,10 +91,10 @@ class UncallableServiceError(WireError):
 class TransformException(TurtlewireError):
     """Base of the errors of a transform lookup; catching it catches all of them.
 
-    The hint is made when it is first asked for: a lookup may fail often, and be expected to.
+    The hint is computed on first access, because a lookup may fail often, as expected.
     """
 
-    # The buffer sets the attributes of its errors, and is the only one to do so.
+    # Only the buffer sets the attributes of its errors.
 
     def _make_hint(self) -> str:
         return ""
@@ -134,9 +134,9 @@ class ConnectivityException(TransformException):
     """No chain of transforms connects the two frames.
 
     Attributes:
-        target_frame: The frame in which the answer was to be expressed; empty if unknown, as are
-            the others.
-        source_frame: The frame whose pose was asked for.
+        target_frame: The frame in which the answer was to be expressed. All four are empty if
+            unknown.
+        source_frame: The frame whose pose was requested.
         target_root: The root of the target's tree.
         source_root: The root of the source's tree.
     """
@@ -152,13 +152,13 @@ class ConnectivityException(TransformException):
         target, source = f"'{self.target_frame}'", f"'{self.source_frame}'"
         if self.target_root == self.source_root:
             return (
-                f"{target} and {source} belong to one tree now, rooted at '{self.target_root}', "
-                "but not at the time asked for."
+                f"{target} and {source} are in one tree now, with the root '{self.target_root}', "
+                "but not at the requested time."
             )
         return (
-            f"{target} belongs to the tree of root '{self.target_root}', "
-            f"{source} to that of '{self.source_root}'. "
-            "Somebody must publish a transform that joins the two."
+            f"{target} is in the tree with the root '{self.target_root}', "
+            f"{source} in the tree with the root '{self.source_root}'. "
+            "Publish a transform that connects the two trees."
         )
 
 
@@ -194,24 +194,23 @@ class LookupException(TransformException):
 
 
 class ExtrapolationException(TransformException):
-    """The requested time lies outside of the data of at least one link on the way.
+    """The requested time lies outside the data of at least one transform in the chain.
 
-    As in ROS 2's Python, one class for the future, the past and a lack of data; ``reason`` tells
+    As in ROS 2's Python, one class covers the future, the past and missing data; ``reason`` says
     which it is.
 
     Attributes:
-        reason: ``"future"``, the time is newer than the newest data of the link; ``"past"``, older
-            than the oldest; ``"no data"``, the link has none, or one sample of another time.
-            Empty if unknown.
-        target_frame: The frame in which the answer was to be expressed; empty if unknown, as is the
-            next.
-        source_frame: The frame whose pose was asked for. (These two are a part of the way in a
-            lookup through a fixed frame.)
-        parent_frame: With the next, the link that failed.
-        child_frame: The frame whose pose in its parent is not known at the time.
-        requested_ns: The time asked for, in nanoseconds.
-        oldest_ns: The time of the oldest data of the link; 0 without data.
-        newest_ns: The time of the newest data of the link; 0 without data.
+        reason: ``"future"`` if the time is newer than the newest sample; ``"past"`` if it is older than
+            the oldest; ``"no data"`` if there is no sample, or only one with another stamp; empty
+            if unknown.
+        target_frame: The frame in which the answer was to be expressed; empty if unknown.
+        source_frame: The frame whose pose was requested. (In a lookup through a fixed frame, these two are
+            the ends of the part that failed.)
+        parent_frame: The parent of the transform that failed.
+        child_frame: The child of the transform that failed: its pose is unknown at the requested time.
+        requested_ns: The requested time, in nanoseconds.
+        oldest_ns: The stamp of the oldest sample of the transform; 0 without data.
+        newest_ns: The stamp of the newest sample of the transform; 0 without data.
     """
 
     reason: Literal["future", "past", "no data", ""] = ""
@@ -231,29 +230,28 @@ class ExtrapolationException(TransformException):
         if self.reason == "future":
             gap = (self.requested_ns - self.newest_ns) / 1e9
             return (
-                f"The newest data of {link} is {gap:.6g} s older than the time asked for. "
-                "Give the lookup a timeout to wait for it, or ask for time 0, the latest."
+                f"The newest sample of {link} is {gap:.6g} s older than the requested time. "
+                "Give the lookup a timeout to wait for it, or request time 0, the latest."
             )
         if self.reason == "past":
             gap = (self.oldest_ns - self.requested_ns) / 1e9
             kept = (self.newest_ns - self.oldest_ns) / 1e9
             return (
-                f"The oldest data of {link} is {gap:.6g} s younger than the time asked for; "
-                f"{kept:.6g} s of it are kept."
+                f"The oldest sample of {link} is {gap:.6g} s newer than the requested time; "
+                f"the buffer holds {kept:.6g} s."
             )
-        return self._lack_of_data(link)
+        return self._no_data_hint(link)
 
-    def _lack_of_data(self, link: str) -> str:
+    def _no_data_hint(self, link: str) -> str:
         if not self._has_data:
             return (
-                f"Nothing is known of the transform of '{self.child_frame}' since the buffer was "
-                "cleared."
+                f"No transform of '{self.child_frame}' has arrived since the buffer was cleared."
             )
         gap = (self.requested_ns - self.newest_ns) / 1e9
-        side = "older" if gap > 0 else "younger"
+        side = "older" if gap > 0 else "newer"
         return (
-            f"There is one sample of {link}, {abs(gap):.6g} s {side} than the time asked for; two "
-            "are needed around it."
+            f"The buffer holds one sample of {link}, {abs(gap):.6g} s {side} than the requested "
+            "time; interpolation needs two."
         )
 
 

@@ -263,7 +263,7 @@ def test_the_doctor_finds_on_a_bag_what_it_finds_live(capsys):
     for text in (
         "PROBLEM: The frames form 2 separate trees, with the roots elsewhere, world.",
         "PROBLEM: The stamps of 'boom_left' jump back, by up to 0.214 s.",
-        "PROBLEM: Transforms of 'nozzle' are refused: 1 nan_value.",
+        "PROBLEM: Transforms of 'nozzle' are rejected: 1 nan_value.",
         "note: 'pump' leaves its parent 'nozzle' for 'ladder' at 1795317835.382 s.",
         "note: 'scarecrow' pauses once, for up to 3.328 s.",
         "note: The newest transform of 'weathercock' is 3.1 s old at the end of the bag.",
@@ -312,7 +312,7 @@ def test_the_doctor_on_bags_without_or_with_odd_transforms(capsys, tmp_path):
     done = run(capsys, "doctor", tmp_path / "odd")
     assert "'base_link' goes back and forth between the parents 'map' and 'odom'" in done.out
     assert "'wheel' is sent by '/tf' and '/tf_static'" in done.out
-    assert "1 messages of /tf are no TFMessage" in done.out
+    assert "1 messages of /tf are not a TFMessage" in done.out
 
 
 def test_a_frame_that_is_static_and_moves_and_publishers_nobody_noted(capsys, tmp_path):

@@ -63,7 +63,7 @@ def test_an_empty_domain_is_a_problem_where_others_are_looked_for(
 
 def test_an_empty_domain(context):
     (finding,) = graph_findings(context.graph)
-    assert finding.text == f"No node is seen on domain {os.environ['ROS_DOMAIN_ID']} of this host."
+    assert finding.text == f"No nodes found in domain {os.environ['ROS_DOMAIN_ID']} on this host."
     assert "ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET" in finding.remedy
 
 
@@ -124,12 +124,12 @@ def test_nodes_of_one_name(context):
         (
             QoS(reliability=Reliability.BEST_EFFORT),
             QoS(),
-            "it asks for RELIABLE, and BEST_EFFORT is offered",
+            "it requests RELIABLE, but the publisher offers BEST_EFFORT",
         ),
         (
             QoS(),
             QoS(durability=Durability.TRANSIENT_LOCAL),
-            "it asks for TRANSIENT_LOCAL, and VOLATILE is offered",
+            "it requests TRANSIENT_LOCAL, but the publisher offers VOLATILE",
         ),
     ],
 )
@@ -550,7 +550,7 @@ OWN_NETWORK = (
     subprocess.run(f"unshare -n {UP}", shell=True, capture_output=True, check=False).returncode == 0
 )
 LOST = "PROBLEM: A multicast datagram does not come back"
-NOBODY = "PROBLEM: No node is seen on domain"
+NOBODY = "PROBLEM: No nodes found in domain"
 NO_WIRE = "PROBLEM: join domain"
 
 
@@ -617,9 +617,8 @@ def test_everything_at_once_on_the_wire(run):
         opened.close()
     for text in (
         (
-            "PROBLEM: /x: /two receives nothing from /one: it asks for RELIABLE, and BEST_EFFORT "
-            "is "
-            "offered."
+            "PROBLEM: /x: /two receives nothing from /one: it requests RELIABLE, but the "
+            "publisher offers BEST_EFFORT."
         ),
         "PROBLEM: The frame 'shared' is published by /one and /two.",
         "PROBLEM: The frames form 2 separate trees, with the roots odom, world.",

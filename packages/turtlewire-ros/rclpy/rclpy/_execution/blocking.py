@@ -127,29 +127,29 @@ def _is_shutdown(host: Host | None) -> bool:
 def _warn_of_long_wait(call: Call) -> None:
     if call.host is None or not call.host.is_spun():
         call.logger.warning(
-            f"Waiting for a response of service '{call.service}', but nobody spins the node that "
-            "calls it: spin it in another thread, or use call_async() and "
+            f"Waiting for a response of service '{call.service}', but no executor spins the "
+            "calling node: spin it in another thread, or use call_async() and "
             "spin_until_future_complete()"
         )
     elif call.host.holds_up(call.service):
         call.logger.warning(
             f"Waiting for a response of service '{call.service}', which cannot run because its "
-            "callback group is busy. If the callback that waits is in that group, it waits for "
-            "ever: give the service a callback group of its own"
+            "callback group is busy. If the waiting callback is in that group, this is a "
+            "deadlock: give the service a callback group of its own"
         )
     else:
         _warn_of_other_executor(call)
 
 
 def _warn_of_other_executor(call: Call) -> None:
-    """Another executor of this process has the request and cannot run the service."""
+    """Warn if another executor of this process has the request and cannot run the service."""
     if any(
         host is not call.host and host.holds_up(call.service) for host in call.context.schedulers()
     ):
         call.logger.warning(
             f"Waiting for a response of service '{call.service}', which another executor "
             "of this process serves: all its threads, or the service's callback group, are busy. "
-            "If they wait for a service of this executor, both wait for ever: use call_async() "
+            "If they wait for a service of this executor, this is a deadlock: use call_async() "
             "with await, or a MultiThreadedExecutor with more threads"
         )
 

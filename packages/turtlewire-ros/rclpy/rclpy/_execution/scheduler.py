@@ -198,11 +198,11 @@ class Scheduler:
         return time.monotonic_ns() + _PATIENCE_NS if is_nested else None
 
     def warn_of_nested_spin(self) -> None:
-        """Say that a callback spins its own executor in vain."""
+        """Warn that a callback spins its own executor, where nothing can run."""
         kinds = ", ".join(sorted({type(entity).__name__ for entity in self._paused}))
         get_logger("rclpy").warning(
-            "A callback spins the executor that runs it, and nothing happens: what is ready "
-            f"({kinds}) belongs to the callback's own group. Use an async callback with await, or "
+            "A callback spins its own executor, and nothing can run: the ready entities "
+            f"({kinds}) are in the callback's own group. Use an async callback with await, or "
             "put them into different callback groups"
         )
 

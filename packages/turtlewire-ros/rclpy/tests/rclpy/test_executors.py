@@ -413,7 +413,7 @@ def test_a_call_that_nobody_serves_is_warned_of(node, capfd, monkeypatch):
     client = node.create_client(AddTwoInts, "add")
     node.create_service(AddTwoInts, "add", add_two_ints)
     assert client.call(AddTwoInts.Request(), timeout_sec=1) is None
-    assert "nobody spins the node" in capfd.readouterr().err
+    assert "no executor spins the calling node" in capfd.readouterr().err
 
 
 def test_a_call_of_a_service_in_the_callers_own_group_is_warned_of(node, pool, spinning, capfd):
@@ -534,7 +534,7 @@ def test_a_spin_within_a_callback_that_cannot_succeed_is_warned_of(
     executor.spin_once(timeout_sec=60)
     assert done.result() == "after the warning"
     assert (
-        "A callback spins the executor that runs it, and nothing happens: what is ready "
+        "A callback spins its own executor, and nothing can run: the ready entities "
         "(GuardCondition)" in capfd.readouterr().err
     )
 

@@ -190,7 +190,7 @@ def test_a_twin_and_another_type_in_another_process(program, capfd, monkeypatch)
             60_000_000_000,
         )
     said = capfd.readouterr().err
-    assert said.count("another process has a node /twin in domain") == 1
+    assert said.count("another process runs a node named /twin in domain") == 1
     assert "ROS_DOMAIN_ID" in said
     assert said.count("topic /chatter has the type std_msgs/msg/String") == 1
 

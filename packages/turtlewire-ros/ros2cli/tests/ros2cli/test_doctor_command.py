@@ -18,7 +18,7 @@ def test_an_empty_domain_of_this_host_is_no_problem(capsys, name):
     assert main([name, "--report-failed"]) == 0
     first, *others = capsys.readouterr().out.splitlines()
     assert first.startswith("All is well: middleware ")
-    nobody = f"note: No node is seen on domain {os.environ['ROS_DOMAIN_ID']} of this host."
+    nobody = f"note: No nodes found in domain {os.environ['ROS_DOMAIN_ID']} on this host."
     assert nobody in others
 
 

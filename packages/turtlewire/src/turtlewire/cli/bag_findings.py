@@ -1,4 +1,4 @@
-"""Faults of a bag and of the transforms in it: what the doctor finds without a network."""
+"""Problems of a bag and its transforms, which the doctor finds without a network."""
 
 from __future__ import annotations
 
@@ -21,21 +21,24 @@ if TYPE_CHECKING:
 
 __all__ = ["examine_bag"]
 
-_REINDEX = "`ros2 bag reindex {}` writes metadata.yaml; what is whole is read without it, too."
-_DAMAGED = "What is whole was read. Copy the file again, or record again."
+_REINDEX = "`ros2 bag reindex {}` writes metadata.yaml; the intact files are read without it."
+_DAMAGED = "The intact part was read. Copy the file again, or record again."
 _NOT_CDR = "turtlewire.bag reads their bytes; to decode them, use the program that wrote the file."
 _NO_TF = "Record /tf and /tf_static."
 _OTHER_TF = "To examine them: turtlewire doctor {} {}"
 _TF_TYPE = "tf2_msgs/msg/TFMessage"
 _LATCH = (
-    "Its publisher is not transient_local, so listeners that came late, the recorder too, may lack "
+    "Its publisher is not transient_local, so late listeners, and the recorder, may miss "
     "transforms: use a StaticTransformBroadcaster."
 )
 _ONE_TOPIC = "A frame must have one publisher: stop the others."
 _ONE_PARENT = "A frame has one parent at a time; lookups fail or jump. Rename one of the frames."
-_REFUSED = "Mend the node that publishes it; listeners ignore such transforms."
-_NEW_PARENT = "That is right if the frame is handed over, as a part to a gripper; else rename one."
-_PART = "Examine the whole of it, static transforms too: turtlewire doctor {}"
+_REFUSED = "Fix the node that publishes them; listeners ignore such transforms."
+_NEW_PARENT = (
+    "This is fine if a part changes hands (picked up by a gripper); otherwise rename one of the "
+    "frames."
+)
+_PART = "Examine the whole bag, with its static transforms: turtlewire doctor {}"
 _GAP = "Lookups within a gap interpolate across it; trajectories leave it out."
 _FOREIGN = "Another type is published on the topic, or the recorder was cut off."
 
@@ -49,12 +52,12 @@ def examine_bag(
 
     Args:
         path: The bag.
-        topics: Where transforms were published.
-        static_topics: Where static transforms were published.
+        topics: The topics of the moving transforms.
+        static_topics: The topics of the static transforms.
 
     Raises:
-        BagError: It is no bag.
-        OSError: It cannot be read.
+        BagError: ``path`` is not a bag.
+        OSError: A file cannot be read.
     """
     found = []
     moving, fixed = _names(topics), _names(static_topics)
@@ -91,7 +94,7 @@ def _tf_topics(bag: Bag) -> list[str]:
 
 
 def _other_transforms(bag: Bag, path: str, read: set[str]) -> list[Finding]:
-    """Return a note of the topics with transforms that are not examined, and how they are."""
+    """Return a note of the topics whose transforms are not examined, and the options for them."""
     others = [name for name in _tf_topics(bag) if name not in read]
     if not others:
         return []
@@ -103,7 +106,7 @@ def _other_transforms(bag: Bag, path: str, read: set[str]) -> list[Finding]:
 
 
 def _unreadable(bag: Bag, path: str) -> list[str]:
-    """Why a file cannot be opened; what is damaged in one that can comes into ``bag.problems``."""
+    """Return why a file cannot be opened; problems of readable files are in ``bag.problems``."""
     try:
         bag.file(path)
     except (BagError, OSError) as error:
@@ -129,7 +132,7 @@ def _report_findings(report: TransformReport) -> list[Finding]:
     found = []
     if report.malformed is not None and report.malformed.messages:
         count, last, topic = report.malformed
-        found.append(problem(f"{count} messages of {topic} are no TFMessage: {last}.", _FOREIGN))
+        found.append(problem(f"{count} messages of {topic} are not a TFMessage: {last}.", _FOREIGN))
     for conflict in report.conflicts:
         remedy = _ONE_PARENT if conflict.kind == "two parents" else _ONE_TOPIC
         found.append(problem(conflict.text, remedy))
@@ -138,7 +141,7 @@ def _report_findings(report: TransformReport) -> list[Finding]:
         found.append(note(text, _NEW_PARENT))
     for child, refused in report.refused.items():
         counts = ", ".join(f"{count} {reason}" for reason, count in refused.counts.items())
-        found.append(problem(f"Transforms of '{child}' are refused: {counts}.", _REFUSED))
+        found.append(problem(f"Transforms of '{child}' are rejected: {counts}.", _REFUSED))
     for child, gaps in report.gaps.items():
         longest = max(gap.end_ns - gap.start_ns for gap in gaps) / 1e9
         times = "once" if len(gaps) == 1 else f"{len(gaps)} times"

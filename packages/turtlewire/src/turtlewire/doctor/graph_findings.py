@@ -1,4 +1,4 @@
-"""Faults among nodes and topics."""
+"""Problems of nodes and topics."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _ONE_QOS = "Give both the same QoS profile, or the subscription the weaker one."
 
 
 def graph_findings(graph: Graph) -> list[Finding]:
-    """Faults among the nodes and topics of a graph."""
+    """Return the problems of the nodes and topics of a graph."""
     names = [fully_qualified_node_name(node.name, node.namespace) for node in graph.nodes()]
     visible = [name for name in names if not is_hidden(name)]
     if not visible:
@@ -46,7 +46,7 @@ def graph_findings(graph: Graph) -> list[Finding]:
 
 
 def _foreign_findings(graph: Graph) -> list[Finding]:
-    """Nodes whose services cannot be called, by middleware."""
+    """Return one note for each middleware whose services cannot be called."""
     servers: dict[str, list[ForeignServer]] = {}
     for server in graph.foreign_servers():
         servers.setdefault(server.middleware, []).append(server)
@@ -62,7 +62,7 @@ def _foreign_findings(graph: Graph) -> list[Finding]:
 
 
 def owner_of(endpoint: EndpointInfo | ForeignServer) -> str:
-    """Full name of the node that owns an endpoint."""
+    """Return the full name of the node that owns an endpoint."""
     if endpoint.node is None:
         return "an unknown node"
     return fully_qualified_node_name(endpoint.node.name, endpoint.node.namespace)
@@ -71,19 +71,19 @@ def owner_of(endpoint: EndpointInfo | ForeignServer) -> str:
 def _no_nodes() -> Finding:
     domain = os.environ.get("ROS_DOMAIN_ID") or "0"
     reach = "this host" if only_this_host() else "this network"
-    remedy = ["Start one."]
+    remedy = ["Start a node."]
     others = sorted(domains_of(udp_ports()) - {domain_id()})
     if others:
         remedy.append(
-            f"This host has nodes on domain {', '.join(map(str, others))}: "
+            f"This host has nodes in domain {', '.join(map(str, others))}: "
             f"export ROS_DOMAIN_ID={others[0]} to see them."
         )
     remedy.append(
-        f"Nodes that talk to each other need the same ROS_DOMAIN_ID (here {domain}); for those on "
-        "other hosts, set ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET on both sides "
+        f"Nodes that talk to each other need the same ROS_DOMAIN_ID (here {domain}); for "
+        "nodes on other hosts, set ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET on both sides "
         f"(here {discovery().range.value})."
     )
-    text = f"No node is seen on domain {domain} of {reach}."
+    text = f"No nodes found in domain {domain} on {reach}."
     # On this host alone, for example after the installation, nothing needs to run yet.
     return (problem if looks_for_others() else note)(text, " ".join(remedy))
 
@@ -105,16 +105,16 @@ def _topic_findings(topic: str, endpoints: list[EndpointInfo]) -> list[Finding]:
 
 
 def _mismatch(publisher: EndpointInfo, subscription: EndpointInfo) -> str:
-    """Why the middleware does not connect the two; empty if it does."""
+    """Return why the middleware does not connect the two endpoints; empty if it does."""
     hashes = {publisher.type_hash, subscription.type_hash} - {""}
     return (compares_qos() and _qos_mismatch(publisher.qos, subscription.qos)) or (
         "their definitions of the type differ" if len(hashes) > 1 else ""
     )
 
 
-def _qos_mismatch(offered: QoS, asked: QoS) -> str:
-    if (offered.reliability, asked.reliability) == (Reliability.BEST_EFFORT, Reliability.RELIABLE):
-        return "it asks for RELIABLE, and BEST_EFFORT is offered"
-    if (offered.durability, asked.durability) == (Durability.VOLATILE, Durability.TRANSIENT_LOCAL):
-        return "it asks for TRANSIENT_LOCAL, and VOLATILE is offered"
+def _qos_mismatch(offered: QoS, requested: QoS) -> str:
+    if (offered.reliability, requested.reliability) == (Reliability.BEST_EFFORT, Reliability.RELIABLE):
+        return "it requests RELIABLE, but the publisher offers BEST_EFFORT"
+    if (offered.durability, requested.durability) == (Durability.VOLATILE, Durability.TRANSIENT_LOCAL):
+        return "it requests TRANSIENT_LOCAL, but the publisher offers VOLATILE"
     return ""

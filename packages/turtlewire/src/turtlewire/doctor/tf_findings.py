@@ -1,4 +1,4 @@
-"""Faults of the transforms that are published."""
+"""Problems of the published transforms."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _JOIN_TREES = (
     "(static_transform_publisher)."
 )
 _NO_LOOP = (
-    "Lookups with these frames fail. One of the frames has the wrong parent: mend or stop the node "
+    "Lookups with these frames fail. One of the frames has the wrong parent: fix or stop the node "
     "that publishes it."
 )
 _ONE_CLOCK = "Set use_sim_time to the same value for all nodes."
@@ -41,27 +41,27 @@ _AHEAD = (
     "clock is ahead of this host's (chrony or NTP sets them)."
 )
 _SILENT = (
-    "Its transforms are not sent yet or get lost on the way; frames that hang on them are unknown."
+    "Its transforms are not sent yet, or are lost in transit; their child frames are unknown."
 )
 _JUMPS = (
-    "Two sources publish it, a bag starts again, or a clock was set: listeners drop such "
+    "Two sources publish it, a bag restarted, or a clock was set: listeners drop such "
     "transforms, or clear their buffers."
 )
 _MISSING = (
-    "They get lost on the way, or the publisher skips turns. Run `ros2 topic hz /tf` here and on "
-    "the publisher's host: if it counts more there, mend the network or the QoS; otherwise the "
-    "publisher is too slow."
+    "They are lost in transit, or the publisher misses its period. Run `ros2 topic hz /tf` here and "
+    "on the publisher's host: if the rate is higher there, fix the network or the QoS; otherwise "
+    "the publisher is too slow."
 )
 _NAMED = 3
-_LEAPS = "Either it was moved to another place, or two sources disagree about where it is."
+_LEAPS = "Either it was moved to another position, or two sources disagree about where it is."
 
 
 def tf_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:
-    """Faults of the transforms that were heard.
+    """Return the problems of the received transforms.
 
     Args:
-        graph: Tells which node owns a publisher.
-        traffic: What was heard.
+        graph: The graph, which maps publishers to nodes.
+        traffic: The received transforms.
     """
     if not tf_publishers(graph):
         return [note("No node publishes transforms.", _START_BROADCASTER)]
@@ -75,10 +75,10 @@ def tf_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:
 
 
 def recorded_findings(traffic: TfTraffic) -> list[Finding]:
-    """Faults of the transforms of a bag: of the tree, of clocks, and of steps in time and space.
+    """Return the problems of a bag's transforms: its tree, clocks, and steps in time and space.
 
     Args:
-        traffic: What was recorded; it ended with the bag.
+        traffic: The recorded transforms; they end with the bag.
     """
     clocks = _clock_findings(traffic, recorded=True)
     return [*_tree_findings(traffic), *clocks, *_step_findings(traffic)]
@@ -91,10 +91,10 @@ def _publisher_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:
         if len(gids) > 1:
             nodes = " and ".join(sorted(owners.get(gid, "an unknown node") for gid in gids))
             found.append(problem(f"The frame '{child}' is published by {nodes}.", _ONE_PUBLISHER))
-    heard = {gid for gids in traffic.publishers.values() for gid in gids}
+    received = {gid for gids in traffic.publishers.values() for gid in gids}
     for publisher in tf_publishers(graph):
-        if publisher.topic == "/tf_static" and publisher.gid not in heard:
-            text = f"Nothing was heard of the static transforms of {owner_of(publisher)}."
+        if publisher.topic == "/tf_static" and publisher.gid not in received:
+            text = f"No static transforms received from {owner_of(publisher)}."
             found.append(note(text, _SILENT))
     return found
 
@@ -109,8 +109,8 @@ def _tree_findings(traffic: TfTraffic) -> list[Finding]:
     ]
     only = {child: min(of) for child, of in sorted(traffic.parents.items()) if len(of) == 1}
     for loop in find_loops(only):
-        way = " -> ".join((*loop, loop[0]))
-        found.append(problem(f"The frames form a loop, from child to parent: {way}.", _NO_LOOP))
+        path = " -> ".join((*loop, loop[0]))
+        found.append(problem(f"The frames form a loop, from child to parent: {path}.", _NO_LOOP))
     parents = {parent for of_child in traffic.parents.values() for parent in of_child}
     roots = sorted(parents - traffic.parents.keys())
     if len(roots) > 1:
@@ -156,7 +156,7 @@ def _step_findings(traffic: TfTraffic) -> list[Finding]:
 
 
 def _gap_findings(traffic: TfTraffic) -> list[Finding]:
-    """One note for all frames: what loses some of one loses some of the others."""
+    """Return one note for all frames: a lossy network affects all of them."""
     found = {
         child: gaps
         for (child, _), stamps in sorted(traffic.stamps_ns.items())
@@ -169,8 +169,7 @@ def _gap_findings(traffic: TfTraffic) -> list[Finding]:
     if len(names) > _NAMED:
         names[_NAMED:] = [f"{len(names) - _NAMED} others"]
     text = (
-        f"About {worst.share:.0%} of the transforms of {' and '.join(names)} are missing: one is "
-        f"due every {worst.period_s * 1e3:.0f} ms, and up to {worst.longest_s:.2f} s pass without "
-        "one."
+        f"About {worst.share:.0%} of the transforms of {' and '.join(names)} are missing: "
+        f"expected every {worst.period_s * 1e3:.0f} ms, longest gap {worst.longest_s:.2f} s."
     )
     return [note(text, _MISSING)]

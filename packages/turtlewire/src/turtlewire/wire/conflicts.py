@@ -95,7 +95,7 @@ def as_compared(dds_topic: str, kind: str, type_name: str) -> tuple[str, str, st
 
 
 class NodeNames:
-    """Warns once of each node of this process whose name another process has taken as well.
+    """Warns once of each node of this process whose name another process also uses.
 
     Args:
         domain_id: The domain that both are in.
@@ -125,7 +125,7 @@ class NodeNames:
             return  # tools leave it out, and it offers nothing
         warn_once(
             f"node {name}",
-            f"another process has a node {name} in domain {self._domain_id}, too: what is sent to "
-            "one reaches both. Run one of them in another domain (ROS_DOMAIN_ID=7), or under "
+            f"another process runs a node named {name} in domain {self._domain_id}: both receive "
+            "what is sent to either. Run one of them in another domain (ROS_DOMAIN_ID=7), or under "
             "another name (--ros-args -r __node:=NAME). A process that was killed counts for 10 s.",
         )
