@@ -42,13 +42,13 @@ a volatile subscription drops what is older than the last message of the same pr
   wire/test_contract.py test_publishers_of_several_threads_lose_nothing
 the router listens on all interfaces
   wire/zenoh/test_configuration.py test_the_router_stays_on_this_computer
-`rosidl_parser.parser` hands out the syntax tree of a grammar for lark, and lets enums and unions pass
+`rosidl_parser.parser` returns lark's syntax tree, and accepts enums and unions
   rosidl_parser/test_parser.py test_all_fields_have_the_types_that_classes_have test_what_is_wrong_is_told
 an extension of another package may take the place of one of ROS 2's of the same name
   ros2cli/test_extensions_of_others.py test_a_verb_is_added_and_none_is_replaced
-Ctrl-C in `ros2 bag convert` leaves a bag that looks whole
+Ctrl-C in `ros2 bag convert` leaves a bag that looks complete
   rosbag2_transport/test_rewrite.py test_an_interrupted_conversion_says_so_and_leaves_no_half_bag
-Python errors carry a text
+Python errors have a message
   rclpy/test_exceptions.py test_hints_are_notes
 a service with a server on Fast DDS is called, and nothing answers
   peers/test_services.py test_each_command_says_why_and_does_no_harm test_not_even_a_request_sent_at_the_moment_of_discovery_is_read
@@ -59,7 +59,7 @@ range `LOCALHOST` switches multicast off and asks peers on this host
   wire/test_environment.py test_localhost_uses_nothing_but_the_loopback_interface
 `ROS_STATIC_PEERS` on one side is enough, since the default range is `SUBNET`
   wire/test_two_hosts.py test_static_peers_find_the_other_host_without_multicast
-a static peer that is no known host ends the process
+a static peer that cannot be resolved ends the process
   wire/test_environment.py test_a_static_peer_that_cyclone_would_abort_for_is_left_out_with_one_warning
 `publish()` on a reliable keep-all topic blocks as long as a subscription stands still
   wire/test_scale.py test_a_publisher_gives_up_on_a_subscription_that_stands_still
@@ -70,11 +70,11 @@ some 30 processes on a host in range `LOCALHOST`
   wire/test_environment.py test_configuration_of_each_range
 a service waits within its callback's thread until the client's reader is known
   wire/test_processes.py test_the_first_request_of_a_new_client_is_always_answered
-`ros_discovery_info` is sent anew for every endpoint
+`ros_discovery_info` is sent again for every endpoint
   wire/test_scale.py test_a_thousand_endpoints_take_a_handful_of_announcements
-a publisher whose type has our name and other fields is taken as ours
+a publisher whose type has the same name but other fields counts as the same type
   wire/test_bad_input.py test_a_type_of_our_name_with_other_fields_is_named_once
-a network that refuses datagrams is a line of the middleware for each of them
+the middleware logs every datagram that the network rejects
   wire/test_two_hosts.py test_a_link_that_goes_down_and_up_is_named_once_and_later_messages_arrive
   wire/test_cyclone_log.py test_many_lines_of_one_kind_are_one_warning_and_the_thread_ends
 big-endian messages are read
@@ -117,7 +117,7 @@ which children of a node's logger reach `/rosout` depends on who made them
   rclpy/test_executors.py test_call_in_a_callback_of_a_single_thread test_call_to_a_service_of_the_blocked_executor_raises
 an `async` callback that awaits a service of its own callback group hangs
   rclpy/test_executors.py test_an_async_callback_that_waits_for_itself_is_warned_of
-`client.call()` with nobody spinning hangs in silence
+`client.call()` hangs silently if no executor spins the node
   rclpy/test_executors.py test_a_call_that_nobody_serves_is_warned_of
 `rate.sleep()` in the thread that spins hangs
   rclpy/test_timer.py test_a_rate_raises_in_the_thread_that_spins_instead_of_sleeping_for_ever
@@ -131,20 +131,20 @@ two SIGINT for one Ctrl-C (terminal and launch) interrupt the clean-up
   rclpy/test_signals.py test_ctrl_c_ends_the_tutorials_main_cleanly
 `rclpy.spin_once(node)` takes a node out of the executor it was in
   rclpy/test_init_shutdown.py test_a_spin_within_a_callback_leaves_the_node_where_it_was
-messages without a subscription are encoded all the same
+messages are encoded even without a subscription
   rclpy/test_topics.py test_what_is_not_encoded_while_nobody_listens
 a client drops the feedback that it has not handled when it gets the result
   rclpy/test_actions.py test_no_feedback_that_was_sent_after_the_result
 content filters of subscriptions work with `rmw_fastrtps_cpp`
   rclpy/test_surface.py test_a_subscription_says_that_nothing_is_filtered
 
-`ExtrapolationException` has a text alone
+`ExtrapolationException` has only a message
   tf/test_errors.py test_attributes
 rotations closer than about 1.5e-8 rad hold the older one between samples
   tf/test_agreement.py test_interpolation_moves_at_one_speed
 values of one stamp are stored without limit
   tf/test_buffer.py test_flood_of_one_stamp
-a lookup with a timeout polls, and waits to the end of it
+a lookup with a timeout polls, always until the timeout
   tf/test_buffer.py test_does_not_wait_for_the_impossible
 `BufferCore(cache_time=...)` as a keyword is ignored
   tf2_py/test_buffer_core.py test_cache_time
@@ -154,23 +154,23 @@ a lookup with a timeout polls, and waits to the end of it
   tf2_py/test_buffer_core.py test_chain
 a translation must be a real `Vector3`
   tf2_py/test_buffer_core.py test_lookup_returns_a_message
-any bytes are a frame name
+any byte string is a valid frame name
   tf/test_buffer.py test_name_that_is_not_utf8 test_reason
-a rejected transform is told in the log alone
+a rejected transform is reported only in the log
   tf/test_inspection.py test_refusals_are_counted
   tf2_py/test_buffer_core.py test_refusal_is_logged
 
 `do_transform_vector3` zeroes the caller's transform; result headers are the transform's own object
   tf2_geometry_msgs/test_vectors.py test_the_header_is_the_transforms_but_a_copy_of_it
-C++ turns a wrench's force and torque and leaves it at that
+C++ rotates a wrench's force and torque, without the lever arm
   tf2_geometry_msgs/test_twists.py test_power_is_the_same_in_every_frame
 Python has no twists, paths, odometry, pose arrays, wrenches, velocities, quaternions
   tf2_geometry_msgs/test_registration.py test_a_buffer_transforms_it_at_the_time_of_its_stamp test_the_package_lists_what_it_has
-clouds: only x, y, z turn, `row_step` is ignored
+clouds: only x, y, z are rotated, `row_step` is ignored
   tf2_sensor_msgs/test_clouds.py test_normals_are_turned_and_not_moved test_every_layout
 `view_frames` needs graphviz, and crashes on a loop
   tf2_tools/test_view_frames.py test_it_listens_and_writes_three_files test_a_loop_is_told_and_written
-a static link has a rate of 10000 Hz
+a static transform has a rate of 10000 Hz
   tf/test_tree_drawing.py test_a_static_transform_has_no_rate_and_a_single_one_neither
   tf2_tools/test_dot.py test_one_link_as_ros_2_writes_it
 
@@ -178,7 +178,7 @@ a static transform that is sent again from Python is ignored
   tf2_ros/test_broadcasters.py test_a_static_transform_can_be_sent_again test_the_last_sender_of_a_process_wins_for_late_joiners_too
 `StaticTransformBroadcaster` keeps the caller's message
   tf2_ros/test_broadcasters.py test_the_caller_may_reuse_the_message
-async lookups have no timeout, and wait for times that are lost
+async lookups have no timeout, and wait for times that can no longer arrive
   tf2_ros/test_buffer.py test_futures_may_have_a_timeout test_a_future_fails_when_its_time_has_fallen_out_of_the_cache
 a timed-out remote lookup is an empty transform and a success
   tf2_ros/test_buffer_server.py test_a_remote_timeout_is_an_error_and_no_empty_transform
@@ -186,23 +186,23 @@ a timed-out remote lookup is an empty transform and a success
   tf2_ros/test_buffer_server.py test_a_callback_of_the_user_s_node_may_ask
 `tf2_echo` does not pad nanoseconds
   tf2_ros/test_tools.py test_echo_prints_what_ros_2_prints test_echo_as_json
-`convert` and `new_type` return a message of another type than asked for
+`convert` and `new_type` return a message of another type than requested
   tf2_geometry_msgs/test_registration.py test_no_type_passes_for_another
-`tf2_monitor` names no publisher
+`tf2_monitor` does not name publishers
   tf2_ros/test_tools.py test_monitor_names_who_publishes
-`tf2_monitor` tells 1.8e9 s as net delay of a chain that does not move
+`tf2_monitor` reports a net delay of 1.8e9 s for a static chain
   tf2_ros/test_tools.py test_what_does_not_move_has_no_net_delay
-`tf2_echo` and `tf2_monitor` leave alone with a frame id that is not known
+`tf2_echo` and `tf2_monitor` give no help with an unknown frame id
   tf2_ros/test_tools.py test_the_tools_help_with_a_frame_id_that_is_not_known
 `MessageFilter` is for C++
   tf2_ros/test_message_filter.py test_callbacks_run_on_the_executor_not_where_the_data_come
-a lookup waits to its end for a server that was killed
+a lookup waits until its timeout for a server that was killed
   tf2_ros/test_clock_jumps.py test_the_client_goes_on_with_the_next_server
-a `Buffer` without a node knows nothing of a simulated clock
+a `Buffer` without a node ignores the simulated clock
   tf2_ros/test_buffer.py test_a_buffer_follows_the_clock_of_its_listener
 messages that wait in a filter or synchronizer survive a clock that jumps back
   tf2_ros/test_message_filter.py test_what_waits_is_dropped_when_the_clock_jumps_back
-`tf2_echo` waits for ever for a frame id that cannot be (`/world`)
+`tf2_echo` waits forever for an invalid frame id (`/world`)
   tf2_ros/test_tools.py test_echo_refuses
 `static_transform_publisher` publishes NaN, infinity and a quaternion of zeros
   tf2_ros/test_tools.py test_wrong_arguments_are_named
@@ -214,7 +214,7 @@ urdfdom's errors name a line of its C++ code
   robot_state_publisher/test_golden.py test_a_description_that_urdfdom_refuses
 a zero `axis` is accepted, and poses are NaN
   urdf/test_parser.py test_joints_that_urdfdom_refuses
-links with two parents and loops beside the tree are accepted
+links with two parents and loops outside the tree are accepted
   urdf/test_parser.py test_joints_that_urdfdom_refuses
 the DOCTYPE of a URDF is skipped
   urdf/test_parser.py test_entities_are_refused
@@ -246,16 +246,16 @@ a NaN or infinite command loses the turtle
   turtlesim/test_turtlesim_node.py test_what_is_not_finite_is_ignored_with_one_line test_a_heading_that_is_not_finite_is_rejected
 an invalid turtle name ends the process
   turtlesim/test_turtlesim_node.py test_start_spawn_kill_and_reset_with_their_texts
-the simulation goes in real time
+the simulation runs in real time
   turtlesim/test_turtlesim_node.py test_the_speed_is_a_parameter_from_its_first_use_on test_in_a_pause_nothing_moves_and_no_pose_comes test_a_faster_simulation_has_its_speed_as_a_parameter
 lines have the pen's colour
   turtlesim/test_page_settings.py test_lines_have_the_colour_of_their_turtles_shell test_only_the_pen_that_nobody_set_is_tinted
-nothing is said of turtles that others wait for
+turtlesim does not report turtles that other nodes wait for
   turtlesim/test_turtlesim_node.py test_a_wanted_turtle_is_named_with_the_command test_the_command_for_a_wanted_turtle_is_shown_until_it_is_there
   turtlesim/test_page.py test_a_missing_turtle_is_offered
 callbacks run inside ticks only
   turtlesim/test_model.py test_teleports_are_applied_in_order_at_the_next_tick
-ticks follow wall time with `use_sim_time`, too
+ticks follow wall time even with `use_sim_time`
   turtlesim/test_testing.py test_time_moves_only_in_steps
 teleop without a terminal aborts
   turtlesim/test_turtlesim_processes.py test_teleop_without_a_terminal_says_so
@@ -268,15 +268,15 @@ bad `--ros-args` abort with 250
 
 `--ros-args` that cannot be read end a Python node with a traceback
   ros2cli/test_run_command.py test_a_bad_command_line_of_a_node_is_told_in_one_line
-nothing but the error line follows an unknown name
+an unknown name is answered with an error line only
   ros2cli/test_suggestions.py test_names_that_are_known_without_nodes test_names_of_the_graph
-a package that is not built or sourced, and a file that is not installed, are not found, with no more words
+a package that is not built or sourced, and a file that is not installed, are reported as not found, without a reason
   turtlewire_ros/test_workspace_hints.py test_a_package_that_is_not_built test_a_package_that_is_built_and_not_sourced test_a_file_that_is_not_installed test_an_executable_that_is_not_installed
 a program that logs each failed lookup fills the console with one line
   rclpy/test_failed_lookups.py test_the_console_repeats_a_failure_once_a_second test_the_log_file_has_every_line
-teleop publishes into a domain where nothing listens, in silence
+teleop silently publishes in a domain without subscriptions
   rclpy/test_unheard.py test_teleop_says_that_nothing_listens test_other_domains_are_named
-an error in a launch file does not say where
+an error in a launch file does not include its position
   launch/test_launch_files.py test_errors_in_files_are_named_with_their_lines
 colcon builds a package whose `package.xml` cannot be read, as one that ROS does not find
   turtlewire_ros/test_colcon_ament.py test_a_broken_manifest_is_named_with_its_line
@@ -284,14 +284,14 @@ SIGTERM and a single SIGINT of `ros2 run` leave the executable running
   ros2cli/test_run_command.py test_a_signal_to_ros2_run_ends_the_executable
 a playback that begins at an offset, paused or after a seek loses the latched messages from before
   rosbag2_transport/test_player.py test_what_arrives_is_what_the_real_one_sends test_a_paused_playback_has_sent_what_was_latched_before_the_bag test_after_a_seek_listeners_have_what_was_latched_then
-one that joins a playback late gets the last ten messages of `/tf_static`
+a subscription that joins a playback late gets the last ten messages of `/tf_static`
   rosbag2_transport/test_player.py test_one_that_joins_late_gets_all_static_transforms
-`ros2 bag play` says nothing of topics and services in its options that the bag does not have, nor why it plays nothing
+`ros2 bag play` silently ignores topics and services in its options that the bag does not have, and does not say why it plays nothing
   rosbag2_transport/test_golden_commands.py test_a_command
   rosbag2_transport/test_play_options.py test_what_the_options_name_and_the_bag_does_not_have
 `ros2 bag record` waits in silence for topics that never appear
   rosbag2_transport/test_record_options.py test_it_tells_once_what_it_waits_for
-a QoS override under which a recorder receives nothing is obeyed in silence
+a QoS override that prevents a recorder from receiving anything is applied silently
   rosbag2_transport/test_record_options.py test_simulated_time_splits_compression_and_overrides
 Ctrl-C does not end `ros2 bag play --wait-for-all-acked 0` while a subscription stands still
   rosbag2_transport/test_play_options.py test_a_listener_that_stands_still_does_not_hold_back_ctrl_c
@@ -299,7 +299,7 @@ a recorder loses latched messages that come during a pause
   rosbag2_transport/test_recorder.py test_latched_messages_that_come_during_a_pause_are_kept
 a topic whose type is not installed is not recorded
   rosbag2_transport/test_recorder.py test_a_topic_of_a_type_that_is_not_known_here_is_recorded
-a recorder whose disk is full goes on
+a recorder continues when the disk is full
   rosbag2_transport/test_recorder.py test_a_full_disk_ends_the_recording_with_one_line
 `ros2 bag info -v` fails for bags compressed by file, and counts no requests in those compressed by message
   ros2cli/test_bag.py test_info
@@ -307,14 +307,14 @@ a recorder whose disk is full goes on
   ros2cli/test_suggestions.py test_commands_that_are_not_here
 an unknown option shows the usage of `ros2`
   ros2cli/test_extensions.py test_unknown_options_show_the_usage_of_the_verb
-a verb waits on when the server that it called has ended
+a verb keeps waiting when the server that it called has ended
   ros2cli/test_unanswered.py test_a_killed_server_ends_the_wait
-names and strings of other nodes reach the terminal as they are
+names and strings of other nodes reach the terminal unescaped
   ros2cli/test_output.py test_every_verb_is_escaped test_topic_info_of_a_hostile_peer
 endpoints of different types on one topic or service exchange nothing, in silence
   rclpy/test_mistakes.py test_one_topic_with_two_types
   wire/test_contract.py test_a_client_of_another_type_than_the_service_is_warned
-the service of another type, or with a wrong name, is waited for in silence
+a verb waits silently for a service with another type or a wrong name
   ros2cli/test_unanswered.py test_what_is_wrong_is_said_at_once test_requests_that_do_not_get_through_are_told_once
 YAML aliases may stand for any number of values
   ros2cli/test_values.py test_aliases_that_stand_for_too_much_are_refused
@@ -326,7 +326,7 @@ a launched program has a pipe as its input
   launch_ros/test_examples.py test_a_launched_teleop_reads_the_terminal
 SIGTERM of launch may leave orphans
   launch/test_interrupts.py test_sigterm_stops_the_children_too
-what launched processes start outlives a launch that ends or is killed, and so do processes that ignore signals
+grandchildren, and processes that ignore signals, outlive a launch that ends or is killed
   launch/test_interrupts.py test_not_even_sigkill_leaves_children
   chaos/test_processes.py test_ros2_run_leaves_nothing test_ros2_launch_leaves_nothing
 pytest imports launch at each start
@@ -340,7 +340,7 @@ a start that fails, and errors in a launch file, print a traceback
   launch/test_launch_service.py test_debug_shows_tracebacks_and_events
 a component container must be named in full
   launch_ros/test_composable_nodes.py test_nodes_of_a_container
-a daemon answers questions about the graph
+a daemon answers queries about the graph
   test_compatibility.py test_no_daemon_is_running
 Ctrl-C of a verb may end in error lines
   ros2cli/test_main.py test_what_a_verb_raises_becomes_one_line_and_a_status
@@ -362,7 +362,7 @@ a mimic joint of an unknown joint ends joint_state_publisher with `KeyError`
   joint_state_publisher/test_golden.py test_a_mimic_of_an_unknown_joint_does_not_end_the_node
 a circle of mimic joints ends joint_state_publisher
   joint_state_publisher/test_golden.py test_a_circle_of_mimics_is_refused
-joint_state_publisher reads COLLADA robots, too
+joint_state_publisher also reads COLLADA robots
   joint_state_publisher/test_description.py test_errors
 joint_state_publisher_gui opens a Qt window
   joint_state_publisher_gui/test_page.py test_a_slider_moves_its_joint_and_those_that_follow
@@ -380,13 +380,13 @@ an integer for a floating-point parameter is refused
   robots/test_urdf_tutorial.py test_every_model_is_displayed
 RViz draws cameras, depth clouds, interactive markers, wrenches and more
   view/test_rviz_file.py test_a_file_of_rviz_is_read
-RViz takes the transforms at both ends of a scan and lays the beams between
+RViz uses the transforms at both ends of a scan and interpolates the beams
   view/test_points_in_time.py test_each_beam_is_drawn_from_where_the_scanner_was
 RViz draws all points of the `Decay Time`
   view/test_points_in_time.py test_points_that_stay_share_the_budget
 RViz's RobotModel reads a topic or a file
   view/test_display_panel.py test_a_robot_of_a_parameter_and_its_links
-RViz takes the default for a wrong value in a `.rviz` file
+RViz uses the default for an invalid value in a `.rviz` file
   view/test_rviz_file.py test_wrong_values_of_a_file_are_named
 RViz subscribes with the QoS that its display is set to
   view/test_viewer.py test_a_display_subscribes_as_its_publishers_offer
@@ -397,7 +397,7 @@ RViz loads meshes from any file and from `http`
   robots/test_urdf_tutorial.py test_the_workspace_is_known
   turtlewire_ros/test_cmake.py test_what_is_installed
   turtlewire_ros/test_colcon_ament.py test_scripts_modules_and_launch_files
-`ament_cmake` packages are no packages of pip
+pip cannot install `ament_cmake` packages
   turtlewire_ros/test_pip_install.py test_packages_are_built_after_those_that_they_need
   turtlewire_ros/test_colcon_ament.py test_pip_installs_such_packages
 `ament_add_gtest` and linters are tests of `colcon test`

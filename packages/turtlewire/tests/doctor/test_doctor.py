@@ -517,7 +517,7 @@ def test_nodes_on_another_domain_of_this_host_are_named(context, monkeypatch):
     )
     (finding,) = graph_findings(context.graph)
     assert (
-        "This host has nodes on domain 100: export ROS_DOMAIN_ID=100 to see them." in finding.remedy
+        "This host has nodes in domain 100: export ROS_DOMAIN_ID=100 to see them." in finding.remedy
     )
 
 
