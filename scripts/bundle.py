@@ -33,7 +33,10 @@ def main() -> int:
         help="a Python that the class has; may be given more than once (default: this one)",
     )
     parser.add_argument(
-        "--wheels", type=Path, metavar="FOLDER", help="take the wheels from here, and build none"
+        "--wheels",
+        type=Path,
+        metavar="FOLDER",
+        help="use the wheels in this folder, and build none",
     )
     parser.add_argument("--output", type=Path, default=ROOT / "build" / "bundle", metavar="FOLDER")
     arguments = parser.parse_args()

@@ -223,7 +223,7 @@ class Observer:
         now = time.monotonic()
         for what, heard in list(self._heard.items()):
             if now - heard > SILENCE_LIMIT_S:
-                raise CheckError(f"nothing heard of {what} for {now - heard:.1f} s")
+                raise CheckError(f"no messages of {what} for {now - heard:.1f} s")
 
     def figures(self) -> str:
         """Return the measured figures in one line."""

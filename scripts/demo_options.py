@@ -13,7 +13,7 @@ def parse() -> argparse.Namespace:
         description="One turtle follows another: the tutorial's launch file, ready to run.",
     )
     mode = parser.add_mutually_exclusive_group()
-    mode.add_argument("--seconds", type=seconds, help="end by itself after so many seconds")
+    mode.add_argument("--seconds", type=seconds, help="stop after this many seconds")
     mode.add_argument(
         "--check",
         action="store_true",

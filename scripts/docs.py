@@ -109,7 +109,7 @@ def build(output: Path, language: str = "en", base: str = "/") -> None:
             the folder holds something else.
     """
     if output.exists() and any(output.iterdir()) and not (output / "objects.inv").exists():
-        raise BuildError(f"{output} is no site that was built before: it is not replaced")
+        raise BuildError(f"{output} is not a site that this script built, so it is not replaced")
     if language != "en" and not (SOURCE / "locale" / language).is_dir():
         raise BuildError(f"there is no translation in docs/sphinx/locale/{language}")
     settings = [f"-Dlanguage={language}", f"-Abase={base.rstrip('/')}/"]
@@ -133,7 +133,7 @@ def _link_back(page: Path) -> None:
     text = page.read_text(encoding="utf-8")
     hidden = '<a id="site" href="../index.html" hidden>'
     if hidden not in text:
-        raise BuildError(f"{page} has no hidden link to the site: build it anew (scripts/lesson)")
+        raise BuildError(f"{page} has no hidden link to the site: rebuild it (scripts/lesson)")
     shown = hidden.replace("hidden", " " * len("hidden"))
     page.write_text(text.replace(hidden, shown), encoding="utf-8")
 

@@ -93,4 +93,4 @@ def _faults(folder: Path, path: Path, page: Document, pages: dict[Path, Document
         if not target.exists():
             yield f"{where}: {address} leads nowhere"
         elif parts.fragment and anchors is not None and unquote(parts.fragment) not in anchors:
-            yield f"{where}: {address} names no place of that page"
+            yield f"{where}: {address} does not exist on that page"

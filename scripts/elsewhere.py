@@ -207,7 +207,7 @@ def install(place: Place) -> None:
     venv = place.python.parent.parent
     command = [tools, ROOT / "scripts" / "elsewhere_wheels.py"]
     command += [wheels, venv, place.version, place.machine]
-    run(*command, *TEST_PACKAGES, what="the wheels and what they ask for")
+    run(*command, *TEST_PACKAGES, what="the wheels and their dependencies")
     compile_modules(place, venv / "lib" / f"python{place.version}" / "site-packages")
 
 

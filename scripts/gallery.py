@@ -120,7 +120,7 @@ def _on_white(svg: str) -> str:
 def picture_lesson(browser: Browser) -> None:
     """The listener's lesson, some seconds after its start."""
     if not (LESSON / "manifest.json").exists():
-        sys.exit("scripts/lesson builds the lesson, whose picture is wanted")
+        sys.exit("run scripts/lesson first, which builds the lesson for the image")
     solution = LESSONS / "listener" / "solution"
     files = {path.name: path.read_text(encoding="utf-8") for path in solution.glob("*.py")}
     with served_pages.static(LESSON, "#listener") as address:

@@ -51,7 +51,7 @@ def fetched(name: str, version: str, integrity: str) -> Path:
         if _integrity(fresh) != integrity:
             raise BuildError(
                 f"{name} {version} has another hash than packages.json says: {_integrity(fresh)}. "
-                "It is not taken; try again, or find out who changed it."
+                "It is not used; try again, or find out who changed it."
             )
         keep(fresh, kept)
     return kept

@@ -73,7 +73,7 @@ def release(versions: tuple[str, ...], machines: tuple[str, ...], *, dirty: bool
     """All steps, into an empty build/release."""
     number = version_of_all()
     if not dirty and output("git", "status", "--porcelain", "--untracked-files=no"):
-        raise ReleaseError("there are changes that are not committed (--dirty builds them, too)")
+        raise ReleaseError("there are changes that are not committed (--dirty builds them as well)")
     wheels = targets(pythons := interpreters(versions), possible_machines(machines))
     shutil.rmtree(WORK, ignore_errors=True)
     WORK.mkdir(parents=True)

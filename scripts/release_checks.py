@@ -22,7 +22,7 @@ TOOLS = (
 LEFTOVERS = {"__pycache__", ".venv", ".git", "build", ".pytest_cache", ".mypy_cache"}
 COMPILED = (".so", ".pyd", ".dylib", ".pyc", ".o", ".a")
 
-#: Run in a fresh venv that holds nothing but the wheels and what they ask for.
+#: Run in a fresh venv that holds nothing but the wheels and their dependencies.
 TRIAL = """
 import turtlewire, rclpy, tf2_ros, launch
 from turtlewire.tf.buffer import CORE

@@ -25,7 +25,7 @@ def main() -> int:
         "--into", type=Path, default=DEFAULT, metavar="FOLDER", help=f"default: {DEFAULT}"
     )
     parser.add_argument("--install-only", action="store_true", help="do not run the demo")
-    parser.add_argument("--seconds", type=float, help="end the demo by itself after so many")
+    parser.add_argument("--seconds", type=float, help="stop the demo after this many")
     arguments = parser.parse_args()
     venv = arguments.into.absolute()
     commands = venv / ("Scripts" if sys.platform == "win32" else "bin")

@@ -41,8 +41,8 @@ def test_good_pages_have_no_faults(faults_of, folder):
     ("added", "fault"),
     [
         ('<a href="c.html">c</a>', "a.html: c.html leads nowhere"),
-        ('<a href="sub/b.html#here">b</a>', "a.html: sub/b.html#here names no place of that page"),
-        ('<a href="#nothing">b</a>', "a.html: #nothing names no place of that page"),
+        ('<a href="sub/b.html#here">b</a>', "a.html: sub/b.html#here does not exist on that page"),
+        ('<a href="#nothing">b</a>', "a.html: #nothing does not exist on that page"),
         ('<img src="c.png">', "a.html: c.png leads nowhere"),
         (
             '<script src="https://cdn.example/x.js"></script>',

@@ -178,7 +178,7 @@ def test_elseif(evaluate):
         ("install(SCRIPT a.cmake)", 4, "install(SCRIPT) is not known here"),
         ("ament_python_install_package(robot)", 4, "there is no folder"),
         ("ament_environment_hooks(a.sh)", 4, "there is no file"),
-        ("rosidl_generate_interfaces(robot A.msg)", 4, "A.msg is no msg/….msg, srv/….srv"),
+        ("rosidl_generate_interfaces(robot A.msg)", 4, "A.msg is not a msg/….msg, srv/….srv"),
         ("rosidl_generate_interfaces(robot)", 4, "names no files"),
         ("xacro_add_files(a.xacro)", 4, "xacro_add_files(): there is no file"),
         ("xacro_add_files(package.xml)", 4, "name the output, or the file .xacro"),
@@ -270,8 +270,7 @@ def test_a_missing_package_is_an_error_where_it_is_needed(evaluate):
     plan, _ = evaluate("find_package(nobody_has_this_msgs REQUIRED)\nfind_package(neither QUIET)")
     (line,) = plan.missing
     assert line.split("CMakeLists.txt")[1] == (
-        ":4: there is no package 'nobody_has_this_msgs'; add it to the workspace, or source or "
-        "install what has it"
+        ":4: there is no package 'nobody_has_this_msgs'; add it to the workspace, source a workspace that has it, or install it"
     )
     plan, _ = evaluate("find_package(urdf REQUIRED)\nfind_package(urdf_of_nobody REQUIRED)")
     assert [":5: there is no package 'urdf_of_nobody'" in line for line in plan.missing] == [True]

@@ -12,17 +12,17 @@ import { World } from "./world.js";
 
 const DRIVEN = "turtle1";
 const ENDLESS = {
-  text: "The code was stopped: it did not come to an end.",
+  text: "Your code was stopped because it did not return.",
   hint: "A callback must return, and main() must reach rclpy.spin: use a timer instead of a loop.",
 };
 const BROKEN = [
-  [/call stack|recursion|stack overflow/i, "A function calls itself without an end.",
-    "Let it return before it calls itself again, or use a loop that ends."],
-  [/memory|allocat/i, "Python had no memory left.",
+  [/call stack|recursion|stack overflow/i, "A function calls itself endlessly.",
+    "Make it return at some point, or use a loop that ends."],
+  [/memory|allocat/i, "Python ran out of memory.",
     "Keep fewer or smaller objects: a tab has at most 2 to 4 GB."],
-  [/exit/i, "The code ended Python itself, and with it turtlesim and all nodes.",
-    "Let main() return instead: rclpy.shutdown ends the spinning."],
-  [/(?:)/, "The code brought Python down.", "It was started anew: press Run."],
+  [/exit/i, "Your code ended Python itself, and with it turtlesim and all nodes.",
+    "Let main() return instead: rclpy.shutdown() ends spin()."],
+  [/(?:)/, "Your code crashed Python, which has restarted.", "Click Run."],
 ];
 const NARROW = matchMedia("(max-width: 760px)"); // as in style.css
 const byId = (id) => document.getElementById(id);
@@ -35,7 +35,7 @@ const status = (state, text) => {
 /** An error that is not the student's, as a mistake. */
 const faultOfOurs = (error) => ({
   text: error.message,
-  hint: "This is a fault of the lesson, not of your code. Press Run to start again.",
+  hint: "This is a bug in the lesson, not in your code. Click Run to start again.",
 });
 
 /** Why Python was interrupted or started anew, as a mistake; nothing where it was not. */
@@ -153,7 +153,7 @@ class Page {
   #failed({ mistake, stopped, broken, restarted }) {
     if (!mistake && !stopped && !broken) return false;
     const shown = { file: "", line: 0, hint: "", ...mistake, ...reasonOf({ stopped, broken }) };
-    status("stopped", restarted ? "starting Python anew …" : "stopped");
+    status("stopped", restarted ? "restarting Python …" : "stopped");
     this.#editors.mark(shown);
     const where = shown.line ? `${shown.file}, line ${shown.line}: ` : "";
     const box = byId("mistake");
@@ -236,8 +236,8 @@ class Page {
 async function loadFiles(manifest) {
   const weight = `${(manifest.compressed / 1e6).toFixed(1)} MB compressed`;
   byId("loading-text").textContent = isFromFolder
-    ? `Run waits for Python and the lesson, ${weight}, from this folder. No network is needed.`
-    : `Run waits for Python and the lesson: ${weight}, once. Then it also works without a network.`;
+    ? `Run is waiting for Python and the lesson, ${weight}, from this folder. You need no network.`
+    : `Run is waiting for Python and the lesson: ${weight}, only once; then it works offline.`;
   await fetchAll(manifest.files, (done, total) => {
     byId("loading-bar").value = done / total;
     showStage("fetch", `loading, ${Math.round((100 * done) / total)} %`);

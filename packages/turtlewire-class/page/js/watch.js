@@ -64,18 +64,18 @@ export class Watch {
   #surprise() {
     for (const box of this.#checked()) box.checked = false;
     this.#hidden = this.#offered[Math.floor(Math.random() * this.#offered.length)];
-    byId("guess").textContent = "One of these faults is on. Find it, and tick it.";
+    byId("guess").textContent = "One of these faults is active. Find it and tick it.";
     this.#onFaults();
   }
 
   #choose(box) {
     if (!this.#hidden) this.#onFaults();
     else if (box.value === this.#hidden.name) {
-      byId("guess").textContent = `Found. ${this.#hidden.label}. It is still on: untick it.`;
+      byId("guess").textContent = `Found. ${this.#hidden.label}. It is still active: untick it.`;
       this.#hidden = null;
     } else {
       box.checked = false;
-      byId("guess").textContent = "It is not that one. What do tree, doctor and log say?";
+      byId("guess").textContent = "Not this one. What do the tree, the doctor and the log say?";
     }
   }
 

@@ -53,22 +53,24 @@ def _verb(verbs: Any, name: str, summary: str, run: Callable[..., int | None]) -
 
 
 def _add_grade(verbs: Any) -> None:
-    summary = "Grade a folder with one folder for each student; write pages and JUnit XML"
+    summary = "Grade the submissions in a folder; write pages and JUnit XML"
     parser = _verb(verbs, "grade", summary, _grade)
-    parser.add_argument("folder", type=Path, metavar="FOLDER", help="The students' folders")
+    parser.add_argument(
+        "folder", type=Path, metavar="FOLDER", help="Folder with one subfolder per student"
+    )
     parser.add_argument(
         "-o",
         "--output",
         type=Path,
         default=Path("reports"),
         metavar="REPORTS",
-        help="Where the reports go (default: reports)",
+        help="Folder for the reports (default: reports)",
     )
     _add_common(parser)
 
 
 def _add_check(verbs: Any) -> None:
-    summary = "Check the exercises of one student, and say what helps"
+    summary = "Check the exercises of one student, and give hints"
     parser = _verb(verbs, "check", summary, _check)
     parser.add_argument(
         "folder",
@@ -76,16 +78,18 @@ def _add_check(verbs: Any) -> None:
         type=Path,
         default=Path(),
         metavar="FOLDER",
-        help="Holds a folder for each exercise (default: this one)",
+        help="Folder with one subfolder per exercise (default: current folder)",
     )
-    parser.add_argument("--junit", type=Path, metavar="FILE", help="Write JUnit XML, too")
+    parser.add_argument("--junit", type=Path, metavar="FILE", help="Also write JUnit XML")
     _add_common(parser)
 
 
 def _add_start(verbs: Any) -> None:
-    summary = "Write the texts and first files of the exercises into a folder"
+    summary = "Create the exercises in a folder: tasks and files to start with"
     parser = _verb(verbs, "start", summary, _start)
-    parser.add_argument("folder", type=Path, metavar="FOLDER", help="Where they go")
+    parser.add_argument(
+        "folder", type=Path, metavar="FOLDER", help="Folder to create the exercises in"
+    )
     _add_exercises(parser)
 
 
@@ -112,7 +116,7 @@ def _add_exercises(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="NAME",
-        help="Only this one; may be given more than once (default: all)",
+        help="Use only this exercise; may be given several times (default: all)",
     )
 
 

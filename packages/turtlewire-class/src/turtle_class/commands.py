@@ -110,7 +110,7 @@ def grade(folder: Path, names: Sequence[str], limit_s: float, output: Path) -> N
     """
     students, wanted = students_in(folder), chosen(names)
     if output.exists() and not output.is_dir():
-        raise ClassError(f"{printable(str(output))} is no folder for the reports")
+        raise ClassError(f"{printable(str(output))} is not a folder for the reports")
     reports = grade_all(students, wanted, Limits(seconds=limit_s), _progress)
     _progress("")
     (output / "junit").mkdir(parents=True, exist_ok=True)

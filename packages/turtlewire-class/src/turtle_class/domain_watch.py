@@ -41,9 +41,9 @@ _MOST_FRAMES, _MOST_LETTERS = 500, 50_000
 _NODE = "_turtlewire_class"
 
 _FLOOD = {
-    "text": f"More than {_MOST_FRAMES} frames, or very long names: TF is no longer listened to.",
-    "remedy": "child_frame_id must stay the same in each message: no counter, no time in it. "
-    "Start the node again, and TF is listened to again.",
+    "text": f"More than {_MOST_FRAMES} frames, or very long names: stopped listening to TF.",
+    "remedy": "child_frame_id must be the same in each message, without a counter or time. "
+    "Restart the node to listen to TF again.",
     "bad": True,
 }
 

@@ -54,11 +54,11 @@ def overview(reports: Sequence[Report], title: str, when: str) -> str:
     solved = _line_of_totals(reports)
     body = (
         f"<h1>{_text(title)}</h1><p class=soft>{len(reports)} students, {len(exercises)} "
-        f"exercises, graded {_text(when)}. A student's name leads to what was seen and what "
-        "helps.</p><div class=wide><table><thead><tr><th scope=col>Student</th>"
+        f"exercises, graded {_text(when)}. Click a student's name for results and hints.</p><div "
+        "class=wide><table><thead><tr><th scope=col>Student</th>"
         f"<th scope=col>Solved</th>{head}</tr></thead><tbody>{rows}</tbody>"
         f"<tfoot>{solved}</tfoot></table></div>"
-        "<p class=soft>✓ solved · 2/4 so many checks passed · ○ not handed in</p>"
+        "<p class=soft>✓ solved · 2/4 checks passed · ○ not handed in</p>"
     )
     return _page(title, body)
 

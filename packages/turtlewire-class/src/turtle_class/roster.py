@@ -95,7 +95,7 @@ def _readable_rows(rows: Iterable[list[str]], file: str) -> Iterator[list[str]]:
     try:
         yield from rows
     except csv.Error as error:
-        raise ClassError(f"{file} is no CSV: {error}") from None
+        raise ClassError(f"{file} is not CSV: {error}") from None
 
 
 def _yaml_rows(text: str, file: str) -> Iterator[tuple[int, str, str]]:
@@ -104,7 +104,7 @@ def _yaml_rows(text: str, file: str) -> Iterator[tuple[int, str, str]]:
     try:
         root: Any = yaml.compose(text, yaml.SafeLoader)
     except yaml.YAMLError as error:
-        raise ClassError(f"{file} is no YAML: {printable(str(error))}") from None
+        raise ClassError(f"{file} is not YAML: {printable(str(error))}") from None
     except RecursionError:
         raise ClassError(f"{file} is nested too deeply: {_HOW}") from None
     if root is None:
@@ -122,7 +122,7 @@ def _seat(name: str, domain: str, place: str) -> Seat:
     if not name:
         raise ClassError(f"{place}: the name is missing: {_HOW}")
     if not _NUMBER.fullmatch(domain) or int(domain) > MAX_DOMAIN_ID:
-        raise ClassError(f"{place}: {domain!r} is no domain of {printable(name)}: {_DOMAINS}")
+        raise ClassError(f"{place}: {domain!r} is not a domain of {printable(name)}: {_DOMAINS}")
     return Seat(printable(name), int(domain))
 
 
@@ -132,7 +132,7 @@ def _unique(seats: Iterable[tuple[Seat, str]], file: str) -> list[Seat]:
         other = by_domain.setdefault(seat.domain, seat)
         if other is not seat:
             raise ClassError(
-                f"{file}{place}: domain {seat.domain} is given to {other.name} and {seat.name}: "
-                "give each student another one"
+                f"{file}{place}: {other.name} and {seat.name} have the same domain {seat.domain}: "
+                "give each student a different one"
             )
     return list(by_domain.values())

@@ -26,7 +26,7 @@ __all__ = ["CheckResult", "Limits", "Outcome", "Runner"]
 _LARGEST_FILE = 1_000_000
 _LONGEST_RESULTS = 10_000_000
 _PASSED_ON = ("PATH", "LANG", "LC_ALL", "SYSTEMROOT", "TEMP", "TMP", "TURTLEWIRE_CORE")
-_NOT_REACHED = "Not reached: mend what is above first."
+_NOT_REACHED = "Not run: fix the checks above first."
 _NO_GRADER = "The process of the checks has ended: something ended it, or the memory was too small."
 _TOO_LONG = "A callback must return: use a timer instead of a loop or time.sleep(), and no input()."
 
@@ -189,7 +189,9 @@ def _read(folder: Path, file: str) -> str:
     try:
         facts = path.lstat()
         if not stat.S_ISREG(facts.st_mode) or folder.is_symlink():
-            raise _UnreadableError(f"{file} is no plain file.", "Hand in the file itself, no link.")
+            raise _UnreadableError(
+                f"{file} is not a regular file.", "Hand in the file itself, no link."
+            )
         if facts.st_size > _LARGEST_FILE:
             raise _UnreadableError(
                 f"{file} has {facts.st_size} bytes.", f"At most {_LARGEST_FILE} are read."
@@ -275,7 +277,7 @@ def _with_fact(facts: _Facts, line: str) -> _Facts:
 
 def _result(check: str, passed: bool, text: str, hint: str, file: str, line: int) -> CheckResult:
     if not isinstance(passed, bool):
-        raise TypeError("passed is no truth value")
+        raise TypeError("passed is not a bool")
     state = "passed" if passed else "failed"
     return CheckResult(str(check), state, str(text), str(hint), str(file), int(line))
 

@@ -26,7 +26,7 @@ __all__ = ["Exercise", "NotYet", "Place", "exercise_of", "programs_here", "start
 
 #: Simulated time at the start [s]: what is asked about the past of a moment ago has an answer.
 _BEGIN = 100.0
-_NO_MAIN = "Keep the function main() at the end of the file: `ros2 run` calls it, too."
+_NO_MAIN = "Keep the function main() at the end of the file: `ros2 run` also calls it."
 
 
 class NotYet(Exception):

@@ -30,7 +30,7 @@ _HINTS = (
     ),
     (
         r"takes \d+ positional arguments? but \d+ (was|were) given",
-        "A method's first parameter is `self`; callbacks of subscriptions take a message, too.",
+        "A method's first parameter is `self`; callbacks of subscriptions also get a message.",
     ),
     (
         r"No module named",
@@ -44,7 +44,10 @@ _HINTS = (
         r"MemoryError|index-sized integer",
         "That is more than the memory of a tab: keep fewer or smaller objects.",
     ),
-    (r"EOFError", "Nobody can type here: a node gets values by parameters and topics."),
+    (
+        r"EOFError",
+        "There is no keyboard input here: a node gets values from parameters and topics.",
+    ),
     (r"start new thread", "A tab has one thread: use a timer instead, or a callback."),
     (r"does not support processes", "A tab runs no other programs."),
     (
@@ -88,7 +91,7 @@ def mistake_of(error: BaseException, files: Collection[str]) -> Mistake:
         return error.mistake
     if isinstance(error, KeyboardInterrupt):
         file, line = _place(error, files)
-        return Mistake(file, line, "The code was stopped: it did not come to an end.", _ENDLESS)
+        return Mistake(file, line, "Your code was stopped because it did not return.", _ENDLESS)
     told = traceback.TracebackException.from_exception(error)
     text = "".join(told.format_exception_only()).strip()
     if isinstance(error, SyntaxError):

@@ -141,7 +141,7 @@ def test_an_interrupt_says_what_an_endless_loop_needs(open_session):
     session = open_session("listener", ("msg = Twist()", "raise KeyboardInterrupt"))
     texts_of(session, 3.0)
     mistake = json.loads(session.mistake)
-    assert mistake["text"] == "The code was stopped: it did not come to an end."
+    assert mistake["text"] == "Your code was stopped because it did not return."
     assert "timer" in mistake["hint"]
 
 

@@ -117,7 +117,7 @@ def _install(
 ) -> Plan:
     source = source.resolve()
     if not (source / "CMakeLists.txt").is_file():
-        raise WheelError(f"{source} is no ament_cmake package: it has no CMakeLists.txt")
+        raise WheelError(f"{source} is not an ament_cmake package: it has no CMakeLists.txt")
     plan, interpreter = evaluate_package(source, build, prefix, _MODULES, environment)
     errors, warnings = plan.verdict()
     if errors:

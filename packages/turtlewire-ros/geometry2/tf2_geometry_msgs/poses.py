@@ -78,8 +78,7 @@ def do_transform_path(path: Path, transform: TransformStamped) -> Path:
         if pose.header.frame_id not in {"", frame}:
             raise ValueError(
                 f"poses[{index}] is in frame {pose.header.frame_id!r}, the path in {frame!r}: one "
-                "transform cannot take both; "
-                f"transform the poses one by one"
+                "transform cannot apply to both; transform the poses one by one"
             )
     header = header_of(transform)
     moved = _all_moved([pose.pose for pose in path.poses], transform)

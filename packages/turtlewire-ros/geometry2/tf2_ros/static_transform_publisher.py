@@ -131,7 +131,7 @@ def _float(word: str, name: str) -> float:
         raise ArgumentsError(f"Failed to parse {name} argument as float") from None
     if not math.isfinite(number):
         raise ArgumentsError(
-            f"{name} is {word}: no listener takes a transform whose numbers are not finite"
+            f"{name} is {word}: listeners reject a transform whose numbers are not finite"
         )
     return number
 
@@ -142,7 +142,9 @@ def _checked(placement: Placement) -> Placement:
     if not placement.child_frame_id:
         raise ArgumentsError("Child frame id must not be empty")
     if not any(placement.rotation):
-        raise ArgumentsError("A quaternion of zeros is no rotation, and every listener refuses it")
+        raise ArgumentsError(
+            "A quaternion of zeros is not a rotation, and every listener rejects it"
+        )
     return placement
 
 

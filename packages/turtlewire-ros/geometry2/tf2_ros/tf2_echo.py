@@ -79,7 +79,9 @@ def _parser() -> argparse.ArgumentParser:
         default=3,
         help="digits after the point (default: %(default)s)",
     )
-    parser.add_argument("-n", "--limit", type=count, default=0, help="end after so many transforms")
+    parser.add_argument(
+        "-n", "--limit", type=count, default=0, help="exit after this many transforms"
+    )
     parser.add_argument("--degrees", action="store_true", help="angles in degrees only")
     parser.add_argument("--distance", action="store_true", help="also print the distance")
     parser.add_argument(

@@ -178,7 +178,7 @@ def _parser() -> argparse.ArgumentParser:
         default=10.0,
         help="seconds between reports (default: %(default)s)",
     )
-    parser.add_argument("-n", "--limit", type=count, default=0, help="end after so many reports")
+    parser.add_argument("-n", "--limit", type=count, default=0, help="exit after this many reports")
     parser.add_argument(
         "--json", action="store_true", help="one JSON object in a line for each report"
     )

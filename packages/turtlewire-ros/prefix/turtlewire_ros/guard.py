@@ -26,7 +26,7 @@ def main() -> int | str:
         foreign = foreign_package()
         if foreign is not None:
             remedy = "Use a shell in which no other ROS 2 is sourced, or unset PYTHONPATH."
-            fault = f"ros2: {foreign} belongs to another ROS 2 and hides the one of turtlewire."
+            fault = f"ros2: {foreign} belongs to another ROS 2 and hides turtlewire's package."
             return f"{fault} {remedy}"
         from ros2cli.main import main as run
 

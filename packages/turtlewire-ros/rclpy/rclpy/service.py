@@ -85,7 +85,7 @@ class Service(IntrospectedEndpoint, Generic[SrvT_co]):
         self._logger.warning(
             f"An async callback awaits, and service '{self._wire.service}', which was called, "
             "cannot run before it ends: both are in one callback group. If it awaits that service, "
-            "it waits for ever: give the service a callback group of its own"
+            "this is a deadlock: give the service its own callback group"
         )
 
     def _take(self) -> Work | None:

@@ -37,8 +37,8 @@ def check_for_type_support(msg_or_srv_type: Any) -> None:
         if hasattr(type(msg_or_srv_type), "_TYPE_SUPPORT"):
             raise with_hint(
                 NoTypeSupportImportedException(),
-                f"{described(msg_or_srv_type)} comes from another ROS 2 installation; take that "
-                "path out of PYTHONPATH, or build the package of its definition here",
+                f"{described(msg_or_srv_type)} comes from another ROS 2 installation; remove that "
+                "path from PYTHONPATH, or build the package of its definition here",
             )
         kind = type(msg_or_srv_type).__name__
         error = AttributeError(

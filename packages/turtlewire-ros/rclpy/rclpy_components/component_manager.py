@@ -119,7 +119,7 @@ def _construct(request: Any) -> Node:
     module_name, _, class_name = request.plugin_name.replace(":", ".").rpartition(".")
     if not module_name:
         raise ValueError(
-            f"'{request.plugin_name}' is no component of {request.package_name}; "
+            f"'{request.plugin_name}' is not a component of {request.package_name}; "
             "expected 'package.module.Class'"
         )
     node_class = getattr(importlib.import_module(module_name), class_name)
@@ -129,7 +129,9 @@ def _construct(request: Any) -> Node:
     finally:
         component_arguments.reset(token)
     if not isinstance(node, Node):
-        raise TypeError(f"'{request.plugin_name}' makes a {type(node).__name__}, which is no node")
+        raise TypeError(
+            f"'{request.plugin_name}' creates a {type(node).__name__}, which is not a node"
+        )
     if request.log_level:
         node.get_logger().set_level(request.log_level)
     return node

@@ -95,5 +95,5 @@ def _add_options(parser: argparse.ArgumentParser) -> None:
         "--lan",
         action="store_true",
         default=wanted_lan(),
-        help="serve the page to other devices of the network, too, for those who have its address",
+        help="also serve the page to other devices in the network that have its address",
     )

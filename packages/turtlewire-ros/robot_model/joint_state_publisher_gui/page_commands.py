@@ -79,7 +79,7 @@ def _checked(name: str, value: object) -> str | float | bool:
         return value
     if name == "joint":
         if not isinstance(value, str) or len(value) > _MAX_NAME:
-            raise JointCommandError(f"joint is a text of at most {_MAX_NAME} characters")
+            raise JointCommandError(f"joint must be a string of at most {_MAX_NAME} characters")
         return value
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not _finite(value):
         raise JointCommandError("position is a finite number")

@@ -52,9 +52,9 @@ SPIN_ARGUMENTS = (
         "--spin-time",
         type=float,
         default=None,
-        help="Seconds to wait for discovery; by default until all is known",
+        help="Seconds to wait for discovery (default: until it is complete)",
     ),
-    argument("-s", "--use-sim-time", action="store_true", help="Take the time from /clock"),
+    argument("-s", "--use-sim-time", action="store_true", help="Use the time of /clock"),
 )
 
 

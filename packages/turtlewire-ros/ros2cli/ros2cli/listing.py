@@ -24,8 +24,8 @@ __all__ = [
     "print_types",
 ]
 
-SHOW_TYPES = argument("-t", "--show-types", action="store_true", help="Show the types too")
-HIDDEN_NODES = "Also nodes whose name begins with an underscore"
+SHOW_TYPES = argument("-t", "--show-types", action="store_true", help="Also show the types")
+HIDDEN_NODES = "Include nodes whose name starts with an underscore"
 
 
 def count_argument(kind: str) -> Argument:
@@ -35,7 +35,7 @@ def count_argument(kind: str) -> Argument:
         f"--count-{kind}s",
         dest="count",
         action="store_true",
-        help="Only show how many there are",
+        help="Show only their number",
     )
 
 
@@ -44,7 +44,7 @@ def hidden_argument(kind: str) -> Argument:
     return argument(
         f"--include-hidden-{kind}s",
         action="store_true",
-        help=f"Also {kind}s with a part that begins with an underscore",
+        help=f"Include {kind}s with a name part that starts with an underscore",
     )
 
 

@@ -99,12 +99,12 @@ def make_parser(words: list[str]) -> argparse.ArgumentParser:
         words: The words after ``ros2``.
     """
     parser = _Parser(
-        prog="ros2", description="Look at, run and talk to ROS 2 nodes.", allow_abbrev=False
+        prog="ros2", description="Run, inspect and control ROS 2 nodes.", allow_abbrev=False
     )
     parser.add_argument(
         "--use-python-default-buffering",
         action="store_true",
-        help="Leave the buffering of the output to Python",
+        help="Use Python's default buffering of the output",
     )
     parser.set_defaults(show_help=parser.print_help)
     _add_choices(parser, "ros2", "ros2cli.command", words)

@@ -34,7 +34,7 @@ _LIVELINESS = ("system_default", "automatic", "manual_by_topic", "unknown", "bes
 
 
 QOS_ARGUMENTS = (
-    argument("--qos-profile", choices=_PROFILES, help="Named profile to begin with"),
+    argument("--qos-profile", choices=_PROFILES, help="Named profile to start from"),
     argument("--qos-depth", metavar="N", type=unsigned_int, help="Length of the queue"),
     argument("--qos-history", choices=_HISTORY, help="Which messages the queue keeps"),
     argument(
@@ -43,11 +43,11 @@ QOS_ARGUMENTS = (
     argument(
         "--qos-durability", choices=_DURABILITY, help="Whether late joiners get earlier messages"
     ),
-    argument("--qos-liveliness", choices=_LIVELINESS, help="Who says that a publisher is alive"),
+    argument("--qos-liveliness", choices=_LIVELINESS, help="How publishers assert liveliness"),
     argument(
         "--qos-liveliness-lease-duration-seconds",
         type=positive_float,
-        help="How long it counts as alive without saying so",
+        help="Liveliness lease duration [s]",
     ),
 )
 

@@ -38,7 +38,7 @@ def read_values(text: str) -> dict[str, Any]:
     except ValueError as error:
         raise RuntimeError(f"The passed value holds what looks like a date: {error}") from None
     if size > len(text) + _MOST_COPIES:  # each value that is written out has a character of its own
-        raise RuntimeError("The aliases of the passed value stand for too many values")
+        raise RuntimeError("The aliases of the passed value expand to too many values")
     if values is None:
         return {}
     if not isinstance(values, dict):
@@ -92,7 +92,7 @@ def regular_expression(text: str) -> str:
     try:
         re.compile(text)
     except re.error as error:
-        raise argparse.ArgumentTypeError(f"{text!r} is no regular expression: {error}") from None
+        raise argparse.ArgumentTypeError(f"{text!r} is not a regular expression: {error}") from None
     return text
 
 

@@ -25,7 +25,7 @@ COMPONENT_ARGUMENTS = (
     ),
     argument("-n", "--node-name", default="", help="Name of the node"),
     argument("--node-namespace", default="", help="Namespace of the node"),
-    argument("--log-level", choices=_LEVELS, help="Least severity that is logged"),
+    argument("--log-level", choices=_LEVELS, help="Lowest severity to log"),
     argument("-r", "--remap-rules", nargs="+", default=[], help="Remappings of names, as from:=to"),
     argument(
         "-p",

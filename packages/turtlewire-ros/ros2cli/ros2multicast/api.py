@@ -146,7 +146,7 @@ def _group(text: str) -> str:
         is_group = False
     if not is_group:
         raise ArgumentTypeError(
-            f"'{text}' is no IPv4 multicast group; those are 224.0.0.0 to 239.255.255.255"
+            f"'{text}' is not an IPv4 multicast group, 224.0.0.0 to 239.255.255.255"
         )
     return text
 
@@ -157,7 +157,7 @@ def _port(text: str) -> int:
     except ValueError:
         port = 0
     if not 0 < port < 1 << 16:
-        raise ArgumentTypeError(f"'{text}' is no UDP port; those are 1 to 65535")
+        raise ArgumentTypeError(f"'{text}' is not a UDP port, 1 to 65535")
     return port
 
 

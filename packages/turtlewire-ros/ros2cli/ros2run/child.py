@@ -54,7 +54,7 @@ def _run_in_family(command: list[str], environment: dict[str, str]) -> int:
 
 def _run_and_pass_on_signals(command: list[str], environment: dict[str, str]) -> int:
     if sys.platform != "linux":
-        raise OSError("only Linux tells who sent a signal")
+        raise OSError("only Linux reports the sender of a signal")
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGCHLD, *_PASSED_ON})
     try:
         process = subprocess.Popen(  # noqa: S603

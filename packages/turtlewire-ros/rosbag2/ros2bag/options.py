@@ -38,7 +38,7 @@ LOG_LEVEL = argument(
     "--log-level",
     choices=("debug", "info", "warn", "error", "fatal"),
     default="info",
-    help="The least severe messages that are logged",
+    help="Lowest severity to log",
 )
 
 
@@ -81,13 +81,13 @@ STORAGE = argument(
     "--storage",
     choices=STORAGES,
     default="",
-    help="Accepted as in ROS 2; the storage is found out from the files",
+    help="Accepted as in ROS 2; the storage is detected from the files",
 )
 
 STORAGE_CONFIG = argument(
     "--storage-config-file",
     type=existing_file,
-    help="Accepted as in ROS 2; nothing of it matters to reading",
+    help="Accepted as in ROS 2; has no effect on reading",
     completer=files,
 )
 
@@ -95,7 +95,7 @@ READ_AHEAD = argument(
     "--read-ahead-queue-size",
     type=unsigned_int,
     default=1000,
-    help="How many messages are read before they are due",
+    help="Number of messages to read ahead",
 )
 
 REMAP = argument(

@@ -76,7 +76,9 @@ def _unknown_services(bag: Bag, options: PlayOptions) -> Iterator[str]:
     named = (*options.services_to_filter, *options.exclude_service_events_to_filter)
     for name in (each.removesuffix(EVENT_TOPIC) for each in dict.fromkeys(named)):
         if name not in services:
-            known = f"It has those of {', '.join(services)}." if services else "It has none at all."
+            known = (
+                f"It has events of {', '.join(services)}." if services else "It has none at all."
+            )
             hint = did_you_mean(name, services) or known
             yield f"The bag has no events of a service '{name}'. {hint}"
 

@@ -67,7 +67,7 @@ class PlayerOutputs:
             if warning is not None:
                 self._logger.warning(warning)
         if not topic.type:
-            self._logger.warning(f"{topic.name} is not played: the bag does not tell its type")
+            self._logger.warning(f"{topic.name} is not played: the bag does not contain its type")
             return
         type_id = TypeId(topic.type, topic.type_hash or _known_hash(topic.type))
         name = self._node.resolve_topic_name(topic.name)

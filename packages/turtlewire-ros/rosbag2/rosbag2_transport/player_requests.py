@@ -68,8 +68,8 @@ class ServiceRequests:
         if not requests:
             self._tell(
                 client.service,
-                f"the events of {client.service} lack the requests: "
-                "record with the introspection state 'contents'",
+                f"the events of {client.service} do not contain the requests: record with the "
+                "introspection state 'contents'",
             )
         elif not client.is_ready():
             self._tell(client.service, f"no request is sent: {self._why_not_ready(client)}")

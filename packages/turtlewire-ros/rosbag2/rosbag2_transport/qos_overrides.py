@@ -90,5 +90,5 @@ def _value(topic: str, key: str, value: Any) -> Any:
         return bool(value) if key == "avoid_ros_namespace_conventions" else int(value)
     except (AttributeError, KeyError, TypeError, ValueError):
         choices = _POLICIES[key].short_keys() if key in _POLICIES else ()
-        known = f"; known are {', '.join(choices)}" if choices else ""
+        known = f"; choose from {', '.join(choices)}" if choices else ""
         raise RuntimeError(f"{topic}: {value!r} is no {key}{known}") from None

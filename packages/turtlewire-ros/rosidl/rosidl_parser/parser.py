@@ -145,7 +145,7 @@ def _resolved(type_: AbstractType, typedefs: Mapping[str, AbstractType]) -> Abst
         type_ = typedefs[type_.name]
     if isinstance(type_, AbstractNestedType):
         inner = _resolved(type_.value_type, typedefs)
-        assert isinstance(inner, AbstractNestableType), "an array of arrays is no field"
+        assert isinstance(inner, AbstractNestableType), "an array of arrays is not a valid field"
         type_.value_type = inner
     return type_
 

@@ -74,7 +74,7 @@ class MissingTurtles:
         service = self._node.resolve_service_name("spawn")
         request = f"{{x: 4.0, y: 2.0, theta: 0.0, name: '{name}'}}"
         return (
-            f"A node waits for {name}, and there is no turtle of that name. "
+            f"A node waits for {name}, and there is no turtle with this name. "
             f'To add it, type: ros2 service call {service} {type_name(Spawn)} "{request}"'
         )
 

@@ -24,7 +24,7 @@ def parse_options(args: list[str]) -> argparse.Namespace:
         "--lan",
         action="store_true",
         default=wanted_lan(),
-        help="serve the page to other devices of the network, too, for those who have its address",
+        help="also serve the page to other devices in the network that have its address",
     )
     parser.add_argument(
         "--speed",

@@ -203,7 +203,7 @@ def _checked(name: str, value: object) -> str | float | bool:
         return value
     if name in _TEXT_FIELDS:
         if not isinstance(value, str) or len(value) > _MAX_NAME:
-            raise TurtleCommandError(f"{name} is a text of at most {_MAX_NAME} characters")
+            raise TurtleCommandError(f"{name} must be a string of at most {_MAX_NAME} characters")
         return value
     if (
         isinstance(value, bool)

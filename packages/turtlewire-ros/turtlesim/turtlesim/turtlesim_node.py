@@ -100,7 +100,7 @@ class TurtlesimNode(CppNode):
         turtles = len(self.world.turtles)
         if turtles >= _CROWD:
             self.get_logger().info(
-                f"Taking {turtles} turtles off the graph, which takes the middleware a few seconds"
+                f"Removing {turtles} turtles from the graph, which takes a few seconds"
             )
 
     def _declare_parameters(self) -> None:

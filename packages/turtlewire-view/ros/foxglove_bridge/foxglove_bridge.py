@@ -103,7 +103,7 @@ class FoxgloveBridge(Node):
     def _refuse_tls(self) -> None:
         if self.declare_parameter("tls", False, _FIXED).value:
             raise ValueError(
-                "tls is not offered here; `ssh -L 8765:localhost:8765 ROBOT` encrypts, too"
+                "tls is not supported; `ssh -L 8765:localhost:8765 ROBOT` also encrypts"
             )
 
     def _tell_what_has_no_effect(self) -> None:
@@ -130,7 +130,7 @@ def main(args: list[str] | None = None) -> int:
             return 1
         except OSError as error:
             print(f"foxglove_bridge: {error}", file=sys.stderr)  # noqa: T201
-            print("    The parameter port takes another one, 0 a free one.", file=sys.stderr)  # noqa: T201
+            print("    The parameter port sets another port, 0 a free port.", file=sys.stderr)  # noqa: T201
             return 1
         try:
             rclpy.spin(node)

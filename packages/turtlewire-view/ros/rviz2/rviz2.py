@@ -17,8 +17,8 @@ from turtlewire_view.rviz_file import RvizFileError, load_rviz
 __all__ = ["main"]
 
 _DESCRIPTION = (
-    "Shows frames, robots and sensor data in the browser. It takes RViz's options as far as they "
-    "mean something in a browser; `turtlewire view` is the same without a node."
+    "Shows frames, robots and sensor data in the browser. It accepts RViz's options that apply to "
+    "a browser; `turtlewire view` is the same without a node."
 )
 
 
@@ -62,7 +62,7 @@ def _parse(words: list[str]) -> tuple[argparse.Namespace, list[str]]:
     parser = argparse.ArgumentParser(prog="rviz2", description=_DESCRIPTION)
     parser.add_argument("-d", "--display-config", default="", help="A .rviz file to show")
     parser.add_argument("-f", "--fixed-frame", default="", help="Look from this frame first")
-    parser.add_argument("--lan", action="store_true", help="Serve other devices, too")
+    parser.add_argument("--lan", action="store_true", help="Also serve other devices")
     for names in (
         ("-t", "--display-title-format"),
         ("-s", "--splash-screen"),

@@ -109,7 +109,7 @@ class BagSource:
         self, node: str, name: str, on_answer: Callable[[ParameterAnswer], None]
     ) -> Callable[[], None]:
         """Answer at once that a bag has no parameters."""
-        problem = f"a bag has no parameters, so '{name}' of {node} is not known; take the topic"
+        problem = f"a bag has no parameters, so '{name}' of {node} is not known; use the topic"
         on_answer(ParameterAnswer(problem=problem))
         return _nothing
 
@@ -119,7 +119,7 @@ class BagSource:
         Raises:
             BagError: Always.
         """
-        raise BagError(f"A bag takes no messages, so nothing was published on {topic}.")
+        raise BagError(f"You cannot publish into a bag, so nothing was published on {topic}.")
 
     def on_change(self, call: Callable[[], None]) -> None:
         """Call ``call()`` on the player's thread."""

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["add_foxglove_command"]
 
 _EPILOG = """In Foxglove or Lichtblick: "Open connection", "Foxglove WebSocket", and the address
-that this command prints. Pages of other origins than these apps and this machine are refused."""
+that this command prints. Other pages than those of these apps and of this computer are refused."""
 
 
 def add_foxglove_command(commands: Any) -> None:
@@ -34,29 +34,30 @@ def add_foxglove_command(commands: Any) -> None:
         type=int,
         default=10_000_000,
         metavar="BYTES",
-        help="How much may wait for a slow client before it loses old messages "
+        help="Bytes to queue for a slow client before dropping its oldest messages "
         "(default: %(default)s)",
     )
     parser.add_argument(
-        "--use-sim-time", action="store_true", help="Take the time from /clock and send it"
+        "--use-sim-time", action="store_true", help="Use the time of /clock, and send it to clients"
     )
     parser.set_defaults(run=_foxglove, parser=parser)
 
 
 def _add_place(parser: argparse.ArgumentParser) -> None:
-    """Options that say where it listens, and to whom."""
+    """Add the options for the address and for the accepted pages."""
     parser.add_argument(
         "--port",
         type=int,
         default=8765,
         metavar="N",
-        help="TCP port (default: 8765); 0: a free one",
+        help="TCP port (default: 8765); 0: a free port",
     )
     parser.add_argument(
         "--address",
         default="127.0.0.1",
         metavar="A",
-        help="Where to listen (default: 127.0.0.1, this machine only); 0.0.0.0 lets everybody on "
+        help="Address to listen on (default: 127.0.0.1, this computer only); 0.0.0.0 lets anyone "
+        "on "
         "the network read all topics, publish and call services",
     )
     parser.add_argument(
@@ -64,13 +65,13 @@ def _add_place(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="PAGE",
-        help="Let pages of this origin connect, too, such as https://example.org; may be given "
-        "several times",
+        help="Also accept pages of this origin, such as https://example.org; may be given several "
+        "times",
     )
 
 
 def _add_offers(parser: argparse.ArgumentParser) -> None:
-    """Options that say what clients may see and do."""
+    """Add the options that limit what clients may see and do."""
     for option, what in (
         ("--topic", "Offer topics"),
         ("--service", "Offer services"),
@@ -81,13 +82,13 @@ def _add_offers(parser: argparse.ArgumentParser) -> None:
             option,
             action="append",
             metavar="REGEX",
-            help=f"{what} whose whole name matches (default: all); may be given several times",
+            help=f"{what} whose full name matches (default: all); may be given several times",
         )
     parser.add_argument("--hidden", action="store_true", help="Offer hidden topics and services")
     parser.add_argument(
         "--read-only",
         action="store_true",
-        help="Offer no publishing, services and parameters: clients only read topics",
+        help="Let clients only subscribe to topics",
     )
 
 
@@ -116,7 +117,7 @@ def _foxglove(args: argparse.Namespace) -> int:
         return 2
     except OSError as error:
         print(f"turtlewire foxglove: {error}.", file=sys.stderr)
-        print("--port N takes another one, --port 0 a free one.", file=sys.stderr)
+        print("--port N uses another port, --port 0 a free one.", file=sys.stderr)
         return 2
     return 0
 
@@ -151,7 +152,7 @@ def _say_where(url: str, options: Options) -> None:
 
 
 class _Log:
-    """Lines of the server on stderr."""
+    """Prints the server's log lines on stderr."""
 
     def info(self, message: str) -> None:
         print(printable(message), file=sys.stderr, flush=True)

@@ -133,7 +133,7 @@ class LiveSource:
         try:
             return ParameterWatch(self._context, self._node, node, name, on_answer).close
         except WireError as error:
-            on_answer(ParameterAnswer(problem=f"{node!r} is no name of a node: {error}"))
+            on_answer(ParameterAnswer(problem=f"{node!r} is not the name of a node: {error}"))
             return _nothing
 
     def publish(self, topic: str, type_name: str, cdr: bytes) -> int:

@@ -164,9 +164,9 @@ def _address(uri: str, package: str, path: str, texture: bool) -> MeshAddress:
     if not problem:
         suffix = os.path.splitext(path)[1].lower()
         if texture and not MEDIA_TYPES.get(suffix, "").startswith("image/"):
-            problem = f"'{path}' is no image that browsers show"
+            problem = f"'{path}' is not an image that browsers can show"
         elif not texture and suffix not in _MESHES:
-            problem = f"'{path}' is no mesh that the page reads ({', '.join(_MESHES)})"
+            problem = f"'{path}' is not a mesh that the page can read ({', '.join(_MESHES)})"
     problem = problem or _missing(package, path, _file_of(package, path))
     if problem:
         return MeshAddress(None, f"'{uri}' is not loaded: {problem}")
@@ -176,7 +176,7 @@ def _address(uri: str, package: str, path: str, texture: bool) -> MeshAddress:
 def _problem(package: str, path: str) -> str:
     """Why no file of that name is served, or the empty text."""
     if not _PACKAGE_NAME.fullmatch(package):
-        return f"'{package}' is no name of a package"
+        return f"'{package}' is not the name of a package"
     parts = path.split("/")
     if any(part in {"", ".", ".."} for part in parts):
         return f"the path '{path}' does not stay below the package"

@@ -68,7 +68,7 @@ def text_of_view(
     """
     displays, show, fixed = command.get("displays"), command.get("show"), command.get("fixed")
     if not isinstance(displays, list) or not isinstance(show, dict) or not isinstance(fixed, str):
-        raise RequestError("'fixed' must be a text, 'displays' a list and 'show' an object")
+        raise RequestError("'fixed' must be a string, 'displays' a list and 'show' an object")
     saved = tuple(_display_of(each) for each in displays[:_MOST_DISPLAYS])
     if former is None:
         saved = tuple(replace(each, place=None) for each in saved)

@@ -119,7 +119,7 @@ def load_rviz(path: str | os.PathLike[str]) -> SavedView:
     try:
         return read_rviz(text)
     except RvizFileError as error:
-        raise RvizFileError(f"{path} is no view of RViz: {error}") from error
+        raise RvizFileError(f"{path} is not an RViz view: {error}") from error
 
 
 def read_rviz(text: str) -> SavedView:
@@ -167,10 +167,10 @@ def _parsed(text: str) -> dict[str, Any]:
     try:
         content = yaml.safe_load(text)
     except RecursionError:
-        raise RvizFileError("the file is no YAML: nested too deeply") from None
+        raise RvizFileError("the file is not YAML: nested too deeply") from None
     except (yaml.YAMLError, ValueError) as error:
         line = str(error).splitlines()[0] if str(error) else type(error).__name__
-        raise RvizFileError(f"the file is no YAML: {line}") from None
+        raise RvizFileError(f"the file is not YAML: {line}") from None
     if not isinstance(content, dict):
         raise RvizFileError("the file holds no properties, as RViz's files do")
     return content
@@ -210,10 +210,10 @@ def _unread(others: list[str], refused: list[str]) -> str:
     parts = []
     if others:
         names = ", ".join(dict.fromkeys(others))
-        parts.append(f"Not shown here, for the page has no such display: {names}")
+        parts.append(f"Unsupported displays: {names}")
     if refused:
         more = f" (and {len(refused) - 3} more)" if len(refused) > 3 else ""
-        parts.append(f"Refused, the default is taken: {'; '.join(refused[:3])}{more}")
+        parts.append(f"Invalid values, defaults used: {'; '.join(refused[:3])}{more}")
     return printable(". ".join(parts))
 
 

@@ -155,7 +155,7 @@ class ViewSession:
         try:
             command = json.loads(message)
         except (ValueError, RecursionError):
-            raise ViewCommandError("The page sent something that is no JSON.") from None
+            raise ViewCommandError("The page sent invalid JSON.") from None
         kind = command.get("type") if isinstance(command, dict) else None
         run = self._commands.get(kind) if isinstance(kind, str) else None
         if run is None:
@@ -340,7 +340,7 @@ class ViewSession:
         try:
             view = read_rviz(text if isinstance(text, str) else "")
         except RvizFileError as error:
-            raise ViewCommandError(f"This is no view: {error}.") from error
+            raise ViewCommandError(f"This is not a view: {error}.") from error
         self._viewer.keep_document(view)
         self._answers.append(encode_packet(view.header()))
 
@@ -352,7 +352,7 @@ class ViewSession:
 def _text(command: dict[str, Any], word: str) -> str:
     value = command.get(word)
     if not isinstance(value, str) or len(value) > _LONGEST_NAME:
-        raise ViewCommandError(f"{word!r} must be a text of at most {_LONGEST_NAME} characters.")
+        raise ViewCommandError(f"{word!r} must be a string of at most {_LONGEST_NAME} characters.")
     return value
 
 

@@ -119,8 +119,8 @@ def _ended_link(buffer: Buffer, error: TransformException) -> str:
     gap, kept = error.newest_ns - error.requested_ns, error.newest_ns - error.oldest_ns
     senders = " and ".join(sorted({sender.name for sender in ended[0].senders}))
     return (
-        f"The last transform of '{ended[0].child_frame}' is {gap / 1e9:.0f} s older than that of "
-        f"'{error.child_frame}', of which {kept / 1e9:.0f} s are kept. "
+        f"The last transform of '{ended[0].child_frame}' is {gap / 1e9:.0f} s older than the last "
+        f"transform of '{error.child_frame}', of which {kept / 1e9:.0f} s are kept. "
         f"Does {senders or 'its publisher'} still publish '{ended[0].child_frame}'?"
     )
 

@@ -1,4 +1,4 @@
-"""`turtlewire view`: the frames of the wire or of a bag in the browser, in 3D."""
+"""`turtlewire view`: live frames, or the frames of a bag, in the browser, in 3D."""
 
 from __future__ import annotations
 
@@ -21,23 +21,23 @@ def add_view_command(commands: Any) -> None:
     from turtlewire.terminal.file_arguments import complete_bags, reporting_errors
     from turtlewire.web.options import add_page_options
 
-    summary = "Show the frames of the wire, or of a bag, in 3D in the browser"
+    summary = "Show live frames, or the frames of a bag, in 3D in the browser"
     parser = commands.add_parser("view", help=summary, description=summary, allow_abbrev=False)
     bag = parser.add_argument(
-        "bag", nargs="?", metavar="BAG", help="Show this bag, and nothing of the network"
+        "bag", nargs="?", metavar="BAG", help="Show this bag instead of the network"
     )
     bag.completer = complete_bags
     parser.add_argument(
         "--fixed-frame",
         default="",
         metavar="FRAME",
-        help="Look from this frame first (default: the root of the largest tree)",
+        help="Fixed frame to start with (default: the root of the largest tree)",
     )
     parser.add_argument(
         "-d",
         "--display-config",
         metavar="FILE",
-        help="Show what this .rviz file says; the page saves and loads such files, too",
+        help="Load this .rviz file; the page can also save and load such files",
     )
     parser.add_argument(
         "--max-frames",
@@ -77,7 +77,7 @@ def _view(args: argparse.Namespace) -> int:
         stack.pop_all()
         stack.callback(viewer.close)  # closes the source, too
         if args.port and args.port != urlsplit(viewer.url).port:
-            print(f"Port {args.port} is in use: the view takes a free one", flush=True)
+            print(f"Port {args.port} is in use: the view uses a free port", flush=True)
         print(f"The view is at {viewer.url} (Ctrl-C ends it)", flush=True)
         if lan:
             invite(viewer.url, print)
@@ -95,7 +95,7 @@ def _source(bag: str | None, max_frames: int | None) -> Source:
     if bag.endswith(".rviz"):
         from turtlewire_view.rviz_file import RvizFileError
 
-        raise RvizFileError(f"{bag} is no bag. To show a file of RViz: -d {bag}")
+        raise RvizFileError(f"{bag} is not a bag. To load an RViz file: -d {bag}")
     from turtlewire_view.bag_source import BagSource
 
     source = BagSource(bag, **limit)

@@ -29,7 +29,7 @@ def transform_in_words(
         rotation: Of the source in the target, unit quaternion xyzw.
     """
     if not all(map(math.isfinite, (*translation, *rotation))):
-        return f"{source} is not at a finite place as {target} sees it."
+        return f"{source} has no finite position in {target}."
     turn = _turn_in_words(rotation)
     return f"{source} is {_place_in_words(target, translation)}, and {turn}."
 

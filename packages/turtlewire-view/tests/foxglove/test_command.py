@@ -61,7 +61,7 @@ def test_a_port_in_use_is_named_with_the_way_out(foxglove):
     [
         (["--port", "99999"], "port 99999 does not exist: ports are 0 (a free one) to 65535"),
         (["--port", "x"], "argument --port: invalid int value: 'x'"),
-        (["--topic", "("], "topic_whitelist '(' is no regular expression: missing )"),
+        (["--topic", "("], "topic_whitelist '(' is not a regular expression: missing )"),
         (["--send-buffer-limit", "0"], "send_buffer_limit is at least 1 byte, got 0"),
         (["--topics", "x"], "Did you mean: --topic"),
         (

@@ -62,7 +62,7 @@ def test_meshes_of_installed_packages_are_found(bridge, client):
     [
         ({"tls": True}, "tls is not offered here"),
         ({"port": 70_000}, "port 70000 does not exist"),
-        ({"topic_whitelist": ["("]}, r"topic_whitelist '\(' is no regular expression"),
+        ({"topic_whitelist": ["("]}, r"topic_whitelist '\(' is not a regular expression"),
         ({"capabilities": ["fly"]}, "there is no capability 'fly'; choose from clientPublish"),
     ],
 )

@@ -85,7 +85,7 @@ def test_wrong_calls_are_answered_with_a_reason(client, switch):
     one.call(number, 3, b"nonsense")
     assert failure(one)[1].startswith("no JSON: ")
     one.call(number, 4, b"", "cdr")
-    assert failure(one)[1].startswith("the request's 0 bytes are no little-endian CDR")
+    assert failure(one)[1].startswith("the request's 0 bytes are not little-endian CDR")
     one.call(number, 5, b"", "xml")
     assert failure(one) == (5, "there is no encoding 'xml'; choose from cdr, json")
 

@@ -249,9 +249,9 @@ def test_clients_hear_each_other(client):
     [
         (
             {"topic": "/has space"},
-            "'/has space' is no name of a topic: topic name must not contain",
+            "'/has space' is not the name of a topic: topic name must not contain",
         ),
-        ({"topic": "/x//y"}, "'/x//y' is no name of a topic: "),
+        ({"topic": "/x//y"}, "'/x//y' is not the name of a topic: "),
         ({"topic": "/secret"}, "client_topic_whitelist does not allow /secret"),
         ({"encoding": "protobuf"}, "/said: there is no encoding 'protobuf'; choose from cdr, json"),
         ({"schemaName": "std_msgs/Strang"}, "/said: unknown interface 'std_msgs/msg/Strang' Did"),
@@ -282,14 +282,14 @@ def test_wrong_messages_are_refused_with_a_reason(client):
     assert one.status() == (2, "there is no channel 9: advertise it first")
     one.socket.send(b'\x01\x01\0\0\0{"data": 3}')
     assert one.status()[1] == (
-        "a message on /a was lost: std_msgs/msg/String.data: expected a text, got 3"
+        "a message on /a was lost: std_msgs/msg/String.data: expected a string, got 3"
     )
     one.socket.send(b'\x01\x01\0\0\0{"dada": ""}')
     assert one.status()[1] == (
         "a message on /a was lost: std_msgs/msg/String has no field 'dada', it has data"
     )
     one.socket.send(b"\x01\x02\0\0\0junk")
-    assert "are no message (expected 00 01 00 00)" in one.status()[1]
+    assert "are not a message (expected 00 01 00 00)" in one.status()[1]
     one.send("unadvertise", channelIds=[1, 8])
     assert one.status() == (1, "there is no channel 8")
 

@@ -44,7 +44,7 @@ def test_a_port_in_use_is_said(view):
         assert not address_of(program).endswith(f":{port}/")
         program.process.send_signal(signal.SIGTERM)
         assert program.wait() == 0
-    assert program.text.startswith(f"Port {port} is in use: the view takes a free one\n")
+    assert program.text.startswith(f"Port {port} is in use: the view uses a free port\n")
 
 
 def test_a_bag_is_shown_without_the_network(view, tmp_path):
@@ -77,12 +77,12 @@ def test_a_file_of_rviz_is_what_the_page_shows_first(view, tmp_path):
     ("words", "answer"),
     [
         (["-d", "none.rviz"], "none.rviz cannot be read: No such file or directory"),
-        (["-d", __file__], "test_command.py is no view of RViz: "),
+        (["-d", __file__], "test_command.py is not an RViz view: "),
         (["--port", "99999"], "'99999' is not a port number, from 0 (any) to 65535"),
         (["--max-frames", "1"], "'1' is not a number of frames, at least 2"),
         (["--fixed-fram", "map"], "Did you mean: --fixed-frame"),
         (["no_such_bag"], "turtlewire view: "),
-        (["robot.rviz"], "robot.rviz is no bag. To show a file of RViz: -d robot.rviz"),
+        (["robot.rviz"], "robot.rviz is not a bag. To load an RViz file: -d robot.rviz"),
         (["a", "b"], "unrecognized arguments: b"),
     ],
 )

@@ -158,7 +158,7 @@ def wrong(**values):
         ({"color": Color(r=1.0)}, "the marker is invisible: color.a is 0"),
         (
             {"shape": "mesh", "mesh_resource": "package://../../etc/passwd"},
-            "'package://../../etc/passwd' is not loaded: '..' is no name of a package",
+            "'package://../../etc/passwd' is not loaded: '..' is not the name of a package",
         ),
     ],
 )
@@ -238,7 +238,7 @@ def test_thinned_triangles_keep_their_place_in_the_texture():
         ({"texture_resource": "package://arm/a.stl", "uv_coordinates": []},
          "0 uv_coordinates for 9 points: the texture is not drawn"),
         ({"texture_resource": "package://no such/a.png"},
-         "'package://no such/a.png' is not loaded: 'no such' is no name of a package"),
+         "'package://no such/a.png' is not loaded: 'no such' is not the name of a package"),
     ],
 )  # fmt: skip
 def test_what_is_wrong_with_a_texture(values, line):

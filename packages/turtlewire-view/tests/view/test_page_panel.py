@@ -85,7 +85,7 @@ def test_search_finds_names_and_publishers(page):
     assert reading(page, "carrot1").startswith("below turtle1")
     page.fill("#search", "nothing")
     assert shown(page) == []
-    assert page.inner_text("#no-match") == "No frame and no publisher has this in its name."
+    assert page.inner_text("#no-match") == "No frame or publisher matches."
     page.fill("#search", "")
     assert not page.is_visible("#no-match")
     assert len(shown(page)) == 4
@@ -427,7 +427,7 @@ def test_a_line_that_does_not_pass_stands_again_after_one_that_does(fake, open_v
 
 
 def test_tools_that_publish_say_why_they_do_not_in_a_bag(fake, open_view):
-    why = "A bag is shown: nothing can be published into it."
+    why = "You cannot publish into a bag."
     fake.tell({"type": "hello", "source": {"kind": "bag", "name": "walk.mcap"}})
     fake.names(PARENTS)
     page = open_view(fake.url)

@@ -118,7 +118,9 @@ def test_no_lock_is_held_while_an_answer_is_given(source, describer):
 def test_a_name_that_no_node_has(source):
     answers, end = ask(source, "/not a node", "robot")
     end()
-    assert answers.get(timeout=LIMIT_S).problem.startswith("'/not a node' is no name of a node: ")
+    assert answers.get(timeout=LIMIT_S).problem.startswith(
+        "'/not a node' is not the name of a node: "
+    )
 
 
 def test_a_changed_parameter_is_followed(source, describer, robot):

@@ -182,7 +182,7 @@ def test_a_map_goes_with_its_frame_unless_its_stamp_is_to_count():
     [
         (grid(3, 2, [0] * 5), "5 cells in data, but width 3 and height 2 say 6"),
         (grid(0, 2, []), "the map has no cells: width 0, height 2"),
-        (grid(1, 1, [0], math.nan), "a resolution of nan m per cell is no map"),
+        (grid(1, 1, [0], math.nan), "a resolution of nan m per cell is not valid"),
         (grid(2**32 - 1, 2**32 - 1, []), "0 cells in data"),
         (update(0, 0, 1, 1, [0]), "an update of a map that has not come yet"),
     ],

@@ -115,10 +115,10 @@ def test_each_golden_robot_is_drawn(path):
 @pytest.mark.parametrize(
     ("text", "line"),
     [
-        ("", "the description is refused: The description is empty"),
-        ("<robot name='x'/>", "the description is refused: No link elements found in urdf file"),
-        ("<robot", "the description is refused: "),
-        ("hello", "the description is refused: "),
+        ("", "the description is invalid: The description is empty"),
+        ("<robot name='x'/>", "the description is invalid: No link elements found in urdf file"),
+        ("<robot", "the description is invalid: "),
+        ("hello", "the description is invalid: "),
     ],
 )
 def test_a_description_that_is_none(text, line):
@@ -129,7 +129,7 @@ def test_a_description_that_is_none(text, line):
 @pytest.mark.parametrize(
     ("uri", "why"),
     [
-        ("package://../../etc/passwd", "'..' is no name of a package"),
+        ("package://../../etc/passwd", "'..' is not the name of a package"),
         ("package://arm/../../etc/passwd.stl", "does not stay below the package"),
         ("package://arm/%2e%2e/%2e%2e/etc/a.stl", "does not stay below the package"),
         ("package://arm//etc/a.stl", "does not stay below the package"),
@@ -137,8 +137,8 @@ def test_a_description_that_is_none(text, line):
         ("package://arm/a\\b.stl", "holds a name that is not served"),
         ("package://nowhere/a.stl", "there is no package 'nowhere' in AMENT_PREFIX_PATH"),
         ("package://arm/a.stl", "the package 'arm' has no file 'a.stl'"),
-        ("package://arm/id_rsa", "is no mesh that the page reads"),
-        ("package://arm/a.png", "is no mesh that the page reads"),
+        ("package://arm/id_rsa", "is not a mesh that the page can read"),
+        ("package://arm/a.png", "is not a mesh that the page can read"),
         ("file:///etc/passwd", "is not below the share folder of a package"),
         ("/etc/a.stl", "is not below the share folder of a package"),
         ("http://example.com/a.stl", "only package:// addresses are"),
@@ -184,8 +184,8 @@ def test_meshes_of_named_packages_are_served(prefix):
         ("/mesh/arm/../secret.stl", "does not stay below"),
         ("/mesh/arm/a\0.stl", "not served"),
         ("/mesh/leg/a.stl", "no robot or marker names"),
-        ("/mesh/", "is no name of a package"),
-        ("/mesh/../../etc/passwd", "is no name of a package"),
+        ("/mesh/", "is not the name of a package"),
+        ("/mesh/../../etc/passwd", "is not the name of a package"),
     ],
 )
 @pytest.mark.usefixtures("prefix")

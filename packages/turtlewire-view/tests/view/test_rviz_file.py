@@ -71,7 +71,7 @@ def test_a_file_of_rviz_is_read():
     assert view.fixed == "odom"
     assert view.show == {"grid": False, "names": True, "axes": True, "arrows": False}
     assert view.unread == (
-        "Not shown here, for the page has no such display: Camera. Refused, the default is taken: "
+        "Unsupported displays: Camera. Invalid values, defaults used: "
         "Path: 'Line Width' must be a number from 0 to 1000, got nan"
     )
     robot, scan, odometry, path, walls = view.displays
@@ -112,7 +112,7 @@ def test_a_file_of_rviz_is_read():
         ("!!python/object/apply:os.system [echo]", "the file is no YAML"),
         ("\x00", "the file is no YAML"),
         ("x" * 2_000_000, "too many for a .rviz file"),
-        ("[" * 100_000, "^the file is no YAML: nested too deeply$"),
+        ("[" * 100_000, "^the file is not YAML: nested too deeply$"),
     ],
 )
 def test_texts_that_are_no_view(text, why):
@@ -209,7 +209,7 @@ def test_what_the_page_does_not_have_is_written_back():
 def test_wrong_values_of_a_file_are_named(given, why):
     text = f"Visualization Manager: {{Displays: [{{Class: x/PointCloud2, {given}}}]}}"
     view = read_rviz(text)
-    assert view.unread.startswith(f"Refused, the default is taken: PointCloud2: {why}")
+    assert view.unread.startswith(f"Invalid values, defaults used: PointCloud2: {why}")
     assert view.displays[0].options == {}
 
 

@@ -180,7 +180,7 @@ def test_what_a_view_has_and_the_page_has_not_is_a_line(scene, tmp_path):
         "    - {Class: rviz_default_plugins/DepthCloud}\n    - {Class: mine/<b>Wind</b>}\n"
     )
     scene.page.set_input_files("#view-file", file)
-    line = "Not shown here, for the page has no such display: DepthCloud, b>"
+    line = "Unsupported displays: DepthCloud, b>"
     scene.page.wait_for_function(
         "(text) => document.querySelector('#notice').textContent === text",
         arg=line,

@@ -41,10 +41,10 @@ def main(argv: list[str] | None = None) -> int:
         prog="python -m turtlewire.demo",
         description="One turtle follows another in the browser: the tutorial's launch file.",
     )
-    parser.add_argument("--seconds", type=float, help="end by itself after so many seconds")
+    parser.add_argument("--seconds", type=float, help="stop after this many seconds")
     seconds: float | None = parser.parse_args(argv).seconds
     if seconds is not None and not seconds > 0:
-        parser.error(f"{seconds} is not a time to wait for; give a positive number")
+        parser.error(f"{seconds} is not a positive number of seconds")
     missing = [name for name in _NEEDED if find_spec(name) is None]
     if missing:
         paths = " ".join(_NEEDED[name] for name in missing)

@@ -46,8 +46,8 @@ class TurtlewireError(Exception):
     Attributes:
         hint: One or two plain sentences that say what exists and what to do; empty when there is
             nothing to add.
-        is_of_environment: Whether variables, files or the machine caused the error. A program that does
-            not catch it ends with one line instead of a traceback.
+        is_of_environment: Whether variables, files or the machine caused the error. A program that
+            does not catch it ends with one line instead of a traceback.
     """
 
     hint: str = ""
@@ -200,14 +200,14 @@ class ExtrapolationException(TransformException):
     which it is.
 
     Attributes:
-        reason: ``"future"`` if the time is newer than the newest sample; ``"past"`` if it is older than
-            the oldest; ``"no data"`` if there is no sample, or only one with another stamp; empty
-            if unknown.
+        reason: ``"future"`` if the time is newer than the newest sample; ``"past"`` if it is older
+            than the oldest; ``"no data"`` if there is no sample, or only one with another
+            stamp; empty if unknown.
         target_frame: The frame in which the answer was to be expressed; empty if unknown.
-        source_frame: The frame whose pose was requested. (In a lookup through a fixed frame, these two are
-            the ends of the part that failed.)
+        source_frame: The frame whose pose was requested. In a lookup through a fixed frame, target
+            and source are the ends of the part that failed.
         parent_frame: The parent of the transform that failed.
-        child_frame: The child of the transform that failed: its pose is unknown at the requested time.
+        child_frame: The child of the transform that failed.
         requested_ns: The requested time, in nanoseconds.
         oldest_ns: The stamp of the oldest sample of the transform; 0 without data.
         newest_ns: The stamp of the newest sample of the transform; 0 without data.
@@ -244,9 +244,7 @@ class ExtrapolationException(TransformException):
 
     def _no_data_hint(self, link: str) -> str:
         if not self._has_data:
-            return (
-                f"No transform of '{self.child_frame}' has arrived since the buffer was cleared."
-            )
+            return f"No transform of '{self.child_frame}' has arrived since the buffer was cleared."
         gap = (self.requested_ns - self.newest_ns) / 1e9
         side = "older" if gap > 0 else "newer"
         return (

@@ -100,7 +100,7 @@ def test_a_damaged_definition_is_named(tmp_path):
     path = tmp_path / "damaged.mcap"
     path.write_bytes(data)
     _, complaint = read_what_there_is(path)
-    assert re.search(r"damaged\.mcap: chunk at byte \d+: .* a text is not UTF-8", complaint)
+    assert re.search(r"damaged\.mcap: chunk at byte \d+: .* a string is not UTF-8", complaint)
 
 
 def test_a_damaged_chunk_is_named_and_the_others_are_read(tmp_path):

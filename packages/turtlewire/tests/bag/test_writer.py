@@ -297,6 +297,6 @@ def test_options_without_effect_are_refused(tmp_path, options):
 def test_a_name_that_is_none_of_a_type(tmp_path):
     with (
         BagWriter(tmp_path / "made") as writer,
-        pytest.raises(BagError, match="'foo' is no name of a message type"),
+        pytest.raises(BagError, match="'foo' is not the name of a message type"),
     ):
         writer.add_topic("/q", "foo")

@@ -197,7 +197,7 @@ def test_a_file_without_data_is_no_trajectory(capsys, tmp_path, text, what):
     (tmp_path / "empty.txt").write_text(text)
     done = run(capsys, "trajectory", tmp_path / "empty.txt")
     assert (done.status, done.out) == (2, "")
-    assert f"empty.txt is no trajectory: it holds {what}, no line of numbers" in done.err
+    assert f"empty.txt is not a trajectory: it contains {what}, but no lines of numbers" in done.err
 
 
 @pytest.mark.parametrize(
@@ -220,11 +220,11 @@ def test_a_file_without_data_is_no_trajectory(capsys, tmp_path, text, what):
         ("bag tff BAG", "Did you mean: tf"),
         ("bag tf nothing", "there is no bag at nothing"),
         ("doctor nothing", "there is no bag at nothing"),
-        ("doctor BAG --listen 2", "a bag is not listened to"),
+        ("doctor BAG --listen 2", "--listen cannot be combined with a BAG"),
         ("trajectory BAG base_link camera --rate 10", "bag tf BAG` shows which frames have a rate"),
         ("compare BAG:odom:camera BAG:odom:camera --plane ab", "ab"),
-        ("doctor --topic /r1/tf", "are of a bag: name one"),
-        ("trajectory BAG /odom --topic /r1/tf", "tell where transforms are: name two frames"),
+        ("doctor --topic /r1/tf", "need a BAG"),
+        ("trajectory BAG /odom --topic /r1/tf", "need two frames"),
     ],
 )
 def test_mistakes(capsys, bag, words, text):

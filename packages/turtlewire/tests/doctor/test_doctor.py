@@ -85,8 +85,7 @@ def test_servers_that_would_misread_requests(foreign_server):
         (finding,) = graph_findings(graph)
     assert not finding.is_problem
     assert finding.text == (
-        "The 2 services of nodes on a middleware that announces no serviceid cannot be called from "
-        "here, those of parameters and actions included; topics work. Nodes: /stranger."
+        "The 2 services of nodes on a middleware that announces no serviceid cannot be called from here, including parameters and actions; topics work. Nodes: /stranger."
     )
     assert finding.remedy.startswith("Start the nodes with RMW_IMPLEMENTATION=rmw_cyclonedds_cpp,")
 
@@ -412,7 +411,7 @@ def test_a_real_ros_mixed_into_the_path(tmp_path):
 
 
 def test_another_distribution_is_named():
-    assert "ROS_DISTRO is 'humble', but the names and texts here are those of jazzy." in texts(
+    assert "ROS_DISTRO is 'humble', but turtlewire uses the names and texts of jazzy." in texts(
         setup_findings({"ROS_DISTRO": "humble"}, [])
     )
 

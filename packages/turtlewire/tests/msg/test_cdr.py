@@ -377,7 +377,7 @@ def test_a_clocks_time_in_a_stamp_is_refused_with_its_conversion():
 
     with pytest.raises(CdrError, match="'stamp': expected builtin_interfaces/msg/Time") as caught:
         msg.serialize(Header(stamp=Time()))
-    assert caught.value.hint == "A Time is no message; its to_msg() makes one."
+    assert caught.value.hint == "A Time is not a message; its to_msg() returns one."
     with pytest.raises(CdrError) as caught:
         msg.serialize(Header(stamp=1.5))
     assert caught.value.hint == ""

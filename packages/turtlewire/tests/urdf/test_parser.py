@@ -112,7 +112,7 @@ JOINT_REFUSALS = [
     (f'<joint name="j" type="continuous">{ENDS}<dynamics/></joint>', "joint dynamics element specified with no damping and no friction"),
     (f'<joint name="j" type="continuous">{ENDS}<safety_controller/></joint>', "joint safety: no k_velocity"),
     (f'<joint name="j" type="continuous">{ENDS}<axis xyz="1 0"/></joint>', "Malformed axis element for joint [j]: Parser found 2 elements but 3 expected while parsing vector [1 0]"),
-    (f'<joint name="j" type="continuous">{ENDS}<axis xyz="0 0 0"/></joint>', "Malformed axis element for joint [j]: it is zero, which is no direction"),
+    (f'<joint name="j" type="continuous">{ENDS}<axis xyz="0 0 0"/></joint>', "Malformed axis element for joint [j]: it is zero, which is not a direction"),
     ('<joint name="j" type="fixed"><parent link="c"/><child link="b"/></joint>', 'Failed to build tree: parent link [c] of joint [j] not found.  This is not valid according to the URDF spec. Every link you refer to from a joint needs to be explicitly defined in the robot description. To fix this problem you can either remove this joint [j] from your urdf file, or add "<link name="c" />" to your urdf file.'),
     ("", "Failed to find root link: Two root links found: [a] and [b]"),
     (f'<joint name="j" type="fixed">{ENDS}</joint>' * 2, "joint 'j' is not unique."),

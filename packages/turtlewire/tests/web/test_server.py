@@ -293,7 +293,7 @@ def test_running_out_of_files_is_reported_once_and_passes(page):
         program.stdin.close()
         assert program.stderr.read() == ""
         assert program.wait(60) == 0
-    assert "The page accepts no further browser for now: Too many open files." in said
+    assert "No more browsers can connect: Too many open files." in said
 
 
 def test_importing_the_room_stays_light():

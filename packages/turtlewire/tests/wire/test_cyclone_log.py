@@ -20,7 +20,7 @@ pytestmark = pytest.mark.skipif(
 
 def test_a_datagram_that_the_network_refuses_is_explained():
     text = explain("ddsi_udp_conn_write to udp/10.77.0.2:23411 failed with retcode -1")
-    assert text.startswith("the network does not let us send to 10.77.0.2: is the link down?")
+    assert text.startswith("the network rejects packets to 10.77.0.2: is the link down?")
     assert explain("something else") == "Cyclone DDS says: something else"
 
 

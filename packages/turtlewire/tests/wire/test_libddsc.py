@@ -140,7 +140,7 @@ def test_zenoh_is_taken_instead_of_an_unknown_version(tmp_path):
     assert (done.returncode, done.stdout) == (0, "ZenohContext\n")
     [line] = done.stderr.splitlines()
     assert "Cyclone DDS 0.8.1 of the system" in line
-    assert line.endswith("Zenoh is taken, which reaches robots that run rmw_zenoh_cpp")
+    assert line.endswith("Zenoh is used, which reaches robots that run rmw_zenoh_cpp")
 
 
 def test_a_file_that_is_no_library_is_one_error_that_names_it(tmp_path):

@@ -114,7 +114,7 @@ def test_the_doctor_names_what_is_ignored():
     [permissive] = texts(ROS_SECURITY_ENABLE="true")
     assert "sent unencrypted and unauthenticated" in permissive
     [misspelt] = texts(ROS_SECURITY_ENABLE="True")
-    assert misspelt == "ROS_SECURITY_ENABLE is 'True', which ROS 2 takes for off."
+    assert misspelt == "ROS_SECURITY_ENABLE is 'True', which ROS 2 treats as off."
     assert texts(ROS_SECURITY_ENABLE="false") == texts() == []
     # Then the doctor itself is refused, which it reports.
     assert texts(ROS_SECURITY_ENABLE="true", ROS_SECURITY_STRATEGY="Enforce") == []

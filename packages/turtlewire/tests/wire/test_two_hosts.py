@@ -318,7 +318,7 @@ def test_a_link_that_goes_down_and_up_is_named_once_and_later_messages_arrive(
     assert asker.process.returncode == 0
     errors = (tmp_path / "errors").read_text().splitlines()
     assert len(errors) == 1, errors
-    assert "the network does not let us send to" in errors[0]
+    assert "the network rejects packets to" in errors[0]
 
 
 @pytest.fixture

@@ -53,8 +53,8 @@ def _find_package(run: Interpreter, call: Call) -> None:
         run.run_file(config)
     if not known and "REQUIRED" in call.words and not run.testing:
         run.plan.missing.append(
-            f"{call.place}: there is no package '{name}'{run.packages.suggestion(name)}; add it to "
-            "the workspace, or source or install what has it"
+            f"{call.place}: there is no package '{name}'{run.packages.suggestion(name)}; add it "
+            "to the workspace, source a workspace that has it, or install it"
         )
 
 
@@ -204,7 +204,8 @@ def _definition(run: Interpreter, word: str, call: Call) -> tuple[str, Path]:
     kind = folder.rpartition("/")[2]
     if kind not in _KINDS or not name.endswith((f".{kind}", ".idl")):
         raise CMakeError(
-            call.place, f"{call.name}(): {word} is no msg/….msg, srv/….srv, action/….action or .idl"
+            call.place,
+            f"{call.name}(): {word} is not a msg/….msg, srv/….srv, action/….action or .idl",
         )
     if not path.is_file():
         raise CMakeError(call.place, f"{call.name}(): there is no file {path}")

@@ -197,8 +197,8 @@ class Plan:
         troubles = self.missing + self.unknown
         twice = {part.package for part in self.interfaces if part.installed}
         troubles += [
-            f"{package.place}: rosidl_generate_interfaces makes a Python package {package.name}, "
-            "too; give one of them another name"
+            f"{package.place}: rosidl_generate_interfaces also generates a Python package "
+            f"{package.name}; rename one of them"
             for package in self.python_packages
             if package.name in twice
         ]

@@ -246,11 +246,11 @@ def test_both_styles_of_arguments():
         ("--frame-id a --child-frame-id b more", "Extra unparsed arguments on command-line"),
         (
             "--frame-id a --child-frame-id b --yaw inf",
-            "--yaw is inf: no listener takes a transform whose numbers are not finite",
+            "--yaw is inf: listeners reject a transform whose numbers are not finite",
         ),
         (
             "--frame-id a --child-frame-id b --qw 0",
-            "A quaternion of zeros is no rotation, and every listener refuses it",
+            "A quaternion of zeros is not a rotation, and every listener rejects it",
         ),
         ("1 2 3", "Extra unparsed arguments on command-line"),
         (

@@ -328,7 +328,7 @@ def _checked_style(layout: str, style: str | None) -> _Style:
         logging.Formatter(layout, style=known)
     except ValueError as error:
         raise ValueError(
-            f"'{layout}' is no log format of the style '{known}', as '{_EXAMPLES[known]}' is: "
+            f"'{layout}' is not a log format of the style '{known}', as '{_EXAMPLES[known]}' is: "
             f"{error}"
         ) from error
     return known

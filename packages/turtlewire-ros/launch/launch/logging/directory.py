@@ -32,7 +32,7 @@ def make_launch_log_dir(parent: str) -> str:
     except OSError as error:
         raise RuntimeError(
             f"cannot make the log folder {base} ({error.strerror}); "
-            "ROS_LOG_DIR can name another place"
+            "set ROS_LOG_DIR to another folder"
         ) from error
     # Not every file system has links, and another launch may make it at the same time: logging
     # works without.

@@ -114,7 +114,7 @@ def coerce_to_type(value: str, data_type: Any = None, *, can_be_str: bool = Fals
         TypeError: ``value`` is no text.
     """
     if not isinstance(value, str):
-        raise TypeError(f"expected a text, got {type(value).__name__} ({value!r})")
+        raise TypeError(f"expected a string, got {type(value).__name__} ({value!r})")
     if data_type is str:
         return value
     import yaml

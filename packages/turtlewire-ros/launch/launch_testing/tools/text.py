@@ -45,7 +45,7 @@ def build_text_match(expected_text: Any, *, strict: bool = False) -> Callable[..
     if isinstance(expected_text, (list, tuple)):
         return _sequence_match([build_text_match(each) for each in expected_text], strict)
     raise ValueError(
-        f"expected a text, a pattern, a list of them or a function, got {expected_text!r}"
+        f"expected a string, a pattern, a list of them or a function, got {expected_text!r}"
     )
 
 

@@ -97,9 +97,17 @@ def test_styles_of_formats(capsys, style, layout):
 @pytest.mark.parametrize(
     ("layout", "style", "error"),
     [
-        ("nofields", None, r"'nofields' is no log format of the style '\{', as '\{message\}' is"),
-        ("%(message)s", None, r"'%\(message\)s' is no log format of the style '\{'"),
-        ("{message}", "%", r"'\{message\}' is no log format of the style '%', as '%\(message\)s'"),
+        (
+            "nofields",
+            None,
+            r"'nofields' is not a log format of the style '\{', as '\{message\}' is",
+        ),
+        ("%(message)s", None, r"'%\(message\)s' is not a log format of the style '\{'"),
+        (
+            "{message}",
+            "%",
+            r"'\{message\}' is not a log format of the style '%', as '%\(message\)s'",
+        ),
         ("default", "%", "the format 'default' has its own style"),
         ("default_with_timestamp", "{", "the format 'default_with_timestamp' has its own style"),
     ],

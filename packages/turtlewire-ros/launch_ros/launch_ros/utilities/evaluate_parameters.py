@@ -118,7 +118,7 @@ def typed(text: str, value_type: Any) -> Any:
 
     items = yaml.safe_load(text)
     if not isinstance(items, list):
-        raise TypeError(f"'{text}' is no list of {item_type.__name__}")
+        raise TypeError(f"'{text}' is not a list of {item_type.__name__}")
     return [coerce(str(item), item_type) for item in items]
 
 

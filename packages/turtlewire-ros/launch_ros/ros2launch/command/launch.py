@@ -77,14 +77,14 @@ ARGUMENTS = (
             "--print",
             "--print-description",
             action="store_true",
-            help="Show what would be launched, and end",
+            help="Print what would be launched, then exit",
         ),
         argument(
             "-s",
             "--show-args",
             "--show-arguments",
             action="store_true",
-            help="Show the arguments of the file, and end",
+            help="Print the arguments of the file, then exit",
         ),
     ),
     argument(
@@ -96,7 +96,7 @@ ARGUMENTS = (
     argument("--launch-prefix", help="Command to put before all processes, for example a debugger"),
     argument(
         "--launch-prefix-filter",
-        help="Pattern of the executables that get the prefix; all if it is left out",
+        help="Pattern of the executables that get the prefix (default: all)",
     ),
     argument(
         "package_name",

@@ -39,7 +39,7 @@ def test_packages_of_another_ros_are_named_in_one_line(tmp_path, package):
     folder = tmp_path / package
     folder.mkdir()
     (folder / "__init__.py").write_text("raise ImportError('half of a real ROS 2')\n")
-    told = f"ros2: {folder} belongs to another ROS 2 and hides the one of turtlewire. "
+    told = f"ros2: {folder} belongs to another ROS 2 and hides turtlewire's package. "
     told += "Use a shell in which no other ROS 2 is sourced, or unset PYTHONPATH.\n"
     assert ros2("topic", "list", path=str(tmp_path)) == (1, "", told)
 

@@ -135,7 +135,7 @@ def _warn_of_long_wait(call: Call) -> None:
         call.logger.warning(
             f"Waiting for a response of service '{call.service}', which cannot run because its "
             "callback group is busy. If the waiting callback is in that group, this is a "
-            "deadlock: give the service a callback group of its own"
+            "deadlock: give the service its own callback group"
         )
     else:
         _warn_of_other_executor(call)

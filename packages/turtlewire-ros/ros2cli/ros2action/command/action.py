@@ -12,4 +12,4 @@ VERB_GROUP = "ros2action.verb"
 
 @command_of_module
 class ActionCommand(CommandExtension):
-    """Goals that take time: list them, send one."""
+    """List actions, and send goals."""

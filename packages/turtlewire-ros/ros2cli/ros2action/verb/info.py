@@ -22,8 +22,8 @@ ARGUMENTS = (
         help="Name of the action, for example /turtle1/rotate_absolute",
         completer=action_names,
     ),
-    argument("-t", "--show-types", action="store_true", help="Show the types too"),
-    argument("-c", "--count", action="store_true", help="Only show how many there are"),
+    argument("-t", "--show-types", action="store_true", help="Also show the types"),
+    argument("-c", "--count", action="store_true", help="Show only their number"),
 )
 
 

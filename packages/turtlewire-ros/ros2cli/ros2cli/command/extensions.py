@@ -20,7 +20,7 @@ ARGUMENTS = (
         "-a",
         "--all",
         action="store_true",
-        help="Accepted for compatibility: those that fail to load are told anyway",
+        help="Accepted for compatibility: failures to load are always printed",
     ),
     argument("-v", "--verbose", action="store_true", help="Show the modules of the extensions"),
 )

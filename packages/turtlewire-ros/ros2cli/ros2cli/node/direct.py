@@ -206,7 +206,7 @@ class DirectNode:
         if not future.done():  # its last answer may still be on its way
             with suppress(TimeoutError):
                 return self.result(future, _LAST_ANSWER_S)
-            raise RuntimeError(f"The server of {server} is gone: it ended before it answered")
+            raise RuntimeError(f"The server of {server} ended before it answered")
         return future.result()
 
     def result(self, future: Any, timeout: float | None = None) -> Any:

@@ -23,7 +23,7 @@ ARGUMENTS = (
     argument(
         "container_node_name",
         nargs="?",
-        help="Full name of a container; all if it is left out",
+        help="Full name of a container (default: all containers)",
         completer=container_node_names,
     ),
     argument(

@@ -21,7 +21,7 @@ ARGUMENTS = (
     argument(
         "package_name",
         nargs="?",
-        help="Name of a package; all if it is left out",
+        help="Name of a package (default: all packages)",
         completer=packages,
     ),
 )

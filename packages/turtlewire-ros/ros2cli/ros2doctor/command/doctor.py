@@ -29,14 +29,14 @@ ARGUMENTS = (
             "-rf",
             "--report-failed",
             action="store_true",
-            help="Accepted for compatibility: only what fails is printed",
+            help="Accepted for compatibility: only failures are printed",
         ),
     ),
     argument(
         "-iw",
         "--include-warnings",
         action="store_true",
-        help="Count warnings as failures, too",
+        help="Also count warnings as failures",
     ),
     argument(
         "-ep",

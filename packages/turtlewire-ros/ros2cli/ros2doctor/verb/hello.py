@@ -49,8 +49,8 @@ ARGUMENTS = (
         default=1.0,
         help="Seconds between tables",
     ),
-    argument("--ttl", type=positive_int, help="How many routers a datagram may pass"),
-    argument("-1", "--once", action="store_true", help="End after the first table"),
+    argument("--ttl", type=positive_int, help="Maximum number of routers that a datagram may pass"),
+    argument("-1", "--once", action="store_true", help="Exit after the first table"),
 )
 
 

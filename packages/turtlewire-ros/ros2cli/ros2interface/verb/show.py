@@ -26,7 +26,9 @@ ARGUMENTS = (
     ),
     exclusive(
         argument(
-            "--all-comments", action="store_true", help="With the comments of nested interfaces too"
+            "--all-comments",
+            action="store_true",
+            help="Also show the comments of nested interfaces",
         ),
         argument("--no-comments", action="store_true", help="Without comments and blank lines"),
     ),

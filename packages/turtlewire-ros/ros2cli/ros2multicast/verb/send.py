@@ -18,7 +18,9 @@ __all__ = ["ARGUMENTS", "SendVerb", "main"]
 
 ARGUMENTS = (
     *GROUP_ARGUMENTS,
-    argument("--ttl", type=unsigned_int, help="How many routers the datagram may pass"),
+    argument(
+        "--ttl", type=unsigned_int, help="Maximum number of routers that the datagram may pass"
+    ),
 )
 
 

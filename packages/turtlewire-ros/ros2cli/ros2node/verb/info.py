@@ -38,7 +38,7 @@ ARGUMENTS = (
     argument(
         "--include-hidden",
         action="store_true",
-        help="Also topics and services with a part that begins with an underscore",
+        help="Include topics and services with a name part that starts with an underscore",
     ),
 )
 
@@ -74,8 +74,8 @@ def _say_what_is_not_callable(graph: Graph, node_name: str) -> None:
 
     for middleware in foreign_middlewares(graph, node_name):
         tell(
-            f"The services of {node_name}, those of parameters and actions included, cannot be "
-            f"called from here: it runs on {middleware}. {advice('node')}"
+            f"The services of {node_name}, including parameters and actions, cannot be called "
+            f"from here: it runs on {middleware}. {advice('node')}"
         )
 
 

@@ -26,7 +26,7 @@ ARGUMENTS = (
     argument(
         "--param-prefixes", nargs="+", default=[], help="Only parameters below these prefixes"
     ),
-    argument("--param-type", action="store_true", help="Show the types too"),
+    argument("--param-type", action="store_true", help="Also show the types"),
     argument(
         "--filter",
         type=regular_expression,

@@ -25,7 +25,7 @@ ARGUMENTS = (
     argument(
         "--no-use-wildcard",
         action="store_true",
-        help="Leave out what the file says of '/**' (all nodes)",
+        help="Ignore the parameters of '/**' (all nodes)",
     ),
 )
 

@@ -44,7 +44,7 @@ ARGUMENTS = (
         "--rate",
         metavar="N",
         type=positive_float,
-        help="Call again and again, N times a second",
+        help="Repeat the call N times per second",
     ),
 )
 

@@ -27,7 +27,7 @@ ARGUMENTS = (
     argument(
         "service_type",
         nargs="?",
-        help="Type of the service; by default that of the service there is",
+        help="Type of the service (default: the type of the existing service)",
         completer=service_types,
     ),
     *QOS_ARGUMENTS,

@@ -29,7 +29,7 @@ ARGUMENTS = (
     argument(
         "message_type",
         nargs="?",
-        help="Type of the messages; by default that of the topic",
+        help="Type of the messages (default: the topic's type)",
         completer=topic_types,
     ),
     *QOS_ARGUMENTS,

@@ -59,11 +59,11 @@ def test_without_a_network_it_arrives_on_the_same_host(run):
         (
             "--group",
             "127.0.0.1",
-            "'127.0.0.1' is no IPv4 multicast group; those are 224.0.0.0 to 239.255.255.255",
+            "'127.0.0.1' is not an IPv4 multicast group, 224.0.0.0 to 239.255.255.255",
         ),
-        ("--group", "nope", "'nope' is no IPv4 multicast group"),
-        ("--port", "70000", "'70000' is no UDP port; those are 1 to 65535"),
-        ("--port", "nope", "'nope' is no UDP port; those are 1 to 65535"),
+        ("--group", "nope", "'nope' is not an IPv4 multicast group"),
+        ("--port", "70000", "'70000' is not a UDP port, 1 to 65535"),
+        ("--port", "nope", "'nope' is not a UDP port, 1 to 65535"),
     ],
 )
 def test_what_is_no_group_is_refused(capsys, option, value, told):

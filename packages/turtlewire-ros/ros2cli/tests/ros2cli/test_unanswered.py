@@ -68,7 +68,7 @@ def test_a_killed_server_ends_the_wait(run):
         server.process.kill()
     for name, verb in waiting.items():
         assert verb.wait() == 1
-        assert verb.text.endswith(f"The server of {name} is gone: it ended before it answered")
+        assert verb.text.endswith(f"The server of {name} ended before it answered")
 
 
 @pytest.mark.parametrize(

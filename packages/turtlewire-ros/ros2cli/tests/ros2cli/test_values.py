@@ -105,6 +105,6 @@ def test_assignments():
 def test_regular_expressions():
     assert regular_expression("^back.*_r$") == "^back.*_r$"
     with pytest.raises(
-        argparse.ArgumentTypeError, match=r"^'\(' is no regular expression: missing"
+        argparse.ArgumentTypeError, match=r"^'\(' is not a regular expression: missing"
     ):
         regular_expression("(")

@@ -36,7 +36,7 @@ ARGUMENTS = (
         metavar="topic",
         nargs="+",
         default=[],
-        help="Topics to publish; by default all",
+        help="Topics to publish (default: all)",
         completer=bag_topics,
     ),
     argument(
@@ -44,18 +44,18 @@ ARGUMENTS = (
         metavar="service",
         nargs="+",
         default=[],
-        help="Services whose events are published; by default all",
+        help="Services whose events to publish (default: all)",
     ),
     QOS_OVERRIDES,
     REMAP,
     STORAGE_CONFIG,
-    argument("--start-offset", type=float, default=0.0, help="Where in the bag to begin [s]"),
+    argument("--start-offset", type=float, default=0.0, help="Position in the bag to start at [s]"),
     argument(
         "-n",
         "--num-messages",
         type=unsigned_int,
         default=0,
-        help="How many messages to publish; 0 for all",
+        help="Number of messages to publish; 0 for all",
     ),
 )
 

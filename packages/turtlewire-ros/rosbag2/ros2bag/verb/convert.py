@@ -31,7 +31,7 @@ class _Input(argparse.Action):
         words = [str(value) for value in values or ()]
         if len(words) > 2:
             raise argparse.ArgumentError(
-                self, f"expected a bag and perhaps its storage, got {len(words)} words"
+                self, f"expected a bag and optionally its storage, got {len(words)} words"
             )
         storage = words[1] if len(words) == 2 else ""
         if storage and storage not in STORAGES:
@@ -53,7 +53,7 @@ ARGUMENTS = (
         action=_Input,
         nargs="+",
         metavar=("uri", "storage_id"),
-        help="A bag to read, and perhaps its storage; can be given several times",
+        help="A bag to read, and optionally its storage; may be given several times",
         completer=files,
     ),
     argument(

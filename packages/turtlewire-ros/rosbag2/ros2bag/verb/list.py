@@ -26,7 +26,7 @@ _PLUGINS = {
 
 ARGUMENTS = (
     argument("plugin_type", choices=tuple(_PLUGINS), help="What to list"),
-    argument("-v", "--verbose", action="store_true", help="Say what each is"),
+    argument("-v", "--verbose", action="store_true", help="Also print a description of each"),
 )
 
 

@@ -56,13 +56,15 @@ ARGUMENTS = (
     BAG_PATH,
     STORAGE,
     READ_AHEAD,
-    argument("-r", "--rate", type=_more_than_zero, default=1.0, help="Bag seconds in one second"),
+    argument(
+        "-r", "--rate", type=_more_than_zero, default=1.0, help="Playback speed; 2 is twice as fast"
+    ),
     argument(
         "--topics",
         metavar="topic",
         nargs="+",
         default=[],
-        help="Topics to play; by default all",
+        help="Topics to play (default: all)",
         completer=bag_topics,
     ),
     argument(
@@ -70,16 +72,18 @@ ARGUMENTS = (
         metavar="service",
         nargs="+",
         default=[],
-        help="Services whose events are played; by default all",
+        help="Services whose events to play (default: all)",
     ),
-    argument("-e", "--regex", default="", help="Play what this pattern matches the name of"),
-    argument("-x", "--exclude-regex", default="", help="Leave out what this pattern matches"),
+    argument("-e", "--regex", default="", help="Play topics and services whose names match"),
+    argument(
+        "-x", "--exclude-regex", default="", help="Leave out topics and services whose names match"
+    ),
     argument(
         "--exclude-topics",
         metavar="topic",
         nargs="+",
         default=[],
-        help="Topics that are left out",
+        help="Topics to leave out",
         completer=bag_topics,
     ),
     argument(
@@ -87,10 +91,10 @@ ARGUMENTS = (
         metavar="service",
         nargs="+",
         default=[],
-        help="Services whose events are left out",
+        help="Services whose events to leave out",
     ),
     QOS_OVERRIDES,
-    argument("-l", "--loop", action="store_true", help="Begin again at the end"),
+    argument("-l", "--loop", action="store_true", help="Restart at the end"),
     REMAP,
     STORAGE_CONFIG,
     exclusive(
@@ -100,7 +104,7 @@ ARGUMENTS = (
             nargs="?",
             const=40,
             default=0,
-            help="Publish /clock so many times a second; by default 40 times",
+            help="Publish /clock at this rate [Hz]; 40 if no rate is given",
         ),
         argument(
             "--clock-topics",
@@ -120,39 +124,41 @@ ARGUMENTS = (
         "--playback-duration",
         type=float,
         default=-1.0,
-        help="How much of the bag to play [s]; negative for all",
+        help="Length of the part to play [s]; negative for all",
     ),
     exclusive(
         argument(
             "--playback-until-sec",
             type=float,
             default=-1.0,
-            help="Time of the bag at which to end [s]; negative for its end",
+            help="Bag time at which to stop [s]; negative for the end",
         ),
         argument(
             "--playback-until-nsec",
             type=int,
             default=-1,
-            help="Time of the bag at which to end [ns]; negative for its end",
+            help="Bag time at which to stop [ns]; negative for the end",
         ),
     ),
     argument("--disable-keyboard-controls", action="store_true", help="Do not read keys"),
-    argument("-p", "--start-paused", action="store_true", help="Begin paused"),
+    argument("-p", "--start-paused", action="store_true", help="Start paused"),
     argument(
         "--start-offset",
         type=_not_negative,
         default=0.0,
-        help="Where in the bag to begin [s]; latched messages from before are published first",
+        help="Position in the bag to start at [s]; earlier latched messages are published first",
     ),
     argument(
         "--wait-for-all-acked",
         metavar="TIMEOUT",
         type=int,
         default=-1,
-        help="Wait at the end until all reliable subscriptions have everything [ms]; 0 for ever",
+        help="Time to wait at the end for reliable subscriptions [ms]; 0 waits without limit",
     ),
     argument(
-        "--disable-loan-message", action="store_true", help="Accepted as in ROS 2; none is loaned"
+        "--disable-loan-message",
+        action="store_true",
+        help="Accepted as in ROS 2; messages are never loaned",
     ),
     argument(
         "--publish-service-requests",
@@ -163,7 +169,7 @@ ARGUMENTS = (
         "--service-requests-source",
         choices=("service_introspection", "client_introspection"),
         default="service_introspection",
-        help="Whose record of a request is sent",
+        help="Source of the requests to send",
     ),
     LOG_LEVEL,
 )

@@ -63,20 +63,22 @@ ARGUMENTS = (
             completer=topic_names,
         ),
     ),
-    argument("-o", "--output", help="Folder of the bag to make; by default named after the time"),
+    argument(
+        "-o", "--output", help="Folder of the new bag (default: named after the current time)"
+    ),
     argument(
         "-s",
         "--storage",
         choices=STORAGES,
         default="mcap",
-        help="How the bag is stored; by default mcap",
+        help="Storage format (default: mcap)",
     ),
     argument(
         "--services",
         metavar="service",
         nargs="+",
         default=[],
-        help="Names of services whose events are recorded",
+        help="Services whose events to record",
         completer=service_names,
     ),
     argument(
@@ -84,20 +86,24 @@ ARGUMENTS = (
         metavar="type",
         nargs="+",
         default=[],
-        help="Types whose topics are recorded",
+        help="Types of topics to record",
         completer=message_types,
     ),
     argument("-a", "--all", action="store_true", help="Record all topics and service events"),
     argument("--all-topics", action="store_true", help="Record all topics"),
     argument("--all-services", action="store_true", help="Record the events of all services"),
-    argument("-e", "--regex", default="", help="Record what this pattern is found in the name of"),
-    argument("--exclude-regex", default="", help="Leave out what this pattern is found in"),
+    argument(
+        "-e", "--regex", default="", help="Record topics and services whose names contain a match"
+    ),
+    argument(
+        "--exclude-regex", default="", help="Leave out topics and services with a match in the name"
+    ),
     argument(
         "--exclude-topic-types",
         metavar="type",
         nargs="+",
         default=[],
-        help="Types whose topics are left out",
+        help="Types of topics to leave out",
         completer=message_types,
     ),
     argument(
@@ -105,7 +111,7 @@ ARGUMENTS = (
         metavar="topic",
         nargs="+",
         default=[],
-        help="Topics that are left out",
+        help="Topics to leave out",
         completer=topic_names,
     ),
     argument(
@@ -113,29 +119,29 @@ ARGUMENTS = (
         metavar="service",
         nargs="+",
         default=[],
-        help="Services whose events are left out",
+        help="Services whose events to leave out",
         completer=service_names,
     ),
     argument(
         "--include-unpublished-topics",
         action="store_true",
-        help="Record topics that only have subscriptions, too",
+        help="Also record topics that have only subscriptions",
     ),
     argument(
         "--include-hidden-topics",
         action="store_true",
-        help="Record topics whose name has a part that begins with _, too",
+        help="Also record topics with a name part that starts with _",
     ),
-    argument("--no-discovery", action="store_true", help="Look only once for topics"),
+    argument("--no-discovery", action="store_true", help="Look for topics only once"),
     argument(
         "-p",
         "--polling-interval",
         type=unsigned_int,
         default=100,
-        help="How long changes of the graph are collected before the next look [ms]",
+        help="Interval between two looks at the graph [ms]",
     ),
     argument(
-        "--ignore-leaf-topics", action="store_true", help="Leave out topics nobody subscribes to"
+        "--ignore-leaf-topics", action="store_true", help="Leave out topics without subscriptions"
     ),
     QOS_OVERRIDES,
     argument(
@@ -150,24 +156,24 @@ ARGUMENTS = (
         "--max-bag-size",
         type=unsigned_int,
         default=0,
-        help="Size of a file at which another begins [bytes]; 0 for one file",
+        help="Size at which to start a new file [bytes]; 0 for a single file",
     ),
     argument(
         "-d",
         "--max-bag-duration",
         type=unsigned_int,
         default=0,
-        help="Time after which another file begins [s]; 0 for one file",
+        help="Time after which to start a new file [s]; 0 for a single file",
     ),
     argument(
         "--max-cache-size",
         type=unsigned_int,
         default=100 * 1024 * 1024,
-        help="How much may wait for the disk [bytes]; 0 for no limit",
+        help="Size of the queue in front of the disk [bytes]; 0 for no limit",
     ),
     argument("--disable-keyboard-controls", action="store_true", help="Do not read keys"),
-    argument("--start-paused", action="store_true", help="Begin paused"),
-    argument("--use-sim-time", action="store_true", help="Take times from /clock"),
+    argument("--start-paused", action="store_true", help="Start paused"),
+    argument("--use-sim-time", action="store_true", help="Use the time of /clock"),
     argument("--node-name", default="rosbag2_recorder", help="Name of the recorder's node"),
     argument(
         "--custom-data",
@@ -175,12 +181,12 @@ ARGUMENTS = (
         metavar="KEY=VALUE",
         nargs="+",
         default=[],
-        help="Texts to keep in the bag's metadata",
+        help="Strings to store in the bag's metadata",
     ),
     argument(
         "--snapshot-mode",
         action="store_true",
-        help="Only write at calls of the service ~/snapshot what --max-cache-size keeps",
+        help="Write the messages in the cache only when the service ~/snapshot is called",
     ),
     LOG_LEVEL,
     argument(
@@ -199,7 +205,7 @@ ARGUMENTS = (
         "--compression-queue-size",
         type=unsigned_int,
         default=1,
-        help="Accepted as in ROS 2; --max-cache-size bounds what waits",
+        help="Accepted as in ROS 2; --max-cache-size limits the queue",
     ),
     argument("--compression-threads", type=unsigned_int, default=0, help="Accepted as in ROS 2"),
     argument("--compression-threads-priority", type=int, default=0, help="Accepted as in ROS 2"),
@@ -207,10 +213,10 @@ ARGUMENTS = (
         "--compression-mode",
         choices=("none", "file", "message"),
         default="none",
-        help="What is compressed: nothing, whole files, or (sqlite3) single messages",
+        help="Compress nothing, whole files, or (sqlite3) single messages",
     ),
     argument(
-        "--compression-format", choices=("zstd",), default="", help="How it is compressed: zstd"
+        "--compression-format", choices=("zstd",), default="", help="Compression format: zstd"
     ),
 )
 

@@ -43,4 +43,4 @@ def main(args: argparse.Namespace) -> str | None:
 
 @verb_of_module
 class ReindexVerb(VerbExtension):
-    """Write the metadata of a bag anew, for example of a recording that was killed."""
+    """Rebuild the metadata of a bag, for example after a recorder was killed."""

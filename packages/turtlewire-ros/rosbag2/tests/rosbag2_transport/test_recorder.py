@@ -289,7 +289,7 @@ def test_a_topic_whose_type_has_no_name_of_ros_does_not_end_the_search(peer, bag
     wire = peer.node._rclpy_wire
     wire.create_publisher("/odd", TypeId("Reading\x1b[2J", "RIHS01_" + "7" * 64), QoS())
     recorder = bag_verb("record", "-o", "out", "-a", "--disable-keyboard-controls")
-    text = "Topic '/odd' cannot be recorded: 'Reading\\x1b[2J' is no name of a message type"
+    text = "Topic '/odd' cannot be recorded: 'Reading\\x1b[2J' is not the name of a message type"
     recorder.wait_for(re.escape(text))
     publish(peer.heard(peer.publisher("/later")))
     wait_until_written(tmp_path / "out", "/later", len(NAMES))

@@ -179,7 +179,7 @@ def test_a_file_and_its_place(tmp_path, capsys):
         ("const long A = 0x;", "expected a value, got '0x'"),
         ("struct A { long b; }; struct B { long b; };", "got A, B"),
         ("struct A { long ; };", "expected a name, got ';'"),
-        ("typedef long a[2]; struct A { a b[3]; };", "an array of arrays is no field"),
+        ("typedef long a[2]; struct A { a b[3]; };", "an array of arrays is not a valid field"),
         ("struct A { long b; ", "expected a name, got 'the end of the file'"),
         (
             "module A_Constants { const string B = 5; }; struct A { long a; };",

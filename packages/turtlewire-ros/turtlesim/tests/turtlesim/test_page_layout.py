@@ -81,7 +81,7 @@ def test_names_are_in_their_natural_order_and_found_by_a_search(simulator, open_
     assert page.locator("#roster button").all_inner_texts() == found
     wait_for_text(page, "#roster tr:nth-child(2)", "6.00")
     page.fill("#find-turtle", "nobody")
-    assert page.inner_text("#more") == "no turtle of that name"
+    assert page.inner_text("#more") == "no turtle with this name"
     page.fill("#find-turtle", "")
     assert page.locator("#roster tr").count() == 12
     page.get_by_role("button", name="turtle12").click()

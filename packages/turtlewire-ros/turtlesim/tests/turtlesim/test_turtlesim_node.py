@@ -377,7 +377,7 @@ class TestMissingTurtles:
         assert world.sim._missing.names == ("turtle2",)
         (hint,) = lines(capfd)
         assert hint == (
-            "[INFO] A node waits for turtle2, and there is no turtle of that name. To add it, "
+            "[INFO] A node waits for turtle2, and there is no turtle with this name. To add it, "
             "type: "
             'ros2 service call /spawn turtlesim/srv/Spawn "{x: 4.0, y: 2.0, theta: 0.0, name: '
             "'turtle2'}\""

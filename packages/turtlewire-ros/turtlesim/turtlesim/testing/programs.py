@@ -53,7 +53,7 @@ def nodes_of(main: Callable[[], object], arguments: Sequence[str] = ()) -> list[
             pass
         except SystemExit as exit_:
             raise ProgramError(
-                f"main() ended the program: {exit_}", "See what it wants on its command line."
+                f"main() ended the program: {exit_}", "Check its command line arguments."
             ) from exit_
         finally:
             for node in found:
@@ -139,7 +139,7 @@ def _hand_over(nodes: list[Node]) -> NoReturn:
 def _refuse(name: str) -> Callable[..., Any]:
     def refuse(*_: object, **__: object) -> NoReturn:
         raise ProgramError(
-            f"{name} cannot wait here: simulated time stands still meanwhile",
+            f"{name} cannot wait here: simulated time does not advance during a wait",
             "Do it in a timer or a callback, and let main() end with rclpy.spin(node).",
         )
 

@@ -105,7 +105,7 @@ class Simulation(Stage):
         """Return a turtle's pose now.
 
         Raises:
-            KeyError: There is no turtle of that name; the text lists those there are.
+            KeyError: There is no turtle with this name; the text lists those there are.
         """
         pose = self.node.pose_of(turtle)
         if pose is None:

@@ -87,7 +87,7 @@ def _require_places(message: Any, fields: Collection[str], unreadable: Mapping[s
             raise UnusableMessageError(unreadable[name])
     if missing:
         raise UnusableMessageError(
-            f"the cloud has no field {', '.join(missing)} to place points by; its fields: "
+            f"the cloud has no field {', '.join(missing)} for positions; its fields: "
             f"{', '.join(field.name for field in message.fields) or 'none'}"
         )
 

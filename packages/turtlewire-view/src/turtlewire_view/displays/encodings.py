@@ -66,7 +66,7 @@ def rgba_of(message: Any, options: Options, largest: int) -> NDArray[np.uint8]:
     if bayer is not None:
         return _bayer(message, bayer[1], int(bayer[2]) // 8, step)
     raise UnusableMessageError(
-        f"the encoding '{encoding}' is not known; known are {', '.join(ENCODINGS)}"
+        f"the encoding '{encoding}' is not supported; choose from {', '.join(ENCODINGS)}"
     )
 
 

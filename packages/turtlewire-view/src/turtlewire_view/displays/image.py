@@ -50,7 +50,7 @@ class CompressedImageDisplay(Display):
     def _outputs(self, message: Any) -> list[Output]:
         data = bytes(message.data[: _LARGEST_FILE + 1])
         if len(data) > _LARGEST_FILE:
-            raise UnusableMessageError(f"{len(message.data)} bytes are too many for one picture")
+            raise UnusableMessageError(f"{len(message.data)} bytes are too many for one image")
         media_type = _media_type(data)
         if media_type is None and "compressedDepth" in message.format:
             data = data[_DEPTH_HEADER:]

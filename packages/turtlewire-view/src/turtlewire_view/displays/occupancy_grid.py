@@ -60,7 +60,7 @@ class OccupancyGridDisplay(Display):
         if not width or not height:
             raise UnusableMessageError(f"the map has no cells: width {width}, height {height}")
         if not 0 < info.resolution < 1e6:
-            raise UnusableMessageError(f"a resolution of {info.resolution} m per cell is no map")
+            raise UnusableMessageError(f"a resolution of {info.resolution} m per cell is not valid")
         origin = finite_pose(info.origin, self.warn)
         self._cells = _cells_of(message, width, height).copy()
         self._step = -(-max(width, height) // _LARGEST_SIDE)

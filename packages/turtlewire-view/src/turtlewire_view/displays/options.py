@@ -79,7 +79,7 @@ class Option:
             "choice": f"one of {', '.join(self.choices)}",
             "color": "a colour as #rrggbb or three numbers from 0 to 255",
             "items": "an object of {'shown': true or false, 'alpha': number from 0 to 1} by name",
-        }.get(self.type, f"a text of at most {_LONGEST_TEXT} characters")
+        }.get(self.type, f"a string of at most {_LONGEST_TEXT} characters")
 
 
 @cache

@@ -109,7 +109,7 @@ def robot_content(text: str, tf_prefix: str, warn: Callable[[str], None]) -> Con
     try:
         robot = parse_urdf(text)
     except UrdfError as error:
-        raise UnusableMessageError(f"the description is refused: {error}") from error
+        raise UnusableMessageError(f"the description is invalid: {error}") from error
     reader = _Reader(robot, warn)
     prefix = tf_prefix.rstrip("/") + "/" if tf_prefix else ""
     links = [

@@ -77,7 +77,7 @@ class RangeDisplay(Display):
     def _outputs(self, message: Any) -> list[Output]:
         length, angle = float(message.range), float(message.field_of_view)
         if not 0 <= angle < math.pi:
-            raise UnusableMessageError(f"a field_of_view of {angle} rad is no cone")
+            raise UnusableMessageError(f"a field_of_view of {angle} rad is not a cone")
         if math.isinf(length):
             seen = "nothing in reach" if length > 0 else "an object too near to be measured"
             self.warn(f"the range is {length}: {seen}")

@@ -74,7 +74,7 @@ def _value(type_: AbstractType, value: Any, path: str) -> Any:
         return _values(type_, value, path)
     if isinstance(type_, AbstractGenericString):
         if not isinstance(value, str):
-            raise CdrError(f"{path}: expected a text, got {_shown(value)}")
+            raise CdrError(f"{path}: expected a string, got {_shown(value)}")
         return value
     assert isinstance(type_, BasicType)
     return _scalar(type_.typename, value, path)

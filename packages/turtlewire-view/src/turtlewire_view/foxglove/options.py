@@ -45,7 +45,7 @@ def _compiled(pattern: str, what: str) -> re.Pattern[str]:
     try:
         return re.compile(pattern, re.IGNORECASE)
     except re.error as error:
-        raise ValueError(f"{what} {pattern!r} is no regular expression: {error}") from error
+        raise ValueError(f"{what} {pattern!r} is not a regular expression: {error}") from error
 
 
 _ALL = (".*",)

@@ -116,16 +116,16 @@ def _scalar(value: Any, as_double: bool) -> tuple[int, Any]:
         return _INTEGER, value
     if isinstance(value, str):
         return _STRING, value
-    raise ValueError("a parameter is a bool, a number, a text or a list of them")
+    raise ValueError("a parameter must be a bool, a number, a string or a list of them")
 
 
 def _bytes(value: Any) -> list[bytes]:
     if not isinstance(value, str):
-        raise ValueError("a byte array is a text in base64")  # noqa: TRY004 - as all others
+        raise ValueError("a byte array must be a string in base64")  # noqa: TRY004 - as all others
     try:
         return [bytes((byte,)) for byte in base64.b64decode(value, validate=True)]
     except binascii.Error as error:
-        raise ValueError(f"a byte array is no base64: {error}") from error
+        raise ValueError(f"a byte array is not valid base64: {error}") from error
 
 
 def _finite(value: float) -> float | str:

@@ -69,7 +69,7 @@ class Publishing:
             )
         fault = validate_full_topic_name(topic)
         if fault is not None:
-            raise ProtocolError(f"'{topic}' is no name of a topic: {fault.message}")
+            raise ProtocolError(f"'{topic}' is not the name of a topic: {fault.message}")
         if not self._allowed.match(topic):
             raise ProtocolError(f"client_topic_whitelist does not allow {topic}")
         type_name = full_name(schema_name)

@@ -61,7 +61,7 @@ class OfferedService(NamedTuple):
         if encoding == "cdr":
             if not is_message(request):
                 raise ServiceCallError(
-                    f"the request's {len(request)} bytes are no little-endian CDR "
+                    f"the request's {len(request)} bytes are not little-endian CDR "
                     "(00 01 00 00, then the fields)"
                 )
             return await caller.call(self.name, self.type_name, request)

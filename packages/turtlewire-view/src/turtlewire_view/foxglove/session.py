@@ -182,7 +182,9 @@ class FoxgloveSession:
 
     def _require(self, capability: str, what: str) -> None:
         if capability and capability not in self._capabilities:
-            raise ProtocolError(f"{what} is not offered: {capability} is no capability here")
+            raise ProtocolError(
+                f"{what} is not supported: the server does not have the capability {capability}"
+            )
 
     # -- subscriptions
 

@@ -99,7 +99,7 @@ def compress(compression: str, data: bytes, level: int = _ZSTD_LEVEL) -> bytes:
     if compression == "lz4":
         return bytes(_lz4_frame().compress(data))
     raise BagError(f"unknown compression '{compression}'").with_hint(
-        "Known are zstd and lz4; an empty text stands for none."
+        "Use 'zstd', 'lz4' or '' for no compression."
     )
 
 
@@ -144,7 +144,7 @@ def _decompressor(compression: str) -> Callable[[bytes | memoryview, int, bool],
         return _decompress_zstd
     if compression == "lz4":
         return _decompress_lz4
-    raise BagError(f"unknown compression '{compression}'").with_hint("Known are zstd and lz4.")
+    raise BagError(f"unknown compression '{compression}'").with_hint("Use 'zstd' or 'lz4'.")
 
 
 def _decompress_zstd(data: bytes | memoryview, size: int, cut: bool) -> bytes:

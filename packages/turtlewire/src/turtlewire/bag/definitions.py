@@ -45,7 +45,7 @@ def learn_types(type_name: str, text: str) -> None:
     for part in others:
         heading = _HEADING.match(part)
         if heading is None:
-            raise InterfaceError(f"the definition of {type_name} lacks a line 'MSG: name'")
+            raise InterfaceError(f"the definition of {type_name} has no line 'MSG: name'")
         _define(_full_name(heading[1]), part[heading.end() :])
     _define(type_name, first)
 

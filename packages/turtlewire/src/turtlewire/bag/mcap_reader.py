@@ -207,7 +207,7 @@ class McapFile:
         elif opcode == Op.CHUNK_INDEX:
             chunk = RecordReader(content).chunk_index()
             if chunk.offset + chunk.length > len(self._bytes):
-                raise BagError("it tells of a chunk behind the file's end")
+                raise BagError("it lists a chunk after the end of the file")
             self.chunks.append(chunk)
         elif opcode == Op.STATISTICS:
             self.statistics = RecordReader(content).statistics()

@@ -169,7 +169,7 @@ class RecordReader:
         try:
             return str(self.take(self.u32()), "utf-8")
         except UnicodeDecodeError:
-            raise BagError("a text is not UTF-8") from None
+            raise BagError("a string is not UTF-8") from None
 
     def text_map(self) -> dict[str, str]:
         """Return a map of strings to strings."""

@@ -141,7 +141,7 @@ def read_metadata(folder: str) -> BagMetadata | None:
         damage = BagError(f"{path}: not UTF-8 at byte {error.start}")
     except BagError as error:
         damage = error
-    raise damage.with_hint(f"`ros2 bag reindex {folder}` writes it anew from the bag's files.")
+    raise damage.with_hint(f"`ros2 bag reindex {folder}` rebuilds it from the bag's files.")
 
 
 def _parse_file(text: str, path: str) -> BagMetadata:

@@ -304,7 +304,7 @@ class Bag:
     def _metadata_of(self, paths: list[str]) -> BagMetadata:
         """Metadata from the files themselves."""
         if not paths:
-            raise BagError(f"{self.path} is no bag: it holds no .mcap or .db3 file")
+            raise BagError(f"{self.path} is not a bag: it contains no .mcap or .db3 file")
         parts: dict[str, BagMetadata] = {}
         for path in paths:
             try:

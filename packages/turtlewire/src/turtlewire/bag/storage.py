@@ -295,7 +295,9 @@ class McapStorage:
 
     def missing_messages_error(self, count: int) -> BagError:
         """Return the error of a file that holds fewer messages than its statistics say."""
-        return BagError(f"{self.path}: damaged: {count:,} of the messages that it tells of lack")
+        return BagError(
+            f"{self.path}: damaged: {count:,} messages listed in its statistics are missing"
+        )
 
     def _messages_of(
         self,

@@ -253,7 +253,7 @@ def _gap_line(child: str, gaps: list[Gap]) -> str:
 
 def _refused_line(child: str, refused: Refused) -> str:
     counts = ", ".join(f"{count} {reason}" for reason, count in refused.counts.items())
-    return f"refused: transforms of '{child}': {counts}"
+    return f"rejected: transforms of '{child}': {counts}"
 
 
 def _some(texts: tuple[str, ...] | list[str]) -> str:

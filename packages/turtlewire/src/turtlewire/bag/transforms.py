@@ -81,7 +81,7 @@ def _empty_window(bag: Bag, start_ns: int, end_ns: int) -> list[str]:
         return []
     asked = f"{start_ns} to {end_ns}" if end_ns < _FOREVER else f"{start_ns} on"
     covered = f"{bag.start_ns} to {bag.end_ns}"
-    return [f"no message lies in the window, from {asked}: the bag covers {covered}"]
+    return [f"there are no messages in the window, from {asked}: the bag covers {covered}"]
 
 
 def _names(topics: str | Iterable[str]) -> set[str]:

@@ -37,10 +37,10 @@ def check_options(
         BagError: With what there is instead.
     """
     if storage not in ENDINGS:
-        raise BagError(f"unknown storage '{storage}'").with_hint("Known are mcap and sqlite3.")
+        raise BagError(f"unknown storage '{storage}'").with_hint("Use 'mcap' or 'sqlite3'.")
     if compression_mode not in _MODES:
         raise BagError(f"unknown compression mode '{compression_mode}'").with_hint(
-            "Known are FILE, MESSAGE and an empty text."
+            "Use 'FILE', 'MESSAGE' or ''."
         )
     compress(compression, b"", level)  # refuse one that is not known or not installed
     if compression_mode == "MESSAGE" and storage == "mcap":
@@ -53,7 +53,7 @@ def check_options(
         )
     if metadata_version not in range(1, NEWEST_VERSION + 1):
         raise BagError(f"unknown version {metadata_version} of the metadata").with_hint(
-            f"Known are 1 to {NEWEST_VERSION}."
+            f"Use 1 to {NEWEST_VERSION}."
         )
 
 
@@ -79,7 +79,7 @@ def known_definition(type_name: str) -> tuple[str, str]:
         BagError: It is no name of a type.
     """
     if not _TYPE_NAME.fullmatch(type_name):
-        raise BagError(f"'{type_name}' is no name of a message type").with_hint(
+        raise BagError(f"'{type_name}' is not the name of a message type").with_hint(
             "Names of types look like std_msgs/msg/String."
         )
     try:
@@ -107,10 +107,10 @@ def as_cdr(topic: str, type_name: str, data: Any) -> bytes:
         packed = bytes(memoryview(data))
     except TypeError:
         raise TypeError(
-            f"{topic} takes a {type_name} or its CDR bytes, not {type(data).__name__}"
+            f"{topic} accepts a {type_name} or its CDR bytes, not {type(data).__name__}"
         ) from None
     if not packed:
-        raise BagError(f"{topic} takes a {type_name} or its CDR bytes, not 0 bytes").with_hint(
+        raise BagError(f"{topic} accepts a {type_name} or its CDR bytes, not 0 bytes").with_hint(
             "turtlewire.msg.serialize() makes the bytes of a message."
         )
     return packed
@@ -126,7 +126,7 @@ def compressed_message(topic: str, data: bytes) -> bytes:
     limit = most_bytes(len(packed))
     if len(data) > limit:
         raise BagError(
-            f"a message of {topic} has {len(data)} bytes, and readers take at most {limit} for "
+            f"a message of {topic} has {len(data)} bytes, and readers accept at most {limit} for "
             f"{len(packed)} compressed bytes"
         ).with_hint("Write it without compression_mode='MESSAGE'.")
     return packed

@@ -1,4 +1,7 @@
-"""The parsers of `turtlewire bag`, `trajectory` and `compare`; their code is imported when run."""
+"""The parsers of `turtlewire bag`, `trajectory` and `compare`.
+
+The commands import their code only when they run, because NumPy is slow to import.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +26,7 @@ _RELATIONS = (
     "point_distance_error_ratio",
 )
 _SOURCES = (
-    "A trajectory is a file (TUM, KITTI, EuRoC, CSV), or of a bag BAG:/topic (odometry or poses) "
+    "A trajectory is a file (TUM, KITTI, EuRoC, CSV), a bag's topic BAG:/topic (odometry or poses) "
     "or BAG:target:source (transforms, looked up at the reference's stamps)."
 )
 
@@ -36,13 +39,13 @@ def add_bag_commands(commands: Any) -> None:
 
 
 def _add_bag(commands: Any) -> None:
-    summary = "Look into bags"
+    summary = "Examine bags"
     parser = commands.add_parser("bag", help=summary, description=summary, allow_abbrev=False)
     parser.set_defaults(run=lambda _: parser.print_help() or 0, parser=parser)
     verbs = parser.add_subparsers(
         title="Commands", metavar="Call `turtlewire bag <command> -h` for more detailed usage."
     )
-    summary = "Show the tree of frames of a bag: rates, times, gaps, and what looks wrong"
+    summary = "Show the frame tree of a bag: rates, times, gaps and problems"
     tf = verbs.add_parser("tf", help=summary, description=summary, allow_abbrev=False)
     _add_file(tf, "file", "BAG", "A folder, a .mcap or a .db3 file")
     add_tf_topics(tf)
@@ -58,7 +61,7 @@ def _add_trajectory(commands: Any) -> None:
         "names",
         nargs="*",
         metavar="NAME",
-        help="Of a bag: a topic with odometry or poses; or the target and the source frame",
+        help="For a bag: a topic with odometry or poses, or a target and a source frame",
     )
     names.completer = _complete_names
     output = parser.add_argument("-o", "--output", metavar="FILE", help="Write the trajectory")
@@ -66,7 +69,7 @@ def _add_trajectory(commands: Any) -> None:
     parser.add_argument(
         "--format",
         choices=_FORMATS,
-        help="Format of the output (default: by the ending of its name, else tum)",
+        help="Format of the output (default: from the file name, else tum)",
     )
     parser.add_argument(
         "--rate",
@@ -78,16 +81,17 @@ def _add_trajectory(commands: Any) -> None:
         "--max-gap",
         type=seconds,
         metavar="S",
-        help="Longer pauses are gaps (default: ten times the median pause, at least 0.5)",
+        help="Shortest pause that counts as a gap (default: ten times the median pause, at least "
+        "0.5)",
     )
     add_tf_topics(parser)
-    plot = parser.add_argument("--plot", metavar="FILE", help="Draw it: .svg, .pdf or .png")
+    plot = parser.add_argument("--plot", metavar="FILE", help="Save a plot: .svg, .pdf or .png")
     plot.completer = complete_files
     parser.add_argument(
         "--kind",
         choices=("path", "positions", "angles", "speeds"),
         default="path",
-        help="What is drawn (default: %(default)s)",
+        help="Kind of plot (default: %(default)s)",
     )
     parser.add_argument("--json", action="store_true", help="Print one JSON object")
     parser.set_defaults(run=reporting_errors("trajectory", _trajectory), parser=parser)
@@ -99,9 +103,14 @@ def _add_compare(commands: Any) -> None:
         "compare", help=summary, description=f"{summary}.", epilog=_SOURCES
     )
     _add_file(parser, "reference", "REFERENCE", "The reference, for example ground truth")
-    _add_file(parser, "estimates", "ESTIMATE", "What is compared with it", nargs="+")
+    _add_file(
+        parser, "estimates", "ESTIMATE", "Trajectories to compare with the reference", nargs="+"
+    )
     parser.add_argument(
-        "--align", choices=_ALIGNMENTS, default="none", help="How (default: %(default)s)"
+        "--align",
+        choices=_ALIGNMENTS,
+        default="none",
+        help="How to align each estimate with the reference (default: %(default)s)",
     )
     parser.add_argument(
         "--poses-to-align", type=int, metavar="N", help="Align by the first N poses (default: all)"
@@ -110,19 +119,19 @@ def _add_compare(commands: Any) -> None:
         "--relation",
         choices=_RELATIONS,
         default="trans_part",
-        help="What is measured (default: %(default)s)",
+        help="Pose relation to evaluate (default: %(default)s)",
     )
     _add_pairing(parser)
     add_tf_topics(parser)
-    plot = parser.add_argument("--plot", metavar="FILE", help="Draw it: .svg, .pdf or .png")
+    plot = parser.add_argument("--plot", metavar="FILE", help="Save a plot: .svg, .pdf or .png")
     plot.completer = complete_files
     parser.add_argument(
         "--kind",
         choices=("path", "error-path", "errors", "box", "histogram"),
-        help="What is drawn (default: error-path; of several estimates path)",
+        help="Kind of plot (default: error-path; path for several estimates)",
     )
     parser.add_argument(
-        "--plane", default="xy", metavar="AXES", help="Of paths (default: %(default)s)"
+        "--plane", default="xy", metavar="AXES", help="Axes of path plots (default: %(default)s)"
     )
     parser.add_argument("--json", action="store_true", help="Print a JSON list")
     parser.set_defaults(run=reporting_errors("compare", _compare), parser=parser)
@@ -134,28 +143,31 @@ def _add_pairing(parser: argparse.ArgumentParser) -> None:
         type=_positive,
         default=1,
         metavar="D",
-        help="How far the poses of a pair are apart, for the relative error (default: %(default)s)",
+        help="Distance between the two poses of a pair, for the relative error (default: "
+        "%(default)s)",
     )
     parser.add_argument(
         "--delta-unit",
         choices=("f", "m", "d", "r"),
         default="f",
-        help="Frames, metres, degrees or radians (default: %(default)s)",
+        help="Unit of --delta: frames, metres, degrees or radians (default: %(default)s)",
     )
-    parser.add_argument("--all-pairs", action="store_true", help="A pair begins at each pose")
+    parser.add_argument(
+        "--all-pairs", action="store_true", help="Start a pair at every pose (overlapping pairs)"
+    )
     parser.add_argument(
         "--max-diff",
         type=seconds,
         default=0.01,
         metavar="S",
-        help="Stamps that differ by more are no pair (default: %(default)s)",
+        help="Largest difference between paired stamps, in seconds (default: %(default)s)",
     )
     parser.add_argument(
         "--offset",
         type=float,
         default=0.0,
         metavar="S",
-        help="Added to the stamps of the estimates (default: %(default)s)",
+        help="Seconds to add to the stamps of the estimates (default: %(default)s)",
     )
 
 
@@ -197,7 +209,7 @@ def _trajectory(args: argparse.Namespace) -> int:
     if len(args.names) > 2:
         args.parser.error(f"expected a topic or two frames, got {len(args.names)} names")
     if (args.topic or args.static_topic) and len(args.names) != 2:
-        args.parser.error("--topic and --static-topic tell where transforms are: name two frames")
+        args.parser.error("--topic and --static-topic need two frames")
     return run_trajectory(args)
 
 

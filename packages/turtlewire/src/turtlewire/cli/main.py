@@ -38,9 +38,8 @@ def main(argv: list[str] | None = None) -> int:
         argv: The words after ``turtlewire``; None for this process's.
 
     Returns:
-        The exit status: of ``doctor``, 1 if it found a problem; of ``frames``, 1 if there was no
-        transform to print once; 2 if the network cannot be joined or a file cannot be read; 130
-        after Ctrl-C.
+        The exit status: 1 if ``doctor`` found a problem or ``frames --once`` had no transform to
+        print; 2 if the network cannot be joined or a file cannot be read; 130 after Ctrl-C.
     """
     try:
         return _run(argv)
@@ -69,7 +68,7 @@ def _run(argv: list[str] | None) -> int:
         parser.print_help()
         return 0
     if isinstance(sys.stdout, io.TextIOWrapper):  # it is None if it was closed at the start
-        # A character that the encoding of a pipe or terminal does not have must not end a command.
+        # A character outside the encoding of a pipe or terminal must not end a command.
         sys.stdout.reconfigure(errors="backslashreplace")
     status: int = args.run(args)
     return status
@@ -78,7 +77,7 @@ def _run(argv: list[str] | None) -> int:
 def _parser() -> Parser:
     parser = Parser(
         prog="turtlewire",
-        description="Look at transforms and at the network of ROS 2, without ROS.",
+        description="Examine ROS 2 transforms, networks and bags, without ROS.",
         allow_abbrev=False,
     )
     parser.add_argument("--version", action=_Version, help="Print the version and exit")
@@ -95,10 +94,10 @@ def _parser() -> Parser:
 
 
 def _add_doctor(commands: Any) -> None:
-    summary = "Find what is wrong with the setup, the graph and the transforms, or with a bag"
+    summary = "Find problems of the installation, the graph and the transforms, or of a bag"
     parser = commands.add_parser("doctor", help=summary, description=summary, allow_abbrev=False)
     bag = parser.add_argument(
-        "bag", nargs="?", metavar="BAG", help="Examine this bag, and no network"
+        "bag", nargs="?", metavar="BAG", help="Check this bag instead of the network"
     )
     bag.completer = complete_bags
     add_tf_topics(parser)
@@ -113,13 +112,15 @@ def _add_doctor(commands: Any) -> None:
 
 
 def _add_frames(commands: Any) -> None:
-    summary = "Show the tree of frames: age, rate and publisher of each"
+    summary = "Show the frame tree: age, rate and publisher of each frame"
     parser = commands.add_parser("frames", help=summary, description=summary, allow_abbrev=False)
     frame = parser.add_argument(
-        "frame", nargs="?", metavar="FRAME", help="Show this frame and those below it only"
+        "frame", nargs="?", metavar="FRAME", help="Show only this frame and its descendants"
     )
     frame.completer = _frame_names
-    parser.add_argument("--once", action="store_true", help="Print it once, after the first period")
+    parser.add_argument(
+        "--once", action="store_true", help="Print one tree after the first period, then exit"
+    )
     parser.add_argument("--json", action="store_true", help="Print each tree as a line of JSON")
     parser.add_argument(
         "--period",
@@ -145,7 +146,7 @@ class _Version(argparse.Action):
 
 
 def _complete(parser: Parser) -> None:
-    """Answer the shell, which asks for the words that may follow; does not return."""
+    """Print completions for the shell, and exit."""
     import argcomplete
     from argcomplete.completers import SuppressCompleter
 
@@ -165,11 +166,11 @@ def _doctor(args: argparse.Namespace) -> int:
     as_text = full_report if args.bag is None else report
     if args.bag is None:
         if args.topic or args.static_topic:
-            args.parser.error("--topic and --static-topic are of a bag: name one")
+            args.parser.error("--topic and --static-topic need a BAG")
         findings = examine(args.listen)
     else:
         if args.listen is not None:
-            args.parser.error("a bag is not listened to: leave out --listen")
+            args.parser.error("--listen cannot be combined with a BAG")
         from turtlewire.cli.bag_findings import examine_bag
 
         findings = examine_bag(args.bag, *tf_topics(args))

@@ -55,7 +55,7 @@ def _foreign_findings(graph: Graph) -> list[Finding]:
         nodes = ", ".join(sorted({owner_of(server) for server in theirs}))
         text = (
             f"The {len(theirs)} services of nodes on {middleware} cannot be called from here, "
-            f"those of parameters and actions included; topics work. Nodes: {nodes}."
+            f"including parameters and actions; topics work. Nodes: {nodes}."
         )
         found.append(note(text, advice("nodes")))
     return found
@@ -113,8 +113,14 @@ def _mismatch(publisher: EndpointInfo, subscription: EndpointInfo) -> str:
 
 
 def _qos_mismatch(offered: QoS, requested: QoS) -> str:
-    if (offered.reliability, requested.reliability) == (Reliability.BEST_EFFORT, Reliability.RELIABLE):
+    if (offered.reliability, requested.reliability) == (
+        Reliability.BEST_EFFORT,
+        Reliability.RELIABLE,
+    ):
         return "it requests RELIABLE, but the publisher offers BEST_EFFORT"
-    if (offered.durability, requested.durability) == (Durability.VOLATILE, Durability.TRANSIENT_LOCAL):
+    if (offered.durability, requested.durability) == (
+        Durability.VOLATILE,
+        Durability.TRANSIENT_LOCAL,
+    ):
         return "it requests TRANSIENT_LOCAL, but the publisher offers VOLATILE"
     return ""

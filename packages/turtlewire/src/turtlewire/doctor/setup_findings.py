@@ -22,12 +22,12 @@ if TYPE_CHECKING:
 
 __all__ = ["looks_for_others", "network_findings", "only_this_host", "setup_findings"]
 
-_PLAIN_CORE = "The plain-Python core is in use; lookups take many times as long."
+_PLAIN_CORE = "The plain-Python core is in use; lookups are many times slower."
 _INSTALL_COMPILER = (
     "Install g++ and the Python headers (Debian: g++ python3-dev), then install turtlewire again."
 )
 _OTHER_LIBRARY = "Let CYCLONEDDS_HOME name the prefix of another one, or unset it."
-_NO_WHEEL = "Nothing has to be done: it speaks to the same robots."
+_NO_WHEEL = "You need not do anything: it reaches the same robots."
 _BLIND = "Nodes of this computer that run on Fast DDS (rmw_fastrtps_cpp) are not found."
 _OWN_ADDRESS = (
     "Cyclone DDS 0.10 finds them only by an address that is not the loopback one. To let it, and "
@@ -57,7 +57,7 @@ def setup_findings(environment: Mapping[str, str], path: Iterable[str]) -> list[
     found = [note(_PLAIN_CORE, _INSTALL_COMPILER)] if CORE == "python" else []
     distro = environment.get("ROS_DISTRO", "jazzy")
     if distro != "jazzy":
-        text = f"ROS_DISTRO is '{distro}', but the names and texts here are those of jazzy."
+        text = f"ROS_DISTRO is '{distro}', but turtlewire uses the names and texts of jazzy."
         found.append(note(text, _OTHER_DISTRO))
     found += _library_findings()
     found += _security_findings(environment)
@@ -75,7 +75,7 @@ def setup_findings(environment: Mapping[str, str], path: Iterable[str]) -> list[
 def _security_findings(environment: Mapping[str, str]) -> list[Finding]:
     """Report settings of SROS 2 that have no effect, or that keep everything from starting."""
     if value := misspelt_enable(environment):
-        text = f"ROS_SECURITY_ENABLE is {value!r}, which ROS 2 takes for off."
+        text = f"ROS_SECURITY_ENABLE is {value!r}, which ROS 2 treats as off."
         return [note(text, "ROS 2 compares it with 'true'. turtlewire does not support SROS 2.")]
     if asks_for_security(environment) and not enforces_security(environment):
         return [problem(f"{IN_THE_CLEAR}.", REMEDY)]

@@ -40,15 +40,14 @@ _AHEAD = (
     "Lookups at the present time fail. Its publisher does not stamp with its node's clock, or that "
     "clock is ahead of this host's (chrony or NTP sets them)."
 )
-_SILENT = (
-    "Its transforms are not sent yet, or are lost in transit; their child frames are unknown."
-)
+_SILENT = "Its transforms are not sent yet, or are lost in transit; their child frames are unknown."
 _JUMPS = (
     "Two sources publish it, a bag restarted, or a clock was set: listeners drop such "
     "transforms, or clear their buffers."
 )
 _MISSING = (
-    "They are lost in transit, or the publisher misses its period. Run `ros2 topic hz /tf` here and "
+    "They are lost in transit, or the publisher misses its period. Run `ros2 topic hz /tf` here "
+    "and "
     "on the publisher's host: if the rate is higher there, fix the network or the QoS; otherwise "
     "the publisher is too slow."
 )

@@ -222,4 +222,4 @@ def _conversion(value: Any) -> str:
     """Return a hint for what is no message but makes one, such as rclpy's Time and Duration."""
     if not hasattr(value, "to_msg"):
         return ""
-    return f"A {type(value).__name__} is no message; its to_msg() makes one."
+    return f"A {type(value).__name__} is not a message; its to_msg() returns one."

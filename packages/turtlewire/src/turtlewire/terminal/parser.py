@@ -1,4 +1,4 @@
-"""Command lines that suggest the nearest name for a wrong word; options that commands share."""
+"""A parser that suggests names for misspelt words, and options that commands share."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Parser(argparse.ArgumentParser):
     def parse_args(  # type: ignore[override]  # a namespace class of the caller's own is not needed
         self, args: Sequence[str] | None = None, namespace: None = None
     ) -> argparse.Namespace:
-        """As argparse, but an error about an unknown option names the command."""
+        """Parse like argparse, but name the command in errors about unknown options."""
         parsed, unknown = self.parse_known_args(args, namespace)
         if unknown:
             getattr(parsed, "parser", self).error(f"unrecognized arguments: {' '.join(unknown)}")
@@ -59,18 +59,18 @@ def seconds(text: str) -> float:
 
 
 def add_tf_topics(parser: argparse.ArgumentParser) -> None:
-    """Add the options that say where the transforms of a bag are; `tf_topics` reads them."""
+    """Add the options for the topics of a bag's transforms; `tf_topics` reads them."""
     parser.add_argument(
         "--topic",
         action="append",
         metavar="T",
-        help="Where the transforms of a bag are (default: /tf)",
+        help="Topic of the bag's transforms (default: /tf)",
     )
     parser.add_argument(
         "--static-topic",
         action="append",
         metavar="T",
-        help="Where the static transforms of a bag are (default: /tf_static)",
+        help="Topic of the bag's static transforms (default: /tf_static)",
     )
 
 

@@ -171,7 +171,7 @@ def _unit(quaternion: ArrayLike) -> Array:
     q = _shaped(quaternion, (4,), "quaternions")
     length = np.sqrt(np.einsum("...i,...i", q, q))[..., None]
     if not np.all(length):
-        raise ValueError("a quaternion of length 0 is no rotation")
+        raise ValueError("a quaternion of length 0 is not a rotation")
     result: Array = q / length
     return result
 

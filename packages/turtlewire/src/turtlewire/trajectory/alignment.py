@@ -131,7 +131,7 @@ def align(reference: Trajectory, estimate: Trajectory, how: str) -> Alignment:
         return _align_yaw(estimate.positions, reference.positions)
     if how in ("se3", "sim3"):
         return _umeyama(estimate.positions, reference.positions, with_scale=how == "sim3")
-    raise ValueError(f"unknown alignment '{how}'; known are {', '.join(ALIGNMENTS)}")
+    raise ValueError(f"unknown alignment '{how}'; choose from {', '.join(ALIGNMENTS)}")
 
 
 def _align_yaw(x: NDArray[np.float64], y: NDArray[np.float64]) -> Alignment:
@@ -151,8 +151,8 @@ def _umeyama(x: NDArray[np.float64], y: NDArray[np.float64], *, with_scale: bool
     u, d, vt = np.linalg.svd(covariance)
     if np.count_nonzero(d > np.finfo(np.float64).eps) < 2:
         raise ValueError(
-            "Degenerate covariance rank, Umeyama alignment is not possible: the positions are on a "
-            "line or in one place; 'none', 'origin' and 'yaw' align them"
+            "Degenerate covariance rank, Umeyama alignment is not possible: the positions are on "
+            "a line or in one point; 'none', 'origin' and 'yaw' align them"
         )
     signs = np.array((1.0, 1.0, np.sign(np.linalg.det(u) * np.linalg.det(vt))))
     rotation = arrays.from_matrices(u @ np.diag(signs) @ vt)

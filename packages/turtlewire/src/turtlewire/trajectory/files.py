@@ -161,7 +161,7 @@ def write_trajectory(
         return kind
     writers = {"tum": write_tum, "euroc": write_euroc, "csv": write_csv}
     if kind not in writers:
-        raise ValueError(f"unknown format '{kind}'; known are {', '.join(FORMATS)}")
+        raise ValueError(f"unknown format '{kind}'; choose from {', '.join(FORMATS)}")
     writers[kind](trajectory, path)
     return kind
 
@@ -179,7 +179,9 @@ def read_trajectory(path: str | os.PathLike[str]) -> Trajectory:
     data = next((line for line in lines if not _is_comment(line)), "")
     if not data:
         what = "only comments and words" if lines else "nothing"
-        raise ValueError(f"{os.fspath(path)} is no trajectory: it holds {what}, no line of numbers")
+        raise ValueError(
+            f"{os.fspath(path)} is not a trajectory: it contains {what}, but no lines of numbers"
+        )
     columns = len(data.split("," if "," in data else None))
     if "," not in data:
         if columns == 12:

@@ -205,7 +205,7 @@ def _check(
     reference: Trajectory, estimate: Trajectory, relation: str, known: tuple[str, ...]
 ) -> None:
     if relation not in known:
-        raise ValueError(f"unknown relation '{relation}'; known are {', '.join(known)}")
+        raise ValueError(f"unknown relation '{relation}'; choose from {', '.join(known)}")
     if len(reference) != len(estimate):
         raise ValueError(
             f"the trajectories have {len(reference)} and {len(estimate)} poses; associate them "
@@ -232,7 +232,7 @@ def pairs(
         )
         along = np.concatenate(([0.0], np.cumsum(arrays.angle(turns))))
     else:
-        raise ValueError(f"unknown unit '{unit}'; known are f, m, d and r")
+        raise ValueError(f"unknown unit '{unit}'; choose from f, m, d and r")
     if all_pairs:
         return _all_pairs(along, delta, delta * tolerance)
     return _consecutive_pairs(along, delta)

@@ -145,7 +145,7 @@ def colours() -> Iterator[str]:
 def columns_of(plane: str) -> tuple[int, int]:
     """Return the columns of positions that are the two axes of a plane such as ``xy``."""
     if len(plane) != 2 or not set(plane) <= set(_AXES) or plane[0] == plane[1]:
-        raise ValueError(f"'{plane}' is no plane; known are xy, xz, yz, yx, zx and zy")
+        raise ValueError(f"'{plane}' is not a plane; choose from xy, xz, yz, yx, zx and zy")
     return _AXES.index(plane[0]), _AXES.index(plane[1])
 
 

@@ -63,8 +63,8 @@ def sample_trajectory(
     else:
         if not histories:
             raise ValueError(
-                f"nothing moves between '{target_frame}' and '{source_frame}', so no link on the "
-                "way has times to take: `stamps` would say at which ones"
+                f"nothing moves between '{target_frame}' and '{source_frame}', so no transform in "
+                "the chain has stamps to use: pass `stamps`"
             )
         wanted = _times(histories, rate_hz)
     wanted = wanted[wanted != 0]  # tf2 takes the time 0 for "the latest"

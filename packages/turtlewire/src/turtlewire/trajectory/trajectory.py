@@ -147,7 +147,7 @@ class Trajectory:
             "speeds": plots.plot_speeds,
         }
         if kind not in drawn:
-            raise ValueError(f"'{kind}' is no picture; known are {', '.join(drawn)}")
+            raise ValueError(f"'{kind}' is not a kind of plot; choose from {', '.join(drawn)}")
         return drawn[kind](self, reference)
 
     def _repr_svg_(self) -> str | None:

@@ -141,7 +141,7 @@ def _string(cdr: bytes, at: int) -> tuple[str, int]:
     (size,) = _COUNT.unpack_from(cdr, at)
     begin, end = at + 4, at + 4 + size
     if end > len(cdr):
-        raise struct.error("it ends within a text")
+        raise struct.error("it ends within a string")
     return cdr[begin:end].rstrip(b"\0").decode(), end
 
 

@@ -105,7 +105,7 @@ def _axis(element: Element, name: str, kind: str) -> Vector:
     before = f"Malformed axis element for joint [{name}]: "
     axis = vector_of(part, "xyz", before) or default
     if kind in MOVING_TYPES and not any(axis):
-        raise part.error(f"{before}it is zero, which is no direction")
+        raise part.error(f"{before}it is zero, which is not a direction")
     return axis
 
 

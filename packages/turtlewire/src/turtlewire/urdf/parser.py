@@ -51,7 +51,9 @@ def parse_urdf(text: str | bytes) -> Robot:
     """
     if not isinstance(text, (str, bytes)):
         got = type(text).__name__
-        raise TypeError(f"parse_urdf takes the XML as str or bytes, got {got}; a file: load_urdf")
+        raise TypeError(
+            f"parse_urdf accepts the XML as str or bytes, got {got}; for a file, use load_urdf"
+        )
     if not text.strip():
         raise UrdfError("The description is empty")
     root = parse_xml(text)

@@ -103,13 +103,13 @@ def invite(url: str, log: Callable[[str], object]) -> None:
     there = url.replace("127.0.0.1", best, 1)
     log(f"On another device of this network: {there}")
     log(
-        "Whoever has this address can use the page, and the connection is not encrypted. In a "
+        "Anyone who has this address can use the page, and the connection is not encrypted. In a "
         "network that you do not trust, forward the port with ssh -L instead."
     )
     if others:
         log(
-            f"{best} leads to the default network. If it does not answer there, try "
-            f"{' or '.join(others)} in its place."
+            f"{best} is the address in the default network. If it does not work, try "
+            f"{' or '.join(others)} instead."
         )
     if sys.stdout.isatty():
         _show_qr_code(there, log)

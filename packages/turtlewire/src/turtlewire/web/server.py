@@ -34,7 +34,7 @@ _OUT_OF_RESOURCES = frozenset({errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.
 #: How long a browser may take to answer the closing of its WebSocket [s].
 _CLOSE_TIMEOUT = 0.5
 #: What is said to those who lack it.
-_UNINVITED = "The address lacks the token that the program has printed."
+_UNINVITED = "The token that the program printed is missing from the address."
 
 
 class PageSession(Protocol):
@@ -234,7 +234,7 @@ class Server:
         try:  # in another thread: it may read long files, and the streams go on
             return await asyncio.to_thread(self._computed, unquote(path))
         except Exception:
-            _logger().exception("A defect kept the page from getting %s", path)
+            _logger().exception("Internal error while serving %s", path)
             raise  # the browser gets status 500
 
     def _headers(self, path: str, host: str) -> dict[str, str]:
@@ -309,7 +309,7 @@ class _ExceptionHandler:
         elif not self._reported:
             self._reported = True
             _logger().warning(
-                "The page accepts no further browser for now: %s. "
+                "No more browsers can connect: %s. "
                 "Close pages or other programs, or raise the limit (ulimit -n).",
                 error.strerror,
             )

@@ -43,7 +43,7 @@ def no_message(cdr: bytes, topic: str) -> WireError:
     """The error for bytes that are not (see :func:`is_message`), before they get onto the wire."""
     return WireError(
         f"publish on {topic}: {len(cdr)} bytes with header '{cdr[:4].hex(' ')}' "
-        "are no message (expected 00 01 00 00)"
+        "are not a message (expected 00 01 00 00)"
     )
 
 

@@ -94,7 +94,7 @@ def middleware_name() -> str:
         warn_once(
             "RMW_IMPLEMENTATION",
             f"RMW_IMPLEMENTATION is {name}, which is not available here{remedy}: "
-            f"{default} is taken (valid: {', '.join(MIDDLEWARES)})",
+            f"{default} is used (valid: {', '.join(MIDDLEWARES)})",
         )
     elif default != MIDDLEWARES[0]:
         refused = find_libddsc().refused or [
@@ -102,7 +102,7 @@ def middleware_name() -> str:
         ]
         warn_once(
             "no Cyclone DDS",
-            f"{'; '.join(refused)}: Zenoh is taken, which reaches robots that run rmw_zenoh_cpp",
+            f"{'; '.join(refused)}: Zenoh is used, which reaches robots that run rmw_zenoh_cpp",
         )
     return default
 

@@ -122,7 +122,7 @@ def find_libddsc() -> Search:
         if library.abi is not None:
             return Search(library, refused)
         known = " and ".join(abi.version for abi in ABIS)
-        refused.append(f"{library} is not taken: only {known} are known here")
+        refused.append(f"{library} is not used: only {known} are supported")
     return Search(None, refused)
 
 

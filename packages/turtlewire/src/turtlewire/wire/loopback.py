@@ -96,6 +96,7 @@ def _bind(number: int) -> None:
         except OSError as error:  # kernels before 5.7 let only root do that
             warn_once(
                 "datagrams from other computers",
-                "datagrams from other computers reach this process, although it speaks to this "
-                f"computer only: its sockets cannot be bound to the loopback interface ({error})",
+                "datagrams from other computers reach this process, although it communicates with "
+                "this computer only: its sockets cannot be bound to the loopback interface "
+                f"({error})",
             )

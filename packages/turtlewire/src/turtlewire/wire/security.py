@@ -31,7 +31,7 @@ IN_THE_CLEAR = (
 )
 _REFUSED = (
     f"{_ENABLE} is true and {_STRATEGY} is Enforce, but turtlewire does not support SROS 2, so it "
-    "refuses to start"
+    "does not start"
 )
 REMEDY = (
     "For encryption, use Zenoh with TLS (docs/how-to/secure_networks.md). With it, or to go on "

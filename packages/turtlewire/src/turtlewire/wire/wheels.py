@@ -63,7 +63,7 @@ def advice(here: Platform) -> str:
         ways.append(f"install libddsc 0.10 (Debian, Ubuntu, Raspberry Pi OS: {_PACKAGES})")
     if here.has_zenoh:
         ways.append(
-            "take Zenoh: pip install 'turtlewire[zenoh]' and RMW_IMPLEMENTATION=rmw_zenoh_cpp"
+            "use Zenoh: pip install 'turtlewire[zenoh]' and RMW_IMPLEMENTATION=rmw_zenoh_cpp"
         )
     if not ways:
         ways.append("there is no wheel of Cyclone DDS or Zenoh for it")

@@ -170,7 +170,10 @@ def test_a_peer_without_a_certificate_sees_nothing(router, client, run, ended, f
     without = ended(client(TLS))
     assert without.returncode == 1
     assert without.stdout == ""
-    assert "the other side wants a certificate (mutual TLS), and none was shown" in without.stderr
+    assert (
+        "the other side requires a certificate (mutual TLS), but none was presented"
+        in without.stderr
+    )
     refusing.wait_for("refused a connection: it shows no certificate")
     beside = ended("ros2 node list", RMW_IMPLEMENTATION="rmw_zenoh_cpp")
     assert (beside.returncode, beside.stdout) == (0, "")
@@ -213,7 +216,7 @@ def with_certificate(name: str) -> str:
         (
             MUTUAL,
             'SETTINGS+=("$TLS/connect_private_key=\\"$PWD/router.key\\"")',
-            "alice.pem and .*/router.key are no certificate and its key",
+            "alice.pem and .*/router.key are not a matching certificate and key",
             None,
         ),
         (
@@ -231,7 +234,7 @@ def with_certificate(name: str) -> str:
         (
             TLS,
             "SETTINGS+=('connect/endpoints=[\"tcp/localhost:7447\"]')",
-            "who listens there gives no session",
+            "the peer at that address opened no session",
             "refused a connection without TLS",
         ),
         (
@@ -270,7 +273,7 @@ def test_no_user_and_password(router, client, ended):
     refusing = router(USER)
     failed = ended(client(MUTUAL))
     assert failed.returncode == 1
-    assert "who listens there gives no session" in failed.stderr
+    assert "the peer at that address opened no session" in failed.stderr
     assert "wants a user and password" in failed.stderr
     refusing.wait_for("it gives no user and password")
 

@@ -10,7 +10,7 @@ from turtle_lesson.exercise import Exercise, NotYet
 _PLACE = (0.2, 0.0, 0.3)
 _DOWN = math.radians(30)
 _NO_UNIT = (
-    "A quaternion of length 1 is wanted; all zeros is no rotation at all. Copy all four numbers "
+    "The quaternion must have length 1; all zeros is not a rotation. Copy all four numbers "
     "of quaternion_from_euler: q[0] to x, q[1] to y, q[2] to z, q[3] to w."
 )
 
@@ -32,7 +32,7 @@ def check_parent(exercise: Exercise) -> None:
     parent = exercise.frames()["camera"]
     exercise.expect(
         parent == "turtle1",
-        f"camera hangs on {parent}.",
+        f"the parent of camera is {parent}.",
         "The camera moves with turtle1: header.frame_id = 'turtle1'.",
     )
 

@@ -21,7 +21,7 @@ def check_names(exercise: Exercise) -> None:
         )
         exercise.expect(
             frames[turtle] == "world",
-            f"{turtle} hangs on {frames[turtle]}.",
+            f"the parent of {turtle} is {frames[turtle]}.",
             "header.frame_id is the parent, child_frame_id the turtle: world -> turtle.",
         )
 
@@ -34,8 +34,8 @@ def check_stamps(exercise: Exercise) -> None:
         exercise.expect(
             abs(age) < 0.5,
             f"The newest transform of {turtle} is {age:.1f} s old.",
-            "`turtlewire doctor` says so, too. A transform is true at a time: stamp it with the "
-            "node's clock, self.get_clock().now().to_msg().",
+            "`turtlewire doctor` also reports it. A transform is valid at a time: stamp it with "
+            "the node's clock, self.get_clock().now().to_msg().",
         )
 
 
@@ -48,7 +48,7 @@ def check_places(exercise: Exercise) -> None:
             math.dist(place[:2], (pose.x, pose.y)) < 0.1,
             f"{turtle} is at ({pose.x:.1f}, {pose.y:.1f}); by TF it is at "
             f"({place.x:.1f}, {place.y:.1f}).",
-            "Compare each number of the translation with the one of /turtle2/pose: x and y.",
+            "Compare each number of the translation with /turtle2/pose: x and y.",
         )
 
 

@@ -6,8 +6,8 @@ from turtle_lesson.exercise import Exercise
 from turtlesim.testing.faults import Delay
 
 _HALF = (
-    "lookup_transform('turtle1', 'turtle2', rclpy.time.Time()) says where turtle2 is, as turtle1 "
-    "sees it: half of its x and of its y is the place."
+    "lookup_transform('turtle1', 'turtle2', rclpy.time.Time()) gives the position of turtle2 in "
+    "turtle1: the meeting point is at half its x and half its y."
 )
 
 
@@ -18,12 +18,12 @@ def check_parent(exercise: Exercise) -> None:
     exercise.expect(
         "meeting_point" in frames,
         f"There is no frame meeting_point. There are: {', '.join(sorted(frames))}.",
-        "Call sendTransform in the timer, when the lookup has an answer. At the present time, "
-        "now(), it has none yet: ask for the latest, rclpy.time.Time().",
+        "Call sendTransform in the timer when the lookup has succeeded. At now() no transform has "
+        "arrived yet: look up the latest one, rclpy.time.Time().",
     )
     exercise.expect(
         frames["meeting_point"] == "turtle1",
-        f"meeting_point hangs on {frames['meeting_point']}.",
+        f"the parent of meeting_point is {frames['meeting_point']}.",
         "What you compute is as turtle1 sees it: header.frame_id = 'turtle1'.",
     )
 
@@ -39,8 +39,8 @@ def _compare(exercise: Exercise) -> None:
         hint = "That is turtle2 itself: take half of x and of y."
     elif math.dist(exercise.place("turtle1", "meeting_point")[:2], swapped) < 0.2:
         hint = (
-            "The target frame comes first: it is the one that sees. lookup_transform('turtle1', "
-            "'turtle2', …) gives turtle2's place in turtle1's frame."
+            "The target frame comes first. lookup_transform('turtle1', 'turtle2', …) gives "
+            "turtle2's position in turtle1."
         )
     exercise.expect(
         math.dist(place[:2], wanted) < 0.2,
@@ -74,5 +74,6 @@ def check_stamp(exercise: Exercise) -> None:
         0.3 < age < 0.8,
         "turtle1's transforms are half a second old here; the newest one of meeting_point, which "
         f"follows from them, says that it is {age:.1f} s old.",
-        "The place is as old as the transform that it follows from: copy that one's header.stamp.",
+        "The meeting point is as old as the transform that it is computed from: copy its "
+        "header.stamp.",
     )

@@ -6,7 +6,7 @@ from turtle_lesson.exercise import Exercise
 
 _TURTLES = ("turtle1", "turtle2")
 _ROTATE = (
-    "The start has a heading, too: turn (dx, dy) by it, "
+    "The start also has a heading: rotate (dx, dy) by it, "
     "x = dx * cos(a) + dy * sin(a), y = -dx * sin(a) + dy * cos(a), with a = odom.theta."
 )
 
@@ -28,7 +28,7 @@ def check_frames(exercise: Exercise) -> None:
             exercise.expect(name in frames, f"There is no frame {name}. There are: {known}.", hint)
             exercise.expect(
                 frames[name] == parent,
-                f"{name} hangs on {frames[name]}.",
+                f"the parent of {name} is {frames[name]}.",
                 f"{parent} is its parent: the chain is world -> odom -> base_link.",
             )
 
@@ -68,7 +68,7 @@ def check_ahead(exercise: Exercise) -> None:
             hint = "base_link moves: take dx = pose.x - odom.x and dy = pose.y - odom.y."
         exercise.expect(
             place.x > 1.0 and abs(place.y) < 0.1,
-            f"{turtle} drove 1.5 m straight on, and its base_link is at x = {place.x:.1f} m, "
+            f"{turtle} drove 1.5 m straight ahead, and its base_link is at x = {place.x:.1f} m, "
             f"y = {place.y:.1f} m of its odom.",
             hint,
         )

@@ -49,7 +49,7 @@ def check_parent(exercise: Exercise) -> None:
         parent = frames.get(f"{turtle}_nose")
         exercise.expect(
             parent == turtle,
-            f"{turtle}_nose hangs on {parent}.",
+            f"the parent of {turtle}_nose is {parent}.",
             "A frame that moves with the turtle has the turtle as its parent: header.frame_id = "
             "self.turtlename. Then TF does the geometry.",
         )

@@ -13,7 +13,7 @@ def check_parent(exercise: Exercise) -> None:
     frames = exercise.frames()
     exercise.expect(
         frames.get("carrot1") == "turtle1",
-        f"carrot1 hangs on {frames.get('carrot1', 'nothing: it is not there')}.",
+        f"the parent of carrot1 is {frames.get('carrot1', 'missing: the frame does not exist')}.",
         "The carrot circles around turtle1: header.frame_id = 'turtle1'.",
     )
     stamp = exercise.stamp("turtle1", "carrot1")
@@ -49,7 +49,7 @@ def check_turns(exercise: Exercise) -> None:
     seen = f"In a second it turns by {math.degrees(turn):.0f}°; 36° are wanted."
     hint = "angle = 2 * pi * seconds / 10, with seconds = self.get_clock().now().nanoseconds / 1e9."
     if "time.time(" in "".join(exercise.files.values()):
-        hint = "time.time() does not follow simulated time: ask self.get_clock().now()."
+        hint = "time.time() does not follow simulated time: use self.get_clock().now()."
     elif abs(turn + _RATE) < 0.1:
         hint = "It goes round to the right: y = r * sin(angle), or the angle's sign."
     exercise.expect(abs(turn - _RATE) < 0.1, seen, hint)

@@ -18,8 +18,8 @@ def check_follows(exercise: Exercise) -> None:
     exercise.expect(
         left < 0.5,
         f"After 15 s turtle2 is {left:.2f} m away.",
-        "Fresh transforms must pass: ask for the latest, rclpy.time.Time(), and compare its age "
-        "with one second. Mind the order: the age is now minus stamp.",
+        "Accept fresh transforms: look up the latest one, rclpy.time.Time(), and compare its age "
+        "with one second. The age is now minus stamp, in this order.",
     )
 
 

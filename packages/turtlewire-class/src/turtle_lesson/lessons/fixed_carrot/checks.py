@@ -16,7 +16,7 @@ def check_parent(exercise: Exercise) -> None:
     )
     exercise.expect(
         frames["carrot1"] == "turtle1",
-        f"carrot1 hangs on {frames['carrot1']}.",
+        f"the parent of carrot1 is {frames['carrot1']}.",
         "A frame that moves with turtle1 has turtle1 as its parent: header.frame_id = 'turtle1'.",
     )
 

@@ -6,8 +6,8 @@ from turtle_lesson.exercise import Exercise
 
 _GAP = 1.0
 _LATEST = (
-    "Ask for the latest transform, rclpy.time.Time(). At now() nothing has arrived yet: look at "
-    "the log, tf2 says so."
+    "Look up the latest transform, rclpy.time.Time(). At now() nothing has arrived yet, as tf2 "
+    "says in the log."
 )
 _TOO_NEAR = (
     "Drive by the distance that is too much: subtract 1.0 from the distance before it is "

@@ -13,7 +13,7 @@ def check_frame_exists(exercise: Exercise) -> None:
     frames = exercise.frames()
     exercise.expect(
         frames.get("world") != "tower",
-        "world hangs on tower.",
+        "the parent of world is tower.",
         "header.frame_id is the parent, child_frame_id is the new frame: swap them.",
     )
     others = ", ".join(sorted(frames)) or "none"
@@ -25,7 +25,7 @@ def check_frame_exists(exercise: Exercise) -> None:
     )
     exercise.expect(
         frames["tower"] == "world",
-        f"tower hangs on {frames['tower']}.",
+        f"the parent of tower is {frames['tower']}.",
         "Set header.frame_id to 'world'.",
     )
 
@@ -65,7 +65,7 @@ def check_late_listener(exercise: Exercise) -> None:
     exercise.simulation.run(1.0)
     exercise.expect(
         "tower" in late.all_frames_as_yaml(),
-        "A listener that started after five seconds has not heard of tower.",
-        "StaticTransformBroadcaster keeps its transforms for those who come later; "
-        "TransformBroadcaster sends once, to those who are there.",
+        "A listener that started after five seconds has not received tower.",
+        "StaticTransformBroadcaster keeps its transforms for later listeners; "
+        "TransformBroadcaster sends only to listeners that already exist.",
     )

@@ -6,8 +6,8 @@ from turtle_lesson.exercise import Exercise
 
 _FULL = (
     "lookup_transform_full(target_frame='turtle2', target_time=Time(), source_frame='turtle1', "
-    "source_time=three seconds ago, fixed_frame='world') asks two times in one question: where "
-    "turtle1 was then, as turtle2 sees it now."
+    "source_time=three seconds ago, fixed_frame='world') uses two times in one lookup: where "
+    "turtle1 was then, in the frame of turtle2 now."
 )
 
 
@@ -23,16 +23,16 @@ def check_arrives(exercise: Exercise) -> None:
         exercise.simulation.run(0.5)
         farthest = max(farthest, exercise.simulation.distance("turtle1", "turtle2"))
     hint = (
-        "With one time for both turtles, turtle2 steers by where it was itself three seconds ago, "
-        "and loses its way. " + _FULL
+        "With one time for both turtles, turtle2 steers by its own position three seconds ago, "
+        "and misses. " + _FULL
     )
     source = "\n".join(exercise.files.values())
     if "fixed_frame" in source and "'world'" not in source and '"world"' not in source:
         hint = "The fixed frame must be one that does not move in between: 'world'."
     elif "lookup_transform_full" in source:
         hint = (
-            "Keep target_time=Time(), turtle2's present place, and a source_time that lies in the "
-            "past: now - Duration(seconds=3.0). The fixed frame is 'world'."
+            "Keep target_time=Time(), turtle2's current position, and a source_time in the past: "
+            "now - Duration(seconds=3.0). The fixed frame is 'world'."
         )
     exercise.expect(farthest < 0.5, f"turtle2 is up to {farthest:.2f} m away.", hint)
 
@@ -54,7 +54,7 @@ def check_waits(exercise: Exercise) -> None:
     exercise.expect(
         moved < 0.3,
         f"2.5 s after turtle1 drove off, turtle2 had moved {moved:.2f} m.",
-        "turtle1's place must be taken from three seconds ago: source_time = "
+        "Use turtle1's position three seconds ago: source_time = "
         "self.get_clock().now() - Duration(seconds=3.0).",
     )
 

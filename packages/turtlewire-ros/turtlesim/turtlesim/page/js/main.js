@@ -40,7 +40,7 @@ const connection = new Connection({
   onTransforms: (message) => framesPanel.show(message),
   onAxes: (frames) => (axes = frames),
   onFrame: takeFrame,
-  onError: (text) => console.error(`turtlesim refused a command: ${text}`),
+  onError: (text) => console.error(`turtlesim rejected a command: ${text}`),
 });
 
 const showSettings = controlWorld((command) => connection.send(command), () => driven);

@@ -46,7 +46,7 @@ export class Panel {
     hint.hidden = !missing.length;
     hint.replaceChildren(...missing.slice(0, 1).flatMap((name) => {
       const text = document.createElement("span");
-      text.textContent = `A node waits for ${name}, and there is no turtle of that name yet.`;
+      text.textContent = `A node is waiting for ${name}, but there is no turtle with this name yet.`;
       const button = document.createElement("button");
       button.type = "button";
       button.textContent = `Spawn ${name}`;

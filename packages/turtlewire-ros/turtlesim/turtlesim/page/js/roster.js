@@ -57,7 +57,7 @@ export class Roster {
     }
     const hidden = found.length - names.length;
     byId("more").hidden = hidden <= 0 && found.length > 0;
-    byId("more").textContent = found.length ? `and ${hidden} more` : "no turtle of that name";
+    byId("more").textContent = found.length ? `and ${hidden} more` : "no turtle with this name";
     this.showDriven(this.#driven);
   }
 

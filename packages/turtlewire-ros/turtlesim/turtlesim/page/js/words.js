@@ -31,13 +31,13 @@ export function placeInWords(otherName, observerName, { ahead, left, up = 0 }) {
 /** The same for a transform, which may also turn: translation [m] and rotation (xyzw). */
 export function transformInWords(sourceName, targetName, { translation, rotation }) {
   if ([...translation, ...rotation].includes(null)) {
-    return `${sourceName} is not at a finite place as ${targetName} sees it`;
+    return `${sourceName} has no finite position in ${targetName}`;
   }
   const [ahead, left, up] = translation;
   const place = placeInWords(sourceName, targetName, { ahead, left, up });
   const [x, y, z, w] = rotation;
   const yaw = (Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)) * 180) / Math.PI;
-  if (Math.abs(yaw) < NOTHING_DEGREES) return `${place}, and looks the same way`;
+  if (Math.abs(yaw) < NOTHING_DEGREES) return `${place}, with the same heading`;
   const side = yaw > 0 ? "left" : "right";
   return `${place}, and looks ${Math.abs(yaw).toFixed(0)}° further to the ${side}`;
 }

@@ -28,7 +28,7 @@ export class DisplaysPanel {
     this.#topics = [...topics].sort((a, b) => naturalOrder(a.name, b.name));
     const shown = this.#topics.filter(({ kind }) => kind);
     const options = shown.map(({ name, kind }) => [name, `${name} (${kindInWords(kind)})`]);
-    const first = options.length ? options : [["", "No topic that can be drawn"]];
+    const first = options.length ? options : [["", "No topic to draw"]];
     offer(byId("topic"), [...first, ROBOT_OPTION]);
     byId("topic").disabled = false;
     allowAdding();

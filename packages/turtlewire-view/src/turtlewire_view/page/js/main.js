@@ -87,7 +87,7 @@ function makeStage() {
       look: () => looks?.show(),
     });
   } catch (error) {
-    notice(`${error.message} The tree and the numbers work without it.`, "error", false);
+    notice(`${error.message} The tree and the numbers still work.`, "error", false);
     return null;
   }
 }
@@ -106,7 +106,7 @@ function takeState(state) {
 
 function takeHello({ source }) {
   time.isBag = source.kind === "bag";
-  tools?.refuse(time.isBag ? "A bag is shown: nothing can be published into it." : "");
+  tools?.refuse(time.isBag ? "You cannot publish into a bag." : "");
   setText(byId("source"), source.name);
   document.title = `${source.name} · turtlewire view`;
 }
@@ -251,7 +251,7 @@ listenForFiles(() => ({
   camera: stage?.cameras.isTouched ? stage.cameras.saved(frames.origin) : null,
 }), send, (text) => notice(text, "error"));
 if (stage) {
-  const loss = "The browser has taken the picture away. The tree and the numbers go on.";
+  const loss = "The browser closed the 3D view (WebGL context lost). The tree and the numbers keep updating.";
   stage.view.lost.push((isLost) => notice(isLost ? loss : "", "error", false));
   stage.view.afterDraw((now) => {
     if (!displays.list.some(({ visible }) => visible)) return;

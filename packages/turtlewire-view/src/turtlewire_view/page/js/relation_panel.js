@@ -5,7 +5,7 @@ import { ageInWords, delayInWords, fixed, isNumber, numbersInWords, rateInWords 
 
 const FIXED = ""; // the target that is always the fixed frame
 const MATRIX_ROWS = ["x", "y", "z", "last row"];
-const ASK = "Press a frame in the picture or in the tree.";
+const ASK = "Select a frame in the 3D view or in the tree.";
 
 export class RelationPanel {
   #frames;

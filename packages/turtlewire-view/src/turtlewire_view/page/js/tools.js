@@ -9,19 +9,19 @@ import { byId, make } from "./dom.js";
 const TOOLS = [
   {
     name: "measure", label: "Measure", key: "m",
-    help: "Press two places to measure how far apart they are.",
+    help: "Click two points to measure the distance between them.",
   },
   {
     name: "point", label: "Point", key: "c",
-    help: "Press a place to publish it on /clicked_point.",
+    help: "Click a point to publish it on /clicked_point.",
   },
   {
     name: "pose_estimate", label: "Pose", key: "p", drags: true,
-    help: "Press where the robot is and drag to where it looks; published on /initialpose.",
+    help: "Drag from the robot's position in the direction of its heading; published on /initialpose.",
   },
   {
     name: "goal", label: "Goal", key: "g", drags: true,
-    help: "Press the goal and drag to where the robot is to look; published on /goal_pose.",
+    help: "Drag from the goal in the direction of the heading there; published on /goal_pose.",
   },
 ];
 /** The tools that need a source one can publish to. */
@@ -111,7 +111,7 @@ export class Tools {
     if (!event.isPrimary || event.button !== 0) return;
     const at = this.#place(event);
     if (!at) {
-      this.#say("There is no ground below this place: look from further above.");
+      this.#say("There is no ground at this point: move the camera higher.");
       return;
     }
     if (this.#tool().drags) {

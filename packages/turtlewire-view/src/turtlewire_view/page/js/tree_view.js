@@ -98,7 +98,7 @@ export class TreeView {
     this.#rows = this.#model.rows();
     const isLost = this.#model.isSearching && !this.#rows.length;
     byId("no-match").hidden = !isLost;
-    setText(byId("no-match"), isLost ? "No frame and no publisher has this in its name." : "");
+    setText(byId("no-match"), isLost ? "No frame or publisher matches." : "");
     this.#inside.style.height = `${this.#rows.length * ROW_REM}rem`;
     this.#draw();
   }
@@ -153,7 +153,7 @@ export class TreeView {
     const above = this.#frames.names[this.#frames.parents[k]];
     const place = this.#model.isSearching ? `below ${above} · ` : "";
     if (above !== undefined) return place + readingInWords(reading);
-    return this.#frames.isConnected(k) ? "root" : "root · not connected with the fixed frame";
+    return this.#frames.isConnected(k) ? "root" : "root · not connected to the fixed frame";
   }
 
   #isRootApart(k) {

@@ -97,10 +97,7 @@ def transform_points(
     check_frames(target_frame=target_frame, source_frame=source_frame, fixed_frame=own_target)
     (target_stamp_ns,) = nanoseconds(target_stamp_ns=target_stamp_ns)
     if fixed_frame is None and target_stamp_ns:
-        raise ValueError(
-            "target_stamp_ns needs fixed_frame, the frame by way of which points get to "
-            "another time"
-        )
+        raise ValueError("target_stamp_ns needs fixed_frame, the frame that joins the two times")
     given, result = arguments.point_arrays(points, out)
     last = (
         _pose(self, target_frame, own_target, target_stamp_ns)

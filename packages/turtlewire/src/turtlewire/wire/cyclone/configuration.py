@@ -122,7 +122,7 @@ def _resolved(peer: str) -> str:
     if address == "0.0.0.0":  # noqa: S104 - nothing is bound to it
         warn_once(
             f"static peer {peer}",
-            f"ROS_STATIC_PEERS: {peer} is left out, it is the address of nobody",
+            f"ROS_STATIC_PEERS: {peer} is ignored: it is not the address of a computer",
         )
         return ""
     return f"{address}:{written['port']}" if written["port"] else str(address)

@@ -52,7 +52,7 @@ def _find() -> tuple[Libddsc, Abi]:
     library, refused = find_libddsc()
     if library is not None and library.abi is not None:
         for sentence in refused:
-            warn_once(sentence, f"{sentence}: {library} is taken")
+            warn_once(sentence, f"{sentence}: {library} is used")
         return library, library.abi
     here = this_platform()
     version = ".".join(map(str, here.version))
@@ -68,8 +68,8 @@ def _load() -> tuple[ctypes.CDLL, ctypes.PyDLL]:
     except OSError as reason:
         error = WireError(f"{LIBRARY} cannot be loaded: {reason}")
         raise error.with_hint(
-            "CYCLONEDDS_HOME may name the prefix of another one; RMW_IMPLEMENTATION=rmw_zenoh_cpp "
-            "takes Zenoh."
+            "Set CYCLONEDDS_HOME to the prefix of another library, or use Zenoh with "
+            "RMW_IMPLEMENTATION=rmw_zenoh_cpp."
         ) from reason
 
 

@@ -49,7 +49,7 @@ def explain(line: str) -> str:
     refused = re.match(_REFUSED, line)
     if refused:
         return (
-            f"the network does not let us send to {refused.group(1)}: is the link down? "
+            f"the network rejects packets to {refused.group(1)}: is the link down? "
             "Reliable messages are sent again once it is up."
         )
     if len(line) > _MAX_LETTERS:

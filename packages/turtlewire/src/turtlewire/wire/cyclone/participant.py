@@ -145,7 +145,9 @@ def _failure(code: int, domain_id: int, said: list[str]) -> TurtlewireError:
             "use another domain."
         )
     if os.environ.get("CYCLONEDDS_URI"):
-        return error.with_hint("CYCLONEDDS_URI is set: mend what Cyclone says of it, or unset it.")
+        return error.with_hint(
+            "CYCLONEDDS_URI is set: fix what Cyclone DDS reports about it, or unset it."
+        )
     if "interfaces" in reason:
         return error.with_hint(
             "Is a network interface up? Nodes of one computer need the loopback one (`ip link set "
@@ -188,7 +190,7 @@ class Participant:
         probe = b"\x00\x01\x00\x00\x07turtle"
         with self.topic("turtlewire/check", "turtlewire/msg/Check") as topic:
             if _there_and_back(probe, sertype_of(topic)) != probe:
-                raise WireError(f"{dds.LIBRARY} lays out types in another way than it should")
+                raise WireError(f"{dds.LIBRARY} has an unexpected layout of types")
 
     def _create(self, enclave: str) -> int:
         qos = dds.create_qos()

@@ -73,7 +73,7 @@ class CyclonePublisher(Endpoint, Publisher):
         if code == NO_MESSAGE:
             raise no_message(cdr, self.topic)
         if code == REFUSED:
-            raise WireError(f"publish on {self.topic}: Cyclone DDS refuses the message")
+            raise WireError(f"publish on {self.topic}: Cyclone DDS rejects the message")
         if code == dds.RETCODE_TIMEOUT:
             seconds = MAX_BLOCKING_NS / 1e9
             error = WireError(

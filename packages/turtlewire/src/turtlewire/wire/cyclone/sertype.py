@@ -66,7 +66,7 @@ def _find_default_type(words: list[int]) -> int:
     finally:
         os.close(reading)
         os.close(writing)
-    raise WireError(f"{dds.LIBRARY} lays out topics in another way than it should")
+    raise WireError(f"{dds.LIBRARY} has an unexpected layout of topics")
 
 
 def _write_memory(file: int, address: int) -> bool:

@@ -202,7 +202,7 @@ class CycloneSubscription(Endpoint, Subscription):
             warn_once(
                 f"type {self.topic} {theirs}",
                 f"a peer on {self.topic} has another definition of {ours.name}: its messages may "
-                "be refused, or read wrongly. "
+                "be rejected or decoded wrongly. "
                 f"Both sides need the same version of {ours.name.partition('/')[0]} (type hash "
                 f"there {theirs}, here {ours.type_hash}).",
             )

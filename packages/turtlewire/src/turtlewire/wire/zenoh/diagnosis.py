@@ -35,7 +35,7 @@ _NO_MESSAGE = b"\x01\x00\x00"
 #: What OpenSSL calls the reasons for which the other side ends a handshake.
 _ALERTS = {
     "CERTIFICATE_REQUIRED": (
-        "the other side wants a certificate (mutual TLS), and none was shown",
+        "the other side requires a certificate (mutual TLS), but none was presented",
         f"set {_TLS}/connect_certificate, connect_private_key and enable_mtls=true.",
     ),
     "UNKNOWN_CA": (
@@ -99,7 +99,7 @@ def fault_of(configuration: zenoh.Config, reason: str) -> Fault:
         if address is not None:
             fault = _link_fault(address, configuration) or _session_fault(address, configuration)
             return fault._replace(text=f"{text}: {fault.text}")
-    return Fault(f"connect/endpoints: {addresses[0]} is no address, or nobody is there", _FORM)
+    return Fault(f"connect/endpoints: {addresses[0]} is not a reachable address", _FORM)
 
 
 def warn_of_faults(configuration: zenoh.Config) -> None:
@@ -189,7 +189,7 @@ def _context(tls: dict[str, Any]) -> ssl.SSLContext | Fault:
             context.load_cert_chain(certificate, private_key)
         except ssl.SSLError:
             return Fault(
-                f"{certificate} and {private_key} are no certificate and its key",
+                f"{certificate} and {private_key} are not a matching certificate and key",
                 f"{_TLS}/connect_certificate and connect_private_key name them.",
             )
     return context
@@ -240,8 +240,9 @@ def _session_fault(address: _Address, configuration: zenoh.Config) -> Fault:
             "A line user:password must be in the file that transport/auth/usrpwd/dictionary_file "
             "of the router names.",
         )
-    kind = "" if address.protocol == "tls" else ", or wants TLS (tls/HOST:PORT)"
+    kind = "" if address.protocol == "tls" else ", or requires TLS (tls/HOST:PORT)"
     return Fault(
-        "who listens there gives no session",
-        f"It is no Zenoh router, or wants a user and password (transport/auth/usrpwd){kind}.",
+        "the peer at that address opened no session",
+        "It is not a Zenoh router, or it requires a user and password "
+        f"(transport/auth/usrpwd){kind}.",
     )

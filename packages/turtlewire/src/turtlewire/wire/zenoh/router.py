@@ -43,7 +43,7 @@ def _route(output: TextIO) -> None:
     except zenoh.ZError as error:
         failed = WireError(f"cannot start a Zenoh router: {reason_of(error)}")
         raise failed.with_hint(
-            "If its port is taken, a router may be running already; another address: "
+            "If its port is in use, a router may already be running; for another address, set "
             "ZENOH_CONFIG_OVERRIDE='listen/endpoints=[\"tcp/127.0.0.1:7448\"]'"
         ) from error
     output.write(f"Started Zenoh router with id {session.zid()}\n")

@@ -66,5 +66,8 @@ def _attempts() -> int:
     try:
         return int(text)
     except ValueError:
-        warn_once(_VARIABLE, f"{_VARIABLE} is no whole number, so no router is waited for: {text}")
+        warn_once(
+            _VARIABLE,
+            f"{_VARIABLE} is not an integer, so the session does not wait for a router: {text}",
+        )
         return -1

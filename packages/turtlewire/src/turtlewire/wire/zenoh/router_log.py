@@ -39,8 +39,8 @@ _SENTENCES = {
     "signed by an authority in transport/link/tls/root_ca_certificate",
     r"invalid peer certificate: .*[Ee]xpired.*": "refused a connection: its certificate has "
     "expired; sign a new one, and compare the clocks",
-    r"peer sent no certificates": "refused a connection: it shows no certificate, and "
-    "transport/link/tls/enable_mtls wants one",
+    r"peer sent no certificates": "refused a connection: it presents no certificate, and "
+    r"transport/link/tls/enable_mtls requires one",
     r"received fatal alert: (UnknownCA|BadCertificate|CertificateUnknown)": "a peer hung up: it "
     "does not know the authority that signed this router's certificate",
     r"received fatal alert: CertificateExpired": "a peer hung up: this router's certificate has "

@@ -187,7 +187,7 @@ def _read(sample: zenoh.Sample) -> tuple[Attachment, bytes]:
     attachment = Attachment.unpack(bytes(sample.attachment))
     cdr = bytes(sample.payload)
     if len(cdr) <= HEADER_SIZE:
-        raise ValueError(f"{len(cdr)} bytes are no message")
+        raise ValueError(f"{len(cdr)} bytes are not a message")
     return attachment, cdr
 
 

@@ -46,7 +46,7 @@ export default class OccupancyGrid {
   /** After each packet of frames: the server tells only why a map has no place at its stamp. */
   update() {
     const isLost = this.#frame !== null && this.#view.poseOf(this.#frame) === null;
-    this.#view.report(isLost ? `No transform tells where the map's frame '${this.#frame}' is` : "");
+    this.#view.report(isLost ? `No transform from the map's frame '${this.#frame}'` : "");
   }
 
   setOptions(options) {

@@ -31,7 +31,7 @@ const PARSERS = {
     const { ColladaLoader } = await import("three/addons/loaders/ColladaLoader.js");
     const text = new TextDecoder().decode(bytes);
     const loaded = /<COLLADA[\s>]/.test(text) && new ColladaLoader(manager).parse(text, folder);
-    if (!loaded) throw new Error("this is no COLLADA");
+    if (!loaded) throw new Error("this is not COLLADA");
     loaded.scene.rotation.set(0, 0, 0); // RViz takes the numbers as they are, whatever is "up"
     return { object: loaded.scene, isOwn: true };
   },
@@ -92,27 +92,27 @@ async function fetchMesh({ url, name }) {
 async function parse(name, bytes, folder) {
   const format = name.split(".").pop().toLowerCase();
   if (!Object.hasOwn(PARSERS, format)) {
-    throw new Error(`'${name}' is none of ${Object.keys(PARSERS).join(", ")}`);
+    throw new Error(`'${name}' is not one of ${Object.keys(PARSERS).join(", ")}`);
   }
   const manager = new LoadingManager();
   let problem = "";
   let images = null;
   manager.onStart = () => (images = new Promise((resolve) => (manager.onLoad = resolve)));
   manager.onError = (url) => {
-    problem ||= `'${name}' asks for '${url.split("/").pop()}', which cannot be loaded`;
+    problem ||= `'${name}' needs '${url.split("/").pop()}', which cannot be loaded`;
   };
   let object, isOwn;
   try {
     ({ object, isOwn } = await PARSERS[format](bytes, folder, manager));
   } catch (error) {
-    throw new Error(`'${name}' is no ${format.toUpperCase()} that can be read: ${error.message}`);
+    throw new Error(`'${name}' is not a readable ${format.toUpperCase()} file: ${error.message}`);
   }
   await images;
   keepSolids(object);
   const extent = new Box3().setFromObject(object);
   if (extent.isEmpty() || ![...extent.min, ...extent.max].every(Number.isFinite)) {
     free(object);
-    throw new Error(`'${name}' holds no triangles that can be drawn`);
+    throw new Error(`'${name}' contains no triangles to draw`);
   }
   const holder = new Group(); // the object has a scale and a turn of its own
   holder.add(object);

@@ -56,7 +56,7 @@ export class PictureWindow {
   label(name, details) {
     this.#name.textContent = name;
     this.#details.textContent = details;
-    this.canvas.setAttribute("aria-label", `Picture of ${name}, ${details}`);
+    this.canvas.setAttribute("aria-label", `Image of ${name}, ${details}`);
   }
 
   setVisible(isVisible) {
@@ -128,7 +128,7 @@ export class PictureWindow {
   #makeMovable() {
     const caption = this.#caption;
     caption.tabIndex = 0;
-    caption.title = "Drag, or use the arrow keys, to move the picture";
+    caption.title = "Drag, or use the arrow keys, to move the image";
     this.#frame.addEventListener("pointerdown", () => this.#raise());
     caption.addEventListener("keydown", (event) => {
       const step = STEPS[event.key];
@@ -156,8 +156,8 @@ function overlap([x, y, width, height], [left, top, across, down]) {
 
 function closeButton(close) {
   const button = document.createElement("button");
-  Object.assign(button, { type: "button", textContent: "✕", title: "Hide the picture" });
-  button.setAttribute("aria-label", "Hide the picture");
+  Object.assign(button, { type: "button", textContent: "✕", title: "Hide the image" });
+  button.setAttribute("aria-label", "Hide the image");
   button.onclick = close;
   return button;
 }

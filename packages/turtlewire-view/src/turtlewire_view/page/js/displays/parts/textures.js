@@ -12,7 +12,7 @@ export async function loadTexture({ url, name }, bytes) {
   try {
     bitmap = await createImageBitmap(blob);
   } catch {
-    throw new Error(`'${name}' is no image that this browser can read`);
+    throw new Error(`'${name}' is not an image that this browser can read`);
   }
   const texture = new Texture(bitmap);
   texture.flipY = false;
