@@ -44,7 +44,7 @@ if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is signal.SIG_I
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_auto_num_workers():
-    """How many processes share the tests (`-n auto`): two for each core, as many tests wait."""
+    """Return the number of processes for `-n auto`: two per core, because many tests wait."""
     return min(8, 2 * (os.cpu_count() or 1))
 
 
@@ -229,9 +229,9 @@ def other_domain():
 
 @pytest.fixture
 def foreign_server():
-    """Adds servers to a node /stranger that announce no ``serviceid``, as those of Fast DDS do.
+    """Add servers to a node /stranger that announce no ``serviceid``, like servers on Fast DDS.
 
-    They read requests, and nothing else.
+    They only read requests.
     """
     from turtlewire import msg
     from turtlewire.wire import names, open_context
@@ -311,7 +311,7 @@ class Outcome:
 
     @property
     def messages(self):
-        """What `LogInfo` logged, in order."""
+        """Messages of `LogInfo`, in order."""
         return [
             match[1]
             for line in self.lines
@@ -320,7 +320,7 @@ class Outcome:
 
     @property
     def error(self):
-        """What ended the launch."""
+        """Error that ended the launch."""
         head = "[ERROR] [launch]: Caught exception in launch (see debug for traceback): "
         (found,) = (line.removeprefix(head) for line in self.lines if line.startswith(head))
         return found

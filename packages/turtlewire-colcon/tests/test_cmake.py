@@ -270,7 +270,8 @@ def test_a_missing_package_is_an_error_where_it_is_needed(evaluate):
     plan, _ = evaluate("find_package(nobody_has_this_msgs REQUIRED)\nfind_package(neither QUIET)")
     (line,) = plan.missing
     assert line.split("CMakeLists.txt")[1] == (
-        ":4: there is no package 'nobody_has_this_msgs'; add it to the workspace, source a workspace that has it, or install it"
+        ":4: there is no package 'nobody_has_this_msgs'; add it to the workspace, source a "
+        "workspace that has it, or install it"
     )
     plan, _ = evaluate("find_package(urdf REQUIRED)\nfind_package(urdf_of_nobody REQUIRED)")
     assert [":5: there is no package 'urdf_of_nobody'" in line for line in plan.missing] == [True]

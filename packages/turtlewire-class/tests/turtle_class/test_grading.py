@@ -47,7 +47,7 @@ def test_a_solution_passes(tmp_path):
 @pytest.mark.parametrize(
     ("name", "text", "hint"),
     [
-        ("endless", "did not come to an end", "use a timer instead of a loop"),
+        ("endless", "did not return", "use a timer instead of a loop"),
         ("exits", "ended with status 0", "Something ended the whole Python process"),
         ("forks", "calls os.fork", "neither starts programs nor ends others"),
         ("crashes", "ended with status", "a library that crashed"),

@@ -171,11 +171,11 @@ def test_an_endless_loop_is_stopped_and_the_tab_lives_on(open_page, where):
         page.evaluate("window.before = true")
     hand_in(page, "listener", files)
     page.wait_for_selector("#mistake:not([hidden])")
-    assert "did not come to an end" in page.text_content("#mistake")
+    assert "did not return" in page.text_content("#mistake")
     if where == "check":
         passed, text = check(page)[-1]
         assert passed == "no"
-        assert "did not come to an end" in text
+        assert "did not return" in text
     page.click("#reset")
     page.wait_for_function("() => document.getElementById('status').textContent === 'running'")
     wait_for_words(page, r"^turtle1 is 0\.\d+ m ahead")
@@ -186,14 +186,14 @@ def test_an_endless_loop_is_stopped_and_the_tab_lives_on(open_page, where):
     [
         ("import threading; threading.Thread(target=print).start()", "A tab has one thread"),
         ("[0] * 10**10", "more than the memory of a tab"),
-        ("input('who? ')", "Nobody can type here"),
+        ("input('who? ')", "no keyboard input here"),
         ("f = lambda: f(); f()", "calls itself again and again"),
         (  # on a slow machine the time is over before all memory is filled
             "kept = []\n        while True: kept.append(bytearray(10**8))",
-            "the memory of a tab|did not come to an end",
+            "the memory of a tab|did not return",
         ),
-        ("import time; time.sleep(1e9)", "did not come to an end"),
-        ("while True: print('a line')", "did not come to an end"),
+        ("import time; time.sleep(1e9)", "did not return"),
+        ("while True: print('a line')", "did not return"),
         ("import os; os._exit(1)", "ended Python itself"),
     ],
 )
@@ -224,7 +224,7 @@ def test_without_a_service_worker_the_loop_is_stopped_by_another_worker(open_pag
     assert not page.evaluate("crossOriginIsolated")
     hand_in(page, "listener", listener_with("msg = Twist()", "\n        while True: pass"))
     page.wait_for_selector("#mistake:not([hidden])")
-    assert "did not come to an end" in page.text_content("#mistake")
+    assert "did not return" in page.text_content("#mistake")
     page.click("#reset")
     wait_for_words(page, r"^turtle1 is 0\.\d+ m ahead")
 

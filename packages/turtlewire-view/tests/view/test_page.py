@@ -269,7 +269,7 @@ def test_the_picture_comes_back_after_the_browser_took_it(page):
     assert tuple(page.evaluate(PIXELS, [[0, 0, 0]])[0]) != GROUND
     in_page(page, "globalThis.gl = stage.view.canvas.getContext('webgl2')"
                   ".getExtension('WEBGL_lose_context'); gl.loseContext();")  # fmt: skip
-    page.wait_for_selector("#notice:text('taken the picture away')")
+    page.wait_for_selector("#notice:text('WebGL context lost')")
     page.evaluate("gl.restoreContext()")
     page.wait_for_selector("#notice", state="hidden")
     (red, green, blue), ground = page.evaluate(PIXELS, [[1.5, 0, 0], [1, 2.5, 2.5]])

@@ -29,7 +29,7 @@ LEFT = (0.0, 0.0, math.sin(math.pi / 4), math.cos(math.pi / 4))
             "a is 1.00 m ahead and 0.25 m above b, and looks 90° further to the right.",
         ),
         ((0, 0, 1), (LEFT[2], 0, 0, LEFT[3]), "a is 1.00 m above b, and is turned by 90°."),
-        ((math.nan, 0, 0), SAME, "a is not at a finite place as b sees it."),
+        ((math.nan, 0, 0), SAME, "a has no finite position in b."),
     ],
 )
 def test_sentences(translation, rotation, sentence):

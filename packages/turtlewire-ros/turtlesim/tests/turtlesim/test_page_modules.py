@@ -47,7 +47,7 @@ SENTENCES = [
             "same way"
         ),
     ),
-    ((1, None, 0), (0, 1), "turtle1 is not at a finite place as turtle2 sees it"),
+    ((1, None, 0), (0, 1), "turtle1 has no finite position in turtle2"),
 ]
 
 

@@ -58,7 +58,9 @@ export class Card {
 
   #transforms(seat) {
     if (!seat.count || seat.frames === null) return "";
-    if (seat.follow !== null) return `According to TF, turtle2 is ${seat.follow.toFixed(1)} m from turtle1.`;
+    if (seat.follow !== null) {
+      return `According to TF, turtle2 is ${seat.follow.toFixed(1)} m from turtle1.`;
+    }
     return seat.frames ? `${seat.frames} frames, but not of both turtles` : "No transforms yet";
   }
 

@@ -46,7 +46,7 @@ export class Panel {
     hint.hidden = !missing.length;
     hint.replaceChildren(...missing.slice(0, 1).flatMap((name) => {
       const text = document.createElement("span");
-      text.textContent = `A node is waiting for ${name}, but there is no turtle with this name yet.`;
+      text.textContent = `A node is waiting for ${name}, but this turtle does not exist yet.`;
       const button = document.createElement("button");
       button.type = "button";
       button.textContent = `Spawn ${name}`;

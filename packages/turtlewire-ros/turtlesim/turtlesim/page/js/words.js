@@ -37,7 +37,7 @@ export function transformInWords(sourceName, targetName, { translation, rotation
   const place = placeInWords(sourceName, targetName, { ahead, left, up });
   const [x, y, z, w] = rotation;
   const yaw = (Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)) * 180) / Math.PI;
-  if (Math.abs(yaw) < NOTHING_DEGREES) return `${place}, with the same heading`;
+  if (Math.abs(yaw) < NOTHING_DEGREES) return `${place}, and looks the same way`;
   const side = yaw > 0 ? "left" : "right";
   return `${place}, and looks ${Math.abs(yaw).toFixed(0)}° further to the ${side}`;
 }

@@ -251,7 +251,8 @@ listenForFiles(() => ({
   camera: stage?.cameras.isTouched ? stage.cameras.saved(frames.origin) : null,
 }), send, (text) => notice(text, "error"));
 if (stage) {
-  const loss = "The browser closed the 3D view (WebGL context lost). The tree and the numbers keep updating.";
+  const loss = "The browser closed the 3D view (WebGL context lost). "
+    + "The tree and the numbers keep updating.";
   stage.view.lost.push((isLost) => notice(isLost ? loss : "", "error", false));
   stage.view.afterDraw((now) => {
     if (!displays.list.some(({ visible }) => visible)) return;

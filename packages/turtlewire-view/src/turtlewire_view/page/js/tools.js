@@ -17,11 +17,12 @@ const TOOLS = [
   },
   {
     name: "pose_estimate", label: "Pose", key: "p", drags: true,
-    help: "Drag from the robot's position in the direction of its heading; published on /initialpose.",
+    help: "Drag from the robot's position in the direction of its heading; publishes "
+      + "/initialpose.",
   },
   {
     name: "goal", label: "Goal", key: "g", drags: true,
-    help: "Drag from the goal in the direction of the heading there; published on /goal_pose.",
+    help: "Drag from the goal in the direction of the heading there; publishes /goal_pose.",
   },
 ];
 /** The tools that need a source one can publish to. */
