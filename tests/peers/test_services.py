@@ -166,8 +166,8 @@ def test_node_info_and_doctor_tell_what_cannot_be_called(peer, command):
     assert status == 0
     assert "    /echo: test_msgs/srv/BasicTypes\n" in text
     assert (
-        "The services of /peer, including parameters and actions, cannot be called from here: it runs "
-        f"on Fast DDS (rmw_fastrtps_cpp). {ADVICE.format('node')}"
+        "The services of /peer, including parameters and actions, cannot be called from here: it "
+        f"runs on Fast DDS (rmw_fastrtps_cpp). {ADVICE.format('node')}"
     ) in text
     status, text = command("turtlewire", "doctor")
     assert re.search(

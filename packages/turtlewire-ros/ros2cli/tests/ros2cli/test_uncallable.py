@@ -150,8 +150,8 @@ def test_managed_nodes_and_containers_are_listed_without_a_request(stranger, cap
 def test_node_info_tells_it(stranger, capsys):
     assert main(["node", "info", "/stranger"]) == 0
     assert capsys.readouterr().err.startswith(
-        "The services of /stranger, including parameters and actions, cannot be called from here: it "
-        "runs on a middleware that announces no serviceid. Start the node with "
+        "The services of /stranger, including parameters and actions, cannot be called from here: "
+        "it runs on a middleware that announces no serviceid. Start the node with "
     )
 
 
