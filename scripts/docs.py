@@ -154,7 +154,7 @@ def sphinx(builder: str, output: Path, *settings: str, caches: Path) -> None:
     """Run Sphinx; its warnings are errors.
 
     Raises:
-        BuildError: It failed; its text says why.
+        BuildError: The build failed; the message says why.
     """
     environment = {**os.environ, "PYTHONPATH": str(TOOLS), "PYTHONHASHSEED": "0"}
     command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-j", "auto"]

@@ -74,7 +74,7 @@ def check_wheel(path: Path, package: str | None) -> None:
         package: The only package that it may have; None: any, none of them compiled.
 
     Raises:
-        ReleaseError: There is something else in it, or the module is missing.
+        ReleaseError: The wheel contains unexpected files, or the module is missing.
     """
     with zipfile.ZipFile(path) as archive:
         names = archive.namelist()

@@ -24,7 +24,7 @@ def run(
     """Run a step, and say how long it took; returns what it printed.
 
     Raises:
-        ReleaseError: It failed; what it printed has been shown.
+        ReleaseError: The command failed; its output was printed.
     """
     say(f"{what} …")
     started = time.monotonic()
@@ -48,7 +48,7 @@ def install_locked(python: Path, lock: str, *, what: str) -> None:
     """Install the releases of a file of ``scripts/locks``, checked by their hashes.
 
     Raises:
-        ReleaseError: It failed; what pip printed has been shown.
+        ReleaseError: pip failed; its output was printed.
     """
     file = ROOT / "scripts" / "locks" / f"{lock}.txt"
     run(python, "-m", "pip", "install", "-q", "--require-hashes", "-r", file, what=what)

@@ -63,7 +63,7 @@ def interpreters(versions: tuple[str, ...]) -> dict[str, str]:
     """Return the Pythons that this machine has, by version.
 
     Raises:
-        ReleaseError: It has none of them.
+        ReleaseError: A version is not installed.
     """
     found = {version: path for version in versions if (path := interpreter(version))}
     missing = [version for version in versions if version not in found]

@@ -110,7 +110,7 @@ def chosen(names: Sequence[str]) -> list[Exercise]:
     """Return the exercises of these names, or all if there are none.
 
     Raises:
-        ClassError: There is no exercise of such a name.
+        ClassError: No exercise has one of the names.
     """
     known = {exercise.name: exercise for exercise in exercises()}
     for name in names:

@@ -51,7 +51,7 @@ def students_in(folder: Path) -> list[Path]:
     """Return the students' folders, by name.
 
     Raises:
-        ClassError: There is no such folder, or none in it.
+        ClassError: The folder does not exist, or has no subfolders.
     """
     if not folder.is_dir():
         raise ClassError(f"there is no folder {printable(str(folder))}")

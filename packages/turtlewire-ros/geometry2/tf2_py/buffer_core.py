@@ -191,7 +191,7 @@ class BufferCore:
         """Return the frames from the source over the fixed frame to the target.
 
         Raises:
-            TransformException: They are not connected at these times.
+            TransformException: The frames are not connected at these times.
         """
         self.lookup_transform_full_core(
             target_frame, target_time, source_frame, source_time, fixed_frame

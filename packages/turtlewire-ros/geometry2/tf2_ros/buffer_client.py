@@ -105,7 +105,7 @@ class BufferClient(BufferInterface):
             timeout: How long the server may wait for the data.
 
         Raises:
-            TimeoutException: There is no server, or it does not answer.
+            TimeoutException: The server does not exist or does not answer.
             TransformException: The lookup failed on the server.
             TypeError: ``time`` is not a time.
         """

@@ -225,7 +225,7 @@ class TransformRegistration:
         """Return the function for a type.
 
         Raises:
-            TypeException: None is registered.
+            TypeException: No function is registered for the type.
         """
         try:
             return self._transforms[key]

@@ -242,7 +242,7 @@ def chain(buffer: Buffer, source: str, target: str) -> list[str]:
     """Return the frames from one frame to another, both included.
 
     Raises:
-        TransformException: They are not connected.
+        TransformException: The frames are not connected.
     """
     buffer.lookup_transform(target, source, Time())
     links = read_frame_tree(buffer.engine).links

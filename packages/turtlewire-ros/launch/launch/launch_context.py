@@ -101,7 +101,7 @@ class LaunchContext:
         """Remove a handler.
 
         Raises:
-            ValueError: It is not registered.
+            ValueError: The handler is not registered.
         """
         self._run.unregister(event_handler)
 

@@ -21,6 +21,6 @@ class Substitution:
         """Return the text, in the given context.
 
         Raises:
-            SubstitutionFailure: There is no text in this context.
+            SubstitutionFailure: The substitution has no value in this context.
         """
         raise NotImplementedError(f"{type(self).__name__} does not define perform()")

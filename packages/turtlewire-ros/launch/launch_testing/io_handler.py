@@ -52,7 +52,7 @@ class IoHandler:
         """Return the output of a process, given by its action or by its name.
 
         Raises:
-            KeyError: It is not known.
+            KeyError: The process is unknown.
         """
         name = key if isinstance(key, str) else (key.process_details or {}).get("name", key)
         return list(self._by_name[name])
@@ -157,7 +157,7 @@ class ActiveIoHandler:
         """Wait as :meth:`waitFor` does.
 
         Raises:
-            AssertionError: It was not written in time.
+            AssertionError: The output was not written in time.
         """
         assert self.waitFor(*args, **kwargs), self._failure(*args, **kwargs)
 

@@ -46,7 +46,7 @@ class ProcInfoHandler:
         """Return the last event of a process, given by its action or by its name.
 
         Raises:
-            KeyError: It is not recorded.
+            KeyError: The process is not recorded.
         """
         if not isinstance(key, str):
             return self._events[key]
@@ -109,7 +109,7 @@ class ActiveProcInfoHandler:
             timeout: Seconds to wait at most; None for no limit.
 
         Raises:
-            AssertionError: It still runs, or was never started.
+            AssertionError: The process still runs, or was never started.
         """
         ended = self._wait(
             process, cmd_args, lambda event: isinstance(event, ProcessExited), timeout

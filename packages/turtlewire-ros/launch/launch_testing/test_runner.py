@@ -56,7 +56,7 @@ class LaunchTestRunner:
         """Check that the functions which make the descriptions can be called.
 
         Raises:
-            TypeError: One has parameters that nothing gives it.
+            TypeError: A test has a parameter without a value.
         """
         for run in self._test_runs:
             function = run.test_description_function

@@ -41,8 +41,8 @@ class Parser(BaseParser):
         """Read a file into its root element.
 
         Raises:
-            SyntaxError: It is not XML, may declare entities or is nested too deeply; the text names
-                the file, and the line if there is one.
+            SyntaxError: The file is not XML, declares entities or is nested too deeply; the message
+                names the file and, if known, the line.
         """
         from defusedxml.common import DTDForbidden
         from defusedxml.ElementTree import DefusedXMLParser, parse

@@ -27,8 +27,8 @@ class Parser(BaseParser):
         """Read a file into its root element.
 
         Raises:
-            SyntaxError: It is not YAML; the text names file and line.
-            RuntimeError: It is not a mapping with one key.
+            SyntaxError: The file is not YAML; the message names file and line.
+            RuntimeError: The content is not a mapping with one key.
             ValueError: Its aliases contain themselves, or stand for more elements than a launch
                 file has.
         """

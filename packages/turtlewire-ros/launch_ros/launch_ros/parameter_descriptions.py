@@ -150,8 +150,8 @@ class ParameterFile:
         """Return the path of the file, or of its copy.
 
         Raises:
-            OSError: It cannot be read.
-            SubstitutionFailure: A substitution has no text.
+            OSError: The file cannot be read.
+            SubstitutionFailure: A substitution has no value.
         """
         path = Path(perform_substitutions(context, self._param_file))
         given = self._allow_substs

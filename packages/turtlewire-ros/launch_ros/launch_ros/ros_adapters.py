@@ -42,7 +42,7 @@ class ROSAdapter:
         """Make the node and spin it.
 
         Raises:
-            RuntimeError: It runs already.
+            RuntimeError: The adapter is already running.
         """
         import rclpy
         from rclpy.context import Context
@@ -88,7 +88,7 @@ class ROSAdapter:
         """End node and thread; this ends the waits for services, too.
 
         Raises:
-            RuntimeError: It does not run.
+            RuntimeError: The adapter is not running.
         """
         if self._thread is None:
             raise RuntimeError("Cannot shutdown a ROS adapter that is not running")

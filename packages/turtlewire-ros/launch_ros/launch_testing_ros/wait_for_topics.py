@@ -81,7 +81,7 @@ class WaitForTopics:
         """Return the last messages of a topic.
 
         Raises:
-            KeyError: It is none of the topics.
+            KeyError: The topic was not requested.
         """
         if topic_name not in dict(self.topic_tuples):
             known = ", ".join(topic for topic, _ in self.topic_tuples)

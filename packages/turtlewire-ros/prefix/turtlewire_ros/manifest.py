@@ -33,7 +33,7 @@ def read_manifest(path: Path) -> Manifest:
     """Read a package.xml.
 
     Raises:
-        ManifestError: It is missing, is no XML, or has no name or version.
+        ManifestError: The file is missing, is not XML, or has no name or version.
     """
     from defusedxml.ElementTree import parse
 

@@ -189,8 +189,8 @@ def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None 
             context is shut down.
 
     Raises:
-        RuntimeError: It was never initialized, or was shut down before by a call (after a signal,
-            one call is fine).
+        RuntimeError: The context was never initialized, or was already shut down by a call (after a
+            signal, one call is fine).
     """
     is_default = context is None or context is get_default_context()
     _shutdown(context=context)

@@ -75,9 +75,9 @@ class Context:
             domain_id: None takes ``ROS_DOMAIN_ID``, else 0.
 
         Raises:
-            RuntimeError: It was initialized before, or the domain id is negative.
+            RuntimeError: The context was initialized before, or the domain id is negative.
             UnknownROSArgsError, RCLInvalidROSArgsError: The command line is wrong.
-            UnicodeEncodeError: It is not UTF-8.
+            UnicodeEncodeError: The command line is not UTF-8.
             WireError: The middleware is missing, or its settings are wrong.
         """
         from turtlewire.errors import WireError
@@ -164,8 +164,8 @@ class Context:
         """Leave the domain: run the shutdown callbacks, end all waits, close all endpoints.
 
         Raises:
-            RuntimeError: It was never initialized.
-            RCLError: It was shut down before, by a call.
+            RuntimeError: The context was never initialized.
+            RCLError: The context was already shut down by a call.
         """
         with self._lock:
             if self._wire is None:

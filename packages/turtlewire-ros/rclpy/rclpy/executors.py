@@ -87,7 +87,7 @@ class Executor:
             False when this executor serves it already.
 
         Raises:
-            TypeError: It is no node.
+            TypeError: The argument is not a node.
         """
         node = _node_of(node)
         with self._rclpy_scheduler.lock:
@@ -265,7 +265,7 @@ def _node_of(node: Any) -> Node:
     """Return the node, or the one in the attribute ``node``, as the nodes of ros2cli have it.
 
     Raises:
-        TypeError: It is no node.
+        TypeError: The argument is not a node.
     """
     from .node import Node
 

@@ -66,7 +66,7 @@ def set_logger_level(name: str, level: int, detailed_error: bool = False) -> Non
     """Set the level of a logger; an empty name means the default, ``UNSET`` inherits.
 
     Raises:
-        ValueError: There is no such severity.
+        ValueError: The severity does not exist.
     """
     log_levels.set_level(name, LoggingSeverity(level))
 
@@ -88,7 +88,7 @@ def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
     """Return the severity of a name such as ``info``; upper and lower case are the same.
 
     Raises:
-        RuntimeError: There is no such severity.
+        RuntimeError: The severity does not exist.
     """
     try:
         return LoggingSeverity[log_severity.upper()]

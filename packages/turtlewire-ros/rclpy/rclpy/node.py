@@ -581,7 +581,7 @@ class Node:
             The parameter, with the override as its value if there is one.
 
         Raises:
-            ParameterAlreadyDeclaredException: It was declared before.
+            ParameterAlreadyDeclaredException: The parameter is already declared.
             InvalidParameterException: The name is not valid.
             InvalidParameterTypeException: The override has another type.
             InvalidParameterValueException: A callback or the descriptor refuses the value.
@@ -602,7 +602,7 @@ class Node:
 
         Raises:
             ParameterNotDeclaredException: The parameter is not declared.
-            ParameterImmutableException: It is read-only.
+            ParameterImmutableException: The parameter is read-only.
         """
         self._parameters.undeclare_parameter(name)
 
@@ -614,8 +614,10 @@ class Node:
         """Return a parameter.
 
         Raises:
-            ParameterNotDeclaredException: It is not declared, and undeclared ones are not allowed.
-            ParameterUninitializedException: It was declared by type alone and has no value yet.
+            ParameterNotDeclaredException: The parameter is not declared, and undeclared parameters
+                are not allowed.
+            ParameterUninitializedException: The parameter was declared only with a type, and has no
+                value yet.
         """
         return self._parameters.get_parameter(name)
 

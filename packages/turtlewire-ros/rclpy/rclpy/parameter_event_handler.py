@@ -126,7 +126,7 @@ class ParameterEventHandler:
         """Undo :meth:`add_parameter_event_callback`.
 
         Raises:
-            RuntimeError: It was removed before.
+            RuntimeError: The callback was already removed.
         """
         if handle not in self._event_callbacks:
             raise RuntimeError("Callback doesn't exist")
@@ -154,7 +154,7 @@ class ParameterEventHandler:
         """Undo :meth:`add_parameter_callback`.
 
         Raises:
-            RuntimeError: It was removed before.
+            RuntimeError: The callback was already removed.
         """
         if handle not in self._parameter_callbacks:
             raise RuntimeError("Callback doesn't exist")

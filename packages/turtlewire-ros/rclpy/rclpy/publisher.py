@@ -67,7 +67,7 @@ class Publisher(Generic[MsgT]):
         It is not encoded while nobody is there to receive it.
 
         Raises:
-            TypeError: It is neither a ``msg_type`` nor ``bytes``.
+            TypeError: ``msg`` is neither a ``msg_type`` nor ``bytes``.
             CdrError: A field holds what its type cannot.
             InvalidHandle: It was destroyed, perhaps meanwhile and by another thread.
             RCLError: The context was shut down, or the middleware refused it.

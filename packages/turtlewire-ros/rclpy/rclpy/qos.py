@@ -341,7 +341,7 @@ class QoSPresetProfiles(Enum):
         """Return the profile of a short key.
 
         Raises:
-            KeyError: There is no such preset.
+            KeyError: The preset does not exist.
         """
         return cls[name.upper()].value
 

@@ -154,7 +154,7 @@ def _callback_type(callback: Callable[..., Any]) -> Subscription.CallbackType:
     """Return the number of a callback's arguments, one or two.
 
     Raises:
-        RuntimeError: It takes neither.
+        RuntimeError: The callback accepts neither.
     """
     code = getattr(
         callback, "__code__", None

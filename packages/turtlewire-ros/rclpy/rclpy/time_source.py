@@ -89,7 +89,7 @@ class TimeSource:
         """Let a clock follow.
 
         Raises:
-            ValueError: It is no clock of ROS time.
+            ValueError: The clock does not use ROS time.
         """
         if not isinstance(clock, ROSClock) or clock.clock_type is not ClockType.ROS_TIME:
             raise ValueError("Only clocks with type ROS_TIME can be attached.")

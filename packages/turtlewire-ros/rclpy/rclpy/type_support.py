@@ -28,7 +28,7 @@ def check_for_type_support(msg_or_srv_type: Any) -> None:
     """Make sure that something is a generated message, service or action class.
 
     Raises:
-        AttributeError: It is not; the text is ROS 2's.
+        AttributeError: The type is not supported; the message is ROS 2's.
         NoTypeSupportImportedException: ROS 2's own code generator made it, for its C libraries.
     """
     if not isinstance(msg_or_srv_type, type) or not issubclass(
@@ -53,8 +53,8 @@ def check_is_valid_msg_type(msg_type: Any) -> None:
     """Make sure that something is a message class.
 
     Raises:
-        RuntimeError: It is a service or action class; AttributeError when it is no interface class
-            at all.
+        RuntimeError: The type is a service or action class. (AttributeError if it is not an
+            interface class.)
     """
     check_for_type_support(msg_type)
     if not issubclass(msg_type, msg.Message):
@@ -67,8 +67,8 @@ def check_is_valid_srv_type(srv_type: Any) -> None:
     """Make sure that something is a service class.
 
     Raises:
-        RuntimeError: It is a message or action class; AttributeError when it is no interface class
-            at all.
+        RuntimeError: The type is a message or action class. (AttributeError if it is not an
+            interface class.)
     """
     check_for_type_support(srv_type)
     if not issubclass(srv_type, msg.Service):

@@ -16,7 +16,7 @@ def validate_namespace(namespace: str) -> bool:
         True.
 
     Raises:
-        InvalidNamespaceException: It breaks a rule.
+        InvalidNamespaceException: The namespace is invalid.
     """
     fault = names.validate_namespace(namespace)
     if fault is not None:

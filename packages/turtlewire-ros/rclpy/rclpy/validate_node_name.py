@@ -16,7 +16,7 @@ def validate_node_name(node_name: str) -> bool:
         True.
 
     Raises:
-        InvalidNodeNameException: It breaks a rule.
+        InvalidNodeNameException: The name is invalid.
     """
     fault = names.validate_node_name(node_name)
     if fault is not None:

@@ -154,7 +154,7 @@ class JointStatePublisher(Node):
         """Learn the joints of a description.
 
         Raises:
-            DescriptionError: It cannot be used; the joints stay as they are.
+            DescriptionError: The description is invalid; the joints stay unchanged.
             LoggedError: Likewise, because joints mimic each other in a circle.
         """
         joints = read_joints(text, self._options, self._warn)

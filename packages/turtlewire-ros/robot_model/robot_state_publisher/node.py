@@ -78,7 +78,7 @@ class RobotStatePublisher(Node):
         **options: Options of the node.
 
     Raises:
-        StartError: There is no description, or it or another parameter is refused.
+        StartError: The description is missing, or it or another parameter is invalid.
     """
 
     def __init__(self, *, urdf_file: str | None = None, **options: Any) -> None:

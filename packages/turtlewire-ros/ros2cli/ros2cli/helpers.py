@@ -60,7 +60,7 @@ def unsigned_int(string: str) -> int:
     """Return a whole number from zero, for argparse.
 
     Raises:
-        ArgumentTypeError: It is negative.
+        ArgumentTypeError: The number is negative.
     """
     return _unsigned_int(string)
 

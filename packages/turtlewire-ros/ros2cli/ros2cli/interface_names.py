@@ -25,7 +25,7 @@ def prototype(name: str) -> str:
         name: Full name of the interface, for example ``geometry_msgs/msg/Twist``.
 
     Raises:
-        ValueError: It is not the name of an interface.
+        ValueError: ``name`` is not the name of an interface.
         ModuleNotFoundError: The package is unknown.
         AttributeError: The package has no such interface.
     """

@@ -91,7 +91,7 @@ def satisfies_version(version: str, caret_range: str) -> None:
         caret_range: For example ``^0.1``: the same until the first number that is not zero.
 
     Raises:
-        PluginException: It is too old or too new.
+        PluginException: The version is too old or too new.
     """
     assert caret_range.startswith("^"), "expected a range that begins with ^"
     lower = _numbers(caret_range[1:])

@@ -24,8 +24,8 @@ def read_values(text: str) -> dict[str, Any]:
     """Return the mapping that a YAML text is; an empty text is an empty one.
 
     Raises:
-        RuntimeError: It is not a mapping, holds a date of no calendar, or aliases or nesting make
-            it too large.
+        RuntimeError: The text is not a mapping, contains an invalid date, or is too large because
+            of aliases or nesting.
         yaml.YAMLError: It is no YAML.
     """
     import yaml

@@ -52,7 +52,7 @@ def get_package_component_types(*, package_name: str | None = None) -> list[str]
     """Names of the components that a package registers.
 
     Raises:
-        LookupError: It registers none.
+        LookupError: The package registers no components.
     """
     from ament_index_python import get_resource
 

@@ -17,7 +17,7 @@ def interface_to_yaml(identifier: str) -> str:
         identifier: Name of the interface, for example ``geometry_msgs/msg/Twist``.
 
     Raises:
-        ValueError: It is not the name of an interface.
+        ValueError: ``identifier`` is not the name of an interface.
         ModuleNotFoundError: The package is unknown.
         AttributeError: The package has no such interface.
     """

@@ -67,7 +67,7 @@ def ask(direct: DirectNode, service_class: Any, service: str, request: Any) -> A
     """Call a service of a managed node.
 
     Raises:
-        RuntimeError: It does not answer, or would misread the request.
+        RuntimeError: The server does not answer, or would misread the request.
     """
     client = direct.node.create_client(service_class, service)
     if not direct.wait_for_server(client.service_name, client.service_is_ready, _TIMEOUT_S):

@@ -94,7 +94,7 @@ class MulticastSocket:
             timeout: Seconds to wait; None waits without a limit.
 
         Raises:
-            TimeoutError: None came in time.
+            TimeoutError: No datagram arrived in time.
         """
         self._receiver.settimeout(timeout)
         return self._receiver.recvfrom(_LONGEST)
@@ -118,7 +118,7 @@ def receive(
         timeout: Seconds to wait; None waits without a limit.
 
     Raises:
-        TimeoutError: None came in time.
+        TimeoutError: No datagram arrived in time.
     """
     with MulticastSocket(group, port) as multicast:
         return multicast.receive(timeout)

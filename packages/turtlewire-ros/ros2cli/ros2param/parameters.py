@@ -59,7 +59,7 @@ class Question:
         """Send the request as soon as the service is there.
 
         Raises:
-            RuntimeError: It does not appear, or it would misread the request.
+            RuntimeError: The node does not appear, or would misread the request.
         """
         ready = self._client.service_is_ready
         if not self._direct.wait_for_server(self._client.service_name, ready, self._timeout):
@@ -98,7 +98,7 @@ class RemoteParameters:
         args: The command line.
 
     Raises:
-        RuntimeError: There is no such node.
+        RuntimeError: The node does not exist.
     """
 
     def __init__(self, direct: DirectNode, args: argparse.Namespace) -> None:

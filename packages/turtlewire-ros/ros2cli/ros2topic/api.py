@@ -207,7 +207,7 @@ def profile_configure_short_keys(
     """Change a profile by the names of policies on a command line.
 
     Raises:
-        ValueError: There is no profile, or no policy of a name.
+        ValueError: ``profile`` is None, or a policy has no such value.
     """
     from ros2cli.qos_options import configure
 
@@ -229,7 +229,7 @@ def qos_profile_from_short_keys(
     """Return a named profile, changed by the names of policies on a command line.
 
     Raises:
-        ValueError: There is no profile or policy of a name.
+        ValueError: A profile or policy value does not exist.
     """
     from ros2cli.qos_options import preset
 

@@ -72,7 +72,7 @@ def check_path_exists(value: str) -> str:
     """Return a path that exists, for argparse.
 
     Raises:
-        ArgumentTypeError: There is nothing.
+        ArgumentTypeError: The path does not exist.
     """
     return bag_options.bag_path(value)
 

@@ -133,7 +133,7 @@ def remap_words(rules: list[str]) -> list[str]:
     """Remapping rules as words of a command line.
 
     Raises:
-        RuntimeError: One has no ``:=``.
+        RuntimeError: A rule has no ``:=``.
     """
     for rule in rules:
         if ":=" not in rule:

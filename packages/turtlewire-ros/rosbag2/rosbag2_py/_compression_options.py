@@ -43,7 +43,7 @@ def compression_mode_from_string(compression_mode: str) -> CompressionMode:
     """Return a mode from its name in any case; empty means NONE.
 
     Raises:
-        RuntimeError: There is no such mode.
+        RuntimeError: The mode does not exist.
     """
     name = compression_mode.upper() or "NONE"
     if name not in CompressionMode.__members__:

@@ -21,7 +21,7 @@ class Info:
         """Metadata of a bag, from ``metadata.yaml`` or from its files.
 
         Raises:
-            RuntimeError: There is no such bag, or it cannot be read.
+            RuntimeError: The bag does not exist or cannot be read.
         """
         with _opened(uri) as bag:
             metadata = from_engine(bag.metadata, folder_size(uri))
@@ -33,7 +33,7 @@ class Info:
         """Print the text of ``ros2 bag info --verbose``, which counts requests and responses.
 
         Raises:
-            RuntimeError: There is no such bag, or it cannot be read.
+            RuntimeError: The bag does not exist or cannot be read.
         """
         metadata = self.read_metadata(uri, storage_id)
         with _opened(uri) as bag:

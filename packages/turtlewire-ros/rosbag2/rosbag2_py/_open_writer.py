@@ -52,7 +52,7 @@ def make_writer(storage_options: StorageOptions, compression_mode: str) -> BagWr
         compression_mode: ``FILE``, ``MESSAGE`` or empty.
 
     Raises:
-        RuntimeError: It exists, or the options do not fit.
+        RuntimeError: The bag already exists, or the options are incompatible.
     """
     storage = storage_options.storage_id or "mcap"
     size = storage_options.max_bagfile_size

@@ -22,7 +22,7 @@ class Player:
         log_level: ``debug``, ``info``, ``warn``, ``error`` or ``fatal``.
 
     Raises:
-        RuntimeError: There is no such level.
+        RuntimeError: The level does not exist.
     """
 
     _running: ClassVar[set[queue.SimpleQueue[None]]] = set()
@@ -34,7 +34,7 @@ class Player:
         """Play to the end or until `cancel`; in the main thread also until SIGINT or SIGTERM.
 
         Raises:
-            RuntimeError: There is no such bag, or an option is wrong.
+            RuntimeError: The bag does not exist, or an option is invalid.
         """
         stop: queue.SimpleQueue[None] = queue.SimpleQueue()
         self._running.add(stop)
@@ -54,7 +54,7 @@ class Player:
             num_messages: How many messages; 0 for all.
 
         Raises:
-            RuntimeError: There is no such bag, or an option is wrong.
+            RuntimeError: The bag does not exist, or an option is invalid.
         """
         stop: queue.SimpleQueue[None] = queue.SimpleQueue()
         self._running.add(stop)

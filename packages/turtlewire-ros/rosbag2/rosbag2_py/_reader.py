@@ -59,7 +59,7 @@ class SequentialReader:
         """Open a bag; it begins at its first message.
 
         Raises:
-            RuntimeError: There is no such bag, it cannot be read, or not as the format asked for.
+            RuntimeError: The bag does not exist, cannot be read, or not in the requested format.
         """
         if converter_options is not None:
             check_format(converter_options.output_serialization_format)

@@ -25,7 +25,7 @@ class Reindexer:
         What is damaged is logged as warnings, with what was kept.
 
         Raises:
-            RuntimeError: It is no folder with files of a bag.
+            RuntimeError: The path is not a folder with files of a bag.
         """
         if not os.path.isdir(storage_options.uri):
             raise RuntimeError(f"{storage_options.uri} is not a bag directory")

@@ -92,7 +92,7 @@ def check_format(name: str) -> None:
     """Refuse a serialization format other than ``cdr``, which an empty text means, too.
 
     Raises:
-        RuntimeError: Nothing converts from or to it.
+        RuntimeError: No converter exists for the format.
     """
     if name not in ("", "cdr"):
         raise RuntimeError(f"Could not find converter for format {name}; there is only cdr")
@@ -178,7 +178,7 @@ class MetadataIo:
         """Metadata from YAML.
 
         Raises:
-            RuntimeError: It cannot be understood.
+            RuntimeError: The metadata are invalid.
         """
         from turtlewire.bag.qos_yaml import load_yaml
 

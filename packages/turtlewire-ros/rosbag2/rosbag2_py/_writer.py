@@ -66,7 +66,8 @@ class SequentialWriter:
         """Begin a bag.
 
         Raises:
-            RuntimeError: It exists, the options do not fit, or a format is not known.
+            RuntimeError: The bag already exists, the options are incompatible, or a format is
+                unknown.
         """
         if converter_options is not None:
             check_format(converter_options.input_serialization_format)

@@ -42,7 +42,7 @@ def play(path: str, options: PlayOptions, stop: queue.SimpleQueue[None]) -> None
         stop: Ends the playback.
 
     Raises:
-        RuntimeError: There is no such bag, or an option is wrong.
+        RuntimeError: The bag does not exist, or an option is invalid.
     """
     _with_player(path, options, stop, lambda _player: None)
 
@@ -57,7 +57,7 @@ def burst(path: str, options: PlayOptions, stop: queue.SimpleQueue[None], count:
         count: How many messages; 0 for all.
 
     Raises:
-        RuntimeError: There is no such bag, or an option is wrong.
+        RuntimeError: The bag does not exist, or an option is invalid.
     """
     options.start_paused = True
     _with_player(path, options, stop, lambda player: player.burst(count))

@@ -52,8 +52,8 @@ class Player:
         on_publish: Called with each message before it is published.
 
     Raises:
-        FileNotFoundError: There is no bag.
-        BagError: It cannot be read.
+        FileNotFoundError: The bag does not exist.
+        BagError: The bag cannot be read.
         RuntimeError: An option is wrong.
     """
 

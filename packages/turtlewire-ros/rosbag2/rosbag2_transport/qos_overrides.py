@@ -37,7 +37,7 @@ def read_qos_overrides(path: str) -> dict[str, QoSProfile]:
 
     Raises:
         RuntimeError: The file does not hold profiles.
-        OSError: It cannot be read.
+        OSError: The file cannot be read.
     """
     with open(path, encoding="utf-8") as file:
         text = file.read()

@@ -27,7 +27,7 @@ def pattern(text: str) -> re.Pattern[str] | None:
     """Return a compiled pattern; None for an empty text.
 
     Raises:
-        RuntimeError: It is no regular expression.
+        RuntimeError: ``text`` is not a regular expression.
     """
     try:
         return re.compile(text) if text else None
@@ -39,7 +39,7 @@ def check_patterns(options: RecordOptions) -> None:
     """Check the patterns of a recording.
 
     Raises:
-        RuntimeError: One is no regular expression.
+        RuntimeError: A pattern is not a regular expression.
     """
     for text in (options.regex, options.exclude_regex):
         pattern(text)

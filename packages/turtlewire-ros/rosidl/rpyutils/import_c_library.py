@@ -24,7 +24,7 @@ def import_c_library(name: str, package: str | None = None) -> ModuleType:
         package: The package.
 
     Raises:
-        ImportError: It cannot be imported; the text names the page that tells what to do.
+        ImportError: The library cannot be imported; the message names the page with the remedy.
     """
     try:
         with add_dll_directories_from_env("PATH"):

@@ -69,8 +69,8 @@ def get_interface_path(interface_name: str) -> str:
         this distribution's when it was not installed, have their definitions elsewhere.
 
     Raises:
-        ValueError: It is not the name of an interface.
-        LookupError: There is no such package or interface, or no file with that ending.
+        ValueError: ``interface_name`` is not the name of an interface.
+        LookupError: The package, the interface or the file does not exist.
     """
     parts = interface_name.split("/")
     if len(parts) < 2:

@@ -27,7 +27,7 @@ def get_namespaced_type(identifier: str) -> NamespacedType:
     """Type of a name like ``geometry_msgs/msg/Twist``.
 
     Raises:
-        ValueError: It is not a name of three parts.
+        ValueError: ``identifier`` does not have three parts.
     """
     parts = identifier.split("/")
     if len(parts) != 3 or not all(part.isidentifier() for part in parts):
@@ -41,7 +41,7 @@ def get_message_namespaced_type(identifier: str) -> NamespacedType:
     """Type of a message's name, ``geometry_msgs/msg/Twist`` or ``geometry_msgs/Twist``.
 
     Raises:
-        ValueError: It is not the name of a message.
+        ValueError: ``identifier`` is not the name of a message.
     """
     return _namespaced_type(identifier, "msg", "message")
 
@@ -50,7 +50,7 @@ def get_service_namespaced_type(identifier: str) -> NamespacedType:
     """Type of a service's name, ``turtlesim/srv/Spawn`` or ``turtlesim/Spawn``.
 
     Raises:
-        ValueError: It is not the name of a service.
+        ValueError: ``identifier`` is not the name of a service.
     """
     return _namespaced_type(identifier, "srv", "service")
 
@@ -59,7 +59,7 @@ def get_action_namespaced_type(identifier: str) -> NamespacedType:
     """Type of an action's name, ``turtlesim/action/RotateAbsolute`` or without the middle.
 
     Raises:
-        ValueError: It is not the name of an action.
+        ValueError: ``identifier`` is not the name of an action.
     """
     return _namespaced_type(identifier, "action", "action")
 

@@ -31,7 +31,7 @@ def axis_order(axes: Axes) -> tuple[int, int, int, bool]:
         The three axes as 0, 1, 2 in the order of the angles, and whether they turn along.
 
     Raises:
-        KeyError: There is no such convention.
+        KeyError: The convention does not exist.
     """
     if isinstance(axes, str):
         frame, letters = axes[:1].lower(), axes[1:].lower()
@@ -137,7 +137,7 @@ def quaternion_from_euler(ai: float, aj: float, ak: float, axes: Axes = "sxyz") 
         ``(x, y, z, w)``.
 
     Raises:
-        KeyError: There is no such convention.
+        KeyError: The convention does not exist.
     """
     *order, rotating = axis_order(axes)
     product: Quaternion | None = None

@@ -37,8 +37,8 @@ class BagSource:
         max_frames: How many frames are shown; the page says when there are more. None: no limit.
 
     Raises:
-        FileNotFoundError: There is nothing at ``path``.
-        BagError: It is no bag.
+        FileNotFoundError: ``path`` does not exist.
+        BagError: ``path`` is not a bag.
     """
 
     kind = "bag"

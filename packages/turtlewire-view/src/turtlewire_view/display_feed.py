@@ -75,7 +75,7 @@ class Base:
         """Return the pose of a content's anchor: x, y, z, and the quaternion xyzw.
 
         Raises:
-            TransformException: It is not known.
+            TransformException: The pose is unknown.
         """
         assert content.frame_id is not None
         fixed_from_frame = self.buffer.lookup_transform(

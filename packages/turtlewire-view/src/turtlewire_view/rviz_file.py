@@ -109,7 +109,7 @@ def load_rviz(path: str | os.PathLike[str]) -> SavedView:
     """Return the view in a ``.rviz`` file.
 
     Raises:
-        RvizFileError: It cannot be read, or is no such file; the text names it.
+        RvizFileError: The file cannot be read, or is not an RViz file; the message names it.
     """
     try:
         with open(path, encoding="utf-8", errors="replace") as file:

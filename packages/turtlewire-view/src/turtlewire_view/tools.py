@@ -44,7 +44,7 @@ def tool_message(
         topic: Where to; RViz's topic if empty.
 
     Raises:
-        ValueError: There is no such tool, or a number is not finite.
+        ValueError: The tool does not exist, or a number is not finite.
     """
     if tool not in TOOLS:
         raise ValueError(f"there is no tool '{tool}'; there are {', '.join(TOOLS)}")

@@ -79,7 +79,7 @@ class Condition:
         """Return True if the condition holds.
 
         Raises:
-            CMakeError: It is no condition.
+            CMakeError: The words are not a condition.
         """
         result = self._any()
         if self._at < len(self._words):

@@ -52,7 +52,7 @@ def evaluate_package(
 
     Raises:
         CMakeError: The file cannot be evaluated; the text begins with file and line.
-        ManifestError: There is no readable package.xml.
+        ManifestError: package.xml cannot be read.
         OSError: A file cannot be read or written.
     """
     manifest = read_manifest(source / "package.xml")

@@ -79,7 +79,7 @@ def destination(run: Interpreter, text: str, call: Call) -> str:
     """Return a folder of the prefix, relative to it.
 
     Raises:
-        CMakeError: It lies outside.
+        CMakeError: The destination is outside the prefix.
     """
     prefix = run.variables["CMAKE_INSTALL_PREFIX"]
     relative = os.path.relpath(text, prefix) if os.path.isabs(text) else os.path.normpath(text)

@@ -79,7 +79,7 @@ class Interpreter:
 
         Raises:
             CMakeError: The file cannot be evaluated; the text begins with file and line.
-            OSError: It cannot be read.
+            OSError: The file cannot be read.
         """
         text = Path(path).read_text(encoding="utf-8", errors="replace")
         with self._listed(str(path)):

@@ -93,7 +93,7 @@ class Run(Generic[C]):
         """Remove a handler.
 
         Raises:
-            ValueError: It is not registered.
+            ValueError: The handler is not registered.
         """
         self._handlers.remove(handler)
 

@@ -33,7 +33,7 @@ class Scopes(Generic[V]):
         """Put the values back that were remembered last.
 
         Raises:
-            RuntimeError: None are remembered.
+            RuntimeError: No scope was pushed.
         """
         if not self._copies:
             raise RuntimeError(f"{self._kind} stack unexpectedly empty")

@@ -112,7 +112,7 @@ class DeclareLaunchArgument(Action):
         """Set the configuration to its default unless it is set, and check the choices.
 
         Raises:
-            RuntimeError: It was not given, or has a value that is not allowed.
+            RuntimeError: The argument was not given, or its value is not allowed.
         """
         if self._name not in context.launch_configurations:
             if self._default_value is None:

@@ -177,8 +177,8 @@ class ExecuteLocal(ProcessAction):
         """Start the process; its end completes the action.
 
         Raises:
-            RuntimeError: It was executed before.
-            SubstitutionFailure: A text of its command line cannot be found.
+            RuntimeError: The action was executed before.
+            SubstitutionFailure: A substitution of its command line has no value.
         """
         if self._completed is not None:
             raise RuntimeError(

@@ -128,7 +128,7 @@ class Executable:
         """Perform all substitutions.
 
         Raises:
-            SubstitutionFailure: One of them has no text.
+            SubstitutionFailure: A substitution has no value.
         """
         del action  # subclasses may want it
         cmd = [perform_substitutions(context, part) for part in self._cmd]

@@ -35,7 +35,7 @@ class Entity:
         """Refuse attributes and children that the action did not read.
 
         Raises:
-            ValueError: There are some.
+            ValueError: Some attributes or children were not parsed.
         """
         raise NotImplementedError
 
@@ -53,7 +53,7 @@ class Entity:
                 substitutions. For ``bool`` it must hold some, or be a truth value.
 
         Raises:
-            AttributeError: It is not there.
-            TypeError: It has another type.
+            AttributeError: The attribute does not exist.
+            TypeError: The attribute has another type.
         """
         raise NotImplementedError

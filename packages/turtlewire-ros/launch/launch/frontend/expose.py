@@ -43,7 +43,7 @@ def instantiate_action(entity: Entity, parser: Any) -> Any:
     """Make the action of an element.
 
     Raises:
-        RuntimeError: There is no such action.
+        RuntimeError: No action has this name.
         ValueError: The element has attributes or children that the action does not know.
     """
     if entity.type_name not in action_parse_methods:
@@ -63,7 +63,7 @@ def instantiate_substitution(
         args: Its arguments.
 
     Raises:
-        RuntimeError: There is no such substitution.
+        RuntimeError: No substitution has this name.
     """
     if type_name not in substitution_parse_methods:
         raise RuntimeError(f"Unknown substitution: {type_name}")

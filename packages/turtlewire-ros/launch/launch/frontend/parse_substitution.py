@@ -26,7 +26,7 @@ def parse_substitution(string_value: str) -> list[Substitution]:
 
     Raises:
         SyntaxError: A substitution is not closed.
-        RuntimeError: There is no substitution of that name.
+        RuntimeError: No substitution has this name.
     """
     if not string_value:
         return [TextSubstitution(text="")]

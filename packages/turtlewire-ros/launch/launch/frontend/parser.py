@@ -148,7 +148,7 @@ class Parser:
         """Return the launch description of a root element.
 
         Raises:
-            RuntimeError: It is not a root element, or an element is unknown.
+            RuntimeError: The entity is not a root element, or an element is unknown.
         """
         if entity.type_name != "launch":
             raise RuntimeError("Expected 'launch' as root tag")
@@ -161,7 +161,7 @@ class Parser:
         """Return the action of an element.
 
         Raises:
-            RuntimeError: There is no such action.
+            RuntimeError: No action has this name.
             ValueError: The element has attributes or children that the action does not know.
             Exception: All errors carry the line of the innermost element as ``launch_file_line``.
         """

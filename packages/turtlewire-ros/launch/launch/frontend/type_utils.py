@@ -36,7 +36,7 @@ def coerce(text: str, data_type: Any) -> Any:
         data_type: ``int``, ``float``, ``bool``, ``str``, or None for what YAML makes of it.
 
     Raises:
-        ValueError: It has no value of that type.
+        ValueError: ``text`` is not a value of the type.
     """
     if data_type is str:
         return text

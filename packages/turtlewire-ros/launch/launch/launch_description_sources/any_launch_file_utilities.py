@@ -31,7 +31,7 @@ def get_launch_description_from_any_launch_file(
 
     Raises:
         InvalidLaunchFileError: No language fits; the text holds the error of each.
-        ValueError: There is no such file.
+        ValueError: The file does not exist.
     """
     if not os.path.isfile(launch_file_path):
         missing = ValueError(

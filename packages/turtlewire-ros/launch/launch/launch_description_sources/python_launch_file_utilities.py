@@ -44,7 +44,7 @@ def get_launch_description_from_python_launch_file(
     """Return the result of the file's ``generate_launch_description()``.
 
     Raises:
-        InvalidPythonLaunchFileError: It does not define that function.
+        InvalidPythonLaunchFileError: The file does not define the function.
         Exception: What the file raises.
     """
     module = load_python_launch_file_as_module(python_launch_file_path)

@@ -177,8 +177,8 @@ class LaunchConfig:
             screen_style: The style of that format: ``{``, ``%`` or ``$``; by default ``{``.
 
         Raises:
-            ValueError: There is no such style, the format has no field in that style, or a
-                style is given for a named format, which has its own.
+            ValueError: The style does not exist, the format has no field in this style, or a style
+                is given for a named format, which has its own.
         """
         self._screen_style = _checked_style(screen_format, screen_style)
         self._screen_format = screen_format

@@ -23,7 +23,7 @@ def make_launch_log_dir(parent: str) -> str:
     """Create a folder named after time, host and process; the link ``latest`` points to it.
 
     Raises:
-        RuntimeError: It cannot be created.
+        RuntimeError: The folder cannot be created.
     """
     moment = dt.datetime.now().astimezone().strftime("%Y-%m-%d-%H-%M-%S-%f")
     base = Path(parent) / f"{moment}-{socket.gethostname()}-{os.getpid()}"

@@ -30,7 +30,7 @@ def as_bool(context: LaunchContext, expression: Iterable[Substitution]) -> bool:
     """Read an expression as true or false, by YAML's rules: ``yes`` and ``on`` are true.
 
     Raises:
-        SubstitutionFailure: It is neither.
+        SubstitutionFailure: The value is neither.
     """
     text = perform_substitutions(context, expression).strip()
     if text in ("0", "1"):

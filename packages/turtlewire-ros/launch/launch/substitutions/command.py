@@ -62,8 +62,8 @@ class Command(Substitution):
         """Run the command; its output.
 
         Raises:
-            SubstitutionFailure: It cannot be run, fails, or writes to stderr where that counts as a
-                failure.
+            SubstitutionFailure: The command cannot be run, fails, or writes to stderr where this
+                counts as a failure.
         """
         import subprocess
 

@@ -62,7 +62,7 @@ class EnvironmentVariable(Substitution):
         """Return the value.
 
         Raises:
-            SubstitutionFailure: It is not set, and there is no default.
+            SubstitutionFailure: The variable is not set, and there is no default.
         """
         name = perform_substitutions(context, self._name)
         if name in context.environment:

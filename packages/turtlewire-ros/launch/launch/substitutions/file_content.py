@@ -51,7 +51,7 @@ class FileContent(Substitution):
         """Return the content.
 
         Raises:
-            SubstitutionFailure: It cannot be read.
+            SubstitutionFailure: The file cannot be read.
         """
         path = perform_substitutions(context, self._path)
         try:

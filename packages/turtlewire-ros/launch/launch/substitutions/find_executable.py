@@ -52,7 +52,7 @@ class FindExecutable(Substitution):
         """Return the path.
 
         Raises:
-            SubstitutionFailure: It is not on ``PATH``.
+            SubstitutionFailure: The program is not on ``PATH``.
         """
         name = perform_substitutions(context, self._name)
         path = shutil.which(name)

@@ -56,7 +56,7 @@ class LaunchConfiguration(Substitution):
         """Return the value.
 
         Raises:
-            SubstitutionFailure: It is not set, and there is no default.
+            SubstitutionFailure: The configuration is not set, and there is no default.
         """
         name = perform_substitutions(context, self._variable_name)
         if name in context.launch_configurations:

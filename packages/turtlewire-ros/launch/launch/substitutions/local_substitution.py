@@ -48,7 +48,7 @@ class LocalSubstitution(Substitution):
         """Return the value as text.
 
         Raises:
-            SubstitutionFailure: There is no such local.
+            SubstitutionFailure: The local does not exist.
         """
         try:
             value = eval(f"locals.{self._expression}", {}, {"locals": context.locals})  # noqa: S307

@@ -18,7 +18,7 @@ def ensure_argument_type(
     """Refuse an argument that has none of the types.
 
     Raises:
-        TypeError: It has none of them; the text names argument, value and types.
+        TypeError: The argument has none of the types; the message names argument, value and types.
     """
     allowed = tuple(types) if isinstance(types, (tuple, list)) else (types,)
     if any(is_a_subclass(argument, kind) for kind in allowed):

@@ -18,7 +18,7 @@ def normalize_to_list_of_substitutions(subs: SomeSubstitutionsType) -> list[Subs
     """Text, a path, a substitution or several of them, as a list of substitutions.
 
     Raises:
-        TypeError: It is something else.
+        TypeError: ``subs`` has another type.
     """
     if isinstance(subs, (str, Path, Substitution)):
         return [_substitution(subs)]

@@ -56,7 +56,7 @@ def extract_type(data_type: Any) -> tuple[Any, bool]:
     """Return the type of a value or of a list's items (None for any), and whether it is a list.
 
     Raises:
-        ValueError: It is none of the known types.
+        ValueError: The type is not supported.
     """
     if data_type is None or is_valid_scalar_type(data_type):
         return data_type, False
@@ -110,7 +110,7 @@ def coerce_to_type(value: str, data_type: Any = None, *, can_be_str: bool = Fals
         can_be_str: Whether a text that is no such value is returned as it is.
 
     Raises:
-        ValueError: It is no such value.
+        ValueError: ``value`` is not a value of the type.
         TypeError: ``value`` is no text.
     """
     if not isinstance(value, str):
@@ -139,7 +139,7 @@ def coerce_list(value: list[Any], data_type: Any = None, *, can_be_str: bool = F
     """Read a list of texts as values of one type; without a type, of one that all are.
 
     Raises:
-        ValueError: One of them is no such value, or they are of several types.
+        ValueError: An item is not a value of the type, or the items have several types.
     """
     items = [coerce_to_type(item, data_type, can_be_str=can_be_str) for item in value]
     kinds = {type(item) for item in items} - ({str} if can_be_str else set())
@@ -159,7 +159,7 @@ def get_typed_value(value: Any, data_type: Any, *, can_be_str: bool = False) -> 
         can_be_str: As for :func:`coerce_to_type`.
 
     Raises:
-        ValueError: It is no such value.
+        ValueError: ``value`` is not a value of the type.
     """
     kind, is_list = extract_type(data_type)
     if isinstance(value, list):

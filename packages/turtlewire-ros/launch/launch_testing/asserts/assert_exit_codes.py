@@ -52,8 +52,8 @@ def assertExitCodes(  # noqa: N802  ROS 2's name
         strict_proc_matching: Likewise.
 
     Raises:
-        AssertionError: One ended otherwise, or still runs.
-        NoMatchingProcessException: There is no such process.
+        AssertionError: A process ended with another code, or still runs.
+        NoMatchingProcessException: No process matches.
     """
     allowed = list(allowable_exit_codes)
     for code in allowed:

@@ -86,8 +86,8 @@ def assertInStream(  # noqa: N802  ROS 2's name
         stream: ``stdout`` or ``stderr``.
 
     Raises:
-        AssertionError: None of the processes did.
-        NoMatchingProcessException: There is no such process.
+        AssertionError: No process wrote the text.
+        NoMatchingProcessException: No process matches.
         ValueError: ``stream`` is none, or ``output_filter`` cannot be called.
     """
     if stream not in ("stdout", "stderr"):

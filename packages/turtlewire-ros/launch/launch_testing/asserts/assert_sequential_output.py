@@ -34,7 +34,7 @@ class SequentialTextChecker:
         """Find a text behind all that were found before.
 
         Raises:
-            AssertionError: It is not there; the message shows the lines around the last find.
+            AssertionError: The text is missing; the message shows the lines around the last match.
         """
         start = self._text.find(msg, self._position)
         if start < 0:
@@ -66,7 +66,7 @@ def assertSequentialStdout(  # noqa: N802  ROS 2's name
         The checker.
 
     Raises:
-        NoMatchingProcessException: There is no such process, or there are several.
+        NoMatchingProcessException: No process matches, or several do.
     """
     action = resolveProcesses(proc_output, process=process, cmd_args=cmd_args)[0]
     yield SequentialTextChecker(

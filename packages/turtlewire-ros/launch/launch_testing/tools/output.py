@@ -135,7 +135,7 @@ def expected_output_from_file(
         encoding: The file's encoding.
 
     Raises:
-        RuntimeError: There is neither file.
+        RuntimeError: Neither file exists.
     """
     base = os.fspath(path)
     if os.path.isfile(f"{base}.txt"):

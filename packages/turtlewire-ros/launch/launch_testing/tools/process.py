@@ -126,7 +126,7 @@ def launch_process(
         The process, which has started.
 
     Raises:
-        AssertionError: It could not be started.
+        AssertionError: The process could not be started.
     """
     proxy = ProcessProxy(process_action, proc_info, proc_output, **kwargs)
     launch_service.include_launch_description(LaunchDescription([process_action]))

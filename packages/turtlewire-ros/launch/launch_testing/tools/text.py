@@ -27,7 +27,7 @@ def build_text_match(expected_text: Any, *, strict: bool = False) -> Callable[..
         strict: Whether nothing else may be in the text.
 
     Raises:
-        ValueError: It is something else.
+        ValueError: The argument has another type.
     """
     if callable(expected_text):
         found: Callable[..., _Span | None] = expected_text
@@ -58,7 +58,7 @@ def build_line_match(expected_lines: Any, *, strict: bool = False) -> Callable[.
         strict: Whether the lines must be exactly these.
 
     Raises:
-        ValueError: It is something else.
+        ValueError: The argument has another type.
     """
     if callable(expected_lines):
         found: Callable[..., _Span | None] = expected_lines

@@ -58,7 +58,7 @@ class ExecutableInPackage(Substitution):
         """Return the prefix that a package is installed in.
 
         Raises:
-            PackageNotFoundError: It is not installed.
+            PackageNotFoundError: The package is not installed.
         """
         return get_package_prefix(package_name)
 
@@ -75,7 +75,7 @@ class ExecutableInPackage(Substitution):
 
         Raises:
             PackageNotFoundError: The package is not installed.
-            SubstitutionFailure: It has no such executable, or several.
+            SubstitutionFailure: The package has no such executable, or several.
         """
         executable = perform_substitutions(context, self._executable)
         package = perform_substitutions(context, self._package)

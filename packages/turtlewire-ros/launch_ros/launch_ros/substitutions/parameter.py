@@ -54,7 +54,7 @@ class Parameter(Substitution):
         """Return the value as text.
 
         Raises:
-            SubstitutionFailure: It is not set, and there is no default.
+            SubstitutionFailure: The parameter is not set, and there is no default.
         """
         name = perform_substitutions(context, self._name)
         for entry in reversed(global_parameters(context)):

@@ -108,7 +108,7 @@ def typed(text: str, value_type: Any) -> Any:
         value_type: The type; None takes what YAML makes of it.
 
     Raises:
-        ValueError: It has no value of that type.
+        ValueError: ``text`` is not a value of the type.
         TypeError: The text is not a list, as the type is.
     """
     item_type = list_item_type(value_type)

@@ -25,7 +25,7 @@ def normalize_parameter_dict(
     """Nested names as tuples of substitutions, joined by dots; substituted values as tuples.
 
     Raises:
-        TypeError: It is no mapping, or a name is neither text nor substitutions.
+        TypeError: The argument is not a mapping, or a name is neither a string nor substitutions.
     """
     if not isinstance(parameters, Mapping):
         raise TypeError(f"expected a mapping of parameters, got '{parameters}'")
@@ -44,7 +44,7 @@ def normalize_parameters(parameters: Any) -> list[Any]:
     """Files as ``ParameterFile``, mappings by :func:`normalize_parameter_dict`.
 
     Raises:
-        TypeError: It is no list, or something in it is neither a file nor parameters.
+        TypeError: The argument is not a list, or an item is neither a file nor parameters.
     """
     if isinstance(parameters, (str, Path, Substitution)) or not hasattr(parameters, "__iter__"):
         raise TypeError("Expecting a list of parameter files or parameter dictionaries")

@@ -20,7 +20,7 @@ def normalize_remap_rule(remap_rule: Any) -> _Rule:
     """Return a pair of text or substitutions as a pair of tuples of substitutions.
 
     Raises:
-        TypeError: It is no pair, or not one of such parts.
+        TypeError: The rule is not a pair of strings or substitutions.
     """
     ensure_argument_type(remap_rule, (tuple, list), "remap_rule")
     if len(remap_rule) != 2:

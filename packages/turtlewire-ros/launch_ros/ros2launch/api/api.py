@@ -46,9 +46,9 @@ def get_share_file_path_from_package(*, package_name: str, file_name: str) -> st
     """Path of a file below the share folder of a package.
 
     Raises:
-        PackageNotFoundError: There is no such package.
-        FileNotFoundError: It has no such file.
-        MultipleLaunchFilesError: It has several.
+        PackageNotFoundError: The package does not exist.
+        FileNotFoundError: The package has no such file.
+        MultipleLaunchFilesError: The package has several such files.
     """
     from ament_index_python.packages import get_package_share_directory
 

@@ -213,7 +213,7 @@ def _file_and_arguments(args: argparse.Namespace) -> tuple[str, list[str]]:
     """Path of the launch file, and the words that are arguments for it.
 
     Raises:
-        RuntimeError: There is no such package or file.
+        RuntimeError: The package or file does not exist.
     """
     name: str | None = args.launch_file_name
     if os.path.isfile(args.package_name):

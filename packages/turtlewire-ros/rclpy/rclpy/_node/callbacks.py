@@ -39,7 +39,7 @@ class ParameterCallbacks:
         """Why a callback refuses ``parameters``, an empty string if none does.
 
         Raises:
-            TypeError: One returned no decision.
+            TypeError: A callback returned no decision.
         """
         for callback in list(self.deciding):
             result = callback(parameters)

@@ -49,7 +49,7 @@ def validate_qos(qos_or_depth: QoSProfile | int) -> QoSProfile:
     """Return a profile as it is, a depth as the default profile with that depth.
 
     Raises:
-        TypeError: It is neither.
+        TypeError: The argument is neither.
         ValueError: The depth is negative.
     """
     if isinstance(qos_or_depth, QoSProfile):

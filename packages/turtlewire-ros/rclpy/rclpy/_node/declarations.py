@@ -69,7 +69,7 @@ def _type_of(value: Any) -> int:
     """Return the number of a default value's type.
 
     Raises:
-        ValueError: It is a ``ParameterValue`` that is not set.
+        ValueError: ``value`` is a ``ParameterValue`` that is not set.
     """
     from rcl_interfaces.msg import ParameterType, ParameterValue
 

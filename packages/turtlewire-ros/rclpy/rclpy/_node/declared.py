@@ -39,7 +39,8 @@ class DeclaredParameters:
         Raises:
             ParameterNotDeclaredException: The name is not declared, and undeclared ones are not
                 allowed.
-            ParameterUninitializedException: It was declared with a type alone, and was never set.
+            ParameterUninitializedException: The parameter was declared only with a type, and never
+                set.
         """
         parameter = self._parameters.get(name)
         if parameter is None:

@@ -25,7 +25,7 @@ class NodeNames:
 
         Raises:
             InvalidTopicNameException: The name breaks the rules.
-            ValueError: It has an unknown substitution.
+            ValueError: The name has an unknown substitution.
         """
         expanded = self._expand(topic, InvalidTopicNameException)
         if only_expand:
@@ -37,7 +37,7 @@ class NodeNames:
 
         Raises:
             InvalidServiceNameException: The name breaks the rules.
-            ValueError: It has an unknown substitution.
+            ValueError: The name has an unknown substitution.
         """
         expanded = self._expand(service, InvalidServiceNameException)
         if only_expand:

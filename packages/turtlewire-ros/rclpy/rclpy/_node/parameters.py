@@ -127,7 +127,8 @@ class NodeParameters(DeclaredParameters):
             The parameters with the values that they got.
 
         Raises:
-            ParameterAlreadyDeclaredException: One is declared already; then none is declared.
+            ParameterAlreadyDeclaredException: A parameter is already declared; then no parameter is
+                declared.
             InvalidParameterException: A name is empty.
             InvalidParameterTypeException: The command line gives a value of another type.
             InvalidParameterValueException: A value is out of range or was refused by a callback.
@@ -171,7 +172,7 @@ class NodeParameters(DeclaredParameters):
 
         Raises:
             ParameterNotDeclaredException: The parameter is not declared.
-            ParameterImmutableException: It is read-only.
+            ParameterImmutableException: The parameter is read-only.
         """
         if name not in self._parameters:
             raise ParameterNotDeclaredException(name)
@@ -189,8 +190,8 @@ class NodeParameters(DeclaredParameters):
             A result for each; a failure does not keep the others from being set.
 
         Raises:
-            ParameterNotDeclaredException: One is not declared and undeclared ones are not allowed;
-                those before it are set.
+            ParameterNotDeclaredException: A parameter is not declared, and undeclared parameters
+                are not allowed; the preceding parameters are set.
         """
         return [self.set_parameters_atomically([parameter]) for parameter in parameter_list]
 
@@ -198,7 +199,8 @@ class NodeParameters(DeclaredParameters):
         """Set all of the parameters or none.
 
         Raises:
-            ParameterNotDeclaredException: One is not declared, and undeclared ones are not allowed.
+            ParameterNotDeclaredException: A parameter is not declared, and undeclared parameters
+                are not allowed.
         """
         from rcl_interfaces.msg import SetParametersResult
 
@@ -295,7 +297,7 @@ class NodeParameters(DeclaredParameters):
         Raises:
             ParameterNotDeclaredException: The name is not declared, and undeclared ones are not
                 allowed.
-            ParameterImmutableException: It is read-only.
+            ParameterImmutableException: The parameter is read-only.
             InvalidParameterValueException: Neither value agrees with the descriptor.
         """
         if name not in self._parameters:

@@ -55,7 +55,7 @@ class QoSPolicyEnum(IntEnum):
         """Return the value of a short key.
 
         Raises:
-            KeyError: There is no such key.
+            KeyError: The key does not exist.
         """
         return cls[name.upper()].value
 

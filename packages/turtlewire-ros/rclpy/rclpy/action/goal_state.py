@@ -47,7 +47,7 @@ def next_state(state: int, event: GoalEvent) -> int:
     """Return the state that ``event`` leads to.
 
     Raises:
-        RCLError: It is not possible in this state.
+        RCLError: The event is not possible in this state.
     """
     following = _TRANSITIONS.get((state, event))
     if following is None:

@@ -225,7 +225,7 @@ class ActionServer(Waitable):
         """Replace the execute callback.
 
         Raises:
-            TypeError: It cannot be called.
+            TypeError: The callback is not callable.
         """
         if not callable(execute_callback):
             raise TypeError("Failed to register goal execution callback: not callable")

@@ -70,7 +70,7 @@ class Lexer:
         """Read the next lexeme and return its text.
 
         Raises:
-            RuleError: It is of another kind.
+            RuleError: The next lexeme is of another kind.
         """
         found = self.peek()
         if found == wanted:

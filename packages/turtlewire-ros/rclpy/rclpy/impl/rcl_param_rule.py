@@ -22,7 +22,7 @@ def parse_parameter_rule(text: str) -> tuple[str, str, ParameterValue]:
         parameter.
 
     Raises:
-        RuleError: It is malformed.
+        RuleError: The rule is malformed.
     """
     lexer = Lexer(text)
     node_name = parse_node_prefix(lexer) or "/**"

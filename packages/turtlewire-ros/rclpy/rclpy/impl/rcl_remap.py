@@ -68,7 +68,7 @@ def parse_remap_rule(text: str) -> RemapRule:
     """Read a rule.
 
     Raises:
-        RuleError: It is malformed.
+        RuleError: The rule is malformed.
     """
     lexer = Lexer(text)
     node_name = parse_node_prefix(lexer)

@@ -58,7 +58,7 @@ def parse_file(path: str) -> dict[str, dict[str, ParameterValue]]:
         Node name pattern, as written and joined by slashes, to the parameters, joined by dots.
 
     Raises:
-        RuleError: It cannot be read, or is no parameter file.
+        RuleError: The file cannot be read, or is not a parameter file.
     """
     try:
         with open(path, encoding="utf-8") as file:

@@ -127,7 +127,7 @@ class StateMachine:
         """Return the way of this name.
 
         Raises:
-            RCLError: None leads on from here.
+            RCLError: The state has no transition with this label.
         """
         return self._find(
             label,

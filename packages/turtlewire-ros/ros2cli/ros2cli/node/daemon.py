@@ -36,7 +36,7 @@ class DaemonNode:
         """Names of the functions that the daemon offers.
 
         Raises:
-            ConnectionRefusedError: There is no daemon, as when ROS 2's does not run.
+            ConnectionRefusedError: Always, as in ROS 2 when the daemon does not run.
         """
         raise ConnectionRefusedError("there is no daemon: use ros2cli.node.direct.DirectNode")
 

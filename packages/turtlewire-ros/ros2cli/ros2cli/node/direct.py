@@ -163,7 +163,7 @@ class DirectNode:
             Whether it came in time.
 
         Raises:
-            UncallableServiceError: It is there, on a middleware that would misread the request.
+            UncallableServiceError: The server's middleware would misread the request.
         """
         from turtlewire.wire.services import require_callable
 
@@ -214,7 +214,7 @@ class DirectNode:
 
         Raises:
             KeyboardInterrupt: At Ctrl-C.
-            TimeoutError: It was not done within ``timeout`` seconds.
+            TimeoutError: The future was not done within ``timeout`` seconds.
         """
         import rclpy
         from rclpy.executors import ExternalShutdownException

@@ -73,7 +73,7 @@ class ROSTopicDelay:
         """Note a message.
 
         Raises:
-            RuntimeError: It has no header.
+            RuntimeError: The message has no header.
         """
         if not hasattr(msg, "header"):
             raise RuntimeError("msg does not have header")

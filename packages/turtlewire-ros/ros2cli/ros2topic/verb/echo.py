@@ -202,7 +202,7 @@ def make_filter(expression: str | None) -> Callable[[Any], bool] | None:
     """Return a predicate over messages from a Python expression in ``m``.
 
     Raises:
-        RuntimeError: It is no expression.
+        RuntimeError: ``expression`` is not a Python expression.
     """
     if expression is None:
         return None

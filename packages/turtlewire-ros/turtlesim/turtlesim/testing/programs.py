@@ -42,7 +42,7 @@ def nodes_of(main: Callable[[], object], arguments: Sequence[str] = ()) -> list[
         arguments: What follows the program's name in ``sys.argv``.
 
     Raises:
-        ProgramError: It ended without spinning, or called a function that blocks.
+        ProgramError: The program ended without spinning, or called a blocking function.
     """
     found: list[Node] = []
     with patch.object(sys, "argv", [getattr(main, "__module__", "main"), *arguments]):

@@ -105,7 +105,7 @@ class Simulation(Stage):
         """Return a turtle's pose now.
 
         Raises:
-            KeyError: There is no turtle with this name; the text lists those there are.
+            KeyError: No turtle has this name; the message lists the existing turtles.
         """
         pose = self.node.pose_of(turtle)
         if pose is None:

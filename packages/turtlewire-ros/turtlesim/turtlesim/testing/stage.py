@@ -87,7 +87,7 @@ class Stage:
             Its nodes.
 
         Raises:
-            ProgramError: It ended without spinning, or called a function that blocks.
+            ProgramError: The program ended without spinning, or called a blocking function.
         """
         with self._arguments(parameters), rclpy_in_step():
             nodes = [self.add(node) for node in nodes_of(main, arguments)]

@@ -153,7 +153,7 @@ class Display:
         """Take the user's choices for the messages to come.
 
         Raises:
-            OptionError: One is refused; all stay as they were.
+            OptionError: An option is invalid; all options stay unchanged.
         """
         self.options = Options(options, self.kind)
 
@@ -206,7 +206,7 @@ def frame_of(message: Any) -> str:
     """Return the frame of a message with a header.
 
     Raises:
-        UnusableMessageError: It names none.
+        UnusableMessageError: The message has no frame.
     """
     frame_id: str = message.header.frame_id
     if not frame_id:

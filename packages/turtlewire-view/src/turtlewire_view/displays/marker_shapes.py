@@ -88,7 +88,7 @@ def marker_shape(marker: Any, budget: int, warn: Callable[[str], None]) -> Marke
         warn: Gets what is wrong with it but can be drawn, or is invisible.
 
     Raises:
-        UnusableMessageError: It cannot be drawn.
+        UnusableMessageError: The marker cannot be drawn.
     """
     if not 0 <= marker.type < len(MARKER_TYPES):
         raise UnusableMessageError(f"the type {marker.type} is unknown (0 to 12 are known)")

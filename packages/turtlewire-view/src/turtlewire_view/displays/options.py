@@ -96,7 +96,7 @@ class Options(Mapping[str, object]):
         kind: The kind of display.
 
     Raises:
-        OptionError: There is no such option, or a value is none that it accepts.
+        OptionError: An option does not exist, or a value is not accepted.
     """
 
     def __init__(self, values: Mapping[str, object], kind: str) -> None:
@@ -139,7 +139,7 @@ def check_option(kind: str, name: str, value: object) -> None:
     """Check that an option of a display accepts a value.
 
     Raises:
-        OptionError: It does not, or there is no such option.
+        OptionError: The option does not exist, or does not accept the value.
     """
     table = option_table(kind)
     display = kind.replace("_", " ")

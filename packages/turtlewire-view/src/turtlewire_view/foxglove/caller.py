@@ -72,8 +72,8 @@ class Caller:
             limit_s: How long the service may take [s]; None waits until the service goes.
 
         Raises:
-            ServiceCallError: There is no such service, it would misread the request, it went, or
-                the time is over.
+            ServiceCallError: The service does not exist, would misread the request, disappeared, or
+                did not answer in time.
             WireError: The wire refuses the request.
         """
         connection = self._connection(service, type_name)

@@ -36,7 +36,7 @@ def cdr_from_json(type_name: str, payload: bytes) -> bytes:
     """Return the bytes of a message, from a JSON object with some or all of its fields.
 
     Raises:
-        CdrError: It is no such object; the text names the field.
+        CdrError: ``payload`` does not match the type; the message names the field.
     """
     try:
         values = json.loads(payload)

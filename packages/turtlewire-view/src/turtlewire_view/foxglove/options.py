@@ -30,7 +30,7 @@ class Patterns:
         what: What they are, for the error.
 
     Raises:
-        ValueError: One of them is no regular expression.
+        ValueError: A pattern is not a regular expression.
     """
 
     def __init__(self, patterns: Iterable[str], what: str = "pattern") -> None:

@@ -86,7 +86,7 @@ class Publishing:
         """Publish a message.
 
         Raises:
-            ProtocolError: There is no such channel, or this is no message of its type.
+            ProtocolError: The channel does not exist, or the payload is not a message of its type.
         """
         channel = self._channels.get(channel_id)
         if channel is None:

@@ -44,9 +44,9 @@ def load_transforms(
         The buffer, and what was found.
 
     Raises:
-        FileNotFoundError: There is nothing at ``path``.
-        BagError: It is no bag, none of the topics is in it, or one that is not the default is
-            missing or of another type.
+        FileNotFoundError: ``path`` does not exist.
+        BagError: ``path`` is not a bag, has none of the topics, or a topic other than the default
+            is missing or has another type.
         ValueError: The window ends before it begins.
     """
     buffer = Buffer(cache_time_ns)

@@ -55,8 +55,8 @@ class McapFile:
         problems: What is damaged, one sentence each with the position; filled while reading.
 
     Raises:
-        BagError: It is no MCAP file.
-        OSError: It cannot be opened.
+        BagError: The file is not an MCAP file.
+        OSError: The file cannot be opened.
     """
 
     def __init__(self, path: str) -> None:

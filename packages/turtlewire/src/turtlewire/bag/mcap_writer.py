@@ -42,7 +42,7 @@ class McapWriter:
         checksums: Whether chunks carry a CRC-32.
 
     Raises:
-        FileExistsError: There is such a file.
+        FileExistsError: The file already exists.
         OSError: From each method: the file cannot be written, for example because the disk is full.
     """
 

@@ -33,7 +33,7 @@ def load_yaml(text: str, where: str) -> Any:
     """Parse YAML with the C loader where it exists (ten times faster).
 
     Raises:
-        BagError: It is no YAML, or nested too deeply.
+        BagError: ``text`` is not YAML, or is nested too deeply.
     """
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
@@ -68,7 +68,7 @@ def profiles_from_yaml(offered: str | list[dict[str, Any]] | None, where: str) -
         The profiles; policies of unknown names or numbers are rmw's UNKNOWN.
 
     Raises:
-        BagError: It is no list of profiles.
+        BagError: ``offered`` is not a list of profiles.
     """
     profiles = load_yaml(offered, where) if isinstance(offered, str) else offered
     try:

@@ -160,7 +160,7 @@ class Bag:
         """Yield the bag's files in their order, opened when they are reached.
 
         Raises:
-            BagError: One is missing or not what it should be.
+            BagError: A file is missing or invalid.
         """
         for path in self.metadata.paths:
             yield self.file(path)
@@ -258,8 +258,8 @@ class Bag:
         """One of the files that ``metadata.paths`` names.
 
         Raises:
-            OSError: It is missing.
-            BagError: It is not what it should be.
+            OSError: The file is missing.
+            BagError: The file is invalid.
         """
         file = self._files.get(path)
         if file is None:
@@ -325,7 +325,7 @@ def window(start_ns: int, end_ns: int) -> tuple[int, int]:
     """Return the two times of a window in nanoseconds; ``datetime64`` is taken, too.
 
     Raises:
-        ValueError: It ends before it begins.
+        ValueError: ``end_ns`` is before ``start_ns``.
     """
     start, end = as_nanoseconds(start_ns, "start_ns"), as_nanoseconds(end_ns, "end_ns")
     if end < start:
@@ -342,8 +342,8 @@ def open_bag(path: str | os.PathLike[str]) -> Bag:
             ``.bag`` of ROS 1 with the extra ``ros1``.
 
     Raises:
-        FileNotFoundError: There is nothing at ``path``.
-        BagError: It is no bag.
+        FileNotFoundError: ``path`` does not exist.
+        BagError: ``path`` is not a bag.
     """
     return Bag(path)
 
@@ -358,8 +358,8 @@ def reindex(
         damaged: Called with a sentence for each part that cannot be read.
 
     Raises:
-        FileNotFoundError: There is no such folder.
-        BagError: It holds no file of a bag, or one that is none.
+        FileNotFoundError: The folder does not exist.
+        BagError: The folder contains no file of a bag, or an invalid one.
     """
     with Bag(path, trust_metadata=False) as bag:
         write_metadata(bag.path, bag.metadata)

@@ -26,7 +26,7 @@ class Ros1Storage:
     ``serialization_format`` is ``ros1``.
 
     Raises:
-        BagError: It is damaged, or `rosbags` is not installed.
+        BagError: The bag is damaged, or `rosbags` is not installed.
     """
 
     def __init__(self, path: str) -> None:

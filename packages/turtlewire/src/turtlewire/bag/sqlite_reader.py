@@ -40,8 +40,8 @@ class SqliteFile:
         problems: What is damaged, one sentence each.
 
     Raises:
-        BagError: It is no file of rosbag2.
-        OSError: It does not exist.
+        BagError: The file is not a file of rosbag2.
+        OSError: The file does not exist.
     """
 
     def __init__(self, path: str) -> None:

@@ -39,7 +39,7 @@ class SqliteWriter:
         ros_distro: Name of the ROS distribution that records.
 
     Raises:
-        FileExistsError: There is such a file.
+        FileExistsError: The file already exists.
         sqlite3.Error: From each method: the file cannot be written.
     """
 

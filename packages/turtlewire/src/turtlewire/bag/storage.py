@@ -116,8 +116,8 @@ def open_storage(path: str) -> StorageFile:
     """Open a ``.mcap`` or ``.db3`` file; its first bytes decide which of both it is.
 
     Raises:
-        FileNotFoundError: There is no such file.
-        BagError: It is none of them.
+        FileNotFoundError: The file does not exist.
+        BagError: The file has none of these formats.
     """
     with open(path, "rb") as file:
         start = file.read(len(_SQLITE_MAGIC))

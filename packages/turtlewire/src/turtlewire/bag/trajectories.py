@@ -50,8 +50,8 @@ def load_trajectory(
         progress: Called with the share that was read; by default a line is drawn on a terminal.
 
     Raises:
-        FileNotFoundError: There is nothing at ``path``.
-        BagError: It is no bag, has no such topic, or one of another type.
+        FileNotFoundError: ``path`` does not exist.
+        BagError: ``path`` is not a bag, or the topic is missing or has another type.
         ValueError: A quaternion is none, or the window ends before it begins.
     """
     start_ns, end_ns = window(start_ns, end_ns)

@@ -76,7 +76,7 @@ def known_definition(type_name: str) -> tuple[str, str]:
     """Encoding and text of a type's definition; of an unknown one none, with a warning.
 
     Raises:
-        BagError: It is no name of a type.
+        BagError: ``type_name`` is not the name of a type.
     """
     if not _TYPE_NAME.fullmatch(type_name):
         raise BagError(f"'{type_name}' is not the name of a message type").with_hint(
@@ -96,8 +96,8 @@ def as_cdr(topic: str, type_name: str, data: Any) -> bytes:
     """Return the bytes of a message for a topic.
 
     Raises:
-        TypeError: It is a message of another type, or neither a message nor bytes.
-        BagError: There are no bytes.
+        TypeError: ``data`` is a message of another type, or neither a message nor bytes.
+        BagError: ``data`` is empty.
     """
     if isinstance(data, Message):
         if type_name != data._TYPE_NAME:

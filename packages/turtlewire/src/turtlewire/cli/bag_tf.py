@@ -29,8 +29,8 @@ def show_transforms(
         as_json: Whether JSON is wanted.
 
     Raises:
-        BagError: It is no bag, or has no transforms.
-        OSError: It cannot be read.
+        BagError: ``path`` is not a bag, or has no transforms.
+        OSError: The bag cannot be read.
     """
     buffer, report = load_transforms(path, topics=topics, static_topics=static_topics)
     now_ns = max((link.newest_ns for link in report.links), default=0)

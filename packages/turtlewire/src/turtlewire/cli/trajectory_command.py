@@ -27,10 +27,10 @@ def run_trajectory(args: argparse.Namespace) -> int:
     """Read a trajectory, write what was asked for, and print what it is like.
 
     Raises:
-        BagError: It is no bag, or lacks the topic.
+        BagError: The file is not a bag, or has no such topic.
         OSError: A file cannot be read or written.
         TransformException: The frames are unknown or not connected.
-        ValueError: It is no trajectory, or nothing moves.
+        ValueError: The file is not a trajectory, or nothing moves.
     """
     source = Source(args.file, tuple(args.names))
     max_gap_ns = None if args.max_gap is None else round(args.max_gap * 1e9)

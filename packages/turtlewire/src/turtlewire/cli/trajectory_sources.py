@@ -78,10 +78,10 @@ class TrajectoryReader:
             rate_hz: Transforms are looked up at this rate.
 
         Raises:
-            BagError: It is no bag, or lacks the topic.
-            OSError: It cannot be read.
+            BagError: The file is not a bag, or has no such topic.
+            OSError: The file cannot be read.
             TransformException: The frames are unknown or not connected.
-            ValueError: It is no trajectory, or nothing moves.
+            ValueError: The file is not a trajectory, or nothing moves.
         """
         from turtlewire.bag import load_trajectory
         from turtlewire.trajectory import find_gaps, read_trajectory

@@ -107,7 +107,7 @@ def get_message(name: str) -> type[Message]:
         The class, the same one at every call.
 
     Raises:
-        InterfaceError: There is no such message.
+        InterfaceError: The message does not exist.
     """
     found = _messages.get(name)
     if found is not None:

@@ -215,7 +215,7 @@ def parse_type(package: str, text: str) -> AbstractType:
         text: The text.
 
     Raises:
-        ValueError: It is no type.
+        ValueError: ``text`` is not a type.
     """
     if not text.endswith("]"):
         return _parse_value_type(package, text)
@@ -258,7 +258,7 @@ def parse_value(type_: AbstractType, text: str) -> Any:
     """Return the value that a text means, for defaults and constants.
 
     Raises:
-        ValueError: It is no value of the type.
+        ValueError: ``text`` is not a value of the type.
     """
     if isinstance(type_, AbstractNestedType):
         if not (text.startswith("[") and text.endswith("]")):

@@ -65,7 +65,7 @@ def load_message(full_name: str) -> MessageDefinition:
     """Definition of a message (``"pkg/msg/X"``) or part of a service (``"pkg/srv/X_Request"``).
 
     Raises:
-        InterfaceError: There is no such message, or its file cannot be read.
+        InterfaceError: The message does not exist, or its file cannot be read.
     """
     definition = load_interface(full_name)
     if not isinstance(definition, MessageDefinition):
@@ -93,7 +93,7 @@ def interface_path(full_name: str) -> str:
     """Path of the file that defines ``"pkg/msg/X"``.
 
     Raises:
-        InterfaceError: There is no such interface.
+        InterfaceError: The interface does not exist.
     """
     parts = full_name.split("/")
     if (

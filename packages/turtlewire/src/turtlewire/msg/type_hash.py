@@ -57,7 +57,7 @@ def type_hash(full_name: str) -> str:
         ``"RIHS01_"`` and 64 hexadecimal digits.
 
     Raises:
-        InterfaceError: There is no such interface.
+        InterfaceError: The interface does not exist.
     """
     found = _hashes.get(full_name)
     if found is None:

@@ -15,7 +15,7 @@ def units_of_text(text: str) -> bytes:
     """Return the code units of ``text``, little endian.
 
     Raises:
-        UnicodeEncodeError: It has a lone surrogate.
+        UnicodeEncodeError: ``text`` has a lone surrogate.
     """
     narrow = text.encode("utf-16-le")
     units = bytearray(2 * len(narrow))
@@ -27,7 +27,7 @@ def text_of_units(units: bytes, order: str) -> str:
     """Return the text of code units in byte order ``order`` (``"<"`` or ``">"``).
 
     Raises:
-        UnicodeDecodeError: They are not UTF-16.
+        UnicodeDecodeError: ``units`` are not UTF-16.
     """
     low, high, above = (0, 1, units[2::4] + units[3::4])
     if order == ">":

@@ -37,7 +37,7 @@ class ConsoleKeyboard:
         read_character: Waits for a character; None takes the console's.
 
     Raises:
-        OSError: There is no console.
+        OSError: The process has no console.
     """
 
     def __init__(self, fd: int = 0, read_character: Callable[[], str] | None = None) -> None:
@@ -93,7 +93,7 @@ def foreground_terminal() -> int:
     """Standard input, which must be a console.
 
     Raises:
-        OSError: It is none.
+        OSError: The process has no console.
     """
     if not os.isatty(0):
         raise OSError("standard input is no console")

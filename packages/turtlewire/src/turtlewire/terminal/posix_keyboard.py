@@ -35,7 +35,7 @@ class PosixKeyboard:
         fd: The terminal's file descriptor.
 
     Raises:
-        OSError: It is no terminal.
+        OSError: The file descriptor is not a terminal.
     """
 
     def __init__(self, fd: int) -> None:
@@ -158,7 +158,7 @@ def foreground_terminal() -> int:
     """Standard input; of a launched process, which has a pipe there, the terminal of the launch.
 
     Raises:
-        OSError: There is no terminal, or this process is in its background.
+        OSError: There is no terminal, or this process is in the background.
     """
     stdin = 0
     if os.isatty(stdin):

@@ -69,9 +69,9 @@ class Buffer(BaseBuffer):
                 on a terminal when reading takes more than a second.
 
         Raises:
-            FileNotFoundError: There is nothing at ``path``.
-            BagError: It is no bag, none of the topics is in it, or one that is not the default is
-                missing or of another type.
+            FileNotFoundError: ``path`` does not exist.
+            BagError: ``path`` is not a bag, has none of the topics, or a topic other than the default
+                is missing or has another type.
             ValueError: The window ends before it begins.
         """
         from turtlewire.bag.transforms import fill_buffer
@@ -115,7 +115,7 @@ class Buffer(BaseBuffer):
 
         Raises:
             TransformException: The frames are unknown or not connected.
-            ValueError: Nothing moves on the way and no stamps were given.
+            ValueError: All transforms in the chain are static, and no stamps were given.
         """
         from turtlewire.trajectory.sampling import sample_trajectory
 

@@ -20,8 +20,8 @@ def nanoseconds(time: Any, argument: str) -> int:
     """Return a ``datetime64``, or a pandas ``Timestamp``, in nanoseconds since 1970.
 
     Raises:
-        TypeError: It is something else; ``argument`` names it.
-        ValueError: It is NaT, or does not fit into 64 bits.
+        TypeError: ``time`` has another type; the message contains ``argument``.
+        ValueError: ``time`` is NaT, or does not fit into 64 bits.
     """
     numpy = sys.modules.get("numpy")
     moment = time.to_datetime64() if hasattr(time, "to_datetime64") else time
@@ -42,7 +42,7 @@ def nanoseconds_array(times: NDArray[np.datetime64]) -> NDArray[np.int64]:
     """Elements of ``datetime64`` of any unit, in nanoseconds since 1970.
 
     Raises:
-        ValueError: One is NaT, or does not fit into 64 bits.
+        ValueError: A time is NaT, or does not fit into 64 bits.
     """
     import numpy as np
 

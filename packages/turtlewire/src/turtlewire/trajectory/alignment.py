@@ -65,7 +65,7 @@ def associate(
         Rows of the reference and of the estimate, of equal length.
 
     Raises:
-        ValueError: There is no pair; the text names both time ranges.
+        ValueError: No poses can be paired; the message names both time ranges.
     """
     first, second = reference.stamps_ns, estimate.stamps_ns + offset_ns
     if len(first) <= len(second):

@@ -152,7 +152,7 @@ def write_trajectory(
         The format.
 
     Raises:
-        ValueError: There is no such format.
+        ValueError: The format does not exist.
     """
     _, ending = os.path.splitext(os.fspath(path))
     kind = kind or next((each for each, usual in FORMATS.items() if usual == ending), "tum")
@@ -172,7 +172,7 @@ def read_trajectory(path: str | os.PathLike[str]) -> Trajectory:
     KITTI's times are read from ``<name>_times.txt``, if there is such a file.
 
     Raises:
-        ValueError: It is none of them, or has no data.
+        ValueError: The file has none of these formats, or no data.
     """
     with open(path, encoding="utf-8-sig") as file:
         lines = [line for line in (line.strip() for line in file) if line]

@@ -82,7 +82,7 @@ def plot_path(
         plane: The two axes that are seen: ``xy``, ``xz``, ``yz`` or the other way round.
 
     Raises:
-        ValueError: There is no such plane, or nothing to draw.
+        ValueError: The plane does not exist, or there is nothing to draw.
     """
     named = _named(trajectories)
     across, up = columns_of(plane)

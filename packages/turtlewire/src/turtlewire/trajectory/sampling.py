@@ -52,8 +52,8 @@ def sample_trajectory(
 
     Raises:
         TransformException: The frames are unknown or not connected.
-        ValueError: Nothing moves on the way and no stamps were given, or the rate is no positive
-            number or makes more poses than memory should hold.
+        ValueError: All transforms in the chain are static and no stamps were given, or the rate is
+            not positive or gives too many poses.
     """
     moving = moving_links(buffer, target_frame, source_frame)
     histories = [_stamps_of(buffer, child) for child in moving]

@@ -68,7 +68,7 @@ class Trajectory:
         """Return the poses of a slice or of an index array.
 
         Raises:
-            TypeError: It is a single number: ``stamps_ns[i]`` and ``poses[i]`` are that pose.
+            TypeError: ``rows`` is a single number: use ``stamps_ns[i]`` and ``poses[i]``.
         """
         if isinstance(rows, (int, np.integer)):
             raise TypeError(f"expected a slice or an index array; pose {rows} is poses[{rows}]")
@@ -136,7 +136,7 @@ class Trajectory:
             reference: Drawn dashed and grey.
 
         Raises:
-            ValueError: There is no such picture, or no pose.
+            ValueError: The kind of plot does not exist, or the trajectory is empty.
         """
         from turtlewire.trajectory import plots
 

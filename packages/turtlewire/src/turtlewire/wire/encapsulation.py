@@ -51,7 +51,7 @@ def require_message(cdr: bytes, topic: str) -> None:
     """Refuse bytes that are no message.
 
     Raises:
-        WireError: They are not.
+        WireError: The bytes are not a message.
     """
     if not is_message(cdr):
         raise no_message(cdr, topic)

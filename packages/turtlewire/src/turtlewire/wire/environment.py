@@ -61,7 +61,7 @@ def domain_id() -> int:
     """``ROS_DOMAIN_ID``, or 0.
 
     Raises:
-        WireError: It is not a number from 0 to 232.
+        WireError: The variable is not a number from 0 to 232.
     """
     text = os.environ.get("ROS_DOMAIN_ID", "").strip()
     if not text:

@@ -103,7 +103,7 @@ def _resolved(peer: str) -> str:
     Cyclone aborts the process for a peer that it cannot resolve, so it gets none.
 
     Raises:
-        WireError: It is not even the form of an address.
+        WireError: ``peer`` does not have the form of an address.
     """
     import socket
 

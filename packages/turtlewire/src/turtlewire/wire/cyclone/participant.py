@@ -117,7 +117,7 @@ def _require_files(domain_id: int) -> None:
     """Make sure that the process may open the files of a domain; Cyclone 11 crashes if it may not.
 
     Raises:
-        WireError: It may not.
+        WireError: The limit of open files is too low.
     """
     # Opening files is the test, because the limit counts all descriptors of the process.
     opened: list[int] = []

@@ -25,7 +25,7 @@ def sertype_of(entity: int) -> int:
     """The address of the ``ddsi_sertype`` of a topic or a writer; it lives as long as the topic.
 
     Raises:
-        WireError: There is no such entity, or this build of Cyclone lays out topics in another way.
+        WireError: The entity does not exist, or this build of Cyclone has another layout of topics.
     """
     if dds.ABI.tells_type:
         sertype = ctypes.c_void_p()

@@ -26,7 +26,7 @@ class Calls:
         """Begin a call.
 
         Raises:
-            WireError: It is closed.
+            WireError: The client is closed.
         """
         with self._condition:
             if self._closed:

@@ -104,8 +104,8 @@ def _override(configuration: zenoh.Config) -> None:
     """Apply ``ZENOH_CONFIG_OVERRIDE``: ``key/path=value;key2=value2``, values in JSON5.
 
     Raises:
-        WireError: It has a line break. rmw_zenoh_cpp cuts a value there and goes on without it,
-            which would switch access control off.
+        WireError: The value has a line break. rmw_zenoh_cpp cuts a value there and continues, which
+            would turn off access control.
     """
     text = os.environ.get("ZENOH_CONFIG_OVERRIDE", "").strip()
     if len(text.splitlines()) > 1:

@@ -81,7 +81,7 @@ class ZenohContextState:
         """Refuse what a closed context cannot do.
 
         Raises:
-            WireError: It is closed.
+            WireError: The context is closed.
         """
         if self.closing:
             raise WireError(f"{what}: the context is closed")

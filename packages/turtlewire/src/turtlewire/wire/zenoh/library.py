@@ -15,7 +15,7 @@ def require_zenoh() -> None:
     """Import the library.
 
     Raises:
-        WireError: It, or ``xxhash``, which computes gids, is not installed or does not run here.
+        WireError: Zenoh, or ``xxhash``, which computes gids, is not installed or does not run here.
     """
     try:
         import_module("zenoh")

@@ -69,7 +69,7 @@ def parse_qos(text: str) -> QoS:
     """Read the text of a QoS in a token.
 
     Raises:
-        ValueError: It is no such text.
+        ValueError: ``text`` is not a QoS string of a token.
     """
     parts = [part.split(",") for part in text.split(":")]
     if len(parts) < _PARTS:

@@ -178,7 +178,7 @@ def _read(sample: zenoh.Sample) -> tuple[Attachment, bytes]:
     """Return a message's attachment and its bytes.
 
     Raises:
-        ValueError: It is no message of rmw_zenoh_cpp's protocol.
+        ValueError: The sample is not a message of rmw_zenoh_cpp's protocol.
     """
     if sample.attachment is None:
         raise ValueError(
