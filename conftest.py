@@ -76,7 +76,7 @@ def pytest_unconfigure():
 
 
 # The same examples in each run: what fails is due to the change at hand. `scripts/test
-# --hypothesis-profile=fuzz` draws new ones. A machine that is busy is no fault of the test.
+# --hypothesis-profile=fuzz` draws new ones. A busy machine is not a fault of the test.
 settings.register_profile(
     "turtlewire", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
 )
@@ -222,7 +222,7 @@ class Program:
 
 @pytest.fixture
 def other_domain():
-    """The number of a domain that is not the one of this process, and in which nobody is."""
+    """Number of a free domain other than the one of this process."""
     with reserved_domain() as domain:
         yield domain
 

@@ -113,7 +113,7 @@ def report_each_second(launch: Launch, deadline: float) -> None:
 
 
 def is_news(text: str, shown: str, age_s: float) -> bool:
-    """Tell whether a status is worth a line after the one shown before.
+    """Return whether a status is worth a line after the previous one.
 
     A new situation is, at once; a new distance is after ten seconds.
     """

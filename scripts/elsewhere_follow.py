@@ -2,7 +2,7 @@
 
 Usage: python elsewhere_follow.py MIDDLEWARE [--router], by scripts/elsewhere with another Debian's
 Python; any that has the packages does as well. `--router` puts one of Zenoh in between, on a port
-of its own. The last line tells what ran and how far turtle2 went.
+of its own. The last line says what ran and how far turtle2 went.
 """
 
 from __future__ import annotations

@@ -33,7 +33,7 @@ KEYS = [
     ("ArrowUp", 8),
 ]
 FRAME_MS = 160
-#: The still is taken when turtle2 sees turtle1 so many metres ahead and to a side, so that the
+#: The still is taken when turtle2 sees turtle1 this many metres ahead and to a side, so that the
 #: arrow and both of its components are seen. These keys lead to that, pressed again and again.
 AHEAD, ASIDE = 2.0, 1.3
 STILL_KEYS = ["ArrowLeft", "ArrowUp", "ArrowUp", "ArrowUp", "ArrowUp"]

@@ -59,7 +59,7 @@ def main() -> int:
 
 
 def faults(path: Path) -> Iterator[tuple[int, str]]:
-    """Lines of a file, and what in them other platforms lack."""
+    """Lines of a file that use what other platforms do not have."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     yield from _imports(tree.body)
     if path not in REASONS:

@@ -41,7 +41,7 @@ PLACES = {
 
 
 def make_venv(put_pip: list[str]) -> None:
-    """Make .venv anew; the command of `pip_command` puts pip there."""
+    """Recreate .venv; the command of `pip_command` puts pip there."""
     # Inside of a venv, and this may be run with .venv's own Python, the one that it was made from.
     base: str = vars(sys)["_base_executable"]
     command = [base, "-m", "venv", "--without-pip", "--clear", str(VENV)]

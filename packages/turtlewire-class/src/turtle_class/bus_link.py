@@ -90,7 +90,7 @@ class _End:
         """Take over the other end's news.
 
         Raises:
-            Exception: They are no news: the other process sends something else.
+            Exception: The bytes are not news: the other process sends something else.
         """
         with self._bus.lock:
             if "nodes" in news:

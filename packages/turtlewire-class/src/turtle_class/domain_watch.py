@@ -104,7 +104,7 @@ class DomainWatch:
         }
 
     def rest(self) -> None:
-        """Nobody looks: leave the transforms alone until the next picture."""
+        """No page is open: do not read the transforms until the next picture."""
         self._listen(False)
 
     def examine(self, ended: threading.Event, seconds: float) -> None:

@@ -114,7 +114,7 @@ class Runner:
         Args:
             exercise: The exercise.
             folder: The student's folder of it.
-            domain: ROS domain that nobody else uses meanwhile.
+            domain: ROS domain that no other process uses during the run.
         """
         started = time.monotonic()
         try:
@@ -255,7 +255,7 @@ class _Facts(NamedTuple):
 
 
 def _facts(told: str) -> _Facts:
-    """Read the lines of the child; those that are no facts are left out."""
+    """Read the lines of the child; other lines are ignored."""
     facts = _Facts([], [], False)
     for line in told.splitlines():
         facts = _with_fact(facts, line)
@@ -269,7 +269,7 @@ def _with_fact(facts: _Facts, line: str) -> _Facts:
             return facts._replace(checks=[str(name) for name in fact])
         if kind == "result":
             return facts._replace(results=[*facts.results, _result(**fact)])
-    # The child was killed while it wrote, or somebody else has written.
+    # The child was killed while it wrote, or another process has written.
     except (ValueError, TypeError, AttributeError, RecursionError):
         return facts
     return facts._replace(end=facts.end or kind == "end")

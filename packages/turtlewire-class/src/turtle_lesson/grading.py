@@ -79,7 +79,7 @@ def grade_as_json(
     tell: Callable[[str], object],
     alive: Callable[[], object],
 ) -> None:
-    """Run the checks and tell the page each result as a JSON object as soon as it is there."""
+    """Run the checks and send the page each result as a JSON object as soon as it is available."""
     for result in grade(lesson, files, alive):
         tell(json.dumps(result._asdict()))
 

@@ -115,7 +115,7 @@ class LessonSession:
         return self._screen.take_frame()
 
     def examine(self) -> None:
-        """Have the doctor listen from now on; a later step returns its report."""
+        """Start the doctor; a later step returns its report."""
         self._doctor = Doctor(self._watcher)
         self._doctor_ends = self._ticks + _DOCTOR_TICKS
 

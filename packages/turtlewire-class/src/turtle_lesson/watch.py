@@ -26,7 +26,7 @@ _HIDDEN = {"/clock", "/parameter_events", "/rosout"}
 
 
 def topics_of(node: Node) -> list[str]:
-    """Topics that somebody publishes, for the list of the page."""
+    """Topics with a publisher, for the list of the page."""
     return sorted(
         name
         for name, _ in node.get_topic_names_and_types()

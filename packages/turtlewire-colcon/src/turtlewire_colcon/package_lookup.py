@@ -61,7 +61,7 @@ class PackageLookup:
         return _BUILD_ONLY.fullmatch(name) is not None or self.is_installed(name)
 
     def suggestion(self, name: str) -> str:
-        """Return the nearest names of installed packages in parentheses; empty if none is near."""
+        """Return similar names of installed packages in parentheses, or an empty string."""
         folders = [os.path.join(prefix, MARKERS) for prefix in self._prefixes]
         known = {each for folder in folders if os.path.isdir(folder) for each in os.listdir(folder)}
         near = did_you_mean(name, sorted(known))

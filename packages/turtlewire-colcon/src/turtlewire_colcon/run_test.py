@@ -1,6 +1,6 @@
 """``python -m turtlewire_colcon.run_test``: runs one test of ``colcon test``, with a time limit.
 
-There is a JUnit file afterwards in any case, so that ``colcon test-result`` tells of a test that
+There is a JUnit file afterwards in any case, so that ``colcon test-result`` reports a test that
 ended too early to write one.
 """
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 _MODULES = {"pytest": "pytest", "launch": "launch_testing.launch_test"}
 #: A launch test needs this module, which comes with ROS 2's launch_testing.
 _LAUNCH_MODULE = "launch_testing"
-#: pytest's exit status when it has run no test. That is no failure where an option deselects some.
+#: pytest's exit status when it has run no test. This is not a failure if an option deselects some.
 _NO_TESTS = 5
 _SELECTING = ("-k", "-m", "--deselect", "--lf", "--last-failed")
 _RESULT = """<?xml version="1.0" encoding="UTF-8"?>
@@ -94,7 +94,7 @@ def _pytest_status(status: int, words: list[str], result: Path, name: str) -> in
 
 
 def _has_cases(result: Path) -> bool:
-    """Return True if the result file tells of a test, or of a file that was skipped as a whole."""
+    """Return True if the result file contains a test, or a file that was skipped as a whole."""
     return b"<testcase " in result.read_bytes()
 
 

@@ -98,7 +98,7 @@ def _in_order_of_need(sources: Iterable[Path]) -> list[tuple[Path, Manifest]]:
 
 
 def _add_prefix(environment: dict[str, str], prefix: Path) -> None:
-    """Have the builds that follow find what was installed below a prefix."""
+    """Let the next builds find packages installed below a prefix."""
     for variable, folder in (
         ("AMENT_PREFIX_PATH", prefix),
         ("PYTHONPATH", prefix / _MODULES),

@@ -1,4 +1,4 @@
-"""Between structured arrays and plain ones; in ROS 2 for versions of NumPy that lack them."""
+"""Between structured arrays and plain ones; in ROS 2 for old versions of NumPy."""
 
 from __future__ import annotations
 

@@ -3,7 +3,7 @@
 ============  ========================================================
 module        what it holds
 ============  ========================================================
-`events`      publishers and subscriptions told of each other
+`events`      publishers and subscriptions notified of each other
 `logging`     the services that change the level of a logger
 `parameters`  parameters of other nodes, and callbacks of one's own
 `services`    a service that adds integers, its clients, introspection

@@ -7,7 +7,7 @@ module                   what it holds
 `composed`               the talker and the listener on one thread
 `custom_callback_group`  a group that lets its callbacks run now and then only
 `custom_executor`        an executor with threads for nodes of high priority
-`listener`               logs what it hears on ``chatter``
+`listener`               logs the messages on ``chatter``
 `talker`                 says ``Hello World`` on ``chatter`` once a second
 =======================  ============================================================
 """

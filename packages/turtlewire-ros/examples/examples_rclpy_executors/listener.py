@@ -1,4 +1,4 @@
-"""Logs what it hears on ``chatter``."""
+"""Logs the messages on ``chatter``."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ __all__ = ["MinimalSubscriber", "main"]
 
 
 class MinimalSubscriber(Node):
-    """Logs what it hears."""
+    """Logs the messages it receives."""
 
     def __init__(self) -> None:
         super().__init__("minimal_subscriber")

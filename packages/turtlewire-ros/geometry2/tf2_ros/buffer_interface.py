@@ -64,7 +64,7 @@ class TypeException(Exception):
 
 
 class NotImplementedException(Exception):
-    """This kind of buffer lacks a method of the interface.
+    """This kind of buffer does not support a method of the interface.
 
     Attributes:
         errstr: The text.

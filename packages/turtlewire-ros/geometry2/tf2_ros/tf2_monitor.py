@@ -59,7 +59,7 @@ class Delays:
 
     @property
     def mean(self) -> float:
-        """The mean; 0 if there are none."""
+        """The mean; 0 without values."""
         return self.total / self.count if self.count else 0.0
 
 

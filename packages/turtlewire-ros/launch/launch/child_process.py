@@ -203,7 +203,8 @@ class _TerminalStream(asyncio.Protocol):
         self._child.pipe_data_received(self._fd, data)
 
     def connection_lost(self, error: Exception | None) -> None:
-        # Linux reports the end of a pseudo terminal as an input/output error; it is no error here.
+        # Linux reports the end of a pseudo terminal as an input/output error; it is not an error
+        # here.
         self._child.pipe_connection_lost(self._fd, error)
 
 

@@ -37,7 +37,7 @@ class LaunchDescriptionSource:
         self._method = method
 
     def try_get_launch_description_without_context(self) -> LaunchDescription | None:
-        """Return the description, or None if only a running launch can tell its location.
+        """Return the description, or None if only a running launch knows its location.
 
         Raises:
             Exception: What the loader raises.

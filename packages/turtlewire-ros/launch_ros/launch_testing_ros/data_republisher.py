@@ -18,8 +18,8 @@ class DataRepublisher:
 
     Args:
         node: Subscribes and publishes.
-        listen_topic: The topic it hears.
-        publish_topic: The topic it publishes.
+        listen_topic: The topic to subscribe to.
+        publish_topic: The topic to publish.
         msg_type: The type of both.
         transform_fn: Returns the message to send for one that came, or None to send none.
     """

@@ -27,7 +27,7 @@ def stamp_of(message: Any, *, allow_headerless: bool, logger: str) -> Time | Non
         logger: Name of the logger that warns if they are not allowed.
 
     Returns:
-        The time; None if the message is to be dropped.
+        The time; None to drop the message.
     """
     stamp = getattr(getattr(message, "header", None), "stamp", None)
     if stamp is None:

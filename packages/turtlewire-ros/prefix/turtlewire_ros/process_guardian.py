@@ -19,7 +19,7 @@ __all__ = ["FAMILIES", "guard"]
 FAMILIES = "TURTLEWIRE_FAMILIES"
 #: Seconds between SIGTERM and SIGKILL, as in a launch.
 _GRACE_S = 5.0
-# A process that even SIGKILL does not end is blocked in the kernel; waiting longer is no use.
+# A process that even SIGKILL does not end is blocked in the kernel; waiting longer is useless.
 _KILL_ROUNDS = 3
 
 

@@ -159,7 +159,7 @@ def init(
 
 
 def get_global_executor() -> Executor:
-    """Return the executor that is used where none is given.
+    """Return the default executor.
 
     It lives until the default context is shut down.
     """

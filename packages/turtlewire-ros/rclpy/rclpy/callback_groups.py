@@ -41,7 +41,7 @@ class CallbackGroup(ABC):
         self._rclpy_schedulers.add(weakref.ref(scheduler, self._rclpy_schedulers.discard))
 
     def _rclpy_wake_schedulers(self) -> None:
-        """Have all schedulers that found the group busy look at it again.
+        """Wake all schedulers that found the group busy, to check it again.
 
         A node that moves to another executor leaves a running callback behind: the scheduler that
         ends it is then not the one that has entities of this group.

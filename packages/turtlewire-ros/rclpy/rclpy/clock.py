@@ -48,7 +48,7 @@ class ClockChange(Enum):
 
 
 class JumpThreshold:
-    """Which jumps a callback wants to hear of.
+    """Which clock jumps trigger a callback.
 
     Args:
         min_forward: Smallest jump forwards; None for no such jump.
@@ -132,7 +132,7 @@ class JumpHandle:
         clock.add_jump_handle(self)
 
     def unregister(self) -> None:
-        """Hear of no further jump. Idempotent."""
+        """Unregister the callback. Idempotent."""
         clock, self._clock = self._clock, None
         if clock is not None:
             clock.remove_jump_handle(self)
@@ -164,7 +164,7 @@ class JumpHandle:
 
 
 class Clock:
-    """Tells the time of one clock type.
+    """A clock of one type.
 
     ``Clock(clock_type=ClockType.ROS_TIME)`` makes a :class:`ROSClock`.
     """

@@ -44,8 +44,8 @@ class Context:
     Thread-safe. ``with Context() as context:`` calls :meth:`init`, and shuts down at the end.
 
     A signal shuts a context down as well, but leaves the middleware open until :meth:`shutdown` or
-    the end of the process, so that the program can still say goodbye; the one :meth:`shutdown` that
-    follows a signal is no error.
+    the end of the process, so that the program can still say goodbye; the one :meth:`shutdown`
+    that follows a signal is not an error.
     """
 
     def __init__(self) -> None:
@@ -195,7 +195,7 @@ class Context:
         end()
 
     def wake_waits(self) -> None:
-        """Have those who wait for the graph, or for a response, look again."""
+        """Wake all threads that wait for the graph or for a response, to check again."""
         with self._lock:
             waits = list(self.waits)
         for wait in waits:

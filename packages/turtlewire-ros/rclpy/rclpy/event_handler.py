@@ -1,6 +1,6 @@
 """Events of an endpoint's QoS.
 
-What a program can be told of, and ROS 2's default warnings about endpoints that do not match.
+The event types, and ROS 2's default warnings about endpoints that do not match.
 """
 
 from __future__ import annotations

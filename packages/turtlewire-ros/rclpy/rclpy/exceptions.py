@@ -164,7 +164,7 @@ class InvalidParameterValueException(ParameterException):
 
 
 class ParameterImmutableException(ParameterException):
-    """A read-only parameter is to be changed."""
+    """An attempt to change a read-only parameter."""
 
     def __init__(self, parameter_name: Any, *args: object) -> None:
         super().__init__("Attempted to modify read-only parameter", parameter_name, *args)

@@ -142,7 +142,7 @@ class Executor:
             while self._context.ok() and not scheduler.is_shutdown:
                 self.spin_once()
         except ExternalShutdownException:
-            if not self._context.ended_at_exit:  # a daemon thread's; nobody is left to be told
+            if not self._context.ended_at_exit:  # a daemon thread's; nothing is left to notify
                 raise
         finally:
             scheduler.serves_endlessly = outer

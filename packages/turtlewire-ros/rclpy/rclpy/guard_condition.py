@@ -37,7 +37,7 @@ class GuardCondition(Entity):
         self._triggered = False
 
     def trigger(self) -> None:
-        """Have the callback run. Safe from any thread."""
+        """Trigger the callback. Safe from any thread."""
         self._check_usable()
         self._triggered = True
         host = self._serving_host()

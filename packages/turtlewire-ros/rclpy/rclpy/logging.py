@@ -46,7 +46,7 @@ def get_logger(name: str) -> RcutilsLogger:
 
 
 def initialize() -> None:
-    """Read the environment anew and open a log file for the next message."""
+    """Read the environment again and open a log file for the next message."""
     log_output.configure()
 
 

@@ -516,11 +516,11 @@ class Node:
         return self._rclpy_endpoints.create_guard_condition(callback, callback_group)
 
     def add_waitable(self, waitable: Waitable) -> None:
-        """Have the executor serve ``waitable``."""
+        """Add ``waitable`` to the executor."""
         self._rclpy_endpoints.add_waitable(waitable)
 
     def remove_waitable(self, waitable: Waitable) -> None:
-        """Have the executor serve ``waitable`` no longer."""
+        """Remove ``waitable`` from the executor."""
         self._rclpy_endpoints.remove_waitable(waitable)
 
     def destroy_publisher(self, publisher: Publisher[Any]) -> bool:

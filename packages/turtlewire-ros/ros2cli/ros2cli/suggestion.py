@@ -28,7 +28,7 @@ _OF_EVERY_NODE = ("rcl_interfaces/", "type_description_interfaces/")
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """Return a line with the nearest known names, to append to a message; empty if none is near."""
+    """Return a line with similar names, to append to a message; empty without similar names."""
     line = suggestion.did_you_mean(name, known)
     return f"\n{line}" if line else ""
 

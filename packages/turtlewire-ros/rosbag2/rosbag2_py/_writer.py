@@ -36,7 +36,7 @@ def get_registered_compressors() -> set[str]:
 
 
 def get_registered_serializers() -> set[str]:
-    """Serialization formats other than the own one: there are none."""
+    """Serialization formats other than cdr: none exist."""
     return set()
 
 

@@ -59,7 +59,7 @@ class Latched:
         return sorted(missing, key=lambda message: message.log_time_ns)
 
     def forget(self) -> None:
-        """Send all again at the next move: listeners that start anew with each round need it."""
+        """Send all again at the next move: listeners that restart with each round need it."""
         self._sent = dict.fromkeys(self._depths, 0)
 
     def is_known(self, topic: str) -> bool:

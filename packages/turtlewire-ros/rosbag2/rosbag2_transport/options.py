@@ -56,8 +56,8 @@ class RecordOptions:
         compression_threads_priority: Accepted as in ROS 2.
         topic_qos_profile_overrides: QoS of subscriptions by topic.
         include_hidden_topics: Record topics whose name has a part that begins with ``_``.
-        include_unpublished_topics: Record topics that nobody publishes at the moment.
-        ignore_leaf_topics: Leave out topics that nobody subscribes to.
+        include_unpublished_topics: Record topics that currently have no publisher.
+        ignore_leaf_topics: Leave out topics without subscriptions.
         start_paused: Begin paused.
         use_sim_time: Take the time of messages from ``/clock``.
         disable_keyboard_controls: Do not read keys.

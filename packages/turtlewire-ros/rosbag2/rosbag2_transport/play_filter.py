@@ -24,7 +24,7 @@ def played_topics(bag: Bag, options: PlayOptions) -> list[str]:
     As in rosbag2, names of topics do not hold back service events, nor the other way round.
 
     Raises:
-        RuntimeError: A pattern is no regular expression.
+        RuntimeError: A pattern is not a regular expression.
     """
     regex, exclude = pattern(options.regex_to_filter), pattern(options.exclude_regex_to_filter)
     own_clock = options.clock_publish_frequency > 0 or options.clock_publish_on_topic_publish

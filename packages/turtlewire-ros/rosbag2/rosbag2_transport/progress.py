@@ -1,4 +1,4 @@
-"""One line on a terminal that tells how a recording or a playback goes."""
+"""One line on a terminal that shows the progress of a recording or playback."""
 
 from __future__ import annotations
 

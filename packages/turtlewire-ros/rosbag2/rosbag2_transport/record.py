@@ -60,7 +60,7 @@ def record(
     with (
         stopped_by_signals(stop),  # an interrupt never leaves a bag without metadata
         BagSession(name, use_sim_time=options.use_sim_time) as session,
-        contextlib.ExitStack() as at_end,  # the node still tells of the last files
+        contextlib.ExitStack() as at_end,  # the node still reports the last files
     ):
         writer = make_writer()
         recording = Recording(

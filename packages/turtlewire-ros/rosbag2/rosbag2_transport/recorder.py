@@ -49,7 +49,7 @@ class Recorder:
         options: What is recorded.
 
     Raises:
-        RuntimeError: A pattern is no regular expression.
+        RuntimeError: A pattern is not a regular expression.
     """
 
     def __init__(self, node: Node, recording: Recording, options: RecordOptions) -> None:
@@ -294,7 +294,7 @@ class Recorder:
         self._latched.clear()
 
     def _is_waiting(self) -> bool:
-        """Return True if it is paused, or the simulation has not told its time yet."""
+        """Return True if it is paused, or no simulated time has arrived yet."""
         return self._paused or (self._options.use_sim_time and not self._simulated_ns())
 
     def _simulated_ns(self) -> int:

@@ -1,4 +1,4 @@
-"""Tells what was asked for and cannot be recorded at the moment, and why.
+"""Reports requested topics that cannot be recorded at the moment, and why.
 
 rosbag2 waits in silence for topics that never appear.
 """
@@ -36,7 +36,7 @@ def missing(options: RecordOptions, graph: Graph, recorded: Collection[str]) -> 
     )
     if not options.all_topics:
         for name in dict.fromkeys(options.topics):
-            if name not in recorded and len(topics.get(name, ())) < 2:  # two types: told already
+            if name not in recorded and len(topics.get(name, ())) < 2:  # two types: reported
                 yield _why(options, name, _is_published(graph, name), topics, patience)
         for type_name in dict.fromkeys(options.topic_types):
             known = {each for types in topics.values() for each in types}

@@ -47,7 +47,7 @@ def rewrite(inputs: Sequence[Bag], outputs: Sequence[Output]) -> None:
         outputs: They are closed at the end; Ctrl-C removes them, because half a bag looks whole.
 
     Raises:
-        RuntimeError: A pattern is no regular expression.
+        RuntimeError: A pattern is not a regular expression.
         BagError: A topic has different types, or a bag is damaged; what can be read is written.
         OSError: The disk is full, for example.
     """
@@ -74,7 +74,7 @@ def rewrite(inputs: Sequence[Bag], outputs: Sequence[Output]) -> None:
 
 
 def _discard(outputs: Sequence[Output], done: int) -> None:
-    """Remove the bags of an interrupted conversion, and tell it."""
+    """Remove the bags of an interrupted conversion, and log it."""
     for output in outputs:
         output.writer.close()
         shutil.rmtree(output.writer.path)

@@ -81,7 +81,7 @@ class BagSession:
 
 @contextlib.contextmanager
 def stopped_by_signals(stop: queue.SimpleQueue[None]) -> Iterator[None]:
-    """Have SIGINT, SIGTERM and SIGHUP put an item into ``stop``; nothing in a thread.
+    """Put an item into ``stop`` at SIGINT, SIGTERM and SIGHUP; nothing in a thread.
 
     SIGHUP comes when the terminal is closed: a recording is finished then, too, unless ``nohup``
     lets it go on.

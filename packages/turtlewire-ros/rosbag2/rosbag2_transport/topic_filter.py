@@ -49,11 +49,11 @@ class TopicFilter:
     """Decides by name and types; says once of each topic why it cannot be recorded.
 
     Args:
-        options: What is to be recorded.
+        options: Which topics to record.
         complain: Called with severity (``"error"`` or ``"warning"``) and text.
 
     Raises:
-        RuntimeError: A pattern is no regular expression.
+        RuntimeError: A pattern is not a regular expression.
     """
 
     def __init__(self, options: RecordOptions, complain: Callable[[str, str], None]) -> None:
@@ -70,7 +70,7 @@ class TopicFilter:
             topic: Its name.
             types: The types that its publishers and subscriptions have.
             published: Whether it has a publisher.
-            heard: Whether anybody but a recorder subscribes to it.
+            heard: Whether it has a subscription other than a recorder's.
         """
         options = self._options
         if not self._is_wanted(topic, types):

@@ -1,7 +1,7 @@
 """Reads ``.msg``, ``.srv`` and ``.action`` files, with their comments.
 
 The engine's parser (:mod:`turtlewire.msg.parser`) leaves comments out; IDL files have them. It
-parses the values here, and tells where comments begin.
+parses the values here, and reports where comments begin.
 """
 
 from __future__ import annotations

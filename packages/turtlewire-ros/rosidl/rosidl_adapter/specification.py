@@ -142,7 +142,7 @@ class BaseType:
             raise InvalidResourceName(f"'{message}' is not a valid message name")
 
     def is_primitive_type(self) -> bool:
-        """Return True if it is no message."""
+        """Return True if it is not a message."""
         return self.pkg_name is None
 
     def __eq__(self, other: object) -> bool:
@@ -240,7 +240,7 @@ class Field(_Annotated):
 
     Raises:
         NameError: The name is not valid.
-        InvalidValue: The text is no value of the type.
+        InvalidValue: The text is not a value of the type.
     """
 
     def __init__(self, type_: Type, name: str, default_value_string: str | None = None) -> None:
@@ -272,7 +272,7 @@ class Constant(_Annotated):
 
     Raises:
         NameError: The name is not valid.
-        InvalidValue: The text is no value of the type.
+        InvalidValue: The text is not a value of the type.
     """
 
     __slots__ = ("annotations", "name", "type", "value")

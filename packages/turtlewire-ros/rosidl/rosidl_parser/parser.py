@@ -65,7 +65,8 @@ def parse_idl_file(locator: IdlLocator, png_file: str | None = None) -> IdlFile:
         png_file: ROS 2 draws its syntax tree there; it has no effect here.
 
     Raises:
-        InterfaceError: The file is no interface; its path is printed on stderr, too, as in ROS 2.
+        InterfaceError: The file is not an interface; its path is also printed on stderr, as in ROS
+            2.
         OSError: The file cannot be read.
     """
     text = locator.get_absolute_path().read_text(encoding="utf-8")
@@ -88,7 +89,7 @@ def parse_idl_string(idl_string: str, png_file: str | None = None) -> IdlContent
         Its includes, and one message, service or action.
 
     Raises:
-        InterfaceError: The text is no interface.
+        InterfaceError: The text is not an interface.
     """
     reader = IdlReader("idl", idl_string)
     reader.read()

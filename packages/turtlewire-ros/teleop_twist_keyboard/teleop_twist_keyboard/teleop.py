@@ -122,7 +122,7 @@ class TeleopTwistKeyboard(Node):
         return self.declare_parameter(name, default, descriptor).value
 
     def speeds(self) -> str:
-        """Return the line that tells the present speeds."""
+        """Return the line with the current speeds."""
         return f"currently:\tspeed {self.speed}\tturn {self.turn} "
 
     def press(self, key: str) -> str:

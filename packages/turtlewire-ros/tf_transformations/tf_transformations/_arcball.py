@@ -46,7 +46,7 @@ def arcball_constrain_to_axis(point: ArrayLike, axis: ArrayLike) -> Vector:
 
 
 def arcball_nearest_axis(point: ArrayLike, axes: Sequence[ArrayLike]) -> ArrayLike | None:
-    """Return the one of ``axes`` whose plane is nearest to the point; None when there are none."""
+    """Return the one of ``axes`` whose plane is nearest to the point; None if ``axes`` is empty."""
     vector = np.asarray(point, dtype=np.float64)
     return max(
         axes, key=lambda axis: float(arcball_constrain_to_axis(vector, axis) @ vector), default=None

@@ -38,7 +38,7 @@ def look_of(name: str) -> int:
 
 
 def shown_pen(name: str, pen: Pen) -> Pen:
-    """The pen that the page shows: the turtle's own, or its shell's while nobody has set one."""
+    """The pen that the page shows: the turtle's own, or its shell's until a pen is set."""
     return _tinted(name) if pen is DEFAULT_PEN else pen
 
 

@@ -120,7 +120,7 @@ class Reset(NamedTuple):
 
 
 class Watch(NamedTuple):
-    """Have the frames sent, and the transform between two of them; empty names: no transform.
+    """Send the frames, and the transform between two of them; empty names: no transform.
 
     With ``axes``, the places of the frames in the field come with each tick.
     """
@@ -131,7 +131,7 @@ class Watch(NamedTuple):
 
 
 class Unwatch(NamedTuple):
-    """Have no frames sent."""
+    """Stop sending frames."""
 
 
 Command = (

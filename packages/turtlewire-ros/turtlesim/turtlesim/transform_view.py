@@ -50,8 +50,8 @@ class TransformView:
     """A buffer that is filled while a page watches. Thread-safe.
 
     Args:
-        context: The participant whose ``/tf`` and ``/tf_static`` are listened to.
-        namespace: Of the hidden node that listens.
+        context: The participant whose ``/tf`` and ``/tf_static`` are subscribed to.
+        namespace: Namespace of the hidden node that subscribes.
         now_ns: The simulator's clock, which stamps are compared with.
     """
 

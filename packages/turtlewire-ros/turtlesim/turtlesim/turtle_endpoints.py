@@ -35,7 +35,7 @@ class TurtleEndpoints:
         color_listeners: How many subscriptions its colour sensor has.
 
     Raises (on construction):
-        InvalidTopicNameException, ValueError: The turtle's name is no part of a topic's name.
+        InvalidTopicNameException, ValueError: The turtle's name is not valid in a topic name.
     """
 
     def __init__(self, node: Node, turtle: Turtle, on_pen: Callable[[], None]) -> None:
@@ -158,5 +158,5 @@ class TurtleEndpoints:
 
 
 def are_finite(*numbers: float) -> bool:
-    """Return True if none is NaN or too large for the arithmetic of a pose."""
+    """Return True if no number is NaN or too large for the arithmetic of a pose."""
     return all(abs(number) <= _LARGEST for number in numbers)  # false for NaN, too

@@ -117,7 +117,7 @@ class TurtlesimNode(CppNode):
         )
 
     def _declare_speed(self) -> None:
-        """Have the speed as a parameter; ROS 2's turtlesim has none, so it comes with its use."""
+        """Declare the parameter ``speed``, which ROS 2's turtlesim does not have, at first use."""
         if self.has_parameter("speed"):
             return
         limits = FloatingPointRange(from_value=0.0, to_value=max(FASTEST, self._pace.speed))

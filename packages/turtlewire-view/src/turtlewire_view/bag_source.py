@@ -163,7 +163,7 @@ class BagSource:
             self._read_again()
 
     def set_speed(self, factor: float) -> None:
-        """Play so much faster, between 0.01 and 100."""
+        """Set the playback speed, between 0.01 and 100."""
         with self._news:
             self._clock.set_rate(min(max(factor, _SLOWEST), _FASTEST))
             self._news.notify_all()
@@ -187,7 +187,7 @@ class BagSource:
         return found is not None and (found[1] < self._start_ns or found[0] > self._end_ns)
 
     def _read_again(self) -> None:
-        """Let the thread start anew from the time that is shown; with the lock held."""
+        """Restart the thread at the shown time. The caller holds the lock."""
         self._wanted += 1
         self._from_ns = self._clock.now_ns()
         self._news.notify_all()

@@ -174,7 +174,7 @@ class DisplayFeed:
             self._end_asking = self.ask(*wanted, self._take_answer)
 
     def take_packets(self) -> list[bytes]:
-        """Return the packets that the page lacks, with only the newest content of each part."""
+        """Return the packets that the page needs, with only the newest content of each part."""
         with self._lock:
             ready, self._ready = self._ready, {}
             self._told |= self._shown.keys() & ready.keys()
@@ -266,7 +266,7 @@ class DisplayFeed:
         self._shown.pop(part, None)
         self._waiting = deque(content for content in self._waiting if content.part != part)
         packet = encode_packet({"type": "removed", "id": self.name, "part": part})
-        with self._lock:  # a page that takes nothing for long is not told of what came and went
+        with self._lock:  # a page that reads nothing for long gets no updates of removed items
             self._ready.pop(part, None)
             self._ready.pop(f"pose {part}", None)
             if part in self._told:
@@ -304,7 +304,7 @@ class DisplayFeed:
         return None
 
     def _place_again(self, base: Base) -> None:
-        """Tell the poses in another fixed frame."""
+        """Send the poses in another fixed frame."""
         for part, content in list(self._shown.items()):
             if content.frame_id is None or content.locked:
                 continue
@@ -346,7 +346,7 @@ class DisplayFeed:
             self._ready[content.part if key is None else key] = packet
 
     def _send_live(self, content: Content) -> None:
-        """Send what hangs on a live frame, or on none."""
+        """Send the content that is attached to a live frame, or to no frame."""
         self._shown[content.part] = content
         self._send(content, {"frame": content.frame_id, "anchor": list(content.anchor)})
 

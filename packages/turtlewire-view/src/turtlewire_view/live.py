@@ -230,7 +230,7 @@ class LiveTimeline:
         """The wire has only one speed."""
 
     def _range(self) -> tuple[int, int]:
-        """From when to when the page can go: a link that ended long ago is no history of others."""
+        """Return the times that the page can show, without transforms that ended long ago."""
         oldest, newest = stamp_range_ns(self.buffer) or (0, 0)
         return max(oldest, newest - self._source.history_ns), newest
 

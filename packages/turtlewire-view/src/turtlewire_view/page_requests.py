@@ -58,8 +58,8 @@ def text_of_view(
     """Return the ``.rviz`` file that a ``save`` command asks for.
 
     Args:
-        command: ``fixed``, ``displays``, ``show`` and ``camera`` as in the ``view`` packet; a
-            camera that is none is left out.
+        command: ``fixed``, ``displays``, ``show`` and ``camera`` as in the ``view`` packet; an
+            invalid camera is left out.
         types: Message types by topic.
         former: The view that was loaded before, see :func:`write_rviz`.
 

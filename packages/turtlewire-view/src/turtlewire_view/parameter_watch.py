@@ -50,7 +50,7 @@ class ParameterWatch:
         on_answer: Called with each answer, in their order, on the watch's thread.
 
     Raises:
-        WireError: ``owner`` is no name of a node.
+        WireError: ``owner`` is not the name of a node.
     """
 
     def __init__(
@@ -129,7 +129,7 @@ class ParameterWatch:
                 self._ask()
 
     def _absent(self) -> str:
-        """Why nobody can be asked, and who could be."""
+        """The reason why no node can be asked, and the candidates."""
         try:
             require_callable(self._context.graph, self._owner + _SUFFIX)
         except UncallableServiceError as error:

@@ -38,7 +38,7 @@ SWITCHES = {"names": "Show Names", "axes": "Show Axes", "arrows": "Show Arrows"}
 
 
 class RvizFileError(ValueError):
-    """A text that is no view of RViz."""
+    """The text is not an RViz view."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +83,7 @@ class SavedView:
     camera: Camera | None = None
 
     def header(self) -> dict[str, Any]:
-        """Return the packet that tells the page."""
+        """Return the packet for the page."""
         displays = [
             {
                 "kind": each.kind,

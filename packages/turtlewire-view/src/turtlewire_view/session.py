@@ -60,7 +60,7 @@ class Host(Protocol):
         ...
 
     def work(self) -> None:
-        """Displays must be placed anew."""
+        """Displays need new poses."""
         ...
 
     def forget(self, session: ViewSession) -> None:

@@ -37,7 +37,7 @@ class TimelineState(NamedTuple):
         live: Whether the newest data is shown as it comes.
         playing: Whether the time advances.
         speed: Seconds of the data in a second.
-        simulated: Whether stamps are no system time.
+        simulated: Whether stamps are simulated time.
     """
 
     now: float
@@ -78,7 +78,7 @@ class Timeline(Protocol):
         ...
 
     def set_speed(self, factor: float) -> None:
-        """Play so much faster than the clock; the wire has only one speed."""
+        """Set the playback speed; live data has only one speed."""
         ...
 
 

@@ -1,4 +1,4 @@
-"""What the page tells of each frame, and of one frame as another sees it."""
+"""The page's data about each frame, and about one frame as another sees it."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["TreeTable", "path_between", "relation"]
 
-#: The delay of a link is the smallest age of its newest sample in so many looks, one a second.
+#: The delay of a link is the smallest age of its newest sample in this many looks, one a second.
 _LOOKS = 10
 
 

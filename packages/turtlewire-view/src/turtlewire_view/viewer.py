@@ -35,8 +35,8 @@ _SOURCES = {"connect-src": "data: blob:"}
 class Viewer:
     """Serves the page until it is closed.
 
-    Two threads beside the server's: one tells the pages at most thirty times a second that there is
-    something new, one makes geometry of messages.
+    Two threads beside the server's: one notifies the pages of news at most thirty times a second,
+    one makes geometry of messages.
 
     Args:
         source: Where frames and messages come from; closed with the view.
@@ -160,7 +160,7 @@ class Viewer:
         return feed
 
     def work(self) -> None:
-        """Displays of a page must be placed anew; one thread serves all, and finds out which."""
+        """Wake the thread that updates the displays; it finds the pages that need new poses."""
         self._work.set()
 
     def forget(self, session: ViewSession) -> None:

@@ -20,7 +20,7 @@ struct RefusalRecord {
   Pose pose;
 };
 
-// Messages of which not even the transforms could be told apart.
+// Messages in which not even the transforms could be separated.
 struct MalformedMessages {
   std::uint64_t count = 0;
   std::string last;     // what was wrong with the last one

@@ -35,7 +35,8 @@ def main(argv: list[str] | None = None) -> int:
     """Run the demo until Ctrl-C, or for some seconds.
 
     Returns:
-        The exit status: that of the launch; 0 after Ctrl-C or the seconds; 1 if a package lacks.
+        The exit status: that of the launch; 0 after Ctrl-C or the seconds; 1 if a package is
+        missing.
     """
     parser = argparse.ArgumentParser(
         prog="python -m turtlewire.demo",
@@ -98,7 +99,7 @@ def _run(command: list[str], seconds: float | None) -> int:
 
 @contextmanager
 def _signals_as_interrupts() -> Iterator[None]:
-    """Have the signals that end a process raise ``KeyboardInterrupt`` within the block."""
+    """Turn the signals that end a process into ``KeyboardInterrupt`` within the block."""
     import signal
 
     numbers = [signal.SIGTERM]

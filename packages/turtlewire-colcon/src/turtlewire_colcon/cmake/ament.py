@@ -265,7 +265,7 @@ def _test_arguments(call: Call) -> Parsed:
 
 
 def _nothing(_run: Interpreter, _call: Call) -> None:
-    """Do nothing: the command is for those who link against the package."""
+    """Do nothing: the command only matters for linking against the package."""
 
 
 AMENT: dict[str, Handler] = {

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["INSTALLING", "destination"]
 
 _KINDS = ("DIRECTORY", "FILES", "PROGRAMS")
-#: Forms that concern compiled targets: there are none.
+#: Forms for compiled targets, which do not exist here.
 _WITHOUT_EFFECT = frozenset({"TARGETS", "EXPORT", "IMPORTED_RUNTIME_ARTIFACTS"})
 _PERMISSIONS = ("PERMISSIONS", "FILE_PERMISSIONS", "DIRECTORY_PERMISSIONS", "CONFIGURATIONS")
 _TYPES = {

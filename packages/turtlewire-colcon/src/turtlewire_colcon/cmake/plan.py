@@ -44,7 +44,7 @@ class Install(NamedTuple):
         destination: Where they go, relative to the prefix.
         place: Where the command stands.
         rename: Name of the installed file, or empty.
-        optional: Whether a missing file is no error.
+        optional: Whether to ignore a missing file.
         rules: For directories: which of their files.
         only_matching: Whether files are installed that match a rule, and no others.
     """

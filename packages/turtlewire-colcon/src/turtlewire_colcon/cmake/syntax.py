@@ -82,7 +82,7 @@ def parse_commands(text: str, file: str) -> list[Command]:
         file: Its path, for errors.
 
     Raises:
-        CMakeError: The text is no CMake.
+        CMakeError: The text is not valid CMake.
     """
     return _Reader(text, file).commands()
 

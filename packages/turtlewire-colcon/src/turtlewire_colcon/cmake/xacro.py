@@ -1,4 +1,4 @@
-"""``xacro_add_files`` and its parts, which xacro's CMake extras define, and PyPI's xacro lacks.
+"""``xacro_add_files`` and its parts, which xacro's CMake extras define, unlike PyPI's xacro.
 
 A xacro that is built in the workspace brings its own functions, which take the place of these.
 """

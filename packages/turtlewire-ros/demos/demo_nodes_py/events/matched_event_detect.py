@@ -1,4 +1,4 @@
-"""Publishers and subscriptions that are told when others come and go."""
+"""Publishers and subscriptions that are notified when others appear and disappear."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ class MultiEndpointNode(Node):
 
 
 def main(args: list[str] | None = None) -> None:
-    """Have two subscriptions and two publishers come and go."""
+    """Create and destroy two subscriptions and two publishers."""
     with rclpy.init(args=args):
         detector = MatchedEventDetectNode()
         others = [

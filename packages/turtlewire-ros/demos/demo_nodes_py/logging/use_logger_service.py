@@ -23,7 +23,7 @@ _LEVELS = {
 
 
 class LoggerServiceNode(Node):
-    """Logs what it hears on ``output`` at four levels; its logger's level can be set."""
+    """Logs messages on ``output`` at four levels; its logger's level can be set."""
 
     def __init__(self) -> None:
         super().__init__("LoggerServiceNode", enable_logger_service=True)

@@ -19,7 +19,7 @@ __all__ = ["SetParametersCallback", "main"]
 
 
 class SetParametersCallback(Node):
-    """Sets ``param2`` to 4.0 whenever somebody sets ``param1``, which must be at most 5.0."""
+    """Sets ``param2`` to 4.0 whenever ``param1`` is set, which must be at most 5.0."""
 
     def __init__(self) -> None:
         super().__init__("set_parameters_callback")

@@ -1,4 +1,4 @@
-"""Logs what it hears on ``chatter``, reliably or with best effort."""
+"""Logs the messages on ``chatter``, reliably or with best effort."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Logs the bytes of what it hears on ``chatter``."""
+"""Logs the bytes of the messages on ``chatter``."""
 
 from __future__ import annotations
 

@@ -59,7 +59,7 @@ class Run(Generic[C]):
         """Wait until there is an event, or a future is done."""
         assert self._wake is not None
         while not self._events and not any(future.done() for future in self._futures):
-            # No event is missed: `set` runs on this loop, thus not before the next line waits.
+            # No event is missed: `set` runs on this loop, so not before the next line waits.
             self._wake.clear()
             await self._wake.wait()
 

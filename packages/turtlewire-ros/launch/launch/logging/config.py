@@ -85,7 +85,7 @@ class _ScreenHandler(logging.StreamHandler):  # type: ignore[type-arg]  # not ge
     def __init__(self) -> None:
         super().__init__(sys.stdout)
         if hasattr(self.stream, "reconfigure"):
-            # The terminal's encoding may lack characters that processes write.
+            # Processes may write characters that the terminal's encoding does not have.
             self.stream.reconfigure(errors="backslashreplace")
 
     def emit(self, record: logging.LogRecord) -> None:

@@ -16,7 +16,7 @@ def normalize_to_list_of_entities(
     """One entity, or nested lists of some, as one list.
 
     Raises:
-        TypeError: Something among them is no entity.
+        TypeError: An item is not an entity.
     """
     found: list[LaunchDescriptionEntity] = []
     pending: list[Any] = [entities]

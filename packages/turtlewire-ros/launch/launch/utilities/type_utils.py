@@ -111,7 +111,7 @@ def coerce_to_type(value: str, data_type: Any = None, *, can_be_str: bool = Fals
 
     Raises:
         ValueError: ``value`` is not a value of the type.
-        TypeError: ``value`` is no text.
+        TypeError: ``value`` is not a string.
     """
     if not isinstance(value, str):
         raise TypeError(f"expected a string, got {type(value).__name__} ({value!r})")
@@ -234,7 +234,7 @@ def perform_typed_substitution(context: LaunchContext, value: Any, data_type: An
     """Return the value that :func:`normalize_typed_substitution` stands for, at run time.
 
     Raises:
-        ValueError: The text of the substitutions is no value of the type.
+        ValueError: The substituted string is not a value of the type.
     """
     kind, _ = extract_type(data_type)
     if is_normalized_substitution(value):

@@ -77,7 +77,7 @@ def assertInStream(  # noqa: N802  ROS 2's name
     Args:
         proc_output: The records.
         expected_output: A text, a pattern of :mod:`re`, or a list of them, which must come in
-            that order; or a function that tells whether a text has what is expected.
+            that order; or a function that returns whether a string matches.
         process: An action, a part of a name, or None for all processes.
         cmd_args: As for :func:`launch_testing.util.resolveProcesses`.
         output_filter: Changes the text before the search.

@@ -188,7 +188,8 @@ def find_launch_test_entrypoint(path: Path, config: pytest.Config | None = None)
 
     Args:
         path: The file.
-        config: Tells how pytest imports it; without it the file is a module without a package.
+        config: pytest's configuration, for the import mode; without it the file is a module
+            without a package.
     """
     if b"generate_test_description" not in path.read_bytes():
         return None
@@ -200,7 +201,7 @@ def find_launch_test_entrypoint(path: Path, config: pytest.Config | None = None)
     try:
         module = importtestmodule(path, config)
     except pytest.Collector.CollectError:
-        return None  # pytest's own collection tells what is wrong
+        return None  # pytest's own collection reports the error
     return getattr(module, "generate_test_description", None)
 
 

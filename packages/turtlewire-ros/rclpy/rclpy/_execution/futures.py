@@ -23,5 +23,5 @@ def call_when_done(future: Future[Any], call: Callable[[], object]) -> None:
 
 
 def run_callbacks_on(host: Host | None, future: Future[Any]) -> None:
-    """Have the done-callbacks of a future run on an executor; None: in the finishing thread."""
+    """Run the done-callbacks of a future on an executor; None: in the finishing thread."""
     future._set_executor(host)

@@ -1,9 +1,9 @@
 """The part of an executor that decides what runs next, and runs it.
 
 One wait serves everything. The middleware's wait set holds the subscriptions, clients and services,
-and is told once when one comes or goes; the earliest timer gives the wait's limit; a guard
-condition, a finished future or another thread ends the wait. Nothing is collected anew for a pass,
-and nothing polls: an idle executor does not run at all.
+and is notified once when one is added or removed; the earliest timer gives the wait's limit; a
+guard condition, a finished future or another thread ends the wait. Nothing is collected again for a
+pass, and nothing polls: an idle executor does not run at all.
 
 Within one cycle the order is that of ROS 2: unfinished tasks (the newest first), the waitables of
 all nodes, then node by node its timers, subscriptions, guard conditions, clients and services.
@@ -53,7 +53,8 @@ class Scheduler:
         context: Its context.
         wait: The wait for everything that can become ready.
         is_shutdown: Whether :meth:`shutdown` was called.
-        serves_endlessly: Whether ``spin`` runs: then messages that need no callback are no events.
+        serves_endlessly: Whether ``spin`` runs: then messages without a callback do not count as
+            events.
         lock: Guards the state of it all.
         blocked: Set when the executor is shut down; for threads that wait for a response.
     """

@@ -25,7 +25,7 @@ class _Background(Protocol):
     """Messages that other threads handle."""
 
     def expect(self) -> None:
-        """Have the next one reported with :meth:`ExecutorWait.notify`."""
+        """Report the next one with :meth:`ExecutorWait.notify`."""
         ...
 
 
@@ -68,7 +68,7 @@ class ExecutorWait(Generic[T]):
         self.wake()
 
     def expect_background(self) -> None:
-        """Have the next message that another thread handles end the wait."""
+        """End the wait at the next message that another thread handles."""
         for events in list(self.background):
             events.expect()
 

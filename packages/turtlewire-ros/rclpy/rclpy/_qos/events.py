@@ -1,4 +1,4 @@
-"""The events of an endpoint's QoS, and what a callback is told of each.
+"""The events of an endpoint's QoS, and the argument of the callback of each.
 
 :mod:`rclpy.event_handler` has all of it under ROS 2's names.
 """

@@ -27,7 +27,7 @@ _STATE_OFFSET = 27
 #: The first UUID ends aligned: there, the padding of its record is missing.
 _FIRST_PADDING = slice(16, 19)
 _FIRST_STAMP = _HEADER.size + _FIRST_PADDING.start
-#: So many goals are faster found by their ids than by reading all records.
+#: From this many goals on, a lookup by id is faster than reading all records.
 _FEW = 16
 
 

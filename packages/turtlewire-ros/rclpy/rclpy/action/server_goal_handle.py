@@ -55,7 +55,7 @@ class ServerGoalHandle:
         return self._goal.status
 
     def execute(self, execute_callback: Callable[[ServerGoalHandle], Any] | None = None) -> None:
-        """Have the goal executed by ``execute_callback``, or by that of the server."""
+        """Execute the goal with ``execute_callback``, or with the server's callback."""
         if not self.is_cancel_requested:
             self._goals.advance(self._goal, GoalEvent.EXECUTE)
         self._action_server.notify_execute(self, execute_callback)

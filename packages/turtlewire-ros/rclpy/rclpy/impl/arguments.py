@@ -88,7 +88,7 @@ class Arguments:
         user_args: What is not in the blocks, the program's name included.
         log_levels: Logger name to severity number; the empty name means all others.
         log_file_name: First part of the log file's name, None for the program's.
-        log_config_file: Configuration file of a logging backend, None when none is given.
+        log_config_file: Configuration file of a logging backend, or None.
         stdout_logs: Whether to log to the console.
         rosout_logs: Whether to log to ``/rosout``.
         external_lib_logs: Whether to log to a file.
@@ -115,8 +115,8 @@ class Arguments:
         Raises:
             RCLInvalidROSArgsError: A rule is malformed, or a parameter file cannot be read; the
                 text says which.
-            UnknownROSArgsError: A block holds something that is no flag; the text lists all of
-                that.
+            UnknownROSArgsError: A block contains words that are not flags; the message lists all
+                of them.
         """
         self = cls()
         unknown: list[str] = []
@@ -147,7 +147,7 @@ class Arguments:
 
         Raises:
             RCLError: A rule is malformed.
-            UnknownROSArgsError: A block holds something that is no flag.
+            UnknownROSArgsError: A block contains a word that is not a flag.
             UnicodeEncodeError: An argument holds bytes that are not UTF-8.
         """
         for argument in argv:
@@ -166,7 +166,7 @@ class Arguments:
 
         Raises:
             RCLInvalidROSArgsError: A rule is malformed.
-            UnknownROSArgsError: A block holds something that is no flag.
+            UnknownROSArgsError: A block contains a word that is not a flag.
         """
         try:
             return cls.parse(argv)

@@ -1,11 +1,11 @@
 """Ctrl-C ends a program without a traceback when the program does not catch ``KeyboardInterrupt``.
 
-Nobody asked where the program was when it was told to end, also when that was while it still
-imported. The exit status stays that of an interrupted program. The same goes for threads that spin:
-``ExternalShutdownException`` is how they learn of the signal, not a fault. A command line that
-cannot be read is told in one line, and so are settings with which no context can be opened. Where
-Python drops exceptions, within a destructor or a callback of a weak reference (at the end of each
-import there is one), Ctrl-C is raised again right behind.
+The user asked the program to end, so its position does not matter, even during imports. The exit
+status stays that of an interrupted program. The same goes for threads that spin:
+``ExternalShutdownException`` is how they learn of the signal, not a fault. An unreadable command
+line is reported in one line, and so are settings with which no context can be opened. Where Python
+drops exceptions, within a destructor or a callback of a weak reference (at the end of each import
+there is one), Ctrl-C is raised again right behind.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ def install() -> None:
 def note_signal() -> None:
     """A signal has come that shuts contexts down.
 
-    What follows from it is no fault of the program.
+    Errors that follow from it are not the program's fault.
     """
     global _signal_came  # noqa: PLW0603 - as above
     _signal_came = True

@@ -68,7 +68,7 @@ class _Console:
         self._fd = _STDOUT_FD if _flag("RCUTILS_LOGGING_USE_STDOUT") else _STDERR_FD
         _flag(
             "RCUTILS_LOGGING_BUFFERED_STREAM"
-        )  # each line is one write anyway; a wrong value is still told
+        )  # each line is one write anyway; an invalid value is still reported
         coloured = _flag("RCUTILS_COLORIZED_OUTPUT")
         self._coloured = (
             os.isatty(self._fd) and not os.environ.get("NO_COLOR") if coloured is None else coloured
@@ -158,7 +158,7 @@ def configure(
     file: bool = True,
     file_prefix: str | None = None,
 ) -> None:
-    """Apply what the command line says, and read the environment anew.
+    """Apply what the command line says, and read the environment again.
 
     A context calls it when it starts.
 

@@ -46,7 +46,7 @@ def parse_value(text: str) -> ParameterValue:
     """Return the value that a rule ``name:=text`` gives.
 
     Raises:
-        RuleError: ``text`` is no scalar and no sequence of scalars of one type.
+        RuleError: ``text`` is neither a scalar nor a sequence of scalars of one type.
     """
     return _Parser(text).value_document()
 

@@ -14,7 +14,7 @@ __all__ = ["ManagedEntity", "SimpleManagedEntity"]
 
 
 class ManagedEntity:
-    """Told of the transitions of its node; each method gets the state before, and may refuse."""
+    """An entity that takes part in the transitions of its node, and may refuse them."""
 
     # The signature of a callback.
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002

@@ -148,7 +148,7 @@ class LifecycleNodeMixin(ManagedEntity):
     # Callbacks
 
     def __forward(self, name: str, state: LifecycleState) -> TransitionCallbackReturn:
-        """Tell the managed entities; the first that does not succeed decides."""
+        """Notify the managed entities; the first one that does not succeed decides."""
         for entity in self._managed_entities:
             outcome: TransitionCallbackReturn = getattr(entity, name)(state)
             if outcome is not _SUCCESS:

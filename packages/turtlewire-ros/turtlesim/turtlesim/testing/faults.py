@@ -158,7 +158,7 @@ class WrongTime(Fault):
 class MissingStatic(Fault):
     """Static transforms do not arrive, as when their broadcaster was not started.
 
-    Listeners that have heard them before still know them: switch it on before the broadcaster
+    Listeners that have already received them keep them: inject it before the broadcaster
     starts.
 
     Args:

@@ -1,4 +1,4 @@
-"""Nodes of one process, in lock-step: their callbacks run when the stage is told to, in order."""
+"""Nodes of one process, in lock-step: their callbacks run in order, when the stage steps."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["Stage"]
 
 _MIDDLEWARE = "RMW_IMPLEMENTATION"
-#: A node that publishes to itself for ever would never come to rest.
+#: A node that publishes to itself without end would never come to rest.
 _MOST_CALLBACKS = 100_000
 
 
@@ -114,7 +114,7 @@ class Stage:
         self.come_to_rest()
 
     def come_to_rest(self) -> None:
-        """Run callbacks until none is left: all that this moment brings about has happened then.
+        """Run callbacks until none is ready: then all effects of this moment have happened.
 
         Raises:
             RuntimeError: The nodes call each other without an end.
@@ -138,7 +138,7 @@ class _ReaderInStep:
         self._work: deque[Callable[[], None]] = deque()
 
     def submit(self, work: Callable[[], None]) -> None:
-        """Have it done before the next callback."""
+        """Run ``call`` before the next callback."""
         self._work.append(work)
 
     def run(self) -> None:

@@ -59,8 +59,8 @@ class Content:
     Attributes:
         header: What JSON can hold, all numbers finite.
         arrays: Arrays of ``f4``, ``u1``, ``u2``, ``u4``, ``i4`` or ``i1``.
-        frame_id: The frame that the geometry is in. None: the content hangs on no frame, or its
-            parts name live frames themselves; it is sent as it is.
+        frame_id: The frame that the geometry is in. None if the content is attached to no frame,
+            or its parts name live frames; it is sent as it is.
         stamp_ns: When ``frame_id`` lay where the geometry is; 0 for the newest.
         part: Which part of the display this replaces. A display has as many as it likes, each with
             its own pose.
@@ -93,7 +93,7 @@ class Content:
 
 @dataclass(frozen=True, slots=True)
 class Removal:
-    """A part is gone: the page drops it, and its pose need not be told any more."""
+    """A removed part: the page drops it, and needs no further poses of it."""
 
     part: str
 

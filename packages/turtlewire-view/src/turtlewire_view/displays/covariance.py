@@ -22,7 +22,7 @@ def covariance_shape(covariance: Any, warn: Callable[[str], None]) -> dict[str, 
 
     Args:
         covariance: 36 numbers, row by row.
-        warn: Gets a line if they are no covariance.
+        warn: Gets a message if they are not a covariance.
 
     Returns:
         ``radii`` of one standard deviation along the axes of ``rotation`` (xyzw), for the position;

@@ -65,7 +65,7 @@ def finite_pose(pose: Any, warn: Callable[[str], None]) -> list[float]:
 
 
 def warn_of_quaternions(rows: Sequence[tuple[float, ...]], warn: Callable[[str], None]) -> None:
-    """Say which quaternions of poses (x, y, z, then xyzw) are no rotations, as RViz does."""
+    """Say which quaternions of poses (x, y, z, then xyzw) are not rotations, as RViz does."""
     poses = np.array(rows, dtype=np.float64).reshape(-1, 7)
     lengths = np.linalg.norm(poses[rows_within(poses), 3:], axis=1)
     none = lengths < _SHORTEST_QUATERNION

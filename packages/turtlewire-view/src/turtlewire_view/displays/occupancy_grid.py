@@ -43,7 +43,7 @@ class OccupancyGridDisplay(Display):
     _shown: Content | None = None
 
     def start(self) -> list[Output]:
-        """Return the map again, as far as it is known, when it is to be placed in another way."""
+        """Return the map again, as far as it is known, if its pose is computed in another way."""
         shown, locked = self._shown, not self.options.flag("use_timestamp")
         if shown is None or self._cells is None or shown.locked == locked:
             return []

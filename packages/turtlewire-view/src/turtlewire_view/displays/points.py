@@ -45,7 +45,7 @@ class PointsDisplay(Display):
         self._came_ns: int | None = None
 
     def start(self) -> list[Output]:
-        """With other options all begins anew."""
+        """Other options restart the history."""
         gone: list[Output] = [Removal(kept.part) for kept in self._kept]
         self._kept.clear()
         self._came_ns = None

@@ -40,7 +40,7 @@ def read_asset(uri: str, allowed: Patterns, find_share: Callable[[str], str | No
     Args:
         uri: The address; ``%20`` and the like stand for other characters.
         allowed: Which addresses may be read.
-        find_share: Tells the share folder of a package.
+        find_share: Returns the share folder of a package.
 
     Raises:
         AssetError: The address is not allowed, or there is no such file.

@@ -69,7 +69,7 @@ class Bridge:
         node: Whose endpoints are used.
         options: What is served.
         log: Where lines for the server's user go.
-        find_share: Tells the share folder of a package.
+        find_share: Returns the share folder of a package.
         calls: Of the loop.
     """
 
@@ -115,7 +115,7 @@ class Bridge:
         return 0 if self._time is None else self._time.now_ns
 
     def add(self, client: Client) -> None:
-        """Tell a new client what there is, and of all changes."""
+        """Send a new client all channels and services, and all later changes."""
         self.clients.add(client)
         self._everybody = tuple(self.clients)
         if self.offers.channels:
@@ -128,12 +128,12 @@ class Bridge:
             client.outbox.set_time(protocol.time_data(self.now_ns()))
 
     def remove(self, client: Client) -> None:
-        """Tell a client nothing any more."""
+        """Stop sending updates to a client."""
         self.clients.discard(client)
         self._everybody = tuple(self.clients)
 
     def show_connections(self, client: Client) -> None:
-        """Tell a client of all connections; it must learn of changes from then on."""
+        """Send a client all connections, and all later changes."""
         update = difference(Connections({}, {}, {}), self._connections)
         client.outbox.send(protocol.text("connectionGraphUpdate", **update))
 

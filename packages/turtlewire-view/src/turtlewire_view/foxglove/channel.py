@@ -155,7 +155,7 @@ class Channel:
 
 
 def _fitting(publishers: list[EndpointInfo], durability: Durability) -> QoS | None:
-    """Return the QoS of a subscription that matches all publishers; None if there are none."""
+    """Return the QoS of a subscription that matches all publishers; None without publishers."""
     if not publishers:
         return None
     reliable = all(end.qos.reliability == Reliability.RELIABLE for end in publishers)

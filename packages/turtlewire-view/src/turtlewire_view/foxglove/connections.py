@@ -46,7 +46,7 @@ def difference(before: Connections, now: Connections) -> dict[str, Any]:
     """Return the fields that changed since `before`."""
     topics_before = before.published.keys() | before.subscribed.keys()
     topics_now = now.published.keys() | now.subscribed.keys()
-    # A topic that has lost all publishers, but not all subscriptions, must be told of as empty.
+    # A topic that has lost all publishers, but not all subscriptions, must be sent as empty.
     published = {topic: now.published.get(topic, []) for topic in topics_now}
     subscribed = {topic: now.subscribed.get(topic, []) for topic in topics_now}
     return {

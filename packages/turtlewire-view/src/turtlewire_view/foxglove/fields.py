@@ -27,7 +27,7 @@ def names(request: dict[str, Any]) -> list[str]:
     """Return the names of parameters; no field stands for none.
 
     Raises:
-        ProtocolError: The field is no list of texts.
+        ProtocolError: The field is not a list of strings.
     """
     return items({"parameterNames": [], **request}, "parameterNames", str)
 

@@ -65,7 +65,7 @@ class Outbox:
 
     @property
     def is_crowded(self) -> bool:
-        """True if so much waits besides messages that the client should ask for no more."""
+        """True if the queue, apart from messages, is too full for further requests."""
         return self._frame_bytes >= _CROWD_BYTES or len(self._frames) >= _CROWD
 
     @property

@@ -35,7 +35,7 @@ class Parameters:
     Args:
         caller: What calls them.
         allowed: Which parameters clients may see.
-        services: Tells the names of all services.
+        services: Returns the names of all services.
     """
 
     def __init__(

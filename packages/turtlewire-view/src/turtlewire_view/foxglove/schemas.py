@@ -50,7 +50,7 @@ def schema(type_name: str) -> str:
         return f"\n{_SEPARATOR}\n".join(
             [_text(type_name), *(f"MSG: {_short(name)}\n{_text(name)}" for name in used)]
         )
-    except ValueError as error:  # names of peers other than ROS are no names of types
+    except ValueError as error:  # peers other than ROS send invalid type names
         raise InterfaceError(f"'{type_name}' is not the name of a type: {error}") from error
 
 

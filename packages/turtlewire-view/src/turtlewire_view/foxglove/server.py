@@ -44,7 +44,7 @@ _LARGEST_MESSAGE = 64 << 20
 _CLOSE_TIMEOUT = 0.5
 #: How long a client may be silent [s]; a slow one answers only after all that was sent before.
 _PING_TIMEOUT = 120
-#: So many frames are sent to one client before the others get their turn.
+#: Number of frames to send to one client before the next client's turn.
 _TURN = 64
 #: What comes closer together than this is sent together: a wake-up costs more than a frame [s].
 _REST = 0.004
@@ -62,7 +62,7 @@ class FoxgloveServer:
         node: Whose endpoints are used.
         options: What is served, where and to whom.
         log: Where lines for the server's user go.
-        find_share: Tells the share folder of a package, for its files.
+        find_share: Returns the share folder of a package, for its files.
 
     Attributes:
         url: Where clients connect.
@@ -110,7 +110,7 @@ class FoxgloveServer:
             asyncio.run(self._serve())
         except BaseException as error:  # noqa: BLE001 - the constructor raises it
             self._failure = error
-            if self._started.is_set():  # nobody waits for the constructor any more
+            if self._started.is_set():  # the constructor no longer waits
                 self._log.warning(f"the server has ended: {error!r}")
         finally:
             self._socket.close()

@@ -338,7 +338,7 @@ class FoxgloveSession:
     def _start(
         self, work: Coroutine[Any, Any, None], fail: Callable[[str], None] | None = None
     ) -> None:
-        """Have something done while further requests are served."""
+        """Run a call while further requests are served."""
         if len(self._tasks) >= _MOST_TASKS:
             work.close()
             message = f"{_MOST_TASKS} requests wait for their answers already"

@@ -33,7 +33,7 @@ ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"
 _MAX_BYTES = 1 << 32
 
 #: Bytes that any number of compressed bytes may hold. An occupancy grid of one value grows as much
-#: as a bomb does (20,000-fold), so growth alone is no reason to refuse it.
+#: as a bomb does (20,000-fold), so growth alone is not a reason to reject it.
 _ALWAYS_BYTES = 1 << 30
 
 #: Larger chunks, messages and files usually grow less: those of sensors grow tenfold.

@@ -54,7 +54,7 @@ def has_interface(type_name: str) -> bool:
     """Return True if a file defines the type, installed or among ours; nothing is parsed."""
     try:
         interface_path(_owner(type_name))
-    except (InterfaceError, ValueError):  # names of damaged bags are no names of types
+    except (InterfaceError, ValueError):  # damaged bags contain invalid type names
         return False
     return True
 

@@ -17,7 +17,7 @@ _MOST_NAMES = 10
 
 
 def is_cdr(topic: TopicInfo) -> bool:
-    """Tell whether messages of a topic can be decoded; ROS 1's and unnamed encodings count."""
+    """Return whether messages of a topic can be decoded; ROS 1's and unnamed encodings count."""
     return topic.serialization_format in ("cdr", "ros1", "")
 
 

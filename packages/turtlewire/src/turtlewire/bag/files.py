@@ -29,7 +29,7 @@ def _number(name: str) -> int:
 def overlapping(metadata: BagMetadata) -> Iterator[list[str]]:
     """Paths of the files in order of time; those whose times overlap come together."""
     paths, files = metadata.paths, metadata.files
-    if len(files) != len(paths):  # metadata before version 5 does not tell the times of files
+    if len(files) != len(paths):  # metadata before version 5 does not contain the times of files
         yield paths
         return
     group: list[str] = []

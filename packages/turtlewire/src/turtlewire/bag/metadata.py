@@ -99,7 +99,7 @@ class BagMetadata:
         storage: ``mcap`` or ``sqlite3``.
         paths: Its files, relative to the bag's folder.
         files: Times and counts of its files, in the same order; empty before version 5. Their
-            paths lack the ``.zstd`` of files that were compressed whole.
+            paths do not have the ``.zstd`` of files that were compressed whole.
         topics: Its topics.
         start_ns: Log time of the oldest message, nanoseconds since 1970; 0 without messages.
         duration_ns: From the oldest to the newest message.

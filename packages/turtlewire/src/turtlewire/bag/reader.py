@@ -270,7 +270,7 @@ class Bag:
         return file
 
     def _check_count(self, path: str, file: StorageFile) -> None:
-        """Tell of a file without other problems that holds less than ``metadata.yaml`` says."""
+        """Report an intact file that contains fewer messages than ``metadata.yaml`` says."""
         found, expected = file.counted_messages(), self._expected_counts.get(path, 0)
         if found is not None and found < expected and not file.problems:
             full = os.path.join(self._folder, path)
@@ -351,7 +351,7 @@ def open_bag(path: str | os.PathLike[str]) -> Bag:
 def reindex(
     path: str | os.PathLike[str], damaged: Callable[[str], None] | None = None
 ) -> BagMetadata:
-    """Write ``metadata.yaml`` of a folder anew from the files in it.
+    """Rebuild ``metadata.yaml`` of a folder from the files in it.
 
     Args:
         path: The folder.

@@ -1,4 +1,4 @@
-"""A bag that is written while messages arrive: nobody who hands in a message waits for the disk."""
+"""Write a bag on a background thread; callers never wait for the disk."""
 
 from __future__ import annotations
 
@@ -136,7 +136,7 @@ class Recording:
 
         Raises:
             BagError: The recording has ended.
-            OSError: The bag cannot be written any more; `failure` tells it, too.
+            OSError: The bag can no longer be written; `failure` has the same error.
             sqlite3.Error: The same of a database.
         """
         if not self._snapshot:

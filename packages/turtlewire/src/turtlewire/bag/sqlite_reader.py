@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 __all__ = ["SqliteFile"]
 
-#: What the sqlite3 module raises for damaged files: broken table names are no UTF-8.
+#: What the sqlite3 module raises for damaged files: broken table names are not UTF-8.
 _DAMAGE = (sqlite3.Error, UnicodeDecodeError)
 
 
@@ -60,7 +60,7 @@ class SqliteFile:
         self._whole_rows: list[tuple[int, int, int]] | None = None
         self._page_bytes = 0
         missing = self._missing_bytes()
-        if missing:  # sqlite3 refuses such a file but to those who repair it
+        if missing:  # sqlite3 opens such a file only for repair
             self._database.execute("PRAGMA writable_schema = ON")
         try:
             self.topics = self._read_topics(missing)
@@ -125,7 +125,7 @@ class SqliteFile:
                     break
                 found.append((log_time, number, topic))
                 sizes.append(size)
-        # sqlite3 takes zeros for what a page lacks that is cut: what may lie on it is not trusted.
+        # sqlite3 reads the missing part of a cut page as zeros: do not trust such a page.
         doubtful = self._page_bytes if os.path.getsize(self.path) % self._page_bytes else 0
         while found and doubtful > 0:
             found.pop()

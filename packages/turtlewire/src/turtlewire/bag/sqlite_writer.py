@@ -128,7 +128,7 @@ class SqliteWriter:
         try:
             self._database.execute("PRAGMA journal_mode = DELETE")
         except sqlite3.OperationalError as error:
-            # Somebody reads the file just now: the last reader that closes it merges the log.
+            # Another process is reading the file: the last reader that closes it merges the log.
             if "locked" not in str(error):
                 raise
 

@@ -65,7 +65,7 @@ class BagWriter:
         checksums: Whether chunks of an MCAP file carry a CRC-32.
         custom_data: Texts to keep in the metadata.
         ros_distro: Name of the distribution in the metadata.
-        metadata_version: 1 to 9; older versions lack keys and write QoS as numbers.
+        metadata_version: 1 to 9; older versions have fewer keys and write QoS as numbers.
 
     Attributes:
         path: The folder, absolute.
@@ -169,7 +169,7 @@ class BagWriter:
             definition: Encoding and text of the type's definition; None takes the known type's.
 
         Raises:
-            BagError: The topic has another type already, or the type is no name of one.
+            BagError: The topic has another type already, or the type name is invalid.
 
         Warns:
             UserWarning: The type is not known; the bag gets no definition of it.
@@ -216,7 +216,8 @@ class BagWriter:
         Raises:
             BagError: The topic was not added, the bag is closed, there are no bytes, or a message
                 to compress is larger than readers take.
-            TypeError: The data are no bytes, a message of another type, or a time is none.
+            TypeError: The data are neither bytes nor a message of the type, or a time is not a
+                number.
             ValueError: A time lies before 1970.
             OSError: The disk is full, for example. What was written before stays readable.
         """
@@ -290,7 +291,7 @@ class BagWriter:
         return file
 
     def _define(self, file: McapWriter | SqliteWriter, topic: TopicInfo) -> int:
-        """Tell a file of a topic; returns its number there."""
+        """Register a topic in a file; returns its number there."""
         encoding, text = self._definitions[topic.type]
         qos = profiles_to_text(topic.qos, self.metadata.version)
         if isinstance(file, SqliteWriter):

@@ -32,12 +32,12 @@ def run_compare(args: argparse.Namespace) -> int:
     """Compare, draw what was asked for, and print the statistics.
 
     Raises:
-        BagError: A source is no bag, or lacks the topic.
+        BagError: A source is not a bag, or has no such topic.
         OSError: A file cannot be read or written.
         TransformException: Frames are unknown or not connected.
         ValueError: No stamps match, or the alignment is not possible.
     """
-    columns_of(args.plane)  # a wrong one is told whether it is drawn or not
+    columns_of(args.plane)  # report an invalid one even if it is not drawn
     reader = TrajectoryReader(*tf_topics(args))
     source = parse_source(args.reference)
     reference = reader.read(source)

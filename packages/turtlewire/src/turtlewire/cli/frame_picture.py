@@ -22,7 +22,7 @@ __all__ = ["Picture", "Row", "take_picture"]
 
 #: Stamps below are of a simulation, and no system time [ns].
 _WALL_TIME_FROM_NS = 1_000_000_000 * 10**9
-#: A link is stale when its newest sample is older than this [s], and than so many periods of its
+#: A link is stale when its newest sample is older than this [s], and than this many periods of its
 #: rate.
 _STALE_S = 1.0
 _STALE_PERIODS = 3.0
@@ -64,7 +64,7 @@ class Picture(NamedTuple):
         rows: The frames, each below its parent; siblings in the order of their names, so that a
             frame keeps its place.
         loops: Frames that are their own ancestors, from child to parent.
-        missing: Instead of rows, why there are none.
+        missing: The reason if there are no rows.
     """
 
     now_ns: int

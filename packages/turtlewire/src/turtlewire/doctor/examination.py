@@ -32,7 +32,7 @@ def examine(listen_s: float | None = None) -> list[Finding]:
 
     Args:
         listen_s: How long to listen to the transforms [s]. None listens until there is enough of
-            each publisher, at most for two seconds, and so long if what was heard is not right.
+            each publisher, at most for two seconds, and for the full time if something looks wrong.
     """
     from turtlewire.wire import open_context
 
@@ -79,7 +79,7 @@ def _verdict(findings: list[Finding]) -> str:
     middleware = middleware_name()
     if not is_installed(middleware):
         middleware = "none"
-    # As it is set: a value that is no domain is among the findings.
+    # As it is set: an invalid value is among the findings.
     domain = os.environ.get("ROS_DOMAIN_ID", "").strip() or "0"
     network = f"middleware {middleware}, discovery range {discovery().range.value}"
     return f"{found}: {network}, domain {printable(domain)}."

@@ -2,7 +2,7 @@
 
 A broadcaster with a timer stamps its transforms one period apart. Where some of them get lost, each
 at random, the steps between the rest are multiples of that period, and their lengths follow the
-geometric distribution. Three other rhythms look different, and are no loss: a broadcaster that has
+geometric distribution. Three other rhythms look different, and are not loss: a broadcaster that has
 no period, one that is held up now and then (few gaps, and long ones), and one whose clock ticks
 faster than it publishes (all steps nearly as long).
 """
@@ -22,14 +22,14 @@ __all__ = ["Gaps", "find_gaps"]
 _FEWEST_STEPS = 10
 #: Stamps of one moment: what a node publishes in one turn.
 _ONE_MOMENT_NS = 1_000_000
-#: The shortest step that is left may be so many periods long.
+#: Maximum length of the shortest remaining step, in periods.
 _LONGEST_SHORTEST = 6
-#: A step may differ from a multiple of the period by so much of it; some steps may by more.
+#: Tolerance of a step, as a fraction of the period; some steps may differ by more.
 _TOLERANCE = 0.2
 _MISFITS = 0.1
 #: Less than this is a broadcaster that was held up for a moment.
 _LEAST_SHARE = 0.3
-#: At least so much of what loss at random leaves on average: single steps, gaps, and variance.
+#: Minimum fraction of what random loss leaves on average: single steps, gaps, and variance.
 _MUCH = 0.4
 
 

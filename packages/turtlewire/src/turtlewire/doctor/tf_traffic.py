@@ -33,11 +33,11 @@ _CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
 #: How long completion listens: transforms are published at 10 Hz and more, static ones are kept for
 #: late joiners, and a user does not wait longer for a TAB.
 _COMPLETION_NS = 150_000_000
-#: After so many messages in a row a publisher has shown what it does (0.8 s of the demo's).
+#: Number of consecutive messages that is enough to judge a publisher (0.8 s of the demo's).
 _ENOUGH = 50
-#: So many stamps of a frame are kept, to find gaps in them.
+#: Number of stamps to keep per frame, to find gaps in them.
 _STAMPS = 200
-#: Steps back of stamps that are as small as a clock's jitter are no fault.
+#: Backward steps of stamps within a clock's jitter are not a problem.
 JITTER_NS = 1_000_000
 #: A frame leaps if it moves by more than this, and faster than any robot.
 LEAP_M = 0.5
@@ -45,7 +45,7 @@ FASTEST_M_S = 100.0
 
 
 class TfTraffic:
-    """What was heard.
+    """The received transforms.
 
     Attributes:
         parents: Frame to its parents.
@@ -56,7 +56,7 @@ class TfTraffic:
             do not count.
         leaps_m: Frame to its largest step within its parent that was faster than any robot.
         ended_ns: When the listening ended, system time.
-        clock_ns: The newest time of ``/clock``; None if nobody publishes it.
+        clock_ns: The newest time of ``/clock``; None if it is not published.
     """
 
     def __init__(self) -> None:
@@ -102,7 +102,7 @@ class TfListener:
     """Keeps what is published on /tf and /tf_static from now on.
 
     Args:
-        context: Its domain is listened to, with a node that :meth:`close` removes.
+        context: The context to subscribe in, with a node that :meth:`close` removes.
     """
 
     def __init__(self, context: Context) -> None:
@@ -148,11 +148,11 @@ class TfListener:
     def gather(self, graph: Graph, seconds: float) -> bool:
         """Listen for at most a time [s].
 
-        A static publisher sends all of its transforms at once to a new subscription. Others were
-        heard for long enough after fifty messages.
+        A static publisher sends all of its transforms at once to a new subscription. Fifty
+        messages are enough of the others.
 
         Returns:
-            Whether that was all that there is to hear.
+            Whether enough messages have arrived from every publisher.
         """
         publishers = tf_publishers(graph)
         at_once = [_sends_at_once(publisher) for publisher in publishers]
@@ -164,7 +164,7 @@ class TfListener:
         return all(at_once)
 
     def close(self) -> TfTraffic:
-        """Stop listening; what was heard."""
+        """Unsubscribe, and return the received transforms."""
         self._node.close()
         return self.traffic()
 

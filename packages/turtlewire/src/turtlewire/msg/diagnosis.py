@@ -219,7 +219,7 @@ class _ValueWalk:
 
 
 def _conversion(value: Any) -> str:
-    """Return a hint for what is no message but makes one, such as rclpy's Time and Duration."""
+    """Return a hint for objects that convert to a message, such as rclpy's Time and Duration."""
     if not hasattr(value, "to_msg"):
         return ""
     return f"A {type(value).__name__} is not a message; its to_msg() returns one."

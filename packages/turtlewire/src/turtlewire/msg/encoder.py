@@ -107,7 +107,7 @@ def byte_string(values: Any) -> bytes:
 
 def array_bytes(value: Any, dtype: str, size: int) -> bytes:
     """Return the content of a fixed array of numbers."""
-    if type(value) is bytes:  # nobody has looked at it
+    if type(value) is bytes:  # it has never been read
         return value
     import numpy as np
 

@@ -46,7 +46,7 @@ class IdlTokens:
         includes: The files that it includes.
 
     Raises:
-        InterfaceError: Something is no token; says in which line.
+        InterfaceError: A part is not a token; the message contains the line.
     """
 
     def __init__(self, label: str, text: str) -> None:

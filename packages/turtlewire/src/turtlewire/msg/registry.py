@@ -52,7 +52,7 @@ _loaded: dict[str, Definition] = {}
 
 
 def register_package(package: str, directory: str) -> None:
-    """Tell where the definitions of a package are.
+    """Register the folder with the definitions of a package.
 
     Args:
         package: Name of the package.

@@ -16,7 +16,7 @@ __all__ = ["watched"]
 
 @contextlib.contextmanager
 def watched(numbers: Collection[int], act: Callable[[], object]) -> Iterator[None]:
-    """Have a thread call ``act`` at each of these signals.
+    """Call ``act`` on a thread at each of these signals.
 
     Python runs the handler of a signal when its main thread executes bytecode. A signal that comes
     just before the main thread begins to wait, or that another thread receives, does not end that

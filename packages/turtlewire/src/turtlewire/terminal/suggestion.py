@@ -11,7 +11,7 @@ __all__ = ["did_you_mean"]
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """Return a line with the nearest known names; empty if none is near."""
+    """Return a line with the nearest known names; empty if no name is similar."""
     import difflib
 
     near = difflib.get_close_matches(name, list(dict.fromkeys(known)), n=3)

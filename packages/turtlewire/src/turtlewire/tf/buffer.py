@@ -54,7 +54,7 @@ class Buffer(BaseBuffer):
         max_frames: int | None = None,
         progress: Callable[[float], None] | None = None,
     ) -> Self:
-        """Return a buffer with all transforms of a bag; `bag_report` tells what was found.
+        """Return a buffer with all transforms of a bag; `bag_report` describes what was read.
 
         Args:
             path: A folder of rosbag2, or a ``.mcap`` or ``.db3`` file, compressed or not.

@@ -1,4 +1,4 @@
-"""Times that are no integers: NumPy's ``datetime64``, and what can be made one, as pandas' times.
+"""Times that are not integers: NumPy's ``datetime64``, and what can be made one, as pandas' times.
 
 This module does not import NumPy: a caller that has such a time has imported it.
 """

@@ -62,7 +62,7 @@ def conflicts(buffer: BaseBuffer) -> list[Conflict]:
 
     A sender counts as long as it has sent something within the history that the buffer keeps of the
     link. A frame that is handed over once from one parent to another, as when a gripper takes a
-    part, is no conflict.
+    part, is not a conflict.
     """
     found = []
     for link in links(buffer):

@@ -1,4 +1,4 @@
-"""Which frame hangs on which, with the figures of each link: what pictures of a buffer show."""
+"""The parent of each frame, with statistics of its transform, as diagrams show them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The links of a buffer: who sends each of them, how often, and since when.
+"""The links of a buffer: the sender of each, its rate, and its first stamp.
 
 Pictures of a buffer need no more than this, so a buffer that shows itself does not import what
 makes new buffers.
@@ -65,7 +65,7 @@ class LinkInfo(NamedTuple):
 
 
 def links(buffer: HasLinks, most: int = sys.maxsize) -> list[LinkInfo]:
-    """Return the first ``most`` links, in the order in which their frames were first heard of."""
+    """Return the first ``most`` links, in the order in which their frames first arrived."""
     return [LinkInfo(*row[:8], _senders(row[8])) for row in buffer._describe_links(most)]
 
 

@@ -40,7 +40,7 @@ def pdf_file(width: float, height: float, operators: list[str]) -> bytes:
 def text_operators(text: str, size: float, colour: str, place: str, *, bold: bool = False) -> str:
     r"""Return the operators of a line of text.
 
-    Letters that the fonts lack are written as escapes, ``\u732b`` for example.
+    Letters outside the fonts are written as escapes, ``\u732b`` for example.
 
     Args:
         text: The text.

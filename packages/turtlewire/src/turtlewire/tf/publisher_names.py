@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 __all__ = ["PublisherNames"]
 
-_MOST = 1000  # publishers come and go; beyond this many, all are looked up anew
+_MOST = 1000  # publishers come and go; beyond this many, all are looked up again
 
 
 class PublisherNames(dict[bytes, str]):

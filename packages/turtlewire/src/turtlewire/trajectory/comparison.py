@@ -70,7 +70,7 @@ class Comparison:
         return f"<pre>{escape(self.table())}</pre>\n{self.plot().svg}"
 
     def table(self, relation: str = "trans_part") -> str:
-        """The statistics of the APE as evo prints them, with a heading that tells the alignment."""
+        """The statistics of the APE as evo prints them, with the alignment in the heading."""
         errors = self.ape(relation)
         unit = f" ({errors.unit})" if errors.unit else ""
         scale = f", scale {self.alignment.scale:.6f}" if self.align == "sim3" else ""

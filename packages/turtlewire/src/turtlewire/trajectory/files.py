@@ -2,7 +2,7 @@
 
 Stamps are written and read as integers (``seconds.nanoseconds``), so that no nanosecond is lost:
 a double holds the seconds since 1970 only to 0.24 microseconds. Numbers are written so that they
-read back as the same doubles. No format tells of gaps: pauses that `find_gaps` takes for some are.
+read back as the same doubles. The formats do not store gaps: `find_gaps` derives them from pauses.
 """
 
 from __future__ import annotations
@@ -167,7 +167,7 @@ def write_trajectory(
 
 
 def read_trajectory(path: str | os.PathLike[str]) -> Trajectory:
-    """Read a file of any of these formats: which one it is tell its separator and columns.
+    """Read a file of any of these formats: the separator and the columns determine the format.
 
     KITTI's times are read from ``<name>_times.txt``, if there is such a file.
 
@@ -212,7 +212,7 @@ def _read_table(
             items = line.split(separator)
             try:
                 if len(items) < columns or (exact and len(items) > columns):
-                    raise ValueError(f"found {len(items)}")  # noqa: TRY301 - told like the others
+                    raise ValueError(f"found {len(items)}")  # noqa: TRY301 - reported like the others
                 if timed:
                     stamps.append(_nanoseconds(items[0].strip(), unit))
                 rows.append([float(item) for item in items[timed:columns]])

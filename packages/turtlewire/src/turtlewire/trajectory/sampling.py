@@ -19,9 +19,9 @@ __all__ = ["find_gaps", "moving_links", "sample_trajectory"]
 
 #: A pause this many times as long as the median between two samples counts as a gap.
 _GAP_FACTOR = 10
-#: Pauses shorter than this are no gaps, however regular the other samples are.
+#: Pauses shorter than this do not count as gaps, even if the other samples are regular.
 _SHORTEST_GAP_NS = 500_000_000
-#: So many poses take a gigabyte; a kilohertz for five hours and a half.
+#: This many poses take a gigabyte: 1 kHz for five and a half hours.
 _MOST_POSES = 20_000_000
 
 

@@ -72,7 +72,7 @@ class Layout:
         return self._writer.message(cdr, self._positions)
 
     def teach(self, relay: JointRelay) -> None:
-        """Have native code answer messages with this layout."""
+        """Let native code answer messages with this layout."""
         frames: Any = self._writer.frames  # native ones, because the relay is native
         relay.add_layout(
             self._head, self._positions, self._end, frames, self.names, self.knows_a_joint
@@ -96,7 +96,7 @@ class JointMessages:
         """Return the layout of a JointState in CDR.
 
         Raises:
-            CdrError: The bytes are no JointState.
+            CdrError: The bytes are not a JointState.
         """
         for number, layout in enumerate(self._layouts):
             if layout.fits(cdr):

@@ -46,8 +46,8 @@ def parse_urdf(text: str | bytes) -> Robot:
 
     Raises:
         TypeError: ``text`` is neither str nor bytes.
-        UrdfError: urdfdom refuses the description, or the links are no tree, or the XML declares
-            entities. ``line`` and ``element`` of the error say where.
+        UrdfError: urdfdom rejects the description, the links do not form a tree, or the XML
+            declares entities. ``line`` and ``element`` of the error say where.
     """
     if not isinstance(text, (str, bytes)):
         got = type(text).__name__

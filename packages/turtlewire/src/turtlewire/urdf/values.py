@@ -32,10 +32,10 @@ def number_of(element: Element, attribute: str, refusal: str) -> float | None:
     Args:
         element: The element.
         attribute: Name of the attribute.
-        refusal: urdfdom's text for what is no number; ``{}`` in it stands for the text read.
+        refusal: urdfdom's text for an invalid number; ``{}`` in it stands for the text read.
 
     Raises:
-        UrdfError: The attribute is no number.
+        UrdfError: The attribute is not a number.
     """
     text = element.get(attribute)
     if text is None:

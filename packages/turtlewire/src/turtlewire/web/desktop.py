@@ -39,7 +39,7 @@ def wanted_port() -> int:
     """Return the port to try first.
 
     Raises:
-        ValueError: TURTLEWIRE_PORT is no port number.
+        ValueError: TURTLEWIRE_PORT is not a port number.
     """
     text = os.environ.get("TURTLEWIRE_PORT", "")
     if text and not (text.isdecimal() and int(text) < 65536):

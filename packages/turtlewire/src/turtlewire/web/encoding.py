@@ -74,7 +74,7 @@ def has_tag(fields: Iterable[str], tag: str) -> bool:
 
 
 def _weight(parameters: list[str]) -> float:
-    """Return the value of ``q=``, 1 without it, and 0 for a value that is no number."""
+    """Return the value of ``q=``, 1 without it, and 0 for a value that is not a number."""
     given = next((part[2:] for part in parameters if part.startswith("q=")), "1")
     try:
         return float(given)

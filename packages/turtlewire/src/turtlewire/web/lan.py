@@ -18,11 +18,11 @@ if TYPE_CHECKING:
 __all__ = ["interface_addresses", "invite", "lan_addresses", "new_token", "path_below", "qr_code"]
 
 _SIOCGIFADDR = 0x8915  # <linux/sockios.h>
-#: Lower case without i, l, o, 0 and 1, for those who type the address: 79 bits in 16 letters.
+#: Lower case without i, l, o, 0 and 1, for typing the address: 79 bits in 16 letters.
 _LETTERS = "abcdefghjkmnpqrstuvwxyz23456789"
 _TOKEN_LENGTH = 16
-#: An address that nobody has (RFC 5737). Connecting a UDP socket to it sends nothing, but chooses
-#: the interface of the default route.
+#: An address that no computer has (RFC 5737). Connecting a UDP socket to it sends nothing, but
+#: chooses the interface of the default route.
 _ANYWHERE = ("192.0.2.1", 9)
 #: Black on white whatever the terminal's colours are: light codes on dark are not read by all.
 _QR_COLOURS = "\x1b[38;5;16;48;5;231m"
@@ -34,7 +34,7 @@ _QUIET_ZONE = 2
 
 
 def new_token() -> str:
-    """Return a token for one run of a server, which nobody can guess."""
+    """Return a token for one run of a server, which cannot be guessed."""
     import secrets
 
     return "".join(secrets.choice(_LETTERS) for _ in range(_TOKEN_LENGTH))

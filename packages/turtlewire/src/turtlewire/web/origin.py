@@ -5,7 +5,7 @@ request. A foreign page can make the user's browser connect to 127.0.0.1, also u
 own that resolves to it (DNS rebinding). These two headers reveal both.
 
 A server for the network answers to every address and to this computer's name besides. A page that
-rebinds its own name still fails, and would lack the token (:mod:`turtlewire.web.lan`).
+rebinds its own name still fails, and does not know the token (:mod:`turtlewire.web.lan`).
 """
 
 from __future__ import annotations

@@ -33,7 +33,7 @@ _MAX_MESSAGE = 65536
 _OUT_OF_RESOURCES = frozenset({errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM})
 #: How long a browser may take to answer the closing of its WebSocket [s].
 _CLOSE_TIMEOUT = 0.5
-#: What is said to those who lack it.
+#: The response to requests without it.
 _UNINVITED = "The token that the program printed is missing from the address."
 
 
@@ -88,8 +88,8 @@ class Server:
             port: Preferred TCP port. A free one is taken if it is in use.
             lan: Whether to serve all devices of the network. Every request must then begin with a
                 random token, which is part of ``url`` (see :mod:`turtlewire.web.lan`).
-            answer: Called, on any thread, for a path that is no file, with its escapes decoded:
-                ``/mesh/x.stl``. None is answered with status 404.
+            answer: Called, on any thread, for a path that is not a file, with its escapes decoded:
+                ``/mesh/x.stl``. Returning None gives status 404.
             sources: What the page may load besides, by directive of the Content-Security-Policy.
                 Import maps in the page need no entry.
             immutable: Beginning of the paths of files that never change, as ``/three-0.180/``;

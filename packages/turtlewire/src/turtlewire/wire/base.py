@@ -96,8 +96,8 @@ class Sink(Protocol):
         """Do what needs Python after messages were received.
 
         Args:
-            gid_of: Tells the gid of a publisher from the middleware's number of it; empty if it is
-                not known.
+            gid_of: Returns the gid of a publisher from the middleware's number of it; empty if it
+                is not known.
 
         Returns:
             Messages for Python to deliver: bytes, number of the publisher, time of sending in ns.
@@ -176,7 +176,7 @@ class Subscription(Entity):
     def take(self, limit: int = 32) -> list[tuple[bytes, MessageInfo]]:
         """Take up to ``limit`` waiting messages, oldest first.
 
-        An empty list when there are none.
+        The list is empty if no messages are waiting.
         """
 
     @abstractmethod
@@ -208,7 +208,7 @@ class Client(Entity):
         """Send a request; its sequence number comes back with the response.
 
         Raises:
-            UncallableServiceError: A server would misread the request, so none is sent (see
+            UncallableServiceError: A server would misread the request, so it is not sent (see
                 :meth:`Graph.foreign_servers`).
             WireError: The middleware refused it.
         """
@@ -233,7 +233,7 @@ class Service(Entity):
 
     @abstractmethod
     def send_response(self, request_id: RequestId, cdr: bytes) -> None:
-        """Answer a request. A client that has gone away is no error."""
+        """Answer a request. A client that has disappeared is not an error."""
 
 
 Waitable = Subscription | Client | Service | Event
@@ -372,7 +372,7 @@ class Graph(ABC):
     def is_complete(self) -> bool:
         """Return True if everything on this host is known.
 
-        Its participants, where the system tells how many there are, and what they announced.
+        Its participants, if the system reports their number, and what they announced.
 
         Of participants on other hosts that are not known yet it says nothing.
         """
@@ -423,7 +423,7 @@ class Context(ABC):
 
     @abstractmethod
     def call_soon(self, call: Callable[[], None]) -> None:
-        """Have the context's reader thread call ``call()``, unless the context closes before.
+        """Call ``call()`` on the context's reader thread, unless the context closes before.
 
         Takes no lock that this thread may hold already, so a finalizer may use it.
         """

@@ -48,7 +48,7 @@ def no_message(cdr: bytes, topic: str) -> WireError:
 
 
 def require_message(cdr: bytes, topic: str) -> None:
-    """Refuse bytes that are no message.
+    """Reject bytes that are not a message.
 
     Raises:
         WireError: The bytes are not a message.

@@ -79,9 +79,9 @@ def domain_id() -> int:
 def middleware_name() -> str:
     """``RMW_IMPLEMENTATION``; Cyclone DDS if it is not set or, after a warning, names another one.
 
-    A shell that sourced a real ROS 2 often has a middleware set that only exists there. Where there
-    is no Cyclone DDS but Zenoh, that is taken, after a warning as well. In a browser tab there is
-    only ``local``.
+    A shell that sourced a real ROS 2 often has a middleware set that only exists there. If Zenoh
+    is available but Cyclone DDS is not, Zenoh is used, also after a warning. In a browser tab
+    there is only ``local``.
     """
     name = os.environ.get("RMW_IMPLEMENTATION", "").strip()
     if name in MIDDLEWARES and is_installed(name):

@@ -84,7 +84,7 @@ class StatusEvent(Event):
             watcher.happened(self)
 
     def detach(self, watcher: EventWatcher) -> None:
-        """Tell it no more."""
+        """Stop notifying it."""
         with self._lock:
             self._watchers.discard(watcher)
         watcher.forget(self)

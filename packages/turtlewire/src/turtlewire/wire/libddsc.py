@@ -28,8 +28,8 @@ class Abi(NamedTuple):
 
     Attributes:
         version: The first two numbers of the version.
-        tells_type: Whether ``dds_get_entity_sertype`` tells the type of an entity. Without it, the
-            type is read from the structure of the topic.
+        tells_type: Whether ``dds_get_entity_sertype`` returns the type of an entity. Without it,
+            the type is read from the structure of the topic.
         prunes_peers: Whether ``<Peer>`` has the attribute ``PruneDelay``; without it, peers are
             never given up.
         finds_fast_dds: Whether nodes on Fast DDS are found on the loopback interface. They announce
@@ -53,7 +53,7 @@ class Libddsc(NamedTuple):
 
     Attributes:
         path: The file.
-        version: As its name or the wheel tells it; empty if neither does.
+        version: From its name or the wheel; empty if unknown.
         origin: Who brought it, for people.
     """
 

@@ -280,7 +280,7 @@ def service_of_requests(dds_topic: str) -> str | None:
 def type_to_dds(type_name: str) -> str:
     """``turtlesim/msg/Pose`` becomes ``turtlesim::msg::dds_::Pose_``.
 
-    Names that are no ROS names stay.
+    Names that are not ROS names stay unchanged.
     """
     package, _, base = type_name.rpartition("/")
     return f"{package.replace('/', '::')}::dds_::{base}_" if package else type_name
@@ -289,7 +289,7 @@ def type_to_dds(type_name: str) -> str:
 def type_from_dds(dds_type: str) -> str:
     """``turtlesim::msg::dds_::Pose_`` becomes ``turtlesim/msg/Pose``.
 
-    Names that are no ROS names stay.
+    Names that are not ROS names stay unchanged.
     """
     match = _DDS_TYPE.fullmatch(dds_type)
     return f"{match.group(1).replace('::', '/')}/{match.group(2)}" if match else dds_type

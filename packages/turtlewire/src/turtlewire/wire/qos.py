@@ -84,7 +84,7 @@ class QoS(NamedTuple):
 
     @property
     def has_best_available(self) -> bool:
-        """True if a policy is to be chosen after the endpoints that are there."""
+        """True if a policy depends on the existing endpoints."""
         return (
             self.reliability == Reliability.BEST_AVAILABLE
             or self.durability == Durability.BEST_AVAILABLE

@@ -42,7 +42,7 @@ class ServiceTypes(NamedTuple):
         name: ROS name (``turtlesim/srv/Spawn``).
         request: Type of the requests.
         response: Type of the responses.
-        hash_of: Tells the hash of the service's name; a middleware that needs it asks.
+        hash_of: Returns the hash of the service's type, for middlewares that need it.
     """
 
     name: str

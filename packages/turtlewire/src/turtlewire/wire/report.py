@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
 __all__ = ["call_guarded", "warn", "warn_once"]
 
-#: Keys contain names, and peers may invent new ones without end. After so many the set begins anew,
-#: and a warning can be repeated.
+#: Keys contain names, and peers may invent new ones without end. After this many the set is
+#: cleared, and a warning can be repeated.
 _MOST_KEYS = 1000
 _said: set[str] = set()
 

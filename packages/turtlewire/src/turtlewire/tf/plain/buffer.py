@@ -271,12 +271,12 @@ class Buffer(SharedTree):
     # -- descriptions
 
     def frame_strings(self) -> list[str]:
-        """Return the names of all frames ever heard of, in order of arrival."""
+        """Return the names of all frames ever received, in order of arrival."""
         with self._changed:
             return list(self._tree.frames)
 
     def frame_exists(self, frame: str) -> bool:
-        """Return True if the frame was ever heard of."""
+        """Return True if the frame was ever received."""
         with self._changed:
             return frame in self._tree.frames or frame == NO_PARENT
 
@@ -341,7 +341,7 @@ class Buffer(SharedTree):
 
 
 def _escaped(name: bytes) -> str:
-    """Return a name as the tree judges it: bytes that are no UTF-8 become surrogates."""
+    """Return a name as the tree judges it: bytes that are not UTF-8 become surrogates."""
     return name.removeprefix(b"/").decode(errors="surrogateescape")
 
 

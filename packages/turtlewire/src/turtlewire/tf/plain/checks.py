@@ -12,7 +12,7 @@ LIMIT = 2**63
 
 
 def check_frames(**frames: object) -> None:
-    """Raise a TypeError unless all are strings, and a UnicodeEncodeError if one is no text."""
+    """Raise a TypeError unless all are strings, and a UnicodeEncodeError for invalid Unicode."""
     for argument, frame in frames.items():
         if not isinstance(frame, str):
             raise TypeError(f"{argument} must be str, not {type(frame).__name__}")

@@ -28,7 +28,7 @@ class Failure(Exception):
     """A question has no answer; the buffer turns it into a TransformException.
 
     Attributes:
-        status: What is wrong, as batches tell it.
+        status: The error, as batches report it.
         details: The attributes of the exception by name; see turtlewire.errors.
         hopeless: Whether more data cannot help.
     """

@@ -16,7 +16,7 @@ _held: list[threading.Condition] = []
 
 
 def guard(lock: threading.Condition) -> None:
-    """Have fork() take the lock first, for as long as it exists."""
+    """Make fork() acquire the lock first, as long as the lock exists."""
     with _registry:
         _guarded.add(lock)
 

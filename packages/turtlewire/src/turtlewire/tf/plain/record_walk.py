@@ -45,7 +45,7 @@ class _Clock:
 class RecordWalk:
     """Walks the records of MCAP chunks and adds the TFMessages among them to a buffer.
 
-    One thread at a time may use it. Messages that are no TFMessages are counted by the buffer, as
+    One thread at a time may use it. Messages that are not a TFMessage are counted by the buffer, as
     in ``ingest``.
 
     Args:
@@ -79,11 +79,12 @@ class RecordWalk:
         Args:
             buffer: Where to.
             records: The bytes.
-            channels: By the number of a channel: who sends on it, and whether its transforms are
+            channels: By the number of a channel: its sender, and whether its transforms are
                 static. Other channels are passed over.
 
         Returns:
-            Where the first record begins that is cut off, all before it being added; -1 if none is.
+            Where the first record begins that is cut off, all before it being added; -1 if no
+            record is cut off.
         """
         data = bytes(records)
         end, start_ns, end_ns = len(data), self._start_ns, self._end_ns
@@ -119,7 +120,7 @@ class RecordWalk:
         if static or len(data) < _SMALLEST:  # without transforms
             return
         count, seconds, nanoseconds = (_read_little_head if data[1] else _read_big_head)(data)
-        if not count:  # what follows is no transform
+        if not count:  # the rest is not a transform
             return
         stamp = seconds * 1_000_000_000 + nanoseconds
         # The names of a message with one transform lie between its head and its numbers.

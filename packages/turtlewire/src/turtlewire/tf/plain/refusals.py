@@ -13,7 +13,7 @@ _MOST_FRAMES = 1000
 
 
 class MalformedMessages(NamedTuple):
-    """Messages of which not even the transforms could be told apart."""
+    """Messages in which not even the transforms could be separated."""
 
     messages: int = 0
     last: str = ""

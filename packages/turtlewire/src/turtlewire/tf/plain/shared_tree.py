@@ -58,7 +58,7 @@ class SharedTree:
             _call(listener)
 
     def wake(self) -> None:
-        """Have every waiting lookup check for pending signals now; without one it waits on."""
+        """Make every waiting lookup check for pending signals now; without one it waits on."""
         with self._changed:
             self._changed.notify_all()
 

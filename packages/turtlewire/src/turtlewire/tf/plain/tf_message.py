@@ -17,7 +17,7 @@ def decode_tf_message(data: bytes) -> list[tuple[int, bytes, bytes, Pose]]:
     """Return the transforms of a message: (stamp in ns, parent, child, pose).
 
     Raises:
-        CdrError: The bytes are no TFMessage.
+        CdrError: The bytes are not a TFMessage.
     """
     if len(data) < 8:
         raise CdrError(f"not a TFMessage: a TFMessage has at least 8 bytes, these are {len(data)}")

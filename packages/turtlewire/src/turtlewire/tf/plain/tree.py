@@ -166,8 +166,8 @@ class Tree:
     def _walk(self, target: str, source: str, stamp: int, read: Reader) -> tuple[Pose, list[str]]:
         """Walk from the source to the root, then from the target up to that walk.
 
-        A link without data ends the first walk and fails the second. If both walks lack data, the
-        failure of the link with the newer data is raised, as tf2 has done since 0.36.20.
+        A link without data ends the first walk and fails the second. If both walks have no data,
+        the failure of the link with the newer data is raised, as tf2 has done since 0.36.20.
         """
         up: list[str] = []
         down: list[str] = []

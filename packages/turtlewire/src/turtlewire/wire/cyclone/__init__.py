@@ -31,7 +31,7 @@ module                    what it holds
 `waiting`                 wait sets
 `reader`                  the one Python thread of a context
 `graph`                   the graph as this participant sees it
-`silent_peers`            asks peers again for what Cyclone did not hear
+`silent_peers`            asks peers again for messages that Cyclone missed
 `qos`                     QoS as Cyclone's objects, and back
 `log`                     Cyclone's warnings, explained and bounded
 `ports`                   the processes of this host that take part in a domain

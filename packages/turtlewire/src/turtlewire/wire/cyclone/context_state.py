@@ -33,7 +33,7 @@ class CycloneContextState:
         self._service_numbers = itertools.count(1)
 
     def graph_changed(self) -> None:
-        """Tell the graph's listeners; called when a predicate on the graph may have changed."""
+        """Notify the graph's listeners; called when a predicate on the graph may have changed."""
         if self.graph is not None:
             self.graph.notify_changed()
 

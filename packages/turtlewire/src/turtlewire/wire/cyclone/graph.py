@@ -127,7 +127,7 @@ class CycloneGraph(GraphView):
         return CycloneSubscription(self._participant, spec, ignore_local=True)
 
     def _renew_infos(self) -> None:
-        """Every participant tells the new reader its nodes, those that the old one missed too."""
+        """Replace the reader of node names, so that every participant sends its nodes again."""
         old, self._infos = self._infos, self._subscribe_to_infos()
         self._reader.unwatch(old.condition())
         for cdr in old.take_bytes():
@@ -142,9 +142,9 @@ class CycloneGraph(GraphView):
     def _look_first(self) -> None:
         """Take over what Cyclone knows already, before a question is answered.
 
-        The reader thread may not have heard yet of an endpoint that the asking thread has just made
-        or closed. What is taken here does not wake it any more, so it is asked to tell the
-        listeners.
+        The reader thread may not have received an endpoint yet that the calling thread has just
+        created or closed. What is taken here does not wake it any more, so it is asked to notify
+        the listeners.
         """
         if self._update():
             self._reader.call_soon(self.notify_changed)
@@ -226,7 +226,7 @@ class CycloneGraph(GraphView):
                     sample.type_name.decode("utf-8", "replace"),
                 )
                 qos = read_qos(sample.qos)
-                if is_fast_dds(gid):  # it does not announce the history; Cyclone tells its default
+                if is_fast_dds(gid):  # it does not announce the history; Cyclone fills in a default
                     qos = qos._replace(history=History.UNKNOWN, depth=0)
                 self._endpoints[gid] = endpoint = _Endpoint(kind, topic, type_name, user_data, qos)
                 self._compare_types(self._types.add, gid, endpoint)

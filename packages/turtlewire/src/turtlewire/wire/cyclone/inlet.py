@@ -20,7 +20,7 @@ class Inlet:
 
     Attributes:
         sink: It is kept until the inlet is closed, because native code uses it.
-        guard: The condition that is true while the sink is to be served.
+        guard: The condition that is true while the sink needs service.
         listener: What to create the reader with.
     """
 
@@ -35,7 +35,7 @@ class Inlet:
         dds.lset_data_available(self.listener, callback)
 
     def rest(self, gid_of: Callable[[int], bytes]) -> list[tuple[bytes, int, int]]:
-        """Serve the sink and return the messages that it left; call it until there are none."""
+        """Serve the sink and return the messages that it left; call it until it returns none."""
         dds.set_guard_condition(self.guard, False)
         return self.sink.serve(gid_of)
 

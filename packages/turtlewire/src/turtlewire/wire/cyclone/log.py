@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 __all__ = ["CycloneLog", "LineLimiter", "explain"]
 
-#: In each period of so many seconds, so many lines are passed on; the others are counted.
+#: Length of a period in seconds, and the lines to pass on in each; the others are counted.
 _PERIOD_S = 60.0
 _LINES = 5
 _MAX_LETTERS = 300
@@ -35,7 +35,7 @@ _BLOCK = 1 << 16
 _HEAD = r"[\d.]+ \[\w*\] +\S+: "
 _REFUSED = r"ddsi_udp_conn_write to udp/(.+):\d+ failed"
 #: Fast DDS counts packets in submessages of its own (0x80), and has endpoints of its own for that.
-#: Cyclone cannot read them, loses nothing by it, and nobody can act on it.
+#: Cyclone cannot read them, loses nothing by it, and no user can act on it.
 _STATISTICS = (
     r"malformed packet received from vendor 1\.15 state parse:UNKNOWN\(80\)|"
     r"invalid parameter list \(vendor 1\.15, [^)]*\): pid 5a \(ENDPOINT_GUID\) invalid|"
@@ -186,7 +186,7 @@ def _text_of(line: bytes) -> str:
 
 
 def _print_on_abort(pipe: int) -> None:
-    """Have what ``pipe`` holds written on stderr when the process aborts (compiled core only)."""
+    """Write the content of ``pipe`` on stderr when the process aborts (compiled core only)."""
     with suppress(ModuleNotFoundError):
         from turtlewire._native import print_on_abort
 

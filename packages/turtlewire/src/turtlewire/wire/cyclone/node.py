@@ -79,7 +79,7 @@ class CycloneNode(Node):
     def _serve(
         self, subscription: CycloneSubscription, on_message: Callable[[bytes, MessageInfo], None]
     ) -> None:
-        """Have the reader thread call ``on_message`` until the subscription closes."""
+        """Call ``on_message`` on the reader thread until the subscription closes."""
         inlet = subscription.inlet
         if inlet is None:
             condition, deliver = subscription.condition(), deliver_to(subscription, on_message)

@@ -89,7 +89,7 @@ def matched_endpoints(
     Args:
         handle: Cyclone's handle of our endpoint.
         matched: Cyclone's handles of the others.
-        read_matched: The function of Cyclone that tells what one of them announces.
+        read_matched: Cyclone's function that returns what one of them announces.
     """
     found = []
     for instance in matched:

@@ -1,9 +1,9 @@
-"""Has peers of other vendors say once more what Cyclone did not hear.
+"""Asks peers of other vendors to repeat what Cyclone did not receive.
 
 A peer tells each new participant at once which endpoints it has, and each new reader what it keeps
 for late joiners. Fast DDS does so before Cyclone has taken note of the peer, so Cyclone drops it.
 Fast DDS then repeats its endpoints after one second and its messages after three, because it does
-not heed the form in which Cyclone asks for what it never heard of (an ACKNACK whose count is 0).
+not heed the form in which Cyclone asks for what it never received (an ACKNACK whose count is 0).
 
 Another participant, or another reader, makes Fast DDS speak at once. Cyclone has taken note of the
 peer by then, and asks for all that was said, in a form that Fast DDS heeds.
@@ -29,7 +29,7 @@ PATIENCE_NS = 2_000_000
 
 
 class Questions(NamedTuple):
-    """Gids of participants that are to be asked, each for something else."""
+    """Gids of participants to ask, by what to ask for."""
 
     endpoints: set[bytes]
     nodes: set[bytes]

@@ -62,7 +62,7 @@ class LocalContext(Context):
         return self._graph
 
     def _graph_changed(self) -> None:
-        """Have the reader thread tell the graph's listeners."""
+        """Notify the graph's listeners on the reader thread."""
         self._reader.submit(self._graph.notify_changed)
 
     def replace_reader(self, reader: Reader) -> None:

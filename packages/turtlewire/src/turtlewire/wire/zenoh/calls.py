@@ -41,7 +41,7 @@ class Calls:
                 self._condition.notify_all()
 
     def close(self) -> None:
-        """Let nobody in any more."""
+        """Reject further calls."""
         with self._condition:
             self._closed = True
 

@@ -140,7 +140,7 @@ class ZenohGraph(GraphView):
                 endpoint.meet(partner)
 
     def unwatch(self, endpoint: Matching) -> None:
-        """Tell it nothing more."""
+        """Stop notifying it."""
         token = endpoint.token
         with self.lock:
             same = self._own.get((token.kind, token.data_key), {})

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 __all__ = ["ZenohSinkSubscription"]
 
-#: So many messages wait in the channel at most; then Zenoh receives no more from their sender.
+#: Maximum number of messages in the channel; then Zenoh receives no more from their sender.
 _CAPACITY = 1000
 
 
@@ -122,7 +122,7 @@ class ZenohSinkSubscription(ZenohSubscription):
 
     @property
     def is_waiting(self) -> bool:
-        """True if the sink is to be served."""
+        """True if the sink needs service."""
         return self._is_left
 
     def take(self, limit: int = 32) -> list[tuple[bytes, MessageInfo]]:  # noqa: ARG002 - all

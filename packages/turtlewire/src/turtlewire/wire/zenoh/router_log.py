@@ -32,7 +32,7 @@ _FILTER = (
 _COLORS = r"\x1b\[[0-9;]*m"
 _HEAD = r"^\S+ +(?P<level>[A-Z]+) .*?(?P<module>zenoh\w*(?:::\w+)+)(?:\{.*?\})?: (?P<text>.*)$"
 _PLACE = r"(\.? at \S+\.rs:\d+\.?| Hint: increase the system open file limit\.)+$"
-#: What a kind of line says, and the sentence for it; it is said again after so many seconds.
+#: What a kind of line says, and the sentence for it; it is repeated after this many seconds.
 _PERIOD_S = 60.0
 _SENTENCES = {
     r"invalid peer certificate: UnknownIssuer": "refused a connection: its certificate is not "
@@ -76,7 +76,7 @@ def explain(line: str) -> str:
 
 @contextmanager
 def explained_log() -> Iterator[TextIO]:
-    """Have the library log in sentences meanwhile; once in a process.
+    """Translate the library's log into sentences; once in a process.
 
     Yields:
         Standard output.

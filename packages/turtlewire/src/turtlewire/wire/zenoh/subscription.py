@@ -114,7 +114,7 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
                 self._tell()
 
     def _warn_of_loss(self, sample: zenoh.Sample) -> None:
-        """Say why a sample is no message."""
+        """Log why a sample is not a message."""
         try:
             _read(sample)
         except ValueError as error:
@@ -133,7 +133,7 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
         self._event(EventKind.MESSAGE_LOST).add(EventStatus(self._lost_count, missing))
 
     def _tell(self) -> None:
-        """Wake who waits for the message; called with the lock held."""
+        """Wake the threads that wait for the message; called with the lock held."""
         if self._on_message is not None and not self._is_delivering:
             self._is_delivering = True
             self._core.reader.submit(self._deliver)
