@@ -8,7 +8,7 @@ __all__ = ["add_page_options"]
 
 
 def add_page_options(parser: argparse.ArgumentParser) -> None:
-    """Add where a page is served: ``--port`` and ``--lan``."""
+    """Add the options for the address of a page: ``--port`` and ``--lan``."""
     parser.add_argument(
         "--port", type=_port_number, metavar="N", help="Serve the page at this port (default: 7070)"
     )
