@@ -132,7 +132,7 @@ def _unique(seats: Iterable[tuple[Seat, str]], file: str) -> list[Seat]:
         other = by_domain.setdefault(seat.domain, seat)
         if other is not seat:
             raise ClassError(
-                f"{file}{place}: {other.name} and {seat.name} have the same domain {seat.domain}: "
-                "give each student a different one"
+                f"{file}{place}: domain {seat.domain} belongs to {other.name} and {seat.name}: "
+                "give each student another domain"
             )
     return list(by_domain.values())

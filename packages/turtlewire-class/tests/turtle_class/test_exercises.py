@@ -47,8 +47,8 @@ def test_there_are_eight_exercises_with_three_typical_mistakes_each():
 def test_a_text_is_readable_as_plain_text():
     (exercise,) = chosen(["camera"])
     text = exercise.plain_text()
-    assert text.startswith("# 8 · A camera that looks down\n")
-    assert "**Task.** Put a static frame `camera` on turtle1" in text
+    assert text.startswith("# 8 · A camera that points down\n")
+    assert "**Task.** Attach a static frame `camera` to turtle1" in text
     assert "<" not in text
 
 

@@ -23,7 +23,7 @@ from .conftest import FILE, silly
 PATIENT = Limits(seconds=250.0)
 #: What the child would write if all were well.
 NAMES = [
-    "The frame carrot1 hangs on turtle1",
+    "The frame carrot1 is a child of turtle1",
     "The carrot is one metre behind turtle1",
     "The carrot stays there while turtle1 drives and turns",
     "Turtle2 comes to the carrot",

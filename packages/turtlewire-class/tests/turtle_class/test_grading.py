@@ -85,8 +85,8 @@ def test_a_flood_of_output_is_cut_and_does_not_fail(tmp_path):
         (lambda path: path.unlink(), "skipped", f"{FILE} is missing."),
         (lambda path: path.write_bytes(b"# \xff\n"), "failed", f"{FILE} is not UTF-8"),
         (lambda path: path.write_bytes(b"#" * 2_000_000), "failed", "has 2000000 bytes"),
-        (lambda path: (path.unlink(), path.mkdir()), "failed", "is no plain file"),
-        (lambda path: (path.unlink(), path.symlink_to("/etc/passwd")), "failed", "no plain file"),
+        (lambda path: (path.unlink(), path.mkdir()), "failed", "is not a regular file"),
+        (lambda path: (path.unlink(), path.symlink_to("/etc/passwd")), "failed", "not a regular file"),
     ],
     ids=["missing", "latin1", "huge", "folder", "link"],
 )

@@ -47,7 +47,7 @@ WRONG_ANSWERS = [
         "That is yaw",
     ),
     WrongAnswer("camera", "looks_up", (("math.radians(30)", "-math.radians(30)"),), "That is up"),
-    WrongAnswer("camera", "no_w", (("= q[1]", "= 0.0"), ("= q[3]", "= 0.0")), "length 1 is wanted"),
+    WrongAnswer("camera", "no_w", (("= q[1]", "= 0.0"), ("= q[3]", "= 0.0")), "must have length 1"),
     WrongAnswer(
         "camera",
         "y_is_up",
@@ -115,12 +115,12 @@ WRONG_ANSWERS = [
         "meeting_point",
         "clock",
         (("stamp = found.header.stamp", "stamp = self.get_clock().now().to_msg()"),),
-        "copy that one's",
+        "copy its header.stamp",
     ),
     WrongAnswer(
         "meeting_point",
         "time_now",
         (("rclpy.time.Time()", "self.get_clock().now()"),),
-        "ask for the latest",
+        "look up the latest",
     ),
 ]

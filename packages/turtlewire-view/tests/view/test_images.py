@@ -96,7 +96,7 @@ def test_a_large_picture_is_made_coarser():
 @pytest.mark.parametrize(
     ("changes", "line"),
     [
-        ({"encoding": "jpeg2000"}, "the encoding 'jpeg2000' is not known; known are rgb8"),
+        ({"encoding": "jpeg2000"}, "the encoding 'jpeg2000' is not supported; choose from rgb8"),
         ({"width": 5}, "step is 6, but a row of rgb8 needs 15"),
         ({"height": 9}, "2 x 9 pixels of rgb8 need 54 bytes, the image holds 12"),
         ({"width": 0}, "the image has no pixels: 0 x 2"),

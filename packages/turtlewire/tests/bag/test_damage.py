@@ -203,7 +203,7 @@ def test_a_message_that_the_reader_would_refuse_is_not_written(tmp_path, small_l
     with BagWriter(tmp_path / "made", storage="sqlite3", compression_mode="MESSAGE") as writer:
         writer.add_topic("/map", "nav_msgs/msg/OccupancyGrid")
         writer.write("/map", bytes(1 << 20), 1)
-        with pytest.raises(BagError, match="1048577 bytes, and readers take at most 1048576"):
+        with pytest.raises(BagError, match="1048577 bytes, and readers accept at most 1048576"):
             writer.write("/map", bytes((1 << 20) + 1), 2)
     assert read_what_there_is(tmp_path / "made")[0][0].log_time_ns == 1
 
@@ -483,5 +483,5 @@ def test_a_message_that_lacks_is_told(tmp_path):
     path.write_bytes(damaged)
     messages, complaint = read_what_there_is(folder)
     assert len(messages) == 110
-    assert "1 of the messages" in complaint
-    assert "1 of the messages" in " ".join(load_transforms(folder)[1].problems)
+    assert "1 messages listed in its statistics are missing" in complaint
+    assert "1 messages listed in its statistics are missing" in " ".join(load_transforms(folder)[1].problems)

@@ -110,7 +110,7 @@ def test_messages_are_in_order_of_time_across_overlapping_chunks_and_files(tmp_p
 def test_what_is_no_bag(tmp_path):
     with pytest.raises(FileNotFoundError, match="there is no bag at"):
         open_bag(tmp_path / "nothing")
-    with pytest.raises(BagError, match=r"holds no \.mcap or \.db3 file"):
+    with pytest.raises(BagError, match=r"contains no \.mcap or \.db3 file"):
         open_bag(tmp_path)
     (tmp_path / "text.mcap").write_text("hello, world, I am no bag")
     with pytest.raises(BagError, match="neither an MCAP nor a sqlite3 file"):

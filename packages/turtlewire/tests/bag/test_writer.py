@@ -268,10 +268,10 @@ def test_messages_that_a_topic_does_not_hold(tmp_path, storage):
         writer.add_topic("/s", "std_msgs/msg/String")
         with pytest.raises(TypeError, match=r"/s holds std_msgs/msg/String, not tf2_msgs/msg/TF"):
             writer.write("/s", transform(0), 1)
-        with pytest.raises(TypeError, match=r"/s takes a std_msgs/msg/String.*not str"):
+        with pytest.raises(TypeError, match=r"/s accepts a std_msgs/msg/String.*not str"):
             writer.write("/s", "hello", 1)
         for empty in (b"", bytearray()):
-            with pytest.raises(BagError, match=r"/s takes a std_msgs/msg/String.*not 0 bytes"):
+            with pytest.raises(BagError, match=r"/s accepts a std_msgs/msg/String.*not 0 bytes"):
                 writer.write("/s", empty, 1)
         writer.write("/s", bytearray(b"\0\1\0\0"), 1)
     with open_bag(tmp_path / "made") as bag:

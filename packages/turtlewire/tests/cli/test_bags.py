@@ -220,10 +220,10 @@ def test_a_file_without_data_is_no_trajectory(capsys, tmp_path, text, what):
         ("bag tff BAG", "Did you mean: tf"),
         ("bag tf nothing", "there is no bag at nothing"),
         ("doctor nothing", "there is no bag at nothing"),
-        ("doctor BAG --listen 2", "--listen cannot be combined with a BAG"),
+        ("doctor BAG --listen 2", "--listen cannot be combined with"),
         ("trajectory BAG base_link camera --rate 10", "bag tf BAG` shows which frames have a rate"),
         ("compare BAG:odom:camera BAG:odom:camera --plane ab", "ab"),
-        ("doctor --topic /r1/tf", "need a BAG"),
+        ("doctor --topic /r1/tf", "--topic and --static-topic need a"),
         ("trajectory BAG /odom --topic /r1/tf", "need two frames"),
     ],
 )

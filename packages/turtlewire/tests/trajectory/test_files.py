@@ -184,7 +184,7 @@ def test_any_format_is_written_and_recognised(tmp_path, kind):
     assert back.stamps_ns.tolist() == walk.stamps_ns.tolist()
     assert back.positions == pytest.approx(walk.positions)
     assert write_trajectory(walk, tmp_path / "walk.txt") == "tum"
-    with pytest.raises(ValueError, match="unknown format 'xyz'; known are tum, kitti"):
+    with pytest.raises(ValueError, match="unknown format 'xyz'; choose from tum, kitti"):
         write_trajectory(walk, path, "xyz")
 
 

@@ -196,7 +196,7 @@ def test_the_table_is_evos(pair):
 
 
 def test_wrong_words(pair):
-    with pytest.raises(ValueError, match="unknown relation 'tranz'; known are trans_part"):
+    with pytest.raises(ValueError, match="unknown relation 'tranz'; choose from trans_part"):
         ape(*pair, "tranz")
     with pytest.raises(ValueError, match="unknown unit 'x'"):
         rpe(*pair, unit="x")

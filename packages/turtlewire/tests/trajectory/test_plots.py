@@ -102,9 +102,9 @@ def test_saving(tmp_path):
 
 def test_what_cannot_be_drawn():
     walk = random_walk(1)
-    with pytest.raises(ValueError, match="'xx' is no plane"):
+    with pytest.raises(ValueError, match="'xx' is not a plane"):
         plot_path(walk, plane="xx")
-    with pytest.raises(ValueError, match="'paths' is no picture; known are path"):
+    with pytest.raises(ValueError, match="'paths' is not a kind of plot; choose from path"):
         walk.plot("paths")
     with pytest.raises(ValueError, match="no pose"):
         plot_path(walk[:0])

@@ -199,7 +199,7 @@ def test_limits_the_wrong_way_round_are_a_warning():
 
 
 def test_what_is_no_text():
-    with pytest.raises(TypeError, match="str or bytes, got NoneType; a file: load_urdf"):
+    with pytest.raises(TypeError, match="str or bytes, got NoneType; for a file, use load_urdf"):
         parse_urdf(None)
 
 

@@ -27,7 +27,7 @@ def _quaternion(exercise: Exercise) -> tuple[float, float, float, float]:
 
 
 def check_parent(exercise: Exercise) -> None:
-    """The frame camera hangs on turtle1."""
+    """The frame camera is a child of turtle1."""
     _quaternion(exercise)
     parent = exercise.frames()["camera"]
     exercise.expect(

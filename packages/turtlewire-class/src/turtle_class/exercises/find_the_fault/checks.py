@@ -1,4 +1,4 @@
-"""Nothing is wrong with the broadcaster any more."""
+"""The broadcaster has no bugs left."""
 
 import math
 
@@ -8,7 +8,7 @@ _TURTLES = ("turtle1", "turtle2")
 
 
 def check_names(exercise: Exercise) -> None:
-    """Each turtle has its frame, which hangs on world."""
+    """Each turtle has a frame, a child of world."""
     exercise.simulation.run(1.0)
     frames = exercise.frames()
     known = ", ".join(f"{parent} -> {frame}" for frame, parent in sorted(frames.items())) or "none"
@@ -40,7 +40,7 @@ def check_stamps(exercise: Exercise) -> None:
 
 
 def check_places(exercise: Exercise) -> None:
-    """TF and turtlesim agree where the turtles are."""
+    """TF and turtlesim agree on the positions of the turtles."""
     exercise.simulation.run(1.0)
     for turtle in ("turtle2", "turtle1"):
         place, pose = exercise.place("world", turtle), exercise.simulation.pose(turtle)
@@ -53,7 +53,7 @@ def check_places(exercise: Exercise) -> None:
 
 
 def check_headings(exercise: Exercise) -> None:
-    """TF and turtlesim agree where the turtles look."""
+    """TF and turtlesim agree on the headings of the turtles."""
     exercise.simulation.drive("turtle1", angular=1.0)
     exercise.simulation.run(2.0)
     place, pose = exercise.place("world", "turtle1"), exercise.simulation.pose("turtle1")

@@ -12,7 +12,7 @@ _HALF = (
 
 
 def check_parent(exercise: Exercise) -> None:
-    """The frame meeting_point hangs on turtle1."""
+    """The frame meeting_point is a child of turtle1."""
     exercise.simulation.run(2.0)
     frames = exercise.frames()
     exercise.expect(
@@ -66,7 +66,7 @@ def check_moves(exercise: Exercise) -> None:
 
 
 def check_stamp(exercise: Exercise) -> None:
-    """Its stamp is that of the transform that it follows from."""
+    """It has the stamp of the transform that it is computed from."""
     exercise.simulation.inject(Delay(0.5, "turtle1"))
     exercise.simulation.run(3.0)
     age = exercise.simulation.now - exercise.stamp("turtle1", "meeting_point")

@@ -1,4 +1,4 @@
-"""Each turtle has frames odom and base_link of its own, and they fit."""
+"""Each turtle has its own frames odom and base_link, and they are consistent."""
 
 import math
 
@@ -34,7 +34,7 @@ def check_frames(exercise: Exercise) -> None:
 
 
 def check_start(exercise: Exercise) -> None:
-    """The frames odom are where the turtles began, and stay there."""
+    """The frames odom stay where the turtles started."""
     starts = {turtle: exercise.simulation.pose(turtle) for turtle in _TURTLES}
     for turtle in _TURTLES:
         exercise.simulation.drive(turtle, linear=1.0)
@@ -56,7 +56,7 @@ def check_start(exercise: Exercise) -> None:
 
 
 def check_ahead(exercise: Exercise) -> None:
-    """A turtle that drives straight on has moved along the x axis of its odom."""
+    """A turtle that drives straight ahead moves along the x axis of its odom."""
     exercise.simulation.run(0.2)
     for turtle in _TURTLES:
         exercise.simulation.drive(turtle, linear=1.5)
@@ -75,7 +75,7 @@ def check_ahead(exercise: Exercise) -> None:
 
 
 def check_curve(exercise: Exercise) -> None:
-    """After a curve, the whole chain agrees with where the turtle is."""
+    """After a curve, the whole chain agrees with the pose of the turtle."""
     for _ in range(3):
         for turtle in _TURTLES:
             exercise.simulation.drive(turtle, linear=1.0, angular=0.7)

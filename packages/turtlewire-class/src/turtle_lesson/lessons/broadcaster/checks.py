@@ -13,7 +13,7 @@ _TURTLES = ("turtle1", "turtle2")
 
 
 def check_turtles(exercise: Exercise) -> None:
-    """Both turtles are still broadcast."""
+    """The transforms of both turtles are still published."""
     exercise.simulation.run(1.0)
     for turtle in _TURTLES:
         place, pose = exercise.place("world", turtle, _FIRST), exercise.simulation.pose(turtle)
@@ -26,7 +26,7 @@ def check_turtles(exercise: Exercise) -> None:
 
 
 def check_noses(exercise: Exercise) -> None:
-    """There are the frames turtle1_nose and turtle2_nose."""
+    """The frames turtle1_nose and turtle2_nose exist."""
     exercise.simulation.run(1.0)
     frames = exercise.frames()
     for turtle in _TURTLES:
@@ -42,7 +42,7 @@ def check_noses(exercise: Exercise) -> None:
 
 
 def check_parent(exercise: Exercise) -> None:
-    """Each nose hangs on its turtle."""
+    """Each nose is a child of its turtle."""
     exercise.simulation.run(1.0)
     frames = exercise.frames()
     for turtle in _TURTLES:

@@ -8,7 +8,7 @@ _RADIUS, _RATE = 2.0, math.tau / 10.0
 
 
 def check_parent(exercise: Exercise) -> None:
-    """The frame carrot1 hangs on turtle1, and its stamps are fresh."""
+    """The frame carrot1 is a child of turtle1, and its stamps are fresh."""
     exercise.simulation.run(2.0)
     frames = exercise.frames()
     exercise.expect(
@@ -40,7 +40,7 @@ def check_radius(exercise: Exercise) -> None:
 
 
 def check_turns(exercise: Exercise) -> None:
-    """It goes round once in ten seconds, to the left."""
+    """It completes a circle in ten seconds, to the left."""
     exercise.simulation.run(1.0)
     first = exercise.place("turtle1", "carrot1")
     exercise.simulation.run(1.0)
@@ -56,7 +56,7 @@ def check_turns(exercise: Exercise) -> None:
 
 
 def check_smooth(exercise: Exercise) -> None:
-    """It moves evenly, without leaps."""
+    """It moves smoothly, without jumps."""
     exercise.simulation.run(1.0)
     before = exercise.place("turtle1", "carrot1")
     for _ in range(20):

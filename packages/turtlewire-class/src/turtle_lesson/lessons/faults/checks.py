@@ -24,7 +24,7 @@ def check_follows(exercise: Exercise) -> None:
 
 
 def check_survives(exercise: Exercise) -> None:
-    """With a wrong frame for a while, the listener goes on afterwards."""
+    """After a wrong frame for a while, the listener recovers."""
     simulation = exercise.simulation
     simulation.inject(WrongFrame("turtle1", "wolrd"))
     simulation.run(3.0)

@@ -6,7 +6,7 @@ from turtle_lesson.exercise import Exercise
 
 
 def check_parent(exercise: Exercise) -> None:
-    """The frame carrot1 hangs on turtle1."""
+    """The frame carrot1 is a child of turtle1."""
     exercise.simulation.run(1.0)
     frames = exercise.frames()
     exercise.expect(

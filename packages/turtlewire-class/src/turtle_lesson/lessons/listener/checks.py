@@ -27,7 +27,7 @@ def check_sets_off(exercise: Exercise) -> None:
 
 
 def check_right_way(exercise: Exercise) -> None:
-    """Turtle2 comes nearer."""
+    """Turtle2 comes closer."""
     simulation = exercise.simulation
     start = simulation.distance("turtle1", "turtle2")
     simulation.run(8.0)
@@ -42,7 +42,7 @@ def check_right_way(exercise: Exercise) -> None:
 
 
 def check_distance(exercise: Exercise) -> None:
-    """Turtle2 stops one metre away from a turtle1 that stands still."""
+    """Turtle2 stops one metre away from a stationary turtle1."""
     simulation = exercise.simulation
     simulation.run(25.0)
     gap = simulation.distance("turtle1", "turtle2")
@@ -51,7 +51,7 @@ def check_distance(exercise: Exercise) -> None:
 
 
 def check_keeps_up(exercise: Exercise) -> None:
-    """Turtle2 keeps up with a turtle1 that drives, and never comes too near."""
+    """Turtle2 keeps up with a moving turtle1, and never comes too close."""
     simulation = exercise.simulation
     simulation.run(15.0)
     nearest, farthest = math.inf, 0.0

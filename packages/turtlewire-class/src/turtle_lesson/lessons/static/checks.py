@@ -8,7 +8,7 @@ _X, _Y, _YAW = 2.0, 8.0, math.pi / 2
 
 
 def check_frame_exists(exercise: Exercise) -> None:
-    """The frame tower is known, and its parent is world."""
+    """The frame tower exists, and its parent is world."""
     exercise.simulation.run(0.5)
     frames = exercise.frames()
     exercise.expect(
@@ -59,7 +59,7 @@ def check_heading(exercise: Exercise) -> None:
 
 
 def check_late_listener(exercise: Exercise) -> None:
-    """A listener that starts later knows tower, too."""
+    """A listener that starts later also receives tower."""
     exercise.simulation.run(5.0)
     late = exercise.another_buffer()
     exercise.simulation.run(1.0)

@@ -16,7 +16,7 @@ def _settle(exercise: Exercise) -> None:
 
 
 def check_arrives(exercise: Exercise) -> None:
-    """Turtle2 comes to a turtle1 that stands still, and stays there."""
+    """Turtle2 reaches a stationary turtle1, and stays there."""
     _settle(exercise)
     farthest = 0.0
     for _ in range(10):
@@ -60,7 +60,7 @@ def check_waits(exercise: Exercise) -> None:
 
 
 def check_follows(exercise: Exercise) -> None:
-    """After three seconds turtle2 sets off, too."""
+    """After three seconds turtle2 also sets off."""
     start = _drive_off(exercise)
     exercise.simulation.run(5.0)
     pose = exercise.simulation.pose("turtle2")

@@ -52,7 +52,7 @@ class TurtleTF2Broadcaster(Node):
         # 4. Broadcast the configured transform to the TF2 network.
         self.tf_broadcaster.sendTransform(t)
 
-        # The nose, half a metre ahead: a second frame, which hangs on the first.
+        # The nose, half a metre ahead: a second frame, a child of the first.
         nose = TransformStamped()
         nose.header.stamp = t.header.stamp
         nose.header.frame_id = self.turtlename
