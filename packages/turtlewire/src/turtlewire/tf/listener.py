@@ -163,7 +163,7 @@ class _Feed:
         return Intake(self._static, _most_kept(qos), self._identify, self._tell)
 
     def _tell(self) -> None:
-        """Log an expected message, or the first one that did not fit into a buffer."""
+        """Log an expected message, or one that did not fit into a buffer."""
         for member in self._members:
             self._full_buffers.look(member.store)
         self._arrivals.tell()

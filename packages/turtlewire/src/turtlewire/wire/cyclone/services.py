@@ -110,11 +110,9 @@ class CycloneService(TopicService):
         self._reader = reader
         self._lock = threading.Lock()
         self._clients: dict[int, str] = {}
-        self._matches = 0  # how often the matching subscriptions changed
-        #: The clients that could be reached after a number of changes.
-        self._reachable: tuple[int, set[str | None]] = (-1, set())
+        self._reachable: set[str | None] = set()
         self._waiting: list[_Waiting] = []
-        # Before others learn of the match: they may send requests then.
+        # Before others learn of the match: they may take requests then.
         requests.on_matched.insert(0, requests.learn_publishers)
 
     def take(self, limit: int = 32) -> list[tuple[RequestId, bytes]]:
