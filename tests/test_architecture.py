@@ -125,7 +125,7 @@ def public(tree):
     return {name for name in defined if not name.startswith("_")}, exported
 
 
-def test_what_a_module_defines_without_underscore_is_in_its_all(house):
+def test_public_names_of_a_module_are_in_its_all(house):
     forgotten = {}
     for name, tree in house.trees.items():
         defined, exported = public(tree)
@@ -134,7 +134,7 @@ def test_what_a_module_defines_without_underscore_is_in_its_all(house):
     assert forgotten == {}
 
 
-def test_what_is_in_all_is_there(house):
+def test_names_in_all_exist(house):
     missing = []
     cannot = () if HAS_CYCLONE_DDS else ("turtlewire.wire.cyclone.",)
     for name, tree in house.trees.items():

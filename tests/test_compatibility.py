@@ -20,7 +20,7 @@ PAGE = ROOT / "docs" / "compatibility.md"
 TESTED = """
 discovery reaches the subnet
   wire/test_environment.py test_the_range_is_localhost_unless_said_otherwise
-  wire/test_two_hosts.py test_nobody_from_outside_gets_in_by_default
+  wire/test_two_hosts.py test_other_hosts_cannot_reach_nodes_by_default
 Ctrl-C of the tutorial's nodes ends in tracebacks, exit code -2 or 1
   rclpy/test_signals.py test_ctrl_c_ends_the_tutorials_main_cleanly test_one_shutdown_after_a_signal_is_tolerated_and_a_second_raises
 a waiting lookup sleeps 20 ms at a time, on the system clock
@@ -29,7 +29,7 @@ a waiting lookup sleeps 20 ms at a time, on the system clock
 `RMW_IMPLEMENTATION` names a middleware that is not installed: every program ends in a traceback
   wire/test_environment.py test_a_middleware_that_is_not_here_is_one_line_and_cyclone_is_taken
 the middleware is Fast DDS unless `RMW_IMPLEMENTATION` names another
-  wire/test_environment.py test_what_is_not_installed_is_told_and_another_one_taken
+  wire/test_environment.py test_missing_middleware_is_reported_and_replaced
   wire/test_libddsc.py test_zenoh_is_taken_instead_of_an_unknown_version
 processes find each other through a router, `rmw_zenohd`
   wire/test_processes.py test_messages_go_both_ways
@@ -43,7 +43,7 @@ a volatile subscription drops what is older than the last message of the same pr
 the router listens on all interfaces
   wire/zenoh/test_configuration.py test_the_router_stays_on_this_computer
 `rosidl_parser.parser` returns lark's syntax tree, and accepts enums and unions
-  rosidl_parser/test_parser.py test_all_fields_have_the_types_that_classes_have test_what_is_wrong_is_told
+  rosidl_parser/test_parser.py test_all_fields_have_the_types_that_classes_have test_errors_are_reported
 an extension of another package may take the place of one of ROS 2's of the same name
   ros2cli/test_extensions_of_others.py test_a_verb_is_added_and_none_is_replaced
 Ctrl-C in `ros2 bag convert` leaves a bag that looks complete
@@ -60,7 +60,7 @@ range `LOCALHOST` switches multicast off and asks peers on this host
 `ROS_STATIC_PEERS` on one side is enough, since the default range is `SUBNET`
   wire/test_two_hosts.py test_static_peers_find_the_other_host_without_multicast
 a static peer that cannot be resolved ends the process
-  wire/test_environment.py test_a_static_peer_that_cyclone_would_abort_for_is_left_out_with_one_warning
+  wire/test_environment.py test_static_peer_fatal_to_cyclone_is_skipped_with_a_warning
 `publish()` on a reliable keep-all topic blocks as long as a subscription stands still
   wire/test_scale.py test_a_publisher_gives_up_on_a_subscription_that_stands_still
 datagrams of up to 14.7 kB (Cyclone's default)
@@ -75,7 +75,7 @@ a service waits within its callback's thread until the client's reader is known
 a publisher whose type has the same name but other fields counts as the same type
   wire/test_bad_input.py test_a_type_of_our_name_with_other_fields_is_named_once
 the middleware logs every datagram that the network rejects
-  wire/test_two_hosts.py test_a_link_that_goes_down_and_up_is_named_once_and_later_messages_arrive
+  wire/test_two_hosts.py test_link_down_and_up_is_named_once_and_messages_resume
   wire/test_cyclone_log.py test_many_lines_of_one_kind_are_one_warning_and_the_thread_ends
 big-endian messages are read
   wire/test_foreign_peers.py test_payloads_that_are_no_messages_are_dropped_and_said_once
@@ -120,7 +120,7 @@ an `async` callback that awaits a service of its own callback group hangs
 `client.call()` hangs silently if no executor spins the node
   rclpy/test_executors.py test_a_call_that_nobody_serves_is_warned_of
 `rate.sleep()` in the thread that spins hangs
-  rclpy/test_timer.py test_a_rate_raises_in_the_thread_that_spins_instead_of_sleeping_for_ever
+  rclpy/test_timer.py test_rate_raises_in_the_spinning_thread
 `shutdown()` after Ctrl-C raises
   rclpy/test_signals.py test_one_shutdown_after_a_signal_is_tolerated_and_a_second_raises
 a Ctrl-C that is not caught prints a traceback
@@ -132,7 +132,7 @@ two SIGINT for one Ctrl-C (terminal and launch) interrupt the clean-up
 `rclpy.spin_once(node)` takes a node out of the executor it was in
   rclpy/test_init_shutdown.py test_a_spin_within_a_callback_leaves_the_node_where_it_was
 messages are encoded even without a subscription
-  rclpy/test_topics.py test_what_is_not_encoded_while_nobody_listens
+  rclpy/test_topics.py test_messages_without_subscriptions_are_not_encoded
 a client drops the feedback that it has not handled when it gets the result
   rclpy/test_actions.py test_no_feedback_that_was_sent_after_the_result
 content filters of subscriptions work with `rmw_fastrtps_cpp`
@@ -191,7 +191,7 @@ a timed-out remote lookup is an empty transform and a success
 `tf2_monitor` does not name publishers
   tf2_ros/test_tools.py test_monitor_names_who_publishes
 `tf2_monitor` reports a net delay of 1.8e9 s for a static chain
-  tf2_ros/test_tools.py test_what_does_not_move_has_no_net_delay
+  tf2_ros/test_tools.py test_static_chain_has_no_net_delay
 `tf2_echo` and `tf2_monitor` give no help with an unknown frame id
   tf2_ros/test_tools.py test_the_tools_help_with_a_frame_id_that_is_not_known
 `MessageFilter` is for C++
@@ -201,7 +201,7 @@ a lookup waits until its timeout for a server that was killed
 a `Buffer` without a node ignores the simulated clock
   tf2_ros/test_buffer.py test_a_buffer_follows_the_clock_of_its_listener
 messages that wait in a filter or synchronizer survive a clock that jumps back
-  tf2_ros/test_message_filter.py test_what_waits_is_dropped_when_the_clock_jumps_back
+  tf2_ros/test_message_filter.py test_waiting_messages_are_dropped_when_the_clock_jumps_back
 `tf2_echo` waits forever for an invalid frame id (`/world`)
   tf2_ros/test_tools.py test_echo_refuses
 `static_transform_publisher` publishes NaN, infinity and a quaternion of zeros
@@ -223,13 +223,13 @@ a mimic joint of a mimic joint moves only if the alphabet has them in the right 
 joints that mimic each other in a loop are accepted in silence
   robot_state_publisher/test_node.py test_mimic_joints_in_a_loop_are_told_and_the_rest_moves
 joint states are skipped in silence, because of `publish_frequency` or a stamp that stands
-  robot_state_publisher/test_node.py test_skipped_messages_are_told_once test_stamps_that_stand_are_told
+  robot_state_publisher/test_node.py test_skipped_messages_are_told_once test_unchanged_stamps_are_reported
 joint states without a known joint move nothing, in silence
   robot_state_publisher/test_node.py test_unknown_joints_are_told_after_a_while
 a floating joint is not published, in silence
-  robot_state_publisher/test_node.py test_a_floating_joint_is_told
+  robot_state_publisher/test_node.py test_floating_joint_is_reported
 `publish_frequency` 0 divides by zero
-  robot_state_publisher/test_node.py test_a_frequency_of_zero_publishes_every_message_whose_stamp_does_not_go_back
+  robot_state_publisher/test_node.py test_zero_frequency_publishes_every_forward_stamp
 kdl_parser warns twice of a new `robot_description`
   robot_state_publisher/test_golden.py test_scenario
 a wrong start aborts with 250
@@ -243,7 +243,7 @@ a Qt window; closing it ends the node
   turtlesim/test_turtlesim_processes.py test_the_page_drives_the_turtle_on_its_topic
   web/test_server.py test_a_taken_port_is_replaced_by_a_free_one
 a NaN or infinite command loses the turtle
-  turtlesim/test_turtlesim_node.py test_what_is_not_finite_is_ignored_with_one_line test_a_heading_that_is_not_finite_is_rejected
+  turtlesim/test_turtlesim_node.py test_non_finite_values_are_ignored_with_one_line test_a_heading_that_is_not_finite_is_rejected
 an invalid turtle name ends the process
   turtlesim/test_turtlesim_node.py test_start_spawn_kill_and_reset_with_their_texts
 the simulation runs in real time
@@ -283,12 +283,12 @@ colcon builds a package whose `package.xml` cannot be read, as one that ROS does
 SIGTERM and a single SIGINT of `ros2 run` leave the executable running
   ros2cli/test_run_command.py test_a_signal_to_ros2_run_ends_the_executable
 a playback that begins at an offset, paused or after a seek loses the latched messages from before
-  rosbag2_transport/test_player.py test_what_arrives_is_what_the_real_one_sends test_a_paused_playback_has_sent_what_was_latched_before_the_bag test_after_a_seek_listeners_have_what_was_latched_then
+  rosbag2_transport/test_player.py test_received_messages_equal_those_of_the_real_node test_a_paused_playback_has_sent_what_was_latched_before_the_bag test_after_a_seek_listeners_have_what_was_latched_then
 a subscription that joins a playback late gets the last ten messages of `/tf_static`
   rosbag2_transport/test_player.py test_one_that_joins_late_gets_all_static_transforms
 `ros2 bag play` silently ignores topics and services in its options that the bag does not have, and does not say why it plays nothing
   rosbag2_transport/test_golden_commands.py test_a_command
-  rosbag2_transport/test_play_options.py test_what_the_options_name_and_the_bag_does_not_have
+  rosbag2_transport/test_play_options.py test_option_names_missing_from_the_bag
 `ros2 bag record` waits in silence for topics that never appear
   rosbag2_transport/test_record_options.py test_it_tells_once_what_it_waits_for
 a QoS override that prevents a recorder from receiving anything is applied silently
@@ -315,7 +315,7 @@ endpoints of different types on one topic or service exchange nothing, in silenc
   rclpy/test_mistakes.py test_one_topic_with_two_types
   wire/test_contract.py test_a_client_of_another_type_than_the_service_is_warned
 a verb waits silently for a service with another type or a wrong name
-  ros2cli/test_unanswered.py test_what_is_wrong_is_said_at_once test_requests_that_do_not_get_through_are_told_once
+  ros2cli/test_unanswered.py test_mistakes_raise_immediately test_requests_that_do_not_get_through_are_told_once
 YAML aliases may stand for any number of values
   ros2cli/test_values.py test_aliases_that_stand_for_too_much_are_refused
 `interface show` prints upstream's comments
@@ -332,7 +332,7 @@ grandchildren, and processes that ignore signals, outlive a launch that ends or 
 pytest imports launch at each start
   launch_testing/test_runs.py test_plain_tests_do_not_wait_for_launch
 `assertWaitFor` says only that the output timed out
-  launch_testing/test_runs.py test_what_fails_with_launch_test
+  launch_testing/test_runs.py test_failures_with_launch_test
 `launch_testing.legacy` runs tests as actions of a launch
   surface/test_surface.py test_share
 a start that fails, and errors in a launch file, print a traceback
@@ -343,7 +343,7 @@ a component container must be named in full
 a daemon answers queries about the graph
   test_compatibility.py test_no_daemon_is_running
 Ctrl-C of a verb may end in error lines
-  ros2cli/test_main.py test_what_a_verb_raises_becomes_one_line_and_a_status
+  ros2cli/test_main.py test_verb_errors_become_one_line_and_a_status
 a verb whose output `head` has closed, or that a full disk refuses, ends with a traceback or "Exception ignored"
   test_program.py test_a_reader_that_has_gone_ends_a_command_as_it_ends_git test_a_full_disk_is_one_line
 `ros2 run` obeys the first line of a script
@@ -373,7 +373,7 @@ pages of any origin connect
 `tls`, `certfile` and `keyfile` make it a wss server
   foxglove/test_foxglove_bridge.py test_wrong_parameters_are_refused
 `num_threads`, `min_qos_depth`, `max_qos_depth`, `best_effort_qos_topic_whitelist`, `use_compression` and others tune it
-  foxglove/test_foxglove_bridge.py test_what_has_no_effect_is_told
+  foxglove/test_foxglove_bridge.py test_options_without_effect_are_reported
 an integer for a floating-point parameter is refused
   foxglove/test_requests.py test_parameters_are_set_and_keep_their_type
 `rviz2` opens a window
@@ -390,19 +390,19 @@ RViz uses the default for an invalid value in a `.rviz` file
   view/test_rviz_file.py test_wrong_values_of_a_file_are_named
 RViz subscribes with the QoS that its display is set to
   view/test_viewer.py test_a_display_subscribes_as_its_publishers_offer
-  view/test_rviz_file.py test_what_the_page_does_not_have_is_written_back
+  view/test_rviz_file.py test_unsupported_parts_are_written_back
 RViz loads meshes from any file and from `http`
   view/test_robot_model.py test_addresses_that_are_refused
 `ament_cmake` packages need CMake
   robots/test_urdf_tutorial.py test_the_workspace_is_known
-  turtlewire_ros/test_cmake.py test_what_is_installed
+  turtlewire_ros/test_cmake.py test_installed_files
   turtlewire_ros/test_colcon_ament.py test_scripts_modules_and_launch_files
 pip cannot install `ament_cmake` packages
   turtlewire_ros/test_pip_install.py test_packages_are_built_after_those_that_they_need
   turtlewire_ros/test_colcon_ament.py test_pip_installs_such_packages
 `ament_add_gtest` and linters are tests of `colcon test`
   turtlewire_ros/test_pytest_plugin.py test_tests_of_absent_linters_are_skipped
-  turtlewire_ros/test_cmake.py test_what_compiles_nothing_is_let_pass
+  turtlewire_ros/test_cmake.py test_targets_without_compilation_pass
 xacro (PyPI, 2.1)
   robots/test_urdf_tutorial.py test_every_model_is_displayed
 roslibpy (PyPI, 2.1)

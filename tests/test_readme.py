@@ -26,7 +26,7 @@ def test_links_lead_somewhere(page):
         assert (page.parent / target).exists(), target
 
 
-def test_what_it_runs_exists():
+def test_named_programs_exist():
     pages = (ROOT / "README.md", ROOT / "docs" / "install.md")
     text = "\n".join(page.read_text(encoding="utf-8") for page in pages)
     runs = re.findall(r"^(?:PATH=\S+ )?ros2 run (\w+) (\w+)", text, re.MULTILINE)

@@ -25,7 +25,7 @@ PAGE = ROOT / "SECURITY.md"
 TESTED = """
 Nodes look for others on this computer only
   wire/test_environment.py test_the_range_is_localhost_unless_said_otherwise
-  wire/test_two_hosts.py test_nobody_from_outside_gets_in_by_default
+  wire/test_two_hosts.py test_other_hosts_cannot_reach_nodes_by_default
   wire/test_two_hosts.py test_datagrams_from_outside_reach_no_socket_by_default
   wire/test_two_hosts.py test_zenoh_follows_no_call_from_outside_by_default
   wire/test_two_hosts.py test_static_peers_find_the_other_host_without_multicast

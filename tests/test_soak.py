@@ -21,7 +21,7 @@ def test_a_minute(run):
     assert killed >= come // 3
 
 
-def test_what_cannot_be_a_time(run):
+def test_invalid_times(run):
     for minutes in ("0", "-1", "nan"):
         program = run(sys.executable, SOAK, f"--minutes={minutes}")
         assert program.wait() == 2

@@ -133,7 +133,7 @@ def test_a_terminal_that_closes_leaves_nothing(start, words):
     program.wait_for_survivors()
 
 
-def test_what_a_program_leaves_behind_ends_with_the_launch(start, workspace):
+def test_leftover_processes_end_with_the_launch(start, workspace):
     launch_file = LAUNCH_FILE.partition("        ExecuteProcess")[0]
     launch_file += (
         "        ExecuteProcess(cmd=['sh', '-c', 'setsid sleep 1000 & echo ready']),\n])\n"

@@ -90,9 +90,7 @@ def test_images_arrive_at_a_reliable_subscription(peer, context, size):
     publish_images(context, peer, "/image", QoS(), size)
 
 
-def test_images_arrive_at_a_camera_subscription_with_the_profile_of_the_docs(
-    start_peer, context, tmp_path
-):
+def test_images_arrive_with_the_documented_profile(start_peer, context, tmp_path):
     limit = int(Path("/proc/sys/net/core/rmem_max").read_text())
     if limit < RECEIVE_BUFFER:
         pytest.skip(f"net.core.rmem_max is {limit} (sysctl -w net.core.rmem_max={RECEIVE_BUFFER})")

@@ -135,7 +135,7 @@ def test_each_page_with_commands_or_programs_is_tested():
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(DOCS).as_posix())
-def test_what_a_page_starts_exists(page):
+def test_programs_named_on_a_page_exist(page):
     text = page.read_text(encoding="utf-8")
     for package, executable in re.findall(r"ros2 run (\w+) (\w+)", text):
         if package not in THEIRS:

@@ -206,7 +206,7 @@ class TestPip:
             (7, {"apt"}, ["x_Packages"], "this line as root, then|apt install python3-venv"),
         ],
     )
-    def test_otherwise_the_line_to_type_is_told(
+    def test_otherwise_the_command_is_printed(
         self, setup, venv, monkeypatch, tmp_path, capfd, user, programs, lists, told
     ):
         (tmp_path / "lists").mkdir()
@@ -236,7 +236,7 @@ class TestPip:
     @pytest.mark.parametrize(
         ("python", "programs"), [("/usr/local/bin/python3", {"apt"}), ("/usr/bin/python3", set())]
     )
-    def test_where_apt_cannot_help_it_is_not_named(self, venv, python, programs):
+    def test_apt_is_not_named_where_it_cannot_help(self, venv, python, programs):
         self.programs = programs
         told = venv.how_to_get_pip(python, "/usr/bin/python3")
         assert told.startswith(f"{python} has no ensurepip")
@@ -376,7 +376,7 @@ class TestCore:
         assert core.CORE.read_bytes() == b"core"
         assert "is not kept for other checkouts: " in capfd.readouterr().err
 
-    def test_those_used_last_are_kept(self, core, tmp_path):
+    def test_most_recently_used_are_kept(self, core, tmp_path):
         folder = tmp_path / "cache" / "turtlewire" / "core"
         for number in range(core.KEPT):
             core.provide_core(f"key {number}")
@@ -467,7 +467,7 @@ def test_a_stage_says_how_long_it_took(steps, capfd):
     assert capfd.readouterr().err == "[setup] ... done in 0 s\n"
 
 
-def test_what_fails_is_named(steps, capfd):
+def test_failures_are_named(steps, capfd):
     with pytest.raises(steps.SetupError, match=f"this failed, see above and {steps.LOG}: "):
         steps.checked([sys.executable, "-c", "import sys; print('why'); sys.exit(3)"])
     assert capfd.readouterr().err == "why\n"

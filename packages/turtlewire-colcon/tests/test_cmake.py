@@ -205,7 +205,7 @@ def test_any_text_is_read_or_refused(text):
     assert all(command.name.isidentifier() for command in commands)
 
 
-def test_what_is_installed(evaluate, tmp_path):
+def test_installed_files(evaluate, tmp_path):
     plan, _ = evaluate(
         'install(DIRECTORY "meshes/" urdf DESTINATION "share/${PROJECT_NAME}"\n'
         '  PATTERN "*.blend" EXCLUDE)\n'
@@ -300,7 +300,7 @@ def test_the_nearest_package_is_named(tmp_path):
         "externalproject_add(walker URL x)",
     ],
 )  # fmt: skip
-def test_what_compiles_is_refused_with_its_target(evaluate, body):
+def test_compiled_target_is_rejected_by_name(evaluate, body):
     plan, _ = evaluate(body)
     name = body.partition("(")[0]
     (line,) = plan.refused
@@ -334,7 +334,7 @@ def test_the_python_of_a_package_with_cpp_is_installed(evaluate):
         "include(CheckIncludeFile)\ncheck_include_file(a.h HAVE_A)\nFetchContent_Declare(a URL b)",
     ],
 )  # fmt: skip
-def test_what_compiles_nothing_is_let_pass(evaluate, body):
+def test_targets_without_compilation_pass(evaluate, body):
     assert evaluate(body)[0].verdict() == ([], [])
 
 
@@ -439,7 +439,7 @@ def test_steps_tests_and_code_that_runs_last(evaluate, tmp_path):
     assert (build / "g.txt").read_text() == "generated"
 
 
-def test_what_cmake_e_does(tmp_path, capfd, monkeypatch):
+def test_cmake_e_commands(tmp_path, capfd, monkeypatch):
     monkeypatch.chdir(tmp_path)
     for words in (
         ["make_directory", "a/b"],

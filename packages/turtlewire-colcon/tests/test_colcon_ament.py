@@ -195,7 +195,7 @@ def test_a_package_without_cmakelists_is_told_in_one_line(workspace):
     ) in done.stderr
 
 
-def test_where_there_is_an_ament_cmake_packages_with_code_stay_with_cmake(workspace):
+def test_cmake_builds_compiled_packages_if_ament_cmake_exists(workspace):
     config = workspace / "ros/share/ament_cmake/cmake/ament_cmakeConfig.cmake"
     config.parent.mkdir(parents=True)
     config.touch()

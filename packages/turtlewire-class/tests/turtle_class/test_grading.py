@@ -86,11 +86,15 @@ def test_a_flood_of_output_is_cut_and_does_not_fail(tmp_path):
         (lambda path: path.write_bytes(b"# \xff\n"), "failed", f"{FILE} is not UTF-8"),
         (lambda path: path.write_bytes(b"#" * 2_000_000), "failed", "has 2000000 bytes"),
         (lambda path: (path.unlink(), path.mkdir()), "failed", "is not a regular file"),
-        (lambda path: (path.unlink(), path.symlink_to("/etc/passwd")), "failed", "not a regular file"),
+        (
+            lambda path: (path.unlink(), path.symlink_to("/etc/passwd")),
+            "failed",
+            "not a regular file",
+        ),
     ],
     ids=["missing", "latin1", "huge", "folder", "link"],
 )
-def test_what_is_no_file_of_python_is_a_result(tmp_path, spoil, state, text):
+def test_non_python_file_is_a_failed_result(tmp_path, spoil, state, text):
     (tmp_path / FILE).write_text(solution(), encoding="utf-8")
     spoil(tmp_path / FILE)
     outcome = Runner(PATIENT).run(CARROT, tmp_path, 99)

@@ -25,7 +25,7 @@ def test_domains():
         ("-1", "'-1' names no domains"),
     ],
 )
-def test_what_is_no_domains(text, told):
+def test_invalid_domains(text, told):
     with pytest.raises(ClassError, match=told):
         seats_of_domains(text)
 

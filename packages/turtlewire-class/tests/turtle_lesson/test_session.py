@@ -128,7 +128,7 @@ def test_a_mistake_in_a_callback_ends_the_session_and_names_its_line(open_sessio
         (("rclpy.spin(node)", "raise SystemExit('no')"), "main() ended the program: no", "command"),
     ],
 )
-def test_what_is_wrong_with_main_is_said(open_session, change, text, hint):
+def test_invalid_main_is_reported(open_session, change, text, hint):
     changes = [change]
     if "start" in change[1]:
         changes.append(("    main()", "    start()"))

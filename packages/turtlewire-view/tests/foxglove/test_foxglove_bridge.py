@@ -44,7 +44,7 @@ def test_the_node_serves_and_its_parameters_count(bridge, client, robot):
     assert node.get_parameter("num_threads").value == 0
 
 
-def test_what_has_no_effect_is_told(bridge, capfd):
+def test_options_without_effect_are_reported(bridge, capfd):
     bridge(num_threads=4, use_compression=True, max_qos_depth=25)
     assert (
         "Parameters without effect here: num_threads, use_compression\n" in capfd.readouterr().err

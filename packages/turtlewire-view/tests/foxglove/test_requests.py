@@ -360,7 +360,7 @@ def test_the_time_of_the_simulation(serve, client, robot):
     assert client(server).next_binary(2) == struct.pack("<BQ", 2, 12_000_000_034)
 
 
-def test_what_is_no_capability_is_refused(serve, client, robot):
+def test_missing_capability_is_rejected(serve, client, robot):
     one = client(serve(capabilities=("connectionGraph",)))
     info = one.next("serverInfo")
     assert info["capabilities"] == ["connectionGraph"]

@@ -213,7 +213,7 @@ def test_clients_publish(client, robot, encoding, schema_name):
     robot.wait_until(lambda: subscription.publisher_count() == 0)
 
 
-def test_what_a_client_publishes_ends_with_it(client, robot):
+def test_publisher_of_a_client_ends_with_it(client, robot):
     robot.hear("/said")
     (subscription,) = robot.subscriptions
     one = client()

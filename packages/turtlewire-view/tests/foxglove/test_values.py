@@ -169,7 +169,7 @@ def test_names_of_types():
             schema(wrong)
 
 
-def test_only_what_has_changed_is_told():
+def test_only_changes_are_sent():
     empty = Connections({}, {}, {})
     now = Connections({"/a": ["/n"]}, {"/a": ["/m"], "/b": ["/m"]}, {"/s": ["/n"]})
     told = difference(empty, now)

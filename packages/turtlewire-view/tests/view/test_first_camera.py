@@ -67,7 +67,7 @@ def test_a_map_larger_than_the_frames_is_seen_whole(source, open_view):
     assert wait_until(page, SEEN, [[0, 0, 0], [1, 1, 0]])
 
 
-def test_what_is_far_away_and_a_camera_that_was_moved_change_nothing(source, open_view):
+def test_distant_frames_and_a_moved_camera_change_nothing(source, open_view):
     page = open_view(source.url)
     page.wait_for_selector("#tree .row:has-text('tip')")
     shown(page, source, "/far", grid(2, 1.0, (5000.0, 0.0)))

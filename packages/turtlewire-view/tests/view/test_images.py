@@ -104,7 +104,7 @@ def test_a_large_picture_is_made_coarser():
         ({"encoding": "yuyv", "width": 1}, "yuyv needs two pixels in a row"),
     ],
 )
-def test_what_is_wrong_with_an_image(changes, line):
+def test_invalid_images(changes, line):
     message = image("rgb8", np.zeros((2, 2, 3), np.uint8))
     for name, value in changes.items():
         setattr(message, name, value)

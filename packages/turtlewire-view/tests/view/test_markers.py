@@ -162,7 +162,7 @@ def wrong(**values):
         ),
     ],
 )
-def test_what_is_wrong_is_said_in_one_line(values, line):
+def test_mistakes_are_one_line(values, line):
     status = wrong(**values)[-1]
     assert line in status.text
     assert status.level == "warn"
@@ -241,7 +241,7 @@ def test_thinned_triangles_keep_their_place_in_the_texture():
          "'package://no such/a.png' is not loaded: 'no such' is not the name of a package"),
     ],
 )  # fmt: skip
-def test_what_is_wrong_with_a_texture(values, line):
+def test_invalid_textures(values, line):
     content, status = MarkerDisplay().content(textured(**values))
     assert (status.level, status.text) == ("warn", f"marker robot/1: {line}")
     (sent,) = shown([content])
@@ -249,7 +249,7 @@ def test_what_is_wrong_with_a_texture(values, line):
     assert not len(content.arrays["uv"])
 
 
-def test_two_markers_of_one_name_in_an_array_are_told_and_the_last_is_drawn():
+def test_duplicate_markers_are_reported_and_the_last_is_drawn():
     *outputs, status = MarkerDisplay().content(
         Array(markers=[marker("cube"), marker("sphere"), marker("cube", key=("robot", 2))])
     )
@@ -275,7 +275,7 @@ def test_a_marker_that_is_deleted_in_between_is_no_duplicate(between):
         (-1.0, ""),
     ],
 )
-def test_a_quaternion_that_is_no_rotation_is_told(w, said):
+def test_invalid_quaternion_is_reported(w, said):
     message, text = marker(), marker("text", text="a")
     message.pose.orientation.w = text.pose.orientation.w = w
     content, status = MarkerDisplay().content(message)

@@ -106,7 +106,7 @@ def test_arrows_go_from_child_to_parent(page):
     near(page.evaluate(PIXELS, [shaft, head]), [SHAFT, HEAD], tolerance=40)
 
 
-def test_what_is_switched_off_is_not_drawn(page):
+def test_disabled_displays_are_not_drawn(page):
     page.click("#looks summary")
     page.uncheck("#show-axes")
     page.uncheck("#show-arrows")

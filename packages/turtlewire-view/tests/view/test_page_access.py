@@ -69,14 +69,14 @@ def opened(told, open_view, size="desktop", **options):
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_what_has_the_focus_is_seen(told, open_view, scheme):
+def test_focused_elements_are_visible(told, open_view, scheme):
     page = opened(told, open_view, color_scheme=scheme)
     page.click("#looks summary")
     assert weak_rings(page) == {}
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_what_is_typed_into_has_a_border_that_is_seen(told, open_view, scheme):
+def test_input_fields_have_a_visible_border(told, open_view, scheme):
     page = opened(told, open_view, color_scheme=scheme)
     assert weak_borders(page) == {}
 

@@ -216,7 +216,7 @@ def test_the_relation_in_words_and_numbers(page, fake):
     }
 
 
-def test_what_rounds_to_zero_has_no_sign(page, fake):
+def test_values_rounded_to_zero_have_no_sign(page, fake):
     page.click("#tree .row:has(.name:text-is('turtle2'))")
     small = [[-1e-9] * 4 for _ in range(4)]
     fake.tell({**RELATION, "translation": [-1e-9, -0.001, 0.0], "matrix": small})
@@ -246,7 +246,7 @@ def test_why_a_relation_is_not_known(page, fake):
     assert "Requested time 17" in page.inner_text("#sentence")
 
 
-def test_numbers_that_are_not_finite_are_told(page, fake):
+def test_non_finite_numbers_are_reported(page, fake):
     page.click("#tree .row:has(.name:text-is('turtle2'))")
     nothing = {"translation": [None, 1.0, 0.0], "rpy": [None] * 3, "matrix": [[None] * 4] * 4}
     fake.tell({**RELATION, **nothing, "rotation": [None] * 4})

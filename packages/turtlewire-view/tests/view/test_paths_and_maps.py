@@ -187,7 +187,7 @@ def test_a_map_goes_with_its_frame_unless_its_stamp_is_to_count():
         (update(0, 0, 1, 1, [0]), "an update of a map that has not come yet"),
     ],
 )
-def test_what_is_wrong_with_a_map(message, line):
+def test_invalid_maps(message, line):
     (status,) = OccupancyGridDisplay().content(message)
     assert (status.level, status.text[: len(line)]) == ("error", line)
 

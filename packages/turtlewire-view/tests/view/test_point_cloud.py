@@ -197,7 +197,7 @@ def test_intensities_color_a_scan():
     assert content.arrays["rgba"].tolist() == [[255, 0, 0, 255], [255, 0, 255, 255]]
 
 
-def test_what_is_wrong_with_a_scan_is_said():
+def test_invalid_scans_are_reported():
     assert "none of the 2 ranges" in LaserScanDisplay().content(scan([math.nan, 90.0]))[-1].text
     (status,) = LaserScanDisplay().content(scan([1.0], angle_increment=math.nan))
     assert status.level == "error"

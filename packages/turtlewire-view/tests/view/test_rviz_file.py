@@ -168,7 +168,7 @@ Window Geometry: {Height: 700}
 """
 
 
-def test_what_the_page_does_not_have_is_written_back():
+def test_unsupported_parts_are_written_back():
     before = yaml.safe_load(FULL)
     view = read_rviz(FULL)
     scan, path = view.displays
@@ -273,7 +273,7 @@ NUMBERS = st.floats(0.125, 1).map(lambda value: round(value, 3))
     NUMBERS,
     st.booleans(),
 )
-def test_what_is_written_is_read_again(fixed, names, number, flag):
+def test_written_data_is_read_again(fixed, names, number, flag):
     displays = tuple(
         SavedDisplay(
             CLASSES[name][0],

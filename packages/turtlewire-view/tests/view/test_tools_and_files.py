@@ -173,7 +173,7 @@ def test_a_file_that_is_no_view_is_a_line(scene, tmp_path):
     )
 
 
-def test_what_a_view_has_and_the_page_has_not_is_a_line(scene, tmp_path):
+def test_unsupported_parts_of_a_view_are_listed_in_a_line(scene, tmp_path):
     file = tmp_path / "view.rviz"
     file.write_text(
         "Visualization Manager:\n  Displays:\n"

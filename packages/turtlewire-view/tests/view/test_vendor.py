@@ -32,7 +32,7 @@ def test_files_are_those_of_the_package():
     assert sums == listed
 
 
-def test_what_it_is_and_its_licence_are_told():
+def test_name_and_licence_are_printed():
     contents = found(VENDOR)
     assert b"sha512-5aojFCXKwnjBRZvUnt3WFfEcvUJgkN5LlijRFN95hMy8" in contents["VENDOR.md"]
     assert b"MIT License" in contents["LICENSE"]

@@ -145,7 +145,7 @@ def small_limits(monkeypatch):
 
 
 @pytest.mark.parametrize("told", [True, False])
-def test_what_grows_too_much_is_refused(small_limits, told):
+def test_excessive_growth_is_rejected(small_limits, told):
     """Zstandard shrinks zeros to a 20,000th; lz4 to a 250th only, which is always allowed."""
     largest = compress("zstd", bytes(1 << 20))
     assert decompress("zstd", largest, 1 << 20 if told else None) == bytes(1 << 20)
@@ -155,7 +155,7 @@ def test_what_grows_too_much_is_refused(small_limits, told):
     assert decompress("lz4", compress("lz4", bytes(size)), size if told else None) == bytes(size)
 
 
-def test_what_grows_as_usual_is_read_up_to_the_absolute_limit(small_limits):
+def test_usual_growth_is_read_up_to_the_absolute_limit(small_limits):
     for size in (1 << 22, (1 << 22) + 1):
         packed = compress("zstd", random.Random(1).randbytes(5000) + bytes(size - 5000))
         assert most_bytes(len(packed)) == 1 << 22
@@ -168,7 +168,7 @@ def test_what_grows_as_usual_is_read_up_to_the_absolute_limit(small_limits):
 
 @pytest.mark.parametrize("size", [1_000_000, 1 << 20, 1 << 22])
 @pytest.mark.parametrize("compression", ["zstd", "lz4"])
-def test_what_the_writer_writes_the_reader_reads(tmp_path, small_limits, compression, size):
+def test_reader_reads_the_writer_output(tmp_path, small_limits, compression, size):
     """A map of one value grows as much as a bomb: beyond the limit its chunk is not compressed."""
     with BagWriter(tmp_path / "made", compression=compression) as writer:
         writer.add_topic("/map", "nav_msgs/msg/OccupancyGrid")
@@ -363,7 +363,7 @@ sys.stdin.read()
 @pytest.mark.parametrize(
     ("storage", "compression"), [("mcap", ""), ("mcap", "zstd"), ("sqlite3", "")]
 )
-def test_what_was_flushed_survives_kill_9(tmp_path, storage, compression):
+def test_flushed_messages_survive_kill_9(tmp_path, storage, compression):
     folder = tmp_path / "made"
     command = [sys.executable, "-c", WRITER, str(folder), storage, compression]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
@@ -473,7 +473,7 @@ def test_a_message_that_only_the_metadata_tells_of(tmp_path):
         assert "222 of 223 messages" in " ".join(bag.problems)
 
 
-def test_a_message_that_lacks_is_told(tmp_path):
+def test_missing_message_is_reported(tmp_path):
     """Without a checksum a damaged opcode looks like a record to be skipped."""
     folder = write_bag(tmp_path / "made", checksums=False)
     (path,) = folder.glob("*.mcap")
@@ -484,4 +484,6 @@ def test_a_message_that_lacks_is_told(tmp_path):
     messages, complaint = read_what_there_is(folder)
     assert len(messages) == 110
     assert "1 messages listed in its statistics are missing" in complaint
-    assert "1 messages listed in its statistics are missing" in " ".join(load_transforms(folder)[1].problems)
+    assert "1 messages listed in its statistics are missing" in " ".join(
+        load_transforms(folder)[1].problems
+    )

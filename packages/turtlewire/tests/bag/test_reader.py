@@ -107,7 +107,7 @@ def test_messages_are_in_order_of_time_across_overlapping_chunks_and_files(tmp_p
         )
 
 
-def test_what_is_no_bag(tmp_path):
+def test_invalid_bags(tmp_path):
     with pytest.raises(FileNotFoundError, match="there is no bag at"):
         open_bag(tmp_path / "nothing")
     with pytest.raises(BagError, match=r"contains no \.mcap or \.db3 file"):

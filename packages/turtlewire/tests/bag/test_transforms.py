@@ -269,7 +269,7 @@ def test_a_window_that_ends_before_it_begins(tmp_path):
         load_trajectory(path, "/tf", start_ns=5, end_ns=4)
 
 
-def test_a_window_beside_the_bag_is_told(tmp_path):
+def test_window_outside_the_bag_is_reported(tmp_path):
     path = write_bag(tmp_path / "made")
     _, report = load_transforms(path, start_ns=START + 100 * SECOND)
     (problem,) = report.problems
@@ -291,7 +291,7 @@ def test_a_pickled_buffer_keeps_its_report(tmp_path):
     assert pickle.loads(pickle.dumps(turtlewire.Buffer())).bag_report is None
 
 
-def test_progress_is_told(tmp_path):
+def test_progress_is_printed(tmp_path):
     shares = []
     load_transforms(write_bag(tmp_path / "made", chunk_bytes=500), progress=shares.append)
     assert shares == sorted(shares)

@@ -35,7 +35,7 @@ WAYS = {
 
 
 @pytest.mark.parametrize("way", WAYS)
-def test_what_is_written_is_read(tmp_path, way):
+def test_written_data_is_read(tmp_path, way):
     with open_bag(write_bag(tmp_path / "plain")) as plain:
         expected = contents(plain)
         topics = plain.topics

@@ -212,7 +212,7 @@ def test_nothing_was_heard(capsys, monkeypatch):
     )
 
 
-def test_what_cannot_be_a_period(capsys):
+def test_invalid_periods(capsys):
     for words in ("0", "nan", "-1", "soon"):
         with pytest.raises(SystemExit) as end:
             main(["frames", f"--period={words}"])

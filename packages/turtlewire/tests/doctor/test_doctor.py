@@ -214,7 +214,7 @@ def test_transforms_without_fault(context, broadcasters):
     assert tf_findings(context.graph, traffic) == []
 
 
-def test_nobody_publishes(context):
+def test_topic_without_publisher(context):
     assert texts(tf_findings(context.graph, TfTraffic())) == ["No node publishes transforms."]
 
 
@@ -332,7 +332,7 @@ def test_only_static_publishers_are_known_to_have_said_all(context, topics, know
 
 
 @pytest.mark.parametrize("parents", [["world"], ["world", "elsewhere"]])
-def test_what_is_not_right_is_listened_to_for_all_the_time(context, monkeypatch, parents):
+def test_problems_extend_listening_to_the_full_time(context, monkeypatch, parents):
     node = context.create_node("one")
     node.create_publisher("/tf", TF, QoS())
     latched = QoS(durability=Durability.TRANSIENT_LOCAL)

@@ -33,7 +33,7 @@ def test_numpy_integers_are_accepted_as_integers():
 
 
 @pytest.mark.parametrize("truth", [True, np.True_, 1])
-def test_what_equals_true_is_accepted_as_bool(truth):
+def test_values_equal_to_true_are_accepted_as_bool(truth):
     assert msg.deserialize(
         SetBool.Request, msg.serialize(SetBool.Request(data=truth))
     ) == SetBool.Request(data=True)

@@ -80,7 +80,7 @@ def _make(name, **fields):
         ),
     ],
 )
-def test_what_does_not_fit_is_an_assertion_error(name, fields, text):
+def test_unsuitable_values_are_assertion_errors(name, fields, text):
     if not text:
         assert _make(name, **fields) == msg.get_message(name)(**fields)
         return

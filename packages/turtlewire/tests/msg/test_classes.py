@@ -68,7 +68,7 @@ def test_every_message_has_its_own_nested_messages_and_sequences():
     assert ParameterValue().string_array_value is not ParameterValue().string_array_value
 
 
-def test_types_of_fields_are_told():
+def test_field_types_are_reported():
     assert TransformStamped.get_fields_and_field_types() == {
         "header": "std_msgs/Header",
         "child_frame_id": "string",
@@ -134,7 +134,7 @@ def test_numbers_in_bulk_are_converted_at_assignment():
 
 
 @pytest.mark.parametrize("received", [False, True])
-def test_a_fixed_array_is_the_same_numpy_array_at_every_look_and_may_be_changed(received):
+def test_fixed_array_is_one_mutable_numpy_array(received):
     pose = PoseWithCovariance()
     if received:
         pose = msg.deserialize(PoseWithCovariance, msg.serialize(pose))
@@ -275,7 +275,7 @@ def test_fields_and_field_types_is_there():
 
 
 @pytest.mark.skipif(os.name != "posix", reason="signals are POSIX's")
-def test_a_ctrl_c_that_was_caught_while_a_class_is_made_does_not_decide_how_the_process_ends():
+def test_ctrl_c_caught_during_class_creation_does_not_end_the_process():
     """After a KeyboardInterrupt in ``exec(string)``, CPython ends with -2, whatever the program did
     about it.
     """

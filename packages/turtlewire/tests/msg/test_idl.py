@@ -105,7 +105,7 @@ def test_as_rosbags_reads_it():
         ("struct B { long a; };", "p/msg/A.idl has no struct A"),
     ],
 )
-def test_what_cannot_be_said_in_a_msg_file_is_refused_with_its_line(text, message):
+def test_idl_beyond_msg_is_rejected_with_its_line(text, message):
     with pytest.raises(InterfaceError) as raised:
         idl_to_text("p/msg/A", text)
     assert message in str(raised.value)

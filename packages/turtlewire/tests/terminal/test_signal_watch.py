@@ -31,7 +31,7 @@ def wakeup_fd():
     return number
 
 
-def test_a_signal_that_another_thread_receives_ends_the_wait_of_the_main_thread():
+def test_signal_on_another_thread_ends_the_main_wait():
     acted = threading.Event()
     release = threading.Event()
     other = threading.Thread(target=release.wait)

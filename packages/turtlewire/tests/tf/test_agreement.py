@@ -184,7 +184,7 @@ class TestLaws:
         assert buffer.lookup_transform("a", "c").as_matrix() == pytest.approx(product, abs=1e-11)
 
     @given(poses())
-    def test_what_goes_in_comes_out(self, core: Any, pose: Any) -> None:
+    def test_round_trip(self, core: Any, pose: Any) -> None:
         buffer = core.Buffer()
         buffer.set_transform("a", "b", 1, *pose)
         found = buffer.lookup_transform("a", "b")

@@ -214,7 +214,7 @@ class TestErrors:
         assert buffer.set_transform("a", "b", 1, numbers, NO_TURN) == ""  # type: ignore[arg-type]
         assert buffer.lookup_transform("a", "b").translation == (1.0, 2.0, 3.0)
 
-    def test_what_cannot_be_called_is_no_listener(self, buffer: turtlewire.Buffer) -> None:
+    def test_uncallable_listener_is_rejected(self, buffer: turtlewire.Buffer) -> None:
         with pytest.raises(TypeError):
             buffer.add_change_listener(3)  # type: ignore[arg-type]
 

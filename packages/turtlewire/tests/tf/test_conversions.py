@@ -116,7 +116,7 @@ def test_arguments_stay(rotations):
         assert (value == before).all()
 
 
-def test_mistakes_are_told():
+def test_mistakes_are_reported():
     with pytest.raises(ValueError, match=r"quaternions have the shape \(\.\.\., 4\), got \(3,\)"):
         conversions.matrix_from_quaternion((0, 0, 1))
     with pytest.raises(ValueError, match="of length 0"):

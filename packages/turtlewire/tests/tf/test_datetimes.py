@@ -48,7 +48,7 @@ def test_coarser_units_and_pandas(filled):
 
 
 @pytest.mark.parametrize("wrong", [np.datetime64("NaT", "ns"), np.datetime64("9999-01-01")])
-def test_what_is_no_time(filled, wrong):
+def test_invalid_time(filled, wrong):
     with pytest.raises(ValueError, match=r"NaT|does not fit"):
         filled.lookup_transform("a", "b", wrong)
     with pytest.raises(ValueError, match=r"NaT|does not fit"):

@@ -102,7 +102,7 @@ def test_python_is_asked_once_for_each_publisher_and_sees_no_message(flow):
     assert (flow.identified, flow.by_python) == (1, 0)
 
 
-def test_what_comes_while_python_is_busy_with_the_name_does_not_need_it(flow, monkeypatch):
+def test_messages_during_the_name_lookup_need_no_python(flow, monkeypatch):
     """So that a machine under load finds back to the short way."""
     buffer = Buffer(None)
     busy, go = threading.Event(), threading.Event()

@@ -21,7 +21,7 @@ def forests(draw):
 
 
 @given(forests(), st.floats(0, 20))
-def test_nodes_of_a_row_stay_apart_and_in_order_and_parents_stand_over_the_middle(forest, gap):
+def test_rows_keep_order_and_parents_are_centred(forest, gap):
     roots, children, sizes = forest
     positions = tidy_positions(roots, children, sizes, gap)
     assert positions.keys() == sizes.keys()

@@ -171,7 +171,7 @@ def test_the_largest_difference_belongs_to_the_bound(distance, pairs):
         assert len(associate(one, other, 5)[0]) == pairs
 
 
-def test_clocks_that_differ_are_told():
+def test_different_clocks_are_reported():
     early = random_walk(1)
     late = Trajectory(early.stamps_ns + 3600 * 10**9, early.poses)
     with pytest.raises(ValueError, match=r"an offset of -3600\.000 s makes them begin together"):
@@ -223,7 +223,7 @@ def test_trajectories_without_times_are_paired_by_their_number(tmp_path):
             compare(untimed, other)
 
 
-def test_what_cannot_be_computed_is_said():
+def test_uncomputable_values_are_reported():
     standing = Trajectory([1, 2], [[0, 0, 0, 0, 0, 0, 1]] * 2)
     with pytest.raises(ValueError, match="the reference does not move"):
         rpe(standing, standing, "point_distance_error_ratio")

@@ -100,7 +100,7 @@ def test_saving(tmp_path):
     assert not (tmp_path / "path.jpg").exists()
 
 
-def test_what_cannot_be_drawn():
+def test_undrawable_plots_raise():
     walk = random_walk(1)
     with pytest.raises(ValueError, match="'xx' is not a plane"):
         plot_path(walk, plane="xx")

@@ -65,10 +65,12 @@ def test_gaps_are_never_bridged():
     assert bridged.gaps == ()
 
 
-def test_what_is_wrong_is_said():
+def test_mistakes_raise_clear_errors():
     with pytest.raises(LookupException, match="no_frame"):
         sample_trajectory(filled(), "map", "no_frame")
-    with pytest.raises(ValueError, match="nothing moves between 'base' and 'camera', so no transform"):
+    with pytest.raises(
+        ValueError, match="nothing moves between 'base' and 'camera', so no transform"
+    ):
         sample_trajectory(filled(), "base", "camera")
     assert len(sample_trajectory(filled(), "base", "camera", stamps=[5])) == 1
     with pytest.raises(turtlewire.errors.ExtrapolationException):

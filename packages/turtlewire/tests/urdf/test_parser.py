@@ -76,7 +76,7 @@ def test_golden_robots(name, links, joints, root):
     assert found.warnings == ()
 
 
-def test_what_the_model_holds():
+def test_contents_of_the_model():
     sluice = load_urdf(GOLDEN / "urdf" / "sluice.urdf")
     base = sluice.links["sluice_base"]
     assert base.visuals[0].geometry == Box((0.1, 0.2, 0.1))
@@ -156,7 +156,7 @@ def test_a_fault_in_a_link_leaves_the_rest_of_it_out(link, texts):
     assert found.links["a"].visuals == found.links["a"].collisions == ()
 
 
-def test_what_comes_before_a_faulty_mesh_is_kept():
+def test_items_before_a_faulty_mesh_are_kept():
     ball, mesh = "<geometry><sphere radius='1'/></geometry>", "<geometry><mesh/></geometry>"
     parts = f"<visual>{ball}</visual><visual>{mesh}</visual><collision>{ball}</collision>"
     found = parse_urdf(robot(f'<link name="a">{parts}</link>'))
@@ -198,7 +198,7 @@ def test_limits_the_wrong_way_round_are_a_warning():
             assert "its lower limit, 2, is above its upper limit, 1" in warning.text
 
 
-def test_what_is_no_text():
+def test_non_string_description():
     with pytest.raises(TypeError, match="str or bytes, got NoneType; for a file, use load_urdf"):
         parse_urdf(None)
 
@@ -238,7 +238,7 @@ def test_numbers(text, value):
 @pytest.mark.parametrize(
     "text", ["", "nan", "inf", "-Infinity", "1e999", "0x10", "1 ", "1,5", "1_0", "٣", "1e", "."]
 )
-def test_what_is_no_number(text):
+def test_invalid_numbers(text):
     assert as_number(text) is None
 
 
@@ -330,7 +330,7 @@ def test_a_loop_of_ten_thousand_links_is_one_error():
     assert beside.line > 3
 
 
-def test_what_is_logged_has_a_limit_and_no_control_characters():
+def test_log_lines_are_limited_and_escaped():
     long = refusal(robot(f'<link name="{"9" * 1_000_000}\u202e"/>' * 2))
     assert all(len(line) < 1100 and line.isprintable() for line in log_lines(long))
     name = refusal(robot('<link name="\u202e"/>' * 2))

@@ -127,7 +127,7 @@ def test_a_file_is_compressed_once_and_again_when_it_changes(server, root, monke
     assert len(compressed) == 2
 
 
-def test_what_the_browser_has_is_not_sent_again(server):
+def test_cached_files_are_not_sent_again(server):
     plain, packed = get(server, "/main.js"), get(server, "/main.js", "gzip")
     tags = [response.headers["ETag"] for response in (plain, packed)]
     assert tags[0] != tags[1]  # the bytes are other ones
@@ -143,7 +143,7 @@ def test_what_the_browser_has_is_not_sent_again(server):
     assert get(server, "/main.js", "gzip", If_None_Match='"other"').status == 200
 
 
-def test_what_is_computed_is_never_compressed(root, start):
+def test_computed_answers_are_never_compressed(root, start):
     """It may stand beside something secret, and its length would tell."""
     body = b"x" * 5000
     server = start(root, answer=lambda path: Content(body, "text/plain"))

@@ -217,9 +217,7 @@ def test_without_a_network_the_line_says_so(monkeypatch, terminal):
     ("obstacle", "said"),
     [("library", "pip install segno"), ("width", "wider terminal"), ("encoding", "UTF-8")],
 )
-def test_where_no_code_can_be_shown_the_address_and_a_line_remain(
-    monkeypatch, terminal, obstacle, said
-):
+def test_address_and_a_line_remain_without_a_qr_code(monkeypatch, terminal, obstacle, said):
     if obstacle == "library":
         monkeypatch.setitem(sys.modules, "segno", None)
     elif obstacle == "width":
@@ -288,9 +286,7 @@ def test_vendored_files_are_kept_and_sources_added(serve, tmp_path):
     assert "worker-src 'self'" in policy
 
 
-def test_an_import_map_of_the_page_works_in_a_browser_and_other_inline_scripts_do_not(
-    serve, tmp_path, browser
-):
+def test_page_import_map_works_and_other_inline_scripts_do_not(serve, tmp_path, browser):
     (tmp_path / "lib-1.2").mkdir()
     (tmp_path / "lib-1.2" / "lib.js").write_text("export const answer = 42;")
     (tmp_path / "main.js").write_text(

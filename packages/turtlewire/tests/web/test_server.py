@@ -151,7 +151,7 @@ def test_only_get(server):
     assert get(server, "/", method="POST").status in (400, 405)
 
 
-def test_what_is_not_http_leaves_the_server_alive(server):
+def test_non_http_requests_leave_the_server_alive(server):
     port = int(server.url.split(":")[2].rstrip("/"))
     for junk in (
         b"\x00\xff\x16\x03\x01 nonsense\r\n\r\n",

@@ -317,7 +317,7 @@ def test_detached_and_closed_entities_are_not_reported(node: Node, other: Node):
     )  # delivered to the other subscription of this process at about the same time
 
 
-def test_what_was_closed_and_never_attached_can_be_detached(node: Node):
+def test_closed_unattached_endpoint_can_be_detached(node: Node):
     """As one thread closes an entity which another one takes out of its executor."""
     wait_set = node.context.create_wait_set()
     ends = [
@@ -666,7 +666,7 @@ def test_matched_events(node: Node, other: Node):
     assert wait_for_event(node, event, lambda _: True) == EventStatus(2, 1, 1, 1)
 
 
-def test_what_happened_before_the_event_was_created_is_reported(node: Node, other: Node):
+def test_earlier_changes_are_reported_to_a_new_event(node: Node, other: Node):
     publisher = node.create_publisher("/chatter", STRING, QoS())
     subscription = other.create_subscription("/chatter", STRING, QoS())
     connect(node, publisher, other, subscription)

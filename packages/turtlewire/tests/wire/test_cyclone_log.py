@@ -24,7 +24,7 @@ def test_a_datagram_that_the_network_refuses_is_explained():
     assert explain("something else") == "Cyclone DDS says: something else"
 
 
-def test_what_cyclone_says_of_a_domain_goes_into_the_pipe():
+def test_cyclone_log_of_a_domain_goes_into_the_pipe():
     """In a process of its own.
 
     Cyclone keeps the first stderr that it sees for what belongs to no domain.

@@ -112,7 +112,7 @@ def test_a_middleware_that_is_not_here_is_one_line_and_cyclone_is_taken(theirs: 
         ("rmw_zenoh_cpp", "", "ZenohContext", ""),
     ],
 )
-def test_what_is_not_installed_is_told_and_another_one_taken(asked, missing, taken, said):
+def test_missing_middleware_is_reported_and_replaced(asked, missing, taken, said):
     if taken == "CycloneContext" and not HAS_WHEEL:
         pytest.skip("needs the cyclonedds wheel")
     code = (
@@ -158,7 +158,7 @@ def interfaces(domain: ET.Element) -> list[dict[str, str]]:
     return [interface.attrib for interface in domain.iter("NetworkInterface")]
 
 
-def test_who_leaves_at_once_does_not_wait_for_acknowledgements():
+def test_immediate_exit_does_not_wait_for_acknowledgements():
     here = Discovery(Range.LOCALHOST, ())
     with leaving_at_once():
         assert configuration(here).findtext("Internal/WriterLingerDuration") == "0 s"
@@ -226,7 +226,7 @@ def test_a_static_peer_must_be_an_address():
 
 
 @pytest.mark.parametrize("peer", ["127.0.0.1:0", "127.0.0.1:65536", "::1", "a b"])
-def test_what_cannot_be_an_address_is_refused(peer: str):
+def test_invalid_address_is_rejected(peer: str):
     with pytest.raises(WireError, match="is not an address"):
         domain_configuration(7, Discovery(Range.SUBNET, (peer,)))
 
@@ -254,7 +254,7 @@ def test_a_static_peer_that_nobody_knows_is_left_out_with_one_warning(
 
 
 @pytest.mark.parametrize("peer", ["a..b", "0.0.0.0"])  # no name server is asked for these
-def test_a_static_peer_that_cyclone_would_abort_for_is_left_out_with_one_warning(peer: str):
+def test_static_peer_fatal_to_cyclone_is_skipped_with_a_warning(peer: str):
     """In a process of its own, which has to survive it."""
     code = (
         "from turtlewire.wire import open_context; open_context().close(); "

@@ -249,7 +249,7 @@ def test_the_first_question_for_nodes_has_the_node_of_fast_dds(program: Path, co
 
 
 @pytest.mark.parametrize("vendor", ["fast"], indirect=True)
-def test_who_hurries_asks_fast_dds(program: Path, monkeypatch):
+def test_hurried_commands_query_fast_dds(program: Path, monkeypatch):
     asked = []
     ask = SilentPeers.ask
     monkeypatch.setattr(

@@ -46,7 +46,7 @@ def types():
         ("0199", {}, "a DDS of vendor 01.99"),
     ],
 )
-def test_who_understands_our_requests(vendor, ids, middleware):
+def test_servers_that_understand_our_requests(vendor, ids, middleware):
     assert foreign_middleware(bytes.fromhex(vendor).ljust(16, b"\x07"), ids) == middleware
 
 
@@ -107,7 +107,7 @@ def test_a_request_in_another_layout_is_dropped_with_one_line(context, types, mo
     assert "Start the client with RMW_IMPLEMENTATION=rmw_cyclonedds_cpp" in said
 
 
-def test_a_request_of_a_client_that_left_before_it_was_known_is_dropped_with_the_reason(
+def test_request_of_a_departed_client_is_dropped_with_the_reason(
     context, types, monkeypatch, capfd
 ):
     monkeypatch.setattr(report, "_said", set())

@@ -51,7 +51,7 @@ def test_the_samples_of_a_real_ros_2_are_reproduced():
 
 
 @given(gid, nodes)
-def test_what_is_packed_can_be_unpacked(participant: bytes, expected: list[NodeEndpoints]):
+def test_packing_round_trip(participant: bytes, expected: list[NodeEndpoints]):
     assert unpack_discovery_info(pack_discovery_info(participant, expected)) == (
         participant,
         expected,

@@ -96,7 +96,7 @@ def test_cyclonedds_home_comes_before_the_wheel(monkeypatch, tmp_path):
     assert refused == []
 
 
-def test_cyclonedds_home_without_a_library_is_told(monkeypatch, tmp_path):
+def test_cyclonedds_home_without_a_library_is_reported(monkeypatch, tmp_path):
     monkeypatch.setenv("CYCLONEDDS_HOME", str(tmp_path))
     [sentence] = find_libddsc().refused
     assert sentence == f"CYCLONEDDS_HOME is {tmp_path}, where there is no libddsc"

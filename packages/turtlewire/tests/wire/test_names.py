@@ -99,7 +99,7 @@ def test_node_names_that_are_refused(name: str, message: str, index: int):
     assert names.validate_node_name(name) == (message, index)
 
 
-def test_what_is_allowed():
+def test_allowed_values():
     assert names.validate_full_topic_name("/turtle1/_pose2") is None
     assert names.validate_namespace("/") is None
     assert names.validate_namespace("/a/b") is None

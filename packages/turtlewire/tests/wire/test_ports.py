@@ -88,7 +88,7 @@ def test_participants_of_one_process_are_told_apart_from_others():
     assert process_of(fast) == fast[:12]
 
 
-def test_where_the_system_does_not_tell_nothing_is_counted(monkeypatch):
+def test_nothing_is_counted_on_systems_without_counts(monkeypatch):
     def refuse(*_args, **_kwargs):
         raise FileNotFoundError
 

@@ -68,14 +68,16 @@ def test_permissive_security_is_warned_of_once(
 
 
 @pytest.mark.parametrize("text", ["false", "", "True", "1", " true"])
-def test_what_rcl_takes_for_off_changes_nothing(monkeypatch: pytest.MonkeyPatch, text: str, capfd):
+def test_values_that_rcl_treats_as_off_change_nothing(
+    monkeypatch: pytest.MonkeyPatch, text: str, capfd
+):
     monkeypatch.setenv("ROS_SECURITY_ENABLE", text)
     monkeypatch.setenv("ROS_SECURITY_STRATEGY", "Enforce")
     open_context().close()
     assert "SECURITY" not in capfd.readouterr().err
 
 
-def test_what_stays_inside_the_process_needs_no_security(monkeypatch: pytest.MonkeyPatch, capfd):
+def test_local_middleware_needs_no_security(monkeypatch: pytest.MonkeyPatch, capfd):
     monkeypatch.setenv("ROS_SECURITY_ENABLE", "true")
     monkeypatch.setenv("ROS_SECURITY_STRATEGY", "Enforce")
     open_context(middleware="local").close()

@@ -31,7 +31,7 @@ def test_cyclone_is_never_asked():
     assert Asked().to_ask([CYCLONE], []) == (set(), set())
 
 
-def test_one_whose_endpoints_are_unknown_is_asked_for_them_and_the_others_for_their_nodes():
+def test_unknown_endpoints_and_nodes_are_queried():
     questions = Asked().to_ask(
         [FAST[0], FAST[1], CYCLONE], [writer_of(FAST[1]), writer_of(FAST[2])]
     )

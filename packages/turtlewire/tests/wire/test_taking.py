@@ -121,7 +121,7 @@ def test_publishers_that_left_are_forgotten(context, pair):
     assert [gid for gid in gids if subscription.user_data_of(gid)] == []
 
 
-def test_what_waits_of_a_publisher_that_left_still_has_its_gid(context, pair):
+def test_waiting_messages_keep_the_gid_of_a_left_publisher(context, pair):
     _, subscription = pair
     wait_for_publishers = waiter_for_publishers(context, subscription)
     publisher = context.create_node("other").create_publisher("/texts", STRING, QoS())

@@ -145,7 +145,7 @@ def test_static_peers_find_the_other_host_without_multicast(chosen: str):
 
 
 @pytest.mark.usefixtures("hosts")
-def test_nobody_from_outside_gets_in_by_default():
+def test_other_hosts_cannot_reach_nodes_by_default():
     """The older process has no range set.
 
     The younger one, which is found, shows that the older one would have been.
@@ -291,9 +291,7 @@ def link() -> Iterator[Callable[[str], None]]:
 @pytest.mark.parametrize(
     "lease", ["60s", "6s"], ids=["shorter than the lease", "longer than the lease"]
 )
-def test_a_link_that_goes_down_and_up_is_named_once_and_later_messages_arrive(
-    link, lease: str, tmp_path: Path
-):
+def test_link_down_and_up_is_named_once_and_messages_resume(link, lease: str, tmp_path: Path):
     environment = {
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET",
         "CYCLONEDDS_URI": f"<Discovery><LeaseDuration>{lease}</LeaseDuration></Discovery>",

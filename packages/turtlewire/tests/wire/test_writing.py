@@ -72,7 +72,7 @@ def test_the_parts_of_a_message_may_change_after_it_was_sent(pair):
 
 
 @pytest.mark.parametrize("cdr", [None, 3, "text", (b"\0\1\0\0", 3)])
-def test_what_has_no_memory_is_refused(pair, cdr):
+def test_objects_without_a_buffer_are_rejected(pair, cdr):
     writer, _ = pair
     with pytest.raises(TypeError):
         writer.write(cdr)

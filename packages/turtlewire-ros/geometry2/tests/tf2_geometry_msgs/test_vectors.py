@@ -126,7 +126,7 @@ def test_stamped_data_with_a_bare_transform_says_what_is_missing():
         tf2.do_transform_point(PointStamped(), Transform())
 
 
-def test_rotations_of_any_length_count_as_their_direction_and_none_as_no_rotation(quarter_turn):
+def test_rotations_are_normalised_and_zero_is_none(quarter_turn):
     point = PointStamped(point=Point(x=1.0, y=2.0, z=3.0))
     q = quarter_turn.message.transform.rotation
     q.z, q.w = 30.0, 30.0

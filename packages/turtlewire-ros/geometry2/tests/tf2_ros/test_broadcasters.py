@@ -105,7 +105,7 @@ def test_it_may_replace_what_a_destroyed_node_sent(make_node, heard, stamped):
     assert x_of(heard(), "a") == 2.0
 
 
-def test_none_is_lost_over_a_thousand_joins_with_updates_and_restarts(make_node, stamped):
+def test_no_peer_is_lost_over_a_thousand_joins(make_node, stamped):
     """Any order of sending, joining and restarting.
 
     A late joiner sees exactly what the living broadcasters sent last.

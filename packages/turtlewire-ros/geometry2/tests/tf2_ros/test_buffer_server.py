@@ -225,7 +225,7 @@ def test_a_server_that_does_not_answer(make_node, strange_server):
     client.destroy()
 
 
-def test_what_the_client_does_not_wait_for_any_more_is_cancelled(make_node, strange_server):
+def test_abandoned_lookups_are_cancelled(make_node, strange_server):
     cancelled = Future()
 
     async def execute(goal_handle):

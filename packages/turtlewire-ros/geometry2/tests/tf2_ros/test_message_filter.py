@@ -187,7 +187,7 @@ def test_each_message_has_the_timeout_from_its_own_arrival(setup, node):
     assert at(10_000) == [1, 2, 3]
 
 
-def test_what_waits_is_dropped_when_the_clock_jumps_back(setup, node, stamped):
+def test_waiting_messages_are_dropped_when_the_clock_jumps_back(setup, node, stamped):
     s = setup(timeout=Duration(seconds=1000))
     clock = node.get_clock()
     clock._set_ros_time_is_active(True)

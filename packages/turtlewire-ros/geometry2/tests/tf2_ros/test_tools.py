@@ -170,7 +170,7 @@ def test_a_static_transform_is_published_until_stopped(tool, listening):
     )
 
 
-def test_the_static_publisher_listens_to_parameter_events_as_nodes_of_c_plus_plus_do(tool):
+def test_static_publisher_subscribes_to_parameter_events(tool):
     tool("static_transform_publisher", "--frame-id", "a", "--child-frame-id", "b")
     context = wire.open_context()
     try:
@@ -432,7 +432,7 @@ def test_the_end_of_a_pipe_is_a_quiet_end(command, first, run):
 
 
 @pytest.mark.usefixtures("talker")
-def test_who_writes_into_a_closed_pipe_ends_as_other_tools_do(tool):
+def test_closed_pipe_ends_the_writer_like_other_tools(tool):
     process = tool("tf2_echo", "world", "robot", "50")
     process.stdout.readline()
     process.stdout.close()
@@ -458,7 +458,7 @@ def test_a_chain_may_have_any_frame_id(stamped):
     ]
 
 
-def test_what_does_not_move_has_no_net_delay(stamped):
+def test_static_chain_has_no_net_delay(stamped):
     buffer, net = Buffer(), tf2_monitor.Delays()
     buffer.set_transform_static(stamped("world", "robot"), "me")
     tf2_monitor._note_chain(["robot", "world"], buffer, net, buffer.clock)
@@ -555,7 +555,7 @@ def test_echo_escapes_names_that_would_steer_the_terminal(tool, listening, stamp
 
 
 @pytest.mark.usefixtures("talker")
-def test_the_buffer_server_answers_other_processes_and_its_death_is_an_error(tool, listening):
+def test_buffer_server_answers_other_processes_until_its_end(tool, listening):
     process = tool("buffer_server")
     client = BufferClient(listening[1], "tf2_buffer_server", timeout_padding=Duration(seconds=1))
     assert client.lookup_transform("world", "robot", Time(), LONG).transform.translation.x == 2.0

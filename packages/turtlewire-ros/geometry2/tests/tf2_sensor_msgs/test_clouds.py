@@ -243,7 +243,7 @@ def test_data_of_any_kind(transform, kind):
     assert do_transform_cloud(cloud, transform) == expected
 
 
-def test_mistakes_are_told(transform):
+def test_mistakes_are_reported(transform):
     cloud = make_cloud([("x", "f4"), ("y", "f4")], {"x": [1.0], "y": [1.0]})
     with pytest.raises(
         AssertionError, match=r"^Point cloud needs the fields x, y, and z for the transformation$"

@@ -200,7 +200,7 @@ BOTH_STREAMS = "import sys; print('out'); print('err', file=sys.stderr)"
         ),
     ],
 )
-def test_where_output_goes(launch, output, screen, main_log, own):
+def test_output_destinations(launch, output, screen, main_log, own):
     def ends(text):
         return sorted(
             found[1]

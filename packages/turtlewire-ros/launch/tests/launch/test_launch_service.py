@@ -89,7 +89,7 @@ def test_a_handler_that_fails_ends_the_launch_after_the_other_handlers(launch):
     assert (outcome.status, outcome.error, outcome.messages) == (1, "boom", ["the other"])
 
 
-def test_what_follows_a_failure_is_not_visited_and_processes_end(launch):
+def test_entities_after_a_failure_are_not_visited(launch):
     def fail(_context):
         raise ValueError("boom")
 

@@ -35,7 +35,7 @@ def outcomes(report):
     ]
 
 
-def test_what_passes_with_pytest(tmp_path):
+def test_passing_tests_with_pytest(tmp_path):
     report = tmp_path / "report.xml"
     files = ("sample_classes.py", "sample_functions.py")
     for name in files:
@@ -58,7 +58,7 @@ def test_what_passes_with_pytest(tmp_path):
     ]
 
 
-def test_what_fails_with_launch_test(tmp_path):
+def test_failures_with_launch_test(tmp_path):
     report = tmp_path / "report.xml"
     sample = SAMPLES / "sample_failing.py"
     done = run(*LAUNCH_TEST, sample, "--junit-xml", report, "--package-name", "mine", cwd=tmp_path)
@@ -157,7 +157,7 @@ def test_plain_tests_do_not_wait_for_launch(tmp_path):
     assert "2 passed" in done.stdout
 
 
-def test_wrong_marks_are_told(tmp_path):
+def test_wrong_marks_are_reported(tmp_path):
     (tmp_path / "test_wrong.py").write_text(
         "import pytest\n\n@pytest.mark.launch(fixture=print)\ndef test_it():\n    pass\n"
     )

@@ -58,7 +58,7 @@ def test_attributes_that_are_missing_or_of_another_type(entity):
         element.get_attr("a", data_type=bool, can_be_str=False)
 
 
-def test_what_nobody_asked_for_is_refused(entity):
+def test_unrequested_files_are_rejected(entity):
     with pytest.raises(ValueError, match=r"Unexpected attribute\(s\) found in `launch`: {'a'}"):
         entity("<launch a='x'/>").assert_entity_completely_parsed()
     with pytest.raises(

@@ -75,12 +75,12 @@ def test_attributes_that_are_missing_or_of_another_type(entity):
         ("launch: [x]", RuntimeError, "Subentities must be a dictionary with only one key"),
     ],
 )
-def test_what_is_no_element(entity, text, error, message):
+def test_invalid_elements(entity, text, error, message):
     with pytest.raises(error, match=message):
         _ = entity(text).children
 
 
-def test_what_nobody_asked_for_is_refused(entity):
+def test_unrequested_files_are_rejected(entity):
     with pytest.raises(ValueError, match=r"Unexpected key\(s\) found in `log`: {'a'}"):
         entity("launch:\n- log: {a: 1}").children[0].assert_entity_completely_parsed()
 
@@ -104,7 +104,7 @@ def test_aliases_work_but_no_bombs(entity):
     ("text", "why"),
     [("[" * 50_000, "nested too deeply"), ("launch: 2026-13-01", "month must be in 1..12")],
 )
-def test_what_yaml_cannot_make_of_a_file(tmp_path, text, why):
+def test_invalid_yaml_files(tmp_path, text, why):
     (tmp_path / "x.launch.yaml").write_text(text)
     with pytest.raises(SyntaxError) as caught:
         Parser.load(str(tmp_path / "x.launch.yaml"))

@@ -102,7 +102,7 @@ def test_nodes_of_a_container(launch):
     )
 
 
-def test_what_a_scope_adds_and_files(launch, tmp_path):
+def test_scope_additions_and_files(launch, tmp_path):
     (tmp_path / "params.yaml").write_text(
         "/**: {ros__parameters: {speed: 1}}\n/robot/n: {ros__parameters: {speed: 7}}\n/other: "
         "{ros__parameters: {speed: 8}}"
@@ -120,7 +120,7 @@ def test_what_a_scope_adds_and_files(launch, tmp_path):
     assert "Loaded node '/robot/n' in container '/robot/box'" in outcome.text
 
 
-def test_what_cannot_be_loaded(launch):
+def test_unloadable_files(launch):
     container = ComposableNodeContainer(
         name="box",
         composable_node_descriptions=[

@@ -248,7 +248,7 @@ def test_a_variable_says_whether_a_parameter_file_has_substitutions(nodes, tmp_p
     assert [node["files"] for (node,) in found] == [["x: true"], ["x: $(var asked)"]]
 
 
-def test_what_a_scope_adds(nodes, tmp_path):
+def test_scope_additions(nodes, tmp_path):
     (tmp_path / "params.yaml").touch()
     inside, outside = nodes(
         GroupAction(

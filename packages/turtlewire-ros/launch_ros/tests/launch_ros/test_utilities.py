@@ -92,7 +92,7 @@ def test_parameters(context, tmp_path):
     path.unlink()
 
 
-def test_whether_a_file_has_substitutions(context, tmp_path):
+def test_substitutions_in_a_file(context, tmp_path):
     (tmp_path / "file.yaml").write_text("{}")
     path = str(tmp_path / "file.yaml")
     assert ParameterFile(path).allow_substs is False
@@ -112,7 +112,7 @@ def test_whether_a_file_has_substitutions(context, tmp_path):
         ({"remappings": ["ab"]}, "Expected 'remap_rule' to be of type"),
     ],
 )
-def test_wrong_parameters_and_remappings_are_told(wrong, says):
+def test_wrong_parameters_and_remappings_are_reported(wrong, says):
     with pytest.raises(TypeError, match=says):
         Node(package="p", executable="e", **wrong)
 

@@ -332,7 +332,7 @@ async def _awaited(future):
     return await future
 
 
-def test_a_context_that_is_shut_down_while_a_service_answers_ends_the_spinning(context):
+def test_shutdown_while_a_service_answers_ends_spin(context):
     node = Node("server", context=context)
     called = []
 

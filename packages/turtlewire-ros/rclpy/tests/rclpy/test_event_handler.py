@@ -74,7 +74,7 @@ def test_matches(world):
     world.node.destroy_publisher(publisher)
 
 
-def test_endpoints_that_do_not_match_are_told(world):
+def test_unmatched_endpoints_are_reported(world):
     offered, requested = [], []
     world.node.create_publisher(
         String,

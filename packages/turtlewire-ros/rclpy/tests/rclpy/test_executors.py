@@ -389,9 +389,7 @@ def test_call_ends_when_the_executor_is_shut_down(node, pool):
     assert ended == ["shut down"]
 
 
-def test_a_callback_that_becomes_ready_while_a_pool_is_shut_down_is_no_error(
-    node, pool, monkeypatch
-):
+def test_callback_ready_during_pool_shutdown_is_no_error(node, pool, monkeypatch):
     scheduler, ran = pool._rclpy_scheduler, []
     guard = node.create_guard_condition(lambda: ran.append(1))
     take_next = scheduler.next
@@ -434,7 +432,7 @@ def test_a_call_of_a_service_in_the_callers_own_group_is_warned_of(node, pool, s
     )
 
 
-def test_a_reentrant_group_runs_at_the_same_time_up_to_the_number_of_threads(node, pool, spinning):
+def test_reentrant_group_runs_up_to_the_number_of_threads(node, pool, spinning):
     barrier = threading.Barrier(3, timeout=60)
     done = threading.Semaphore(0)
 
@@ -764,7 +762,7 @@ KINDS = [SingleThreadedExecutor, partial(MultiThreadedExecutor, 2)]
 
 @pytest.mark.parametrize("former_kind", KINDS)
 @pytest.mark.parametrize("latter_kind", KINDS)
-def test_a_callback_that_a_former_executor_ends_frees_its_group_for_the_latter(
+def test_callback_ended_by_a_former_executor_frees_its_group(
     context, node, spinning, former_kind, latter_kind
 ):
     """The former executor has no entity of the group any more: the latter one has to be woken."""
@@ -794,9 +792,7 @@ def test_a_callback_that_a_former_executor_ends_frees_its_group_for_the_latter(
     latter.shutdown()
 
 
-def test_an_async_callback_left_with_a_former_executor_frees_its_group_when_it_is_done(
-    context, node, executor
-):
+def test_async_callback_of_a_former_executor_frees_its_group(context, node, executor):
     other = SingleThreadedExecutor(context=context)
     answer, served = Future(), []
 

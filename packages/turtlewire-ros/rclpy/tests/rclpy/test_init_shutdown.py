@@ -232,7 +232,7 @@ CREATORS = {
 
 @pytest.mark.parametrize("middleware", ["rmw_cyclonedds_cpp", "rmw_zenoh_cpp"])
 @pytest.mark.parametrize("what", CREATORS)
-def test_what_another_thread_shuts_down_meanwhile_creates_nothing(monkeypatch, middleware, what):
+def test_concurrent_shutdown_creates_nothing(monkeypatch, middleware, what):
     monkeypatch.setenv("RMW_IMPLEMENTATION", middleware)
     rclpy.init(args=[])
     node = Node("hasty")
@@ -357,9 +357,7 @@ def test_a_callback_may_shut_down_while_others_wait_for_it(monkeypatch, middlewa
 
 
 @pytest.mark.parametrize("middleware", ["rmw_cyclonedds_cpp", "rmw_zenoh_cpp"])
-def test_shutdown_callbacks_at_the_end_of_the_program_find_the_middleware_open(
-    program, monkeypatch, middleware
-):
+def test_shutdown_callbacks_at_exit_find_the_middleware_open(program, monkeypatch, middleware):
     monkeypatch.setenv("RMW_IMPLEMENTATION", middleware)
     ended = program(
         """

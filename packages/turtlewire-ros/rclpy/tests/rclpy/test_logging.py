@@ -86,7 +86,7 @@ def test_messages_are_converted_unless_the_level_is_off(logger, capfd):
     assert messages(capfd) == ["{'a': [1]}"]
 
 
-def test_what_cannot_be_encoded_is_escaped(logger, capfd):
+def test_unencodable_characters_are_escaped(logger, capfd):
     logger.info("a\udce9é\nb")
     assert capfd.readouterr().err.endswith("a\\udce9é\nb\n")
 
@@ -368,7 +368,7 @@ def test_the_log_file(logger, tmp_path, monkeypatch, capfd):
     assert len(path.read_text().splitlines()) == 2
 
 
-def test_where_log_files_go(monkeypatch, tmp_path):
+def test_log_folder(monkeypatch, tmp_path):
     monkeypatch.setenv("HOME", str(tmp_path))
     monkeypatch.setenv("ROS_LOG_DIR", "/x")
     assert str(rclpy.logging.get_logging_directory()) == "/x"

@@ -84,7 +84,7 @@ def test_a_namespace_is_checked(context, namespace):
         Node("n", context=context, namespace=namespace)
 
 
-def test_the_command_line_renames_the_node_first_and_all_follows_the_new_name(remapped):
+def test_command_line_renames_the_node_first(remapped):
     node = remapped("-r", "__node:=renamed", "-r", "__ns:=/robot", "-p", "speed:=3")
     assert node.get_fully_qualified_name() == "/robot/renamed"
     assert node.get_logger().name == "robot.renamed"
@@ -119,7 +119,7 @@ def test_the_nodes_own_arguments_come_before_those_of_the_process(remapped):
     assert node.resolve_topic_name("chatter") == "/chatter"
 
 
-def test_what_every_node_has(context, node):
+def test_common_parts_of_every_node(context, node):
     assert {service.service_name for service in node.services} == {
         f"/tested/{name}" for name in BUILT_IN_SERVICES
     }

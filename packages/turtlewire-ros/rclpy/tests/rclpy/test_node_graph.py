@@ -194,7 +194,7 @@ def test_endpoint_infos(node, other, wait_for):
     assert node.get_subscriptions_info_by_topic("/ns/number") == []
 
 
-def test_what_goes_is_forgotten(node, other, wait_for):
+def test_removed_items_are_forgotten(node, other, wait_for):
     wait_for(lambda: node.count_publishers("/ns/number") == 1)
     other.destroy_node()
     wait_for(

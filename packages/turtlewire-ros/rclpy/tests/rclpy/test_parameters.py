@@ -182,7 +182,7 @@ def test_a_default_may_be_a_message(parameters):
 
 
 @pytest.mark.parametrize("setter", ["set_parameters", "set_parameters_atomically"])
-def test_what_is_set_has_to_be_a_parameter(parameters, setter):
+def test_set_requires_a_parameter(parameters, setter):
     with pytest.raises(TypeError, match=r"^parameter must be instance of type '<class 'rclpy.par"):
         getattr(parameters, setter)([42])
 
@@ -490,7 +490,7 @@ def test_a_callback_refuses(recorder):
     assert recorder.events == []
 
 
-def test_a_callback_without_an_answer_is_told(parameters):
+def test_callback_without_an_answer_is_reported(parameters):
     parameters.callbacks.deciding.insert(0, lambda _: None)
     with pytest.raises(
         TypeError, match="it has to return a SetParametersResult, but returned None"

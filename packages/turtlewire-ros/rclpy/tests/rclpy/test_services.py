@@ -148,7 +148,7 @@ def test_wrong_types(node, executor):
         executor.spin_once(timeout_sec=60)
 
 
-def test_an_exception_of_a_service_leaves_spin_and_the_client_gets_no_answer(node, executor):
+def test_service_exception_leaves_spin_without_an_answer(node, executor):
     node.create_service(AddTwoInts, "add", lambda request, response: 1 / 0)
     client = node.create_client(AddTwoInts, "add")
     assert client.wait_for_service(timeout_sec=60)

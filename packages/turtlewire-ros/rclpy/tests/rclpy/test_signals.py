@@ -356,7 +356,7 @@ print(len(functions), "functions")
 
 @pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="this system cannot fork processes")
-def test_ctrl_c_in_any_function_that_an_import_calls_is_a_keyboard_interrupt():
+def test_ctrl_c_during_an_import_is_a_keyboard_interrupt():
     command = [sys.executable, "-c", INTERRUPTED_IMPORTS]
     done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=600)
     (count,) = re.fullmatch(r"(\d+) functions\n", done.stdout).groups()
@@ -413,7 +413,7 @@ def test_signal_options(program):
     assert program(source).finish() == (0, expected, "")
 
 
-def test_who_watched_signals_before_still_hears_of_them(start):
+def test_earlier_signal_watchers_are_still_notified(start):
     program = start("""
         import os, signal, rclpy
         read_end, write_end = os.pipe()
@@ -511,7 +511,7 @@ os.kill(os.getpid(), signal.SIGINT)
 
 
 @pytest.mark.parametrize("first", ["SIGINT", "SIGTERM"])
-def test_a_sigint_right_after_a_signal_does_not_kill_a_process_that_is_ending(first):
+def test_sigint_after_a_signal_does_not_kill_an_ending_process(first):
     """`ros2 launch` passes signals on to processes that the terminal or `timeout` told already."""
     done = subprocess.run(
         [sys.executable, "-c", LATE, first], capture_output=True, text=True, check=False

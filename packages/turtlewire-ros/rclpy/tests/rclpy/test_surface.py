@@ -174,7 +174,7 @@ def test_qos_presets(row):
     assert found == (history, depth, reliability, durability)
 
 
-def test_what_every_made_thing_has(node):
+def test_common_attributes_of_created_entities(node):
     """Attributes that constructors set, which no class shows."""
     from rclpy.clock import JumpThreshold
     from std_msgs.msg import String

@@ -60,7 +60,7 @@ def test_done_callbacks_run_inline_without_an_executor():
     assert called == [("before", 1), ("after", 1)]
 
 
-def test_a_done_callback_that_raises_is_warned_of_and_does_not_stop_the_others():
+def test_raising_done_callback_does_not_stop_the_others():
     called = []
     future = Future()
     future.add_done_callback(lambda _: 1 / 0)

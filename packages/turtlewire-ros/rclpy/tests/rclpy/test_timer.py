@@ -77,7 +77,7 @@ def test_time_that_goes_back_behind_the_last_call_starts_a_new_period(node, exec
     assert timer.time_until_next_call() == 100 * MS
 
 
-def test_what_is_left_of_the_period_survives_a_change_of_the_clock(node, clock):
+def test_rest_of_the_period_survives_a_clock_change(node, clock):
     timer = node.create_timer(10.0, None, clock=clock)
     move(clock, 4000)
     clock._set_ros_time_is_active(False)
@@ -221,7 +221,7 @@ def test_a_destroyed_rate_does_not_sleep(node):
         rate.sleep()
 
 
-def test_a_rate_raises_in_the_thread_that_spins_instead_of_sleeping_for_ever(node, executor):
+def test_rate_raises_in_the_spinning_thread(node, executor):
     rate = node.create_rate(0.001)  # not due before the other timer, however busy the machine is
     node.create_timer(0.001, rate.sleep)
     with pytest.raises(

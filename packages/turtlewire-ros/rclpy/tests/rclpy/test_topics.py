@@ -143,7 +143,7 @@ class Callbacks:
         (print, 1),
     ],
 )
-def test_how_many_arguments_a_callback_takes(node, callback, arguments):
+def test_number_of_callback_arguments(node, callback, arguments):
     subscription = node.create_subscription(Int32, "number", callback, 10)
     assert subscription._callback_type.value == arguments - 1
     assert subscription.callback == callback
@@ -180,7 +180,7 @@ def test_depth_keeps_the_newest(context, node, executor):
     assert got == [5, 6, 7]
 
 
-def test_what_is_not_encoded_while_nobody_listens(context, node, monkeypatch):
+def test_messages_without_subscriptions_are_not_encoded(context, node, monkeypatch):
     encoded = []
     monkeypatch.setattr(
         "rclpy.publisher.encode",
@@ -205,7 +205,7 @@ def test_what_is_not_encoded_while_nobody_listens(context, node, monkeypatch):
         ({"deadline": Duration(nanoseconds=0)}, 0),
     ],
 )
-def test_what_is_sent_while_nobody_listens(node, monkeypatch, policies, count):
+def test_messages_sent_without_subscriptions(node, monkeypatch, policies, count):
     publisher = node.create_publisher(Int32, "number", QoSProfile(depth=1, **policies))
     sent = []
     monkeypatch.setattr(publisher._wire, "publish", sent.append)
@@ -213,7 +213,7 @@ def test_what_is_sent_while_nobody_listens(node, monkeypatch, policies, count):
     assert len(sent) == count
 
 
-def test_what_cannot_be_published(context, node):
+def test_unpublishable_values(context, node):
     publisher = node.create_publisher(Int32, "number", 10)
     for wrong in (String(), "text", 3, None, Int32):
         with pytest.raises(

@@ -176,7 +176,7 @@ def test_unloading(call):
         ("Talker", "ValueError: 'Talker' is no component of test; expected 'package.module.Class'"),
     ],
 )
-def test_what_cannot_be_loaded(call, plugin, message):
+def test_unloadable_files(call, plugin, message):
     response = call(LoadNode, "load_node", package_name="test", plugin_name=plugin)
     assert (response.success, response.error_message) == (False, message)
     assert load(call).success

@@ -46,7 +46,7 @@ def test_commands(text, command):
         ('{"type": "play", "on": 1}', "on is true or false"),
     ],
 )
-def test_what_is_not_a_command(text, error):
+def test_unknown_page_commands(text, error):
     with pytest.raises(JointCommandError, match=error):
         parse_command(text)
 

@@ -49,7 +49,7 @@ def test_from_stdin(capsys, monkeypatch):
 
 
 @pytest.mark.parametrize("program", [check_urdf, urdf_to_graphviz])
-def test_what_is_no_urdf(program, capsys, monkeypatch, tmp_path):
+def test_invalid_urdf(program, capsys, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     assert program.main(["program", str(GOLDEN / "invalid" / "bad_number.urdf")]) == 1
     assert capsys.readouterr().err == REFUSED

@@ -91,7 +91,7 @@ def test_a_broken_check_does_not_stop_the_others(broken, capsys):
     assert told in capsys.readouterr().err
 
 
-def test_a_check_without_a_result_is_told(tires, capsys):
+def test_check_without_a_result_is_reported(tires, capsys):
     module = tires.parent.parent / "tires.py"
     module.write_text(CHECKS.replace("return result", "return None"))
     assert run_checks_of_others() == (set(), 0, 0)

@@ -22,7 +22,7 @@ def test_an_empty_domain_of_this_host_is_no_problem(capsys, name):
     assert nobody in others
 
 
-def test_what_is_only_worth_knowing_fails_when_asked(capsys):
+def test_notes_fail_only_on_request(capsys):
     context = open_context()
     try:
         context.create_node("alone")

@@ -120,5 +120,5 @@ def test_deviations_are_few():
     assert len(DEVIATIONS) <= 0.1 * sum(len(block) for block in BLOCKS)
 
 
-def test_what_deviates_is_among_the_captures():
+def test_deviations_are_among_the_captures():
     assert DEVIATIONS.keys() <= {case.number for block in BLOCKS for case in block}

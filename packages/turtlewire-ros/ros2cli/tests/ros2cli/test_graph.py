@@ -136,7 +136,7 @@ def test_news_end_the_wait_when_they_complete_the_graph():
     assert graph.listeners == []
 
 
-def test_what_never_comes_is_not_waited_for_forever(monkeypatch):
+def test_lost_data_is_not_waited_for_forever(monkeypatch):
     monkeypatch.setattr("ros2cli.discovery._PATIENCE_S", 0.1)
     graph = Incomplete(news_needed=2)
     wait_until_discovered(graph)

@@ -65,9 +65,7 @@ def test_an_unknown_verb_is_refused(capsys):
         (KeyError("x"), 1, "KeyError: 'x'\n"),
     ],
 )
-def test_what_a_verb_raises_becomes_one_line_and_a_status(
-    monkeypatch, capsys, raised, status, told
-):
+def test_verb_errors_become_one_line_and_a_status(monkeypatch, capsys, raised, status, told):
     import ros2pkg.verb.list as verb
 
     def fail(_args):

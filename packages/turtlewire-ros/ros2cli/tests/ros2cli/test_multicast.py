@@ -66,7 +66,7 @@ def test_without_a_network_it_arrives_on_the_same_host(run):
         ("--port", "nope", "'nope' is not a UDP port, 1 to 65535"),
     ],
 )
-def test_what_is_no_group_is_refused(capsys, option, value, told):
+def test_invalid_multicast_group_is_rejected(capsys, option, value, told):
     with pytest.raises(SystemExit) as end:
         main(["multicast", "send", option, value])
     assert end.value.code == 2

@@ -110,7 +110,7 @@ def test_a_prefix_comes_before_the_executable(package, capfd):
     assert capfd.readouterr().out.startswith("before ")
 
 
-def test_what_is_not_there(package, capfd):
+def test_missing_items(package, capfd):
     package("turtle", "#!/bin/sh\n")
     assert main(["run", "nope_pkg_x", "y"]) == 1
     assert capfd.readouterr().err == "Package 'nope_pkg_x' not found\n"

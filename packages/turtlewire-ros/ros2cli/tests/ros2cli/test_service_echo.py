@@ -57,7 +57,7 @@ def test_without_introspection_there_is_a_word_of_advice(run):
     )
 
 
-def test_what_cannot_be_echoed_is_refused(run, capsys):
+def test_unechoable_topics_are_rejected(run, capsys):
     unknown = run(*ROS2, "service", "echo", "/nothing")
     assert (unknown.wait(), unknown.text) == (1, "Could not load the type for the passed service")
     assert main(["service", "echo", "/add", "no/srv/Such"]) == 1

@@ -85,7 +85,7 @@ def test_commands_that_are_not_here(capsys, command):
     assert ("RMW_IMPLEMENTATION=rmw_zenoh_cpp" in told) == (command == "security")
 
 
-def test_what_is_like_nothing_gets_no_hint(capsys):
+def test_unrelated_names_get_no_hint(capsys):
     assert len(errors(capsys, "zzzz")) == 1
     assert errors(capsys, "pkg", "prefix", "zzzz") == ["Package not found"]
 

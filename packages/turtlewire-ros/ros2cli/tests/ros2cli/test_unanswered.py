@@ -87,7 +87,7 @@ def test_a_killed_server_ends_the_wait(run):
             "The topic '/rosout' has the type rcl_interfaces/msg/Log, not std_msgs/msg/String"),
     ],
 )  # fmt: skip
-def test_what_is_wrong_is_said_at_once(run, server, words, told):
+def test_mistakes_raise_immediately(run, server, words, told):
     ros2(run, *words.split()).wait_for(f"^{told}$")
 
 

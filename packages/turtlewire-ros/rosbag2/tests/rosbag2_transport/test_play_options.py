@@ -99,7 +99,7 @@ def test_words_become_options(words, expected):
         ({"playback_until_timestamp": 5, "playback_duration": 1.0}, ""),
     ],
 )
-def test_what_the_options_name_and_the_bag_does_not_have(options, expected):
+def test_option_names_missing_from_the_bag(options, expected):
     with open_bag(SMALL) as bag:
         told = mistakes(bag, PlayOptions(**options))
     assert len(told) == bool(expected)
@@ -178,9 +178,7 @@ def test_a_file_that_is_missing_is_one_error(tmp_path):
         played(path)
 
 
-def test_recorded_requests_are_not_sent_to_a_server_that_would_misread_them(
-    tmp_path, capfd, foreign_server
-):
+def test_recorded_requests_skip_servers_that_misread_them(tmp_path, capfd, foreign_server):
     server = foreign_server("/add", "example_interfaces/srv/AddTwoInts")
     played(events(tmp_path / "bag"), rate=50.0, publish_service_requests=True)
     assert capfd.readouterr().err.count("no request is sent: service /add is not called: ") == 1
@@ -249,7 +247,7 @@ def offered(graph, topic):
     ]
 
 
-def test_listeners_that_join_while_paused_or_after_a_seek_get_the_whole_tree(peer, bag_verb):
+def test_late_listeners_get_the_whole_tree(peer, bag_verb):
     player = bag_verb("play", SMALL, "-p", "--disable-keyboard-controls")
     seek, name = "/rosbag2_player/seek", "/tf_static"
     leaves = {f"leaf{i:02d}" for i in range(13)}

@@ -69,7 +69,7 @@ def log_of(program):
         if name not in ("services", "loop")
     ],
 )
-def test_what_arrives_is_what_the_real_one_sends(peer, bag_verb, name):
+def test_received_messages_equal_those_of_the_real_node(peer, bag_verb, name):
     scene = SCENES[name]
     golden = json.loads((GOLDEN / "play" / f"{name}.json").read_text())
     got = listen(peer, scene["listen"])

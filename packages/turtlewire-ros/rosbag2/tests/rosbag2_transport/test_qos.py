@@ -44,7 +44,7 @@ def test_the_warning_is_that_of_the_real_one():
     ]
 
 
-def test_new_publishers_that_do_not_fit_are_told():
+def test_new_incompatible_publishers_are_reported():
     assert misses("/a", PLAIN, PLAIN) is None
     assert misses("/a", LOSSY, PLAIN) is None
     assert "RELIABILITY_BEST_EFFORT, but" in (misses("/a", PLAIN, LOSSY) or "")

@@ -177,7 +177,7 @@ def test_words_that_do_not_fit_together(words, error, warning, tmp_path, capsys)
         ({"all_topics": True, "all_services": True}, "/a /ab /number /leaf /add /sub"),
     ],
 )
-def test_what_is_chosen(options, expected):
+def test_choice(options, expected):
     told = []
     chosen = TopicFilter(RecordOptions(**options), lambda *words: told.append(words))
     taken = {

@@ -164,7 +164,7 @@ def test_latched_messages_that_come_during_a_pause_are_kept(peer, bag_verb, tmp_
     assert recorder.text.count("Resuming recording.") == 1
 
 
-def test_files_are_split_and_the_split_is_told(peer, bag_verb, tmp_path):
+def test_split_files_are_reported(peer, bag_verb, tmp_path):
     publisher = peer.publisher("/numbers")
     splits = peer.listen("/events/write_split", type_=WriteSplitEvent)
     recorder = bag_verb("record", "-o", "out", "-b", "20000", "--topics", "/numbers")
@@ -203,7 +203,7 @@ def test_snapshots_hold_the_newest_messages(peer, bag_verb, tmp_path):
 
 
 @needs_cyclone_dds  # Zenoh drops what a subscription does not take in time
-def test_what_a_full_cache_loses_is_counted(peer, bag_verb, tmp_path):
+def test_losses_of_a_full_cache_are_counted(peer, bag_verb, tmp_path):
     publisher = peer.publisher("/numbers")
     options = ("--disable-keyboard-controls", "--max-cache-size", "1", "--topics", "/numbers")
     recorder = bag_verb("record", "-o", "out", *options)

@@ -195,7 +195,7 @@ def test_services_and_actions_of_all_packages(tmp_path):
         ("int32[0] a", TypeError),
     ],
 )
-def test_what_is_wrong_is_said(text, error):
+def test_mistakes_raise_clear_errors(text, error):
     with pytest.raises(error):
         parser.parse_message_string("p", "Message", text)
 

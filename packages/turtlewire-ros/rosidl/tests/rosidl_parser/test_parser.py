@@ -188,7 +188,7 @@ def test_a_file_and_its_place(tmp_path, capsys):
         ("struct A { long $; };", "cannot read '$; };'"),
     ],
 )
-def test_what_is_wrong_is_told(text, error):
+def test_errors_are_reported(text, error):
     with pytest.raises(InterfaceError) as caught:
         parse_idl_string(text)
     assert str(caught.value).endswith(error)

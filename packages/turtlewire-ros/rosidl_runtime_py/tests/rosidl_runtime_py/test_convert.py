@@ -78,7 +78,7 @@ def test_echo_prints_what_ros_printed(options, name, printed):
     [echo[1:] for echo in _echoes(TYPES)],
     ids=[echo[0] for echo in _echoes(TYPES)],
 )
-def test_what_ros_printed_sets_a_message_that_prints_the_same(options, name, printed):
+def test_ros_output_sets_a_message_that_prints_the_same(options, name, printed):
     if "--no-arr" in options:
         assert "data: '<sequence type: uint8, length: 48>'" in printed
         message = get_message(TYPES[name])(data=range(48))

@@ -18,7 +18,7 @@ def test_nested_fields_are_set_and_the_rest_stays():
     assert twist.angular.z == 0.25
 
 
-def test_what_echo_shows_sets_the_same_message_again():
+def test_echo_output_sets_the_same_message_again():
     message = get_message("visualization_msgs/msg/Marker")(text="hi", id=3)
     message.points = [get_message("geometry_msgs/msg/Point")(x=1.0)]
     twin = type(message)()
@@ -67,7 +67,7 @@ def test_what_echo_shows_sets_the_same_message_again():
         ),
     ],
 )
-def test_what_does_not_fit_is_named(type_, values, error, text):
+def test_unsuitable_values_are_named(type_, values, error, text):
     with pytest.raises(error) as caught:
         set_message_fields(get_message(type_)(), values)
     assert str(caught.value) == text

@@ -279,7 +279,7 @@ def test_shears(angle, direction, other, point):
     assert np.allclose(tft.shear_matrix(*tft.shear_from_matrix(matrix)), matrix, atol=1e-5)
 
 
-def test_what_is_not_a_rotation_reflection_scale_or_shear_is_refused():
+def test_undecomposable_matrix_is_rejected():
     with pytest.raises(ValueError, match="eigenvalue -1"):
         tft.reflection_from_matrix(np.identity(4))
     with pytest.raises(ValueError, match="Determinant"):

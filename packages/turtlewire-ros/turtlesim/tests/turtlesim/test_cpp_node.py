@@ -44,7 +44,7 @@ def node():
         (QOS, 1, f"parameter '{QOS}' cannot be set because it is read-only"),
     ],
 )
-def test_what_is_refused(node, name, value, reason):
+def test_rejected_values(node, name, value, reason):
     result = node.set_parameters_atomically(
         [Parameter("red", value=1), Parameter(name, value=value)]
     )
@@ -52,7 +52,7 @@ def test_what_is_refused(node, name, value, reason):
     assert node.get_parameter("red").value == 69
 
 
-def test_what_is_set(node):
+def test_settings(node):
     result = node.set_parameters_atomically([Parameter("red", value=255)])
     assert result.successful
     assert node.get_parameter("red").value == 255

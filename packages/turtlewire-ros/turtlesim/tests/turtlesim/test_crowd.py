@@ -116,7 +116,7 @@ def _story() -> list:
 
 
 @pytest.mark.parametrize("crowd_from", [1, 10_000])
-def test_what_has_no_subscription_is_not_made(monkeypatch, crowd_from):
+def test_messages_without_a_subscription_are_not_created(monkeypatch, crowd_from):
     """No message is made or published and no pixel looked up while a topic has no subscription."""
     done: list[str] = []
     monkeypatch.setattr(turtlesim_node, "_CROWD", crowd_from)

@@ -340,7 +340,7 @@ def test_a_foreign_page_is_refused(simulator, make_simulator, open_page):
     assert page.evaluate(outcome, live) == "refused"
 
 
-def test_what_a_page_sends_wrong_is_answered(simulator):
+def test_invalid_page_messages_are_answered(simulator):
     with connect(simulator.screen.url.replace("http", "ws") + "live") as raw:
         assert json.loads(raw.recv(timeout=60))["turtles"] == ["turtle1"]
         raw.send('{"type": "drive", "turtle": "turtle1", "linear": "fast", "angular": 0}')

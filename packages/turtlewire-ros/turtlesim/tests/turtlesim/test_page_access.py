@@ -49,7 +49,7 @@ def opened(simulator, open_page, size="desktop", **options):
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_what_has_the_focus_is_seen(simulator, open_page, scheme):
+def test_focused_elements_are_visible(simulator, open_page, scheme):
     page = opened(simulator, open_page, color_scheme=scheme)
     publish_transform(simulator, "world", "turtle1", 10**9, 2.0, 1.0)
     page.wait_for_selector("#relation:visible")
@@ -68,7 +68,7 @@ def test_focus_on_the_field_is_seen_on_every_colour(simulator, open_page):
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_what_is_typed_into_has_a_border_that_is_seen(simulator, open_page, scheme):
+def test_input_fields_have_a_visible_border(simulator, open_page, scheme):
     for k in range(2, 13):
         simulator.world.spawn(1.0 + k / 2, 2.0, 0.5, f"turtle{k}")
     page = opened(simulator, open_page, color_scheme=scheme)

@@ -97,6 +97,6 @@ def test_commands(message, command):
         ('{"type": "watch", "target": "", "source": "", "axes": 1}', "axes is true or false"),
     ],
 )
-def test_what_is_no_command(text, part):
+def test_invalid_commands(text, part):
     with pytest.raises(TurtleCommandError, match="(?s)" + part.replace("(", r"\(")):
         parse_command(text)

@@ -51,7 +51,7 @@ def test_the_field_stays_in_view_however_much_there_is_beside_it(simulator, open
     assert bottom <= height
 
 
-def test_what_is_said_over_the_field_does_not_move_it(simulator, open_page):
+def test_notices_do_not_move_the_field(simulator, open_page):
     page = open_page(simulator.screen.url, viewport={"width": 390, "height": 844})
     places = {name: box(page, name) for name in ("#field", "#pad", "#roster")}
     simulator.missing = ("turtle2",)

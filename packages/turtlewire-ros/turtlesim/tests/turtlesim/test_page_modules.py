@@ -105,7 +105,7 @@ def test_a_teleport_is_no_movement(js):
     assert not [x for x in seen if 2.2 < x < 6.5]
 
 
-def test_the_camera_comes_to_rest_on_its_turtle_and_never_shows_what_is_beyond(js):
+def test_camera_rests_on_its_turtle_within_the_field(js):
     places = js(
         """
         const { Camera } = await import('/js/camera.js');

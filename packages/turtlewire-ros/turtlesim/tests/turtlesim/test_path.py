@@ -105,7 +105,7 @@ def test_a_pen_of_width_six_draws_six_rows(together):
         assert painted(bytes(picture) if together else path.rgba()) == (set(columns), set(rows))
 
 
-def test_what_is_outside_is_cut_off():
+def test_parts_outside_are_clipped():
     path = PathImage()
     path.draw(Stroke(-100.0, -100.0, -90.0, -95.0, DEFAULT_PEN))
     path.draw(Stroke(-100.0, 250.0, 900.0, 250.0, DEFAULT_PEN))

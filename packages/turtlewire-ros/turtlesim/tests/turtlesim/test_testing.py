@@ -131,7 +131,7 @@ def test_a_node_that_never_rests_is_reported(simulation, monkeypatch):
         simulation.step()
 
 
-def test_several_simulations_after_one_another_and_the_environment_is_untouched():
+def test_consecutive_simulations_leave_the_environment():
     before = dict(os.environ)
     for _ in range(2):
         with Simulation() as simulation:

@@ -102,7 +102,7 @@ def test_errors_are_those_of_tf2(view, broadcaster):
     )
 
 
-def test_what_is_not_finite_is_told_as_nothing(view, broadcaster):
+def test_non_finite_values_are_sent_as_null(view, broadcaster):
     view.join()
     broadcaster.send("world", "far", 100, x=float("inf"))
     wait_until(view.frames)

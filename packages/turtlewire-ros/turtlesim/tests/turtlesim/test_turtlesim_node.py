@@ -163,7 +163,7 @@ def test_a_velocity_command_lasts_a_second(world):
     assert poses[-1].x == pytest.approx(MIDDLE + moving * 0.032, abs=1e-5)
 
 
-def test_what_is_not_finite_is_ignored_with_one_line(world, capfd):
+def test_non_finite_values_are_ignored_with_one_line(world, capfd):
     poses = world.listen(Pose, "/turtle1/pose")
     cmd_vel = world.talk("/turtle1/cmd_vel")
     capfd.readouterr()
@@ -393,7 +393,7 @@ class TestMissingTurtles:
         world.listen(Pose, "/turtle3/pose")
         world.spin_until(lambda: world.sim._missing.names == ())
 
-    def test_what_is_not_a_turtle_is_left_alone(self, world):
+    def test_topics_without_a_turtle_are_ignored(self, world):
         from turtlesim.missing_turtles import find_missing
 
         world.user.create_publisher(Twist, "/robot/cmd_vel", 1)

@@ -354,7 +354,7 @@ def test_teleop_without_a_terminal_says_so(run):
     assert "terminal" in hint
 
 
-def test_teleop_with_a_pipe_as_its_input_takes_the_terminal_and_puts_it_back(run):
+def test_teleop_with_piped_input_uses_and_restores_the_terminal(run):
     modes = "stty -g </dev/tty"
     teleop = run("sh", "-c", f"{modes}; {TELEOP_WITH_A_PIPE}; {modes}", terminal=True)
     teleop.wait_for(r"'Q' to quit\.")

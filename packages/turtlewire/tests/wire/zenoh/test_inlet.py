@@ -105,7 +105,7 @@ def test_both_layouts_of_attachments_are_read():
         (b"\0\1\0\0", attachment(2)),
     ],
 )
-def test_what_is_no_message_is_handed_back_and_the_rest_is_taken(payload, beside):
+def test_invalid_messages_are_returned_and_the_rest_stored(payload, beside):
     taking = Taking()
     strange = sample(payload, beside)
     batch = [sample(tf_bytes(1), attachment(1)), strange, sample(tf_bytes(3), attachment(2))]
@@ -144,7 +144,7 @@ def nodes():
         context.close()
 
 
-def test_a_subscription_without_a_callback_is_ready_until_its_sink_leaves_nothing(nodes):
+def test_subscription_without_callback_is_ready_until_drained(nodes):
     sender, receiver = nodes
     taking = Taking()
     publisher = sender.create_publisher("/tf", TYPE, QOS)

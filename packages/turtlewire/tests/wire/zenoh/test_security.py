@@ -324,7 +324,7 @@ def test_a_peer_is_warned_once_of_what_keeps_it_from_its_router(client, ended, r
     assert "the other side does not know the authority that signed" in line
 
 
-def test_what_the_router_passes_on_and_what_not():
+def test_messages_that_the_router_forwards():
     head = (
         "\x1b[2m2026-11-22T23:05:18.0Z\x1b[0m {} acc-0 ThreadId(05) "
         "\x1b[2mzenoh_link_tls::unicast\x1b[0m: "

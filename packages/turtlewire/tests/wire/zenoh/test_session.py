@@ -16,7 +16,7 @@ TYPES = ServiceTypes("std_srvs/srv/SetBool", KIND, KIND, lambda _: "RIHS01_" + "
 
 
 @pytest.mark.parametrize("what", ["publisher", "subscription", "client", "service"])
-def test_what_zenoh_refuses_to_declare_is_named(what: str):
+def test_declaration_rejected_by_zenoh_is_named(what: str):
     with contextlib.closing(open_context(middleware="rmw_zenoh_cpp")) as context:
         node = context.create_node("node")
         context._core.session.close()

@@ -63,7 +63,7 @@ def test_later_versions_add_a_field():
         "@ros2_lv/2/aac3/0/0/MP/%/%/talker/%chatter",
     ],
 )
-def test_what_is_no_token(text: str):
+def test_invalid_tokens(text: str):
     assert Token.parse(text) is None
 
 
@@ -126,7 +126,7 @@ def test_a_qos_survives(qos: QoS):
 
 
 @pytest.mark.parametrize("text", ["", "::,10:,:,:", "x::,10:,:,:,,", "9::,10:,:,:,,", "::10:::"])
-def test_what_is_no_qos(text: str):
+def test_invalid_qos(text: str):
     with pytest.raises(ValueError, match=r"\S"):
         parse_qos(text)
 
@@ -148,6 +148,6 @@ def test_the_attachment_of_the_first_jazzy_versions():
 
 
 @given(st.binary(max_size=100).filter(lambda data: len(data) not in {33, 77}))
-def test_what_is_no_attachment(data: bytes):
+def test_invalid_attachments(data: bytes):
     with pytest.raises(ValueError, match=f"an attachment of {len(data)} bytes"):
         Attachment.unpack(data)

@@ -22,7 +22,7 @@ def generate_test_description():
 
 
 class TestWhileItRuns(unittest.TestCase):
-    def test_the_topic_is_told(self, proc_output, proc_info):
+    def test_topic_is_announced(self, proc_output, proc_info):
         proc_output.assertWaitFor("['/launched']", timeout=120, stream="stdout")
         proc_info.assertWaitForShutdown("bridge", timeout=120)
 
