@@ -80,7 +80,7 @@ class Audit(NamedTuple):
 
 
 def missing() -> str:
-    """Return what is missing for audits and what installs it; an empty text if nothing is."""
+    """Return what is missing for audits and what installs it; an empty string if nothing is."""
     if shutil.which("chromium") is None:
         return "no chromium in PATH (Debian: apt install chromium)"
     if shutil.which("node") is None or not (TOOLS / "node_modules").is_dir():

@@ -128,7 +128,7 @@ def usable(stamp: dict[str, Any], wanted: dict[str, Any]) -> bool:
     """Return True if there is a .venv that works, of this Python, and that was not moved here.
 
     When a file moves from one distribution to another, pip installs the one, then removes the file
-    with the old version of the other: with other distributions .venv is made anew.
+    with the old version of the other: with other distributions .venv is recreated.
     """
     return (
         (not stamp or all(stamp.get(key) == wanted[key] for key in ("python", "distributions")))

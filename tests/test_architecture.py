@@ -180,3 +180,42 @@ def test_a_line_may_have_a_hundred_characters(script):
     assert not columns.too_long("page.md", "| a row " * 20 + "|")
     assert not columns.too_long("a.py", "call(" + "x, " * 30 + ")  # noqa: S102 - a reason")
     assert "scripts/columns.py" in (SCRIPTS / "lint").read_text()
+
+
+@pytest.mark.parametrize(
+    "docstring",
+    [
+        "Whether it is open.",
+        "Return the names of those of the node.",
+        "Return None if there is none.",
+        "Publish the transforms anew.",
+        "Return the path, which is no bag.",
+        "Call :mod:`missing_module.py`, or missing_module.py.",
+        "Read it.\n\n    Raises:\n        ValueError: It ends before it begins.\n    ",
+    ],
+)
+def test_prose_lint_rejects_a_docstring(script, docstring):
+    source = f'def read():\n    """{docstring}"""\n'
+    assert list(script("prose").faults_of(source, set()))
+
+
+@pytest.mark.parametrize(
+    "docstring",
+    [
+        "Return True if the bag is open, or False if there is no bag.",
+        "Read setup.py.\n\n    Raises:\n        ValueError: ``end_ns`` is before ``start_ns``.\n    ",
+    ],
+)
+def test_prose_lint_accepts_a_docstring(script, docstring):
+    source = f'def read():\n    """{docstring}"""\n'
+    assert not list(script("prose").faults_of(source, {"setup.py"}))
+
+
+def test_prose_lint_checks_comments_and_test_names(script):
+    prose = script("prose")
+    assert list(prose.faults_of("x = 1  # nobody knows, thus it waits for ever\n", set()))
+    assert not list(prose.faults_of("x = 1  # the file is not a bag\n", set()))
+    names = {"what_is_refused": 1, "a" * 66: 1, "a" * 65: 0, "unknown_option_is_rejected": 0}
+    for name, faults in names.items():
+        found = list(prose.faults_of_tests(f"def test_{name}():\n    pass\n"))
+        assert len(found) == faults, name

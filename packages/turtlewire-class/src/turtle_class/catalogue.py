@@ -107,7 +107,7 @@ def exercises() -> list[Exercise]:
 
 
 def chosen(names: Sequence[str]) -> list[Exercise]:
-    """Return the exercises of these names, or all if there are none.
+    """Return the exercises with these names, or all exercises without names.
 
     Raises:
         ClassError: No exercise has one of the names.

@@ -106,7 +106,7 @@ def grade(folder: Path, names: Sequence[str], limit_s: float, output: Path) -> N
     """Grade all students' folders in a folder, and write the reports.
 
     Raises:
-        ClassError: There are no students, an exercise does not exist, or the reports cannot be
+        ClassError: No students were found, an exercise does not exist, or the reports cannot be
             written.
     """
     students, wanted = students_in(folder), chosen(names)

@@ -29,7 +29,7 @@ def get_package_prefix(package_name: str) -> str:
     Raises:
         PackageNotFoundError: The package is in no prefix.
         ValueError: The name cannot be that of a package.
-        OSError: There are no prefixes.
+        OSError: No prefix was found.
     """
     from turtlewire_ros.prefix import package_prefix
 

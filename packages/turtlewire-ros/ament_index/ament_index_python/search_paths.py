@@ -11,7 +11,7 @@ def get_search_paths() -> list[str]:
     """Return the prefixes of ``AMENT_PREFIX_PATH`` that exist, then that of this distribution.
 
     Raises:
-        OSError: There are no prefixes.
+        OSError: No prefix was found.
     """
     from turtlewire_ros.prefix import prefixes
 

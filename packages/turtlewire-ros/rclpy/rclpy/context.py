@@ -102,7 +102,7 @@ class Context:
             self._valid = True
             _open_contexts.add(self)
             atexit.unregister(_close_open_contexts)
-            atexit.register(_close_open_contexts)  # anew: it has to run before the middleware's end
+            atexit.register(_close_open_contexts)  # again: must run before the middleware ends
             signals.listeners.add(self)
             if (
                 initialize_logging and len(_open_contexts) == 1

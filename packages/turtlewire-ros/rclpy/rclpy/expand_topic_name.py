@@ -13,7 +13,7 @@ def expand_topic_name(topic_name: str, node_name: str, node_namespace: str) -> s
     ``~/x`` becomes ``/ns/node/x``, ``x`` becomes ``/ns/x``, ``{node}`` and ``{ns}`` are filled in.
 
     Raises:
-        ValueError: One of the names is invalid.
+        ValueError: A name is invalid.
     """
     for what, fault in (
         ("topic name is invalid", names.validate_topic_name(topic_name)),

@@ -181,9 +181,9 @@ def parameter_value_to_python(parameter_value: rcl_interfaces.msg.ParameterValue
 
 
 def get_parameter_value(string_value: str) -> rcl_interfaces.msg.ParameterValue:
-    """Return the value that a YAML text stands for.
+    """Return the value of a YAML string.
 
-    What is no value of a parameter is taken as a string.
+    Values that a parameter cannot have become strings.
     """
     import yaml
 
@@ -226,7 +226,7 @@ def parameter_dict_from_yaml_file(
         Full name to message.
 
     Raises:
-        RuntimeError: The file is no parameter file, or has nothing of what was asked for.
+        RuntimeError: The file is not a parameter file, or has no parameters of the nodes.
     """
     import yaml
 

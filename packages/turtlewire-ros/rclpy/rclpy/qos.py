@@ -54,7 +54,7 @@ __all__ = [
 
 
 class InvalidQoSProfileException(Exception):
-    """A profile lacks what it needs."""
+    """A profile has no value for a required policy."""
 
     def __init__(self, *args: object) -> None:
         super().__init__("Invalid QoSProfile", *args)

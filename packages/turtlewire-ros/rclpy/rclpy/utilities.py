@@ -28,7 +28,7 @@ _lock = threading.Lock()
 
 
 def get_default_context(*, shutting_down: bool = False) -> Context:
-    """Return the context that is used where none is given.
+    """Return the default context.
 
     Args:
         shutting_down: Return it for the last time: the next call makes a new one, so that ``init``
@@ -44,7 +44,7 @@ def get_default_context(*, shutting_down: bool = False) -> Context:
 
 
 def ok(*, context: Context | None = None) -> bool:
-    """Return True if the context is initialized and not shut down; None is the default context."""
+    """Return True if ``context``, or the default one, is initialized and not shut down."""
     return (get_default_context() if context is None else context).ok()
 
 

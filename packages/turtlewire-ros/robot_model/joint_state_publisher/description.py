@@ -54,7 +54,7 @@ def read_joints(text: str, options: Options, warn: Callable[[str], None]) -> Joi
         warn: Called with a sentence about each joint that is not treated as described.
 
     Raises:
-        DescriptionError: The text is not XML, not a robot, or a joint lacks its limits.
+        DescriptionError: The text is not XML, not a robot, or a joint has no limits.
     """
     import defusedxml
     from defusedxml.ElementTree import fromstring

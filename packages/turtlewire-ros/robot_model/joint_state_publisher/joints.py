@@ -54,7 +54,7 @@ class FreeJoint:
         return min(max(position, self.minimum), self.maximum)
 
     def sweep(self, step: float) -> None:
-        """Go one step on, turn at the limits; a continuous joint begins anew at its minimum."""
+        """Move by one step. Turn at the limits; a continuous joint restarts at its minimum."""
         if self.position is None:
             return
         if self.forward:

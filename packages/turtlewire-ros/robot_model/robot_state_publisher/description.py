@@ -17,7 +17,7 @@ __all__ = ["DescriptionError", "oddities", "parse_description", "static_joints"]
 
 
 class DescriptionError(RuntimeError):
-    """The description is no robot; the text is ROS 2's."""
+    """The description is not a robot; the message is ROS 2's."""
 
 
 def parse_description(text: str) -> Robot:

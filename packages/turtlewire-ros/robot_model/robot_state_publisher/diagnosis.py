@@ -26,7 +26,7 @@ class Diagnosis:
         node: Whose logger and timers are used.
 
     Attributes:
-        is_settled: A joint is known, or the warning that none is was given.
+        is_settled: A joint is known, or the warning about unknown joints was given.
         tells_of_skipping: The next joint state that is skipped is worth a line.
     """
 
@@ -39,7 +39,7 @@ class Diagnosis:
         self.tells_of_skipping = True
 
     def start(self, robot: Robot) -> None:
-        """Begin anew with a robot, and name its joints that nobody moves."""
+        """Restart with a new robot, and log its joints that no message moves."""
         self._robot = robot
         self._cancel()
         self._unknown.clear()

@@ -53,7 +53,7 @@ def print_names_of_type(
 ) -> None:
     """Print the names of those that have a type, or how many there are.
 
-    If there are none, stderr says which interfaces of the kind (``msg`` or ``srv``) are meant.
+    Without results, stderr says which interfaces of the kind (``msg`` or ``srv``) are meant.
     """
     from ros2cli.suggestion import say_interface_meant
 

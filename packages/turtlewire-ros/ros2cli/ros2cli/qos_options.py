@@ -62,7 +62,7 @@ def with_options(args: argparse.Namespace, default: str) -> QoSProfile:
 
     Args:
         args: The command line.
-        default: Name of the profile when none is given.
+        default: Name of the default profile.
     """
     profile = preset(args.qos_profile or default)
     texts = {name: getattr(args, f"qos_{name}") for name in _POLICIES}

@@ -71,7 +71,7 @@ def say_interface_meant(name: str, kind: str) -> None:
 
 
 def say_what_was_meant(name: str, known: Iterable[str]) -> None:
-    """Print the nearest names to stderr, unless the name is known or none is near."""
+    """Print similar names to stderr, unless the name is known."""
     names = list(known)
     near = "" if name in names else did_you_mean(name, names)
     if near:
@@ -115,7 +115,7 @@ def say_why_to_wait(
 
 
 def say_what_there_is(kind: str, name: str, types: Mapping[str, list[str]]) -> None:
-    """Print the nearest names to stderr; if none is near, all.
+    """Print similar names to stderr, or all names if no name is similar.
 
     Args:
         kind: ``topic``, ``service`` or ``action``.

@@ -21,12 +21,12 @@ _LONGEST_ERROR = 1000
 
 
 def read_values(text: str) -> dict[str, Any]:
-    """Return the mapping that a YAML text is; an empty text is an empty one.
+    """Return the mapping in a YAML string; an empty string gives an empty mapping.
 
     Raises:
         RuntimeError: The text is not a mapping, contains an invalid date, or is too large because
             of aliases or nesting.
-        yaml.YAMLError: It is no YAML.
+        yaml.YAMLError: The text is not YAML.
     """
     import yaml
 

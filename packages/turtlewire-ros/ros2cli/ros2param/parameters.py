@@ -114,7 +114,7 @@ class RemoteParameters:
         )
 
     def meant(self, name: str) -> str:
-        """Return a line with the nearest parameters; empty if the name exists, or none is near."""
+        """Return a line with similar parameters; empty if the name exists or no name is similar."""
         from ros2cli.suggestion import did_you_mean
 
         known = self.names()

@@ -81,7 +81,7 @@ def check_positive_float(value: str) -> float:
     """Return a number above zero, for argparse.
 
     Raises:
-        ArgumentTypeError: It is none.
+        ArgumentTypeError: The string is not such a number.
     """
     number: float = _number(float, value)
     if not number > 0:
@@ -93,7 +93,7 @@ def check_not_negative_float(value: str) -> float:
     """Return a number from zero, for argparse.
 
     Raises:
-        ArgumentTypeError: It is none.
+        ArgumentTypeError: The string is not such a number.
     """
     number: float = _number(float, value)
     if not number >= 0:
@@ -105,7 +105,7 @@ def check_not_negative_int(arg: str) -> int:
     """Return a whole number from zero, for argparse.
 
     Raises:
-        ArgumentTypeError: It is none.
+        ArgumentTypeError: The string is not such a number.
     """
     number: int = _number(int, arg)
     if number < 0:
@@ -131,7 +131,7 @@ def dict_to_duration(time_dict: Mapping[str, int] | None) -> Duration:
     """Return a duration of ``sec`` and ``nsec``; zero for None.
 
     Raises:
-        ValueError: One of the two is missing.
+        ValueError: A key is missing.
     """
     from rclpy.duration import Duration
 

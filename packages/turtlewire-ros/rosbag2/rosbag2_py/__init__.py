@@ -11,7 +11,7 @@ module                              what it holds
 `_open_writer`                      a bag to write, by storage options
 `_metadata`                         `BagMetadata`, and the text of ``ros2 bag info``
 `_storage`, `_compression_options`  options; the engine's types translated
-`_reindexer`                        makes ``metadata.yaml`` anew
+`_reindexer`                        rebuilds ``metadata.yaml``
 `_message_definitions`              definitions of types from this installation
 ==================================  ================================================
 """

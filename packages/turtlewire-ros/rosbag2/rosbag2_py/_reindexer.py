@@ -1,4 +1,4 @@
-"""Makes ``metadata.yaml`` anew from the files of a bag."""
+"""Rebuilds ``metadata.yaml`` from the files of a bag."""
 
 from __future__ import annotations
 

@@ -82,14 +82,14 @@ class StorageOptions:
 
 @dataclass(slots=True)
 class ConverterOptions:
-    """Serialization formats; only ``cdr`` exists, and an empty text means it."""
+    """Serialization formats: only ``cdr``, or an empty string for it."""
 
     input_serialization_format: str = ""
     output_serialization_format: str = ""
 
 
 def check_format(name: str) -> None:
-    """Refuse a serialization format other than ``cdr``, which an empty text means, too.
+    """Reject serialization formats other than ``cdr`` and an empty string.
 
     Raises:
         RuntimeError: No converter exists for the format.

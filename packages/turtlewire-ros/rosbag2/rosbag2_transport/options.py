@@ -44,7 +44,7 @@ class RecordOptions:
         exclude_topics: Names of topics that are left out.
         exclude_topic_types: Types whose topics are left out.
         exclude_service_events: Names of event topics that are left out.
-        rmw_serialization_format: Only ``cdr`` is known, which is also what an empty text means.
+        rmw_serialization_format: Only ``cdr``, or an empty string for it.
         topic_polling_interval: How long changes of the graph are collected before the next look.
         regex: A pattern; topics and services in whose name it is found are recorded.
         exclude_regex: A pattern; what it is found in is left out.

@@ -26,7 +26,7 @@ class ProgressLine:
     The cursor rests at the line's beginning, so that a line of the log replaces it.
 
     Args:
-        text: Gives the line, or an empty text for none.
+        text: Returns the line, or an empty string.
     """
 
     def __init__(self, text: Callable[[], str]) -> None:

@@ -24,7 +24,7 @@ def is_service_event(topic: str, type_name: str) -> bool:
 
 
 def pattern(text: str) -> re.Pattern[str] | None:
-    """Return a compiled pattern; None for an empty text.
+    """Return a compiled pattern; None for an empty string.
 
     Raises:
         RuntimeError: ``text`` is not a regular expression.

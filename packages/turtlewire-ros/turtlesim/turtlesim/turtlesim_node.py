@@ -250,7 +250,7 @@ class TurtlesimNode(CppNode):
         self._page.forget(name)
 
     def spawn(self, x: float, y: float, theta: float, name: str) -> str:
-        """Add a turtle; its name, or an empty text after an error was logged."""
+        """Add a turtle, and return its name, or an empty string after an error was logged."""
         if not are_finite(x, y, theta):
             self.get_logger().error(
                 f"Cannot spawn a turtle where it is not finite: x={x}, y={y}, theta={theta}"

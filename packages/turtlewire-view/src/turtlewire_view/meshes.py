@@ -174,7 +174,7 @@ def _address(uri: str, package: str, path: str, texture: bool) -> MeshAddress:
 
 
 def _problem(package: str, path: str) -> str:
-    """Why no file of that name is served, or the empty text."""
+    """Return why a file with this name is not served, or an empty string."""
     if not _PACKAGE_NAME.fullmatch(package):
         return f"'{package}' is not the name of a package"
     parts = path.split("/")
@@ -192,7 +192,7 @@ def _file_of(package: str, path: str) -> str:
 
 
 def _missing(package: str, path: str, file: str) -> str:
-    """Why a file cannot be served, or the empty text."""
+    """Return why a file cannot be served, or an empty string."""
     if not file:
         return f"there is no package '{package}' in AMENT_PREFIX_PATH"
     if not os.path.isfile(file):

@@ -68,7 +68,7 @@ class SavedView:
         fixed: The fixed frame; empty for the page's own choice.
         displays: Its displays.
         show: Which of ``names``, ``axes``, ``arrows`` and ``grid`` are drawn, where that is said.
-        unread: One line of what the page has not and what it refused, or the empty text.
+        unread: One line with unsupported displays and invalid values, or an empty string.
         document: The whole content of the file.
         token: Names the file when it is written again.
         camera: How it is looked at; None for the page's own choice.

@@ -50,7 +50,7 @@ def coerce(text: str, data_type: Any) -> Any:
     import yaml
 
     value = yaml.safe_load(text)
-    return "" if value is None else value  # an empty text is one, and so is YAML's null
+    return "" if value is None else value  # an empty string and YAML's null are one
 
 
 def may_become(text: str, data_type: Any) -> bool:

@@ -165,7 +165,7 @@ def test_rosout_carries_what_is_logged_also_to_late_joiners(context, node, execu
     other.destroy_node()
 
 
-def test_what_a_node_owns(node):
+def test_endpoints_of_a_node(node):
     group = MutuallyExclusiveCallbackGroup()
     timer = node.create_timer(1.0, None, callback_group=group)
     guard = node.create_guard_condition(lambda: None)

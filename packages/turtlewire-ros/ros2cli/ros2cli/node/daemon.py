@@ -70,7 +70,7 @@ def spawn_daemon(
     timeout: float | None = None,  # noqa: ARG001
     debug: bool = False,  # noqa: ARG001
 ) -> bool:
-    """Return True if a daemon was started: none is, and none is needed."""
+    """Return True if a daemon was started: always False, because commands need no daemon."""
     return False
 
 

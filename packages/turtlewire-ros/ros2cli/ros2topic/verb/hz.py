@@ -156,7 +156,7 @@ class ROSTopicHz:
         return now
 
     def callback_hz(self, m: Any, topic: str | None = None) -> None:
-        """Note a message; simulated time that begins anew forgets those before."""
+        """Record a message. When simulated time restarts, earlier messages are forgotten."""
         if self.filter_expr is not None and not self.filter_expr(m):
             return
         now = self._now_ns()

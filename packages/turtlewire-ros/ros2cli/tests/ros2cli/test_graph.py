@@ -79,7 +79,7 @@ def test_nodes(graph):
     assert not ask.node_exists(graph, "/nope")
 
 
-def test_what_a_node_has(graph):
+def test_node_info(graph):
     assert ask.publishers(graph, "/sim") == [("/pose", ["turtlesim/msg/Pose"])]
     assert ask.subscribers(graph, "/sim") == []
     assert ask.subscribers(graph, "/robot/listener") == [("/pose", ["turtlesim/msg/Pose"])]

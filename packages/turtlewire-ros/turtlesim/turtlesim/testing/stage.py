@@ -114,7 +114,7 @@ class Stage:
         self.come_to_rest()
 
     def come_to_rest(self) -> None:
-        """Run callbacks until none is ready: then all effects of this moment have happened.
+        """Run callbacks until no more are ready: then all effects of this moment have happened.
 
         Raises:
             RuntimeError: The nodes call each other without an end.

@@ -100,7 +100,7 @@ class Removal:
 
 @dataclass(frozen=True, slots=True)
 class Status:
-    """One line about the display; the empty text of level ``ok`` ends what was said before."""
+    """One line about the display; an empty string of level ``ok`` clears the previous line."""
 
     level: Level
     text: str

@@ -225,7 +225,7 @@ def write_metadata(folder: str, metadata: BagMetadata) -> None:
 
 def dump_metadata(metadata: BagMetadata) -> str:
     """Return the YAML of the metadata's version without its top key."""
-    # yaml-cpp reads an unquoted empty text as null and refuses it, so PyYAML's '' is right here.
+    # yaml-cpp reads an unquoted empty string as null and rejects it, so PyYAML's '' is right here.
     return yaml.dump(_as_yaml(metadata), Dumper=_Dumper, sort_keys=False, width=1 << 20)
 
 

@@ -112,7 +112,7 @@ class Bag:
 
     @property
     def part_of(self) -> str:
-        """The folder of the bag, if this is one of its several files; else an empty text."""
+        """The folder of the bag, if this is one of its files; else an empty string."""
         if os.path.isdir(self.path):
             return ""
         folder, name = os.path.split(os.path.abspath(self.path))

@@ -158,7 +158,7 @@ def foreground_terminal() -> int:
     """Standard input; of a launched process, which has a pipe there, the terminal of the launch.
 
     Raises:
-        OSError: There is no terminal, or this process is in the background.
+        OSError: The process has no terminal, or is in the background.
     """
     stdin = 0
     if os.isatty(stdin):
