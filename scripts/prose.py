@@ -1,8 +1,8 @@
-"""Refuses docstrings and comments that do not read like the documentation of other libraries.
+"""Rejects docstrings, comments and test names that break docs/style.md.
 
-A function's docstring starts with a verb, not with "Whether" or "What"; some phrases are not
-English, or hide the noun that a reader needs; a file that a docstring names must exist.
-docs/style.md says why.
+A function's docstring starts with a verb, not with "Whether" or "What". Some phrases are not
+idiomatic English, or hide the noun that a reader needs. A file that a docstring names must exist.
+The name of a test says what it tests.
 """
 
 from __future__ import annotations
@@ -28,6 +28,10 @@ PHRASES = re.compile(
     r"|those of|is to be called|a damage|comes? of it|is not to be had|in what)\b",
     re.IGNORECASE,
 )
+#: An entry of a `Raises:` section that does not name its subject.
+NO_SUBJECT = re.compile(r"(?m)^ +\w+(?:Error|Exception): (?:It|One|They|There)\b")
+RIDDLE_TEST = re.compile(r"test_(what|who|whoever|those|nobody|none|how|where|whether)_")
+LONGEST_TEST = 70
 FILE = re.compile(r"(?<![\w/.<*-])[a-z][a-z_]+\.(?:py|cpp|hpp|js)\b")
 #: Files of a user or of ROS 2 that docstrings give as examples.
 EXAMPLES = {"setup.py", "conftest.py", "talker.py", "listener.py"}
@@ -44,11 +48,29 @@ def main() -> int:
     faults = [
         f"{path}:{line}: {fault}"
         for path in listed
-        if path.endswith(".py") and not LEFT_OUT.search(path)
-        for line, fault in faults_of((ROOT / path).read_text(encoding="utf-8"), names)
+        if path.endswith(".py")
+        for line, fault in _faults_in(path, names)
     ]
-    print("\n".join(faults) if faults else "prose: all docstrings and comments pass")
+    print("\n".join(faults) if faults else "prose: all docstrings, comments and test names pass")
     return 1 if faults else 0
+
+
+def _faults_in(path: str, names: set[str]) -> Iterator[tuple[int, str]]:
+    source = (ROOT / path).read_text(encoding="utf-8")
+    if path.rpartition("/")[2].startswith("test_"):
+        yield from faults_of_tests(source)
+    if not LEFT_OUT.search(path):
+        yield from faults_of(source, names)
+
+
+def faults_of_tests(source: str) -> Iterator[tuple[int, str]]:
+    """Yield the line and the fault of each test whose name does not say subject and outcome."""
+    for number, line in enumerate(source.splitlines(), 1):
+        name = re.match(r" *(?:async )?def (test_\w+)", line)
+        if name and RIDDLE_TEST.match(name[1]):
+            yield number, f"name the subject and the outcome in {name[1]}"
+        if name and len(name[1]) > LONGEST_TEST:
+            yield number, f"{name[1]} has more than {LONGEST_TEST} characters"
 
 
 def faults_of(source: str, names: set[str]) -> Iterator[tuple[int, str]]:
@@ -67,6 +89,8 @@ def faults_of(source: str, names: set[str]) -> Iterator[tuple[int, str]]:
             yield line, f"the docstring starts with {opening[0]!r}: start with a verb"
         for phrase in PHRASES.finditer(text):
             yield line, f"the docstring says {phrase[0]!r}"
+        if entry := NO_SUBJECT.search(text):
+            yield line, f"name the subject in {entry[0].strip()!r}"
         for name in FILE.findall(text):
             if name not in names:
                 yield line, f"the docstring names {name}, which does not exist"

@@ -334,7 +334,7 @@ def test_load_something_else(buffer: turtlewire.Buffer, tmp_path: Path, damage: 
     path = tmp_path / "tree.saved"
     inspection.save(buffer, path)
     path.write_bytes(damage if isinstance(damage, bytes) else damage(path.read_bytes()))
-    with pytest.raises(ValueError, match="is no saved buffer"):
+    with pytest.raises(ValueError, match="is not a saved buffer"):
         inspection.load(path)
     with pytest.raises(FileNotFoundError):
         inspection.load(tmp_path / "missing")

@@ -63,7 +63,7 @@ def read(file: BinaryIO, name: str, buffer_type: type[AnyBuffer]) -> AnyBuffer:
             header = json.loads(bytes(_array(archive, "header", "|u1")))
             return _filled(buffer_type, header, archive)
     except Exception as error:  # a damaged archive raises errors of many kinds
-        raise ValueError(f"{name} is no saved buffer: {error}") from error
+        raise ValueError(f"{name} is not a saved buffer: {error}") from error
 
 
 def _check_size(file: zipfile.ZipFile) -> None:
