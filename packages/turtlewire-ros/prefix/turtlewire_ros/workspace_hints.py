@@ -22,18 +22,33 @@ __all__ = ["executable_hint", "file_hint", "package_hint", "path_hint"]
 _LAYOUT = ".colcon_install_layout"
 #: How deep below `src` packages are looked for.
 _DEPTH = 4
+#: Packages of ROS 2's tutorials, and what has their executables here.
+_OTHER_NAMES = {
+    name: "learning_tf2_py"
+    for name in ("learning_tf2_cpp", "turtle_tf2", "turtle_tf2_cpp", "turtle_tf2_py")
+}
+#: A misspelt package is at least so similar to the real one. 'my_turtle' and 'turtlesim' are not.
+_SIMILARITY = 0.8
 
 
 def package_hint(package: str) -> str:
-    """Say why a package is not found: not sourced, not built or misspelt; empty if unknown.
+    """Say why a package is not found: not sourced, not built, misspelt or of another name.
 
-    For rqt it says what shows the same here. Workspaces are looked for in the current folder, its
-    parents and the folders in it.
+    Workspaces are looked for in the current folder, its parents and the folders in it; about one
+    that is elsewhere, the hint says how to source it.
     """
     for workspace in _workspaces():
         if hint := _not_sourced(workspace, package) or _not_built(workspace, package):
             return hint
-    return equivalent(package) or did_you_mean(package, package_names())
+    other = _OTHER_NAMES.get(package)
+    if other and package_prefix(other):
+        return f"The nodes of this tutorial are here in the package {other}"
+    return (
+        equivalent(package)
+        or did_you_mean(package, package_names(), _SIMILARITY)
+        or "If it is in a workspace of yours, source the install/setup.bash there, after "
+        "colcon build"
+    )
 
 
 def executable_hint(package: str, executable: str) -> str:

@@ -7,10 +7,14 @@ from importlib.metadata import entry_points
 import pytest
 
 from ros2cli.main import main
+from turtlewire_ros import workspace_hints
 from turtlewire_ros.rqt import equivalent
 from turtlewire_ros.workspace_hints import executable_hint, file_hint, package_hint, path_hint
 
 MANIFEST = "<package><name>{}</name><version>0.0.0</version></package>"
+ELSEWHERE = (
+    "If it is in a workspace of yours, source the install/setup.bash there, after colcon build"
+)
 SETUP = """entry_points={'console_scripts': ['hello = p.hello:main']}"""
 
 
@@ -83,16 +87,31 @@ def test_a_package_whose_marker_is_not_installed(workspace):
 
 
 def test_a_package_that_nobody_has(workspace, monkeypatch):
-    assert package_hint("nothing_of_this_name") == ""
+    assert package_hint("nothing_of_this_name") == ELSEWHERE
     assert package_hint("turtlesm").startswith("Did you mean: turtlesim")
     ignored = workspace.root / "src" / "COLCON_IGNORE"
     ignored.touch()
-    assert package_hint("p") == ""
+    assert package_hint("p") == ELSEWHERE
     gone = workspace.root / "gone"
     gone.mkdir()
     monkeypatch.chdir(gone)
     gone.rmdir()
-    assert package_hint("nothing_of_this_name") == ""
+    assert package_hint("nothing_of_this_name") == ELSEWHERE
+
+
+@pytest.mark.parametrize("package", ["my_turtle", "turtle_follow", "turtle_tf"])
+def test_a_package_of_a_workspace_elsewhere_is_not_taken_for_turtlesim(workspace, package):
+    assert package_hint(package) == ELSEWHERE
+
+
+def test_the_tutorials_package_by_the_name_that_ros_2_gives_it(workspace, monkeypatch):
+    install = workspace.root / "tutorial"
+    for package in ("learning_tf2_py", "my_turtle"):
+        workspace.write(install / "share/ament_index/resource_index/packages" / package)
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(install))
+    assert package_hint("turtle_tf2_py").endswith(" in the package learning_tf2_py")
+    monkeypatch.setattr(workspace_hints, "package_prefix", lambda _: None)
+    assert package_hint("turtle_tf2_py") == ELSEWHERE
 
 
 def test_a_file_that_is_not_installed(sourced, capsys):

@@ -10,9 +10,15 @@ if TYPE_CHECKING:
 __all__ = ["did_you_mean"]
 
 
-def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """Return a line with the nearest known names; empty if no name is similar."""
+def did_you_mean(name: str, known: Iterable[str], similarity: float = 0.6) -> str:
+    """Return a line with the nearest known names; empty if none is near.
+
+    Args:
+        name: A name that is not known.
+        known: All names.
+        similarity: The least similarity of a near name, from 0 to 1, as `difflib` defines it.
+    """
     import difflib
 
-    near = difflib.get_close_matches(name, list(dict.fromkeys(known)), n=3)
+    near = difflib.get_close_matches(name, list(dict.fromkeys(known)), n=3, cutoff=similarity)
     return f"Did you mean: {', '.join(near)}" if near else ""
