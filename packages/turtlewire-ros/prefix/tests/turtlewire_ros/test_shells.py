@@ -66,6 +66,52 @@ def test_the_environment_is_set_once(prefix, name):
     assert fish(prefix, script, AMENT_PREFIX_PATH="/a:/b")[0] == f"{prefix}:/a:/b"
 
 
+@pytest.fixture
+def ros2(prefix):
+    """A program in the prefix, which prints that it runs."""
+    path = prefix / "bin" / "ros2"
+    path.parent.mkdir()
+    path.write_text("#!/bin/sh\necho it runs\n")
+    path.chmod(0o755)
+
+
+def sourced(shell, prefix, script, **variables):
+    if shutil.which(shell) is None:
+        pytest.skip(f"needs {shell} (Debian: apt install {shell})")
+    return subprocess.run(
+        [shell, "-c", script],
+        env={"HOME": str(prefix / "home"), "PATH": "/usr/bin:/bin", **variables},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=300,
+        cwd=prefix,
+    )
+
+
+@pytest.mark.usefixtures("ros2")
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish", "sh"])
+def test_the_underlay_of_a_workspace_brings_its_commands(prefix, shell):
+    """colcon's install/setup.bash sources local_setup.bash of the prefix it was built with."""
+    file = prefix / f"local_setup.{shell}"
+    script = f"source {file}; source {file}; ros2; echo $PATH"
+    if shell == "sh":
+        script = script.replace("source", ".")
+    done = sourced(shell, prefix, script, COLCON_CURRENT_PREFIX=str(prefix))
+    said, path = done.stdout.splitlines()
+    assert (said, done.stderr) == ("it runs", "")
+    assert path.replace(" ", ":").split(":").count(f"{prefix}/bin") == 1
+
+
+@pytest.mark.parametrize("shell", ["sh", "zsh"])
+@pytest.mark.parametrize("name", ["setup.bash", "local_setup.bash"])
+def test_another_shell_is_told_to_use_bash(prefix, shell, name):
+    done = sourced(shell, prefix, f". ./{name}; echo goes on")
+    assert done.stdout == "goes on\n"
+    assert done.stderr.startswith(f"turtlewire: {name} is for bash: type bash, then the same")
+    assert done.stderr.count("\n") == 1
+
+
 @needs_fish
 def test_a_users_own_rosdep_cache_is_left_alone(prefix):
     cache = prefix / "home/.ros/rosdep/sources.cache"

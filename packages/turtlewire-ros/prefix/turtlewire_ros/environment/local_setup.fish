@@ -3,6 +3,7 @@ set -l prefix (builtin realpath (dirname (status filename)))
 if not contains -- $prefix (string split -- : "$AMENT_PREFIX_PATH")
     set -gx AMENT_PREFIX_PATH (string join -- : $prefix (string split -n -- : "$AMENT_PREFIX_PATH"))
 end
+contains -- $prefix/bin $PATH; or set -gx PATH $prefix/bin $PATH
 set -q ROS_DISTRO; or set -gx ROS_DISTRO jazzy
 set -gx ROS_VERSION 2
 set -gx ROS_PYTHON_VERSION 3

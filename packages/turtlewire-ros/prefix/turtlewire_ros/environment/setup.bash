@@ -1,4 +1,9 @@
 # source <venv>/setup.bash: what `source /opt/ros/jazzy/setup.bash` is on a machine with ROS.
+if [ -z "${BASH_VERSION:-}" ]; then
+    echo "turtlewire: setup.bash is for bash: type bash, then the same again (there are" \
+        "setup.zsh and setup.fish, too)" >&2
+    return 1
+fi
 _turtlewire_root="$(builtin cd "$(dirname "${BASH_SOURCE[0]}")" > /dev/null && pwd)"
 if [ "${VIRTUAL_ENV:-}" != "$_turtlewire_root" ] && [ -f "$_turtlewire_root/bin/activate" ]; then
     . "$_turtlewire_root/bin/activate"

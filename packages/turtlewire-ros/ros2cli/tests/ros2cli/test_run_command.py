@@ -113,7 +113,9 @@ def test_a_prefix_comes_before_the_executable(package, capfd):
 def test_missing_items(package, capfd):
     package("turtle", "#!/bin/sh\n")
     assert main(["run", "nope_pkg_x", "y"]) == 1
-    assert capfd.readouterr().err == "Package 'nope_pkg_x' not found\n"
+    error, hint = capfd.readouterr().err.splitlines()
+    assert error == "Package 'nope_pkg_x' not found"
+    assert "source the install/setup.bash there" in hint
     assert main(["run", "p", "trutle"]) == 1
     assert capfd.readouterr().err == "No executable found\nDid you mean: turtle\n"
 
