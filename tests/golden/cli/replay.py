@@ -232,7 +232,7 @@ _USAGE = re.compile(r"(?m)^usage: .*(\n {7,}\S.*)*")
 #: How many there are depends on how fast the reader of the topic is.
 _FEEDBACK = re.compile(r"(Feedback:\n    remaining: F\n\n)+")
 #: Lines of ours that help, and one of the capture's environment.
-_OUR_HINTS = ("QStandardPaths", "[WARN] [STAMP] [turtlewire.wire]: topic ", "[WARN] [STAMP] [turtlewire.wire]: service ", "Did you mean:", "  raised in ", "The topic '", "The service '", "The action '", "Known ", "No node offers ")
+_OUR_HINTS = ("QStandardPaths", "[WARN] [STAMP] [turtlewire.wire]: topic ", "[WARN] [STAMP] [turtlewire.wire]: service ", "Did you mean:", "  raised in ", "The topic '", "The service '", "The action '", "Known ", "No node offers ", "If it is in a workspace of yours", "This computer has nodes on domain ", "No node publishes ", "No node subscribes to ")
 _AFTER_INTERRUPT = re.compile(r"^Canceling goal|Process exited")
 #: A node as the daemon of a real ROS 2 has one.
 _DAEMON = "import rclpy; rclpy.init(); rclpy.spin(rclpy.create_node('_ros2cli_daemon_0_0', start_parameter_services=False))"

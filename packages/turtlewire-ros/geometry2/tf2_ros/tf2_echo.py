@@ -96,6 +96,7 @@ def _echo(node: Node, options: argparse.Namespace, period_s: float) -> None:
     TransformListener(buffer, node, spin_thread=True)  # a simulated clock needs the spinning
     source, target = options.source_frame, options.target_frame
     printed = 0
+    said: set[str] = set()
     while not stopped.is_set():
         answer: Any = buffer.can_transform(
             source, target, Time(), Duration(seconds=1), return_debug_tuple=True
@@ -103,7 +104,9 @@ def _echo(node: Node, options: argparse.Namespace, period_s: float) -> None:
         known, reason = answer
         if known:
             break
-        why = printable_lines(f"{reason}{_hint(buffer, source, target)}")
+        hints = _hints(buffer, source, target, node.context.get_domain_id())
+        why = printable_lines("\n".join([reason, *(hint for hint in hints if hint not in said)]))
+        said.update(hints)
         node.get_logger().info(f"Waiting for transform {source} ->  {target}: {why}")
     while not stopped.is_set():
         try:
@@ -119,13 +122,16 @@ def _echo(node: Node, options: argparse.Namespace, period_s: float) -> None:
             return
 
 
-def _hint(buffer: Buffer, source: str, target: str) -> str:
-    """Return the hint of a lookup that fails, on a line of its own."""
+def _hints(buffer: Buffer, source: str, target: str, domain: int) -> list[str]:
+    """Return what may help with a lookup that fails, and with a domain without transforms."""
+    from turtlewire.doctor.network import other_domains_hint
+
     try:
         buffer.lookup_transform(source, target, Time())
     except TransformException as error:
-        return f"\n{error.hint}" if error.hint else ""
-    return ""  # the transform has arrived in between
+        hints = [error.hint, "" if buffer.all_frames_as_string() else other_domains_hint(domain)]
+        return [hint for hint in hints if hint]
+    return []  # the transform has arrived in between
 
 
 def _failure(now_ns: int, error: TransformException, buffer: Buffer) -> str:

@@ -23,10 +23,9 @@ _LAYOUT = ".colcon_install_layout"
 #: How deep below `src` packages are looked for.
 _DEPTH = 4
 #: Packages of ROS 2's tutorials, and what has their executables here.
-_OTHER_NAMES = {
-    name: "learning_tf2_py"
-    for name in ("learning_tf2_cpp", "turtle_tf2", "turtle_tf2_cpp", "turtle_tf2_py")
-}
+_OTHER_NAMES = dict.fromkeys(
+    ("learning_tf2_cpp", "turtle_tf2", "turtle_tf2_cpp", "turtle_tf2_py"), "learning_tf2_py"
+)
 #: A misspelt package is at least so similar to the real one. 'my_turtle' and 'turtlesim' are not.
 _SIMILARITY = 0.8
 

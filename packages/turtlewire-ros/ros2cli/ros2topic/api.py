@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from ros2cli import completion
 from ros2cli.node.direct import DirectNode
+from ros2cli.output import tell
 from ros2cli.values import positive_float, positive_int
 
 if TYPE_CHECKING:
@@ -104,9 +105,13 @@ def type_of_topic(direct: DirectNode, topic: str, *, blocking: bool = False) -> 
     types = graph.topic_names_and_types().get(topic, [])
     if not types:
         print(f"WARNING: topic [{topic}] does not appear to be published yet")
-        from ros2cli.suggestion import say_what_was_meant
+        from ros2cli.suggestion import did_you_mean
+        from turtlewire.doctor.network import other_domains_hint
 
-        say_what_was_meant(topic, graph.topic_names_and_types())
+        near = did_you_mean(topic, graph.topic_names_and_types()).lstrip("\n")
+        hint = near or other_domains_hint(direct.node.context.get_domain_id())
+        if hint:
+            tell(hint)
         if not blocking:
             return None
         direct.wait_for(lambda: bool(graph.topic_names_and_types().get(topic)))

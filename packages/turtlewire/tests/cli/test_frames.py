@@ -20,6 +20,7 @@ import turtlewire
 from geometry_msgs.msg import TransformStamped
 from tf2_msgs.msg import TFMessage
 from turtlewire import msg, wire
+from turtlewire.doctor import network
 from turtlewire.cli.frame_picture import take_picture
 from turtlewire.cli.frames import Window
 from turtlewire.cli.main import main
@@ -205,11 +206,34 @@ def test_a_tree_as_json(buffer):
 
 def test_nothing_was_heard(capsys, monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+    monkeypatch.setattr(network, "udp_ports", set)
     assert main(["frames", "--once", "--period", "0.05"]) == 1
     assert (
         capsys.readouterr().out == "No transforms on /tf and /tf_static yet "
         f"(ROS_DOMAIN_ID={os.environ['ROS_DOMAIN_ID']}).\n"
     )
+
+
+def test_frames_names_other_domains(capsys, monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+    monkeypatch.setenv("ROS_DOMAIN_ID", "4")
+    monkeypatch.setattr(network, "udp_ports", lambda: {7410 + 250 * 4, 7410 + 250 * 3})
+    assert main(["frames", "--once", "--period", "0.05"]) == 1
+    assert capsys.readouterr().out.splitlines()[1:] == [
+        (
+            "This computer has nodes on domain 3: to reach them, end this program and type: "
+            "export ROS_DOMAIN_ID=3"
+        )
+    ]
+    assert main(["frames", "--once", "--period", "0.05", "--json"]) == 1
+    assert "domain" not in capsys.readouterr().out
+
+
+def test_the_missing_part_is_wrapped_in_a_narrow_terminal():
+    picture = take_picture(turtlewire.Buffer(), NOW_NS)
+    lines = picture.as_text(columns=30)
+    assert all(len(line) <= 30 for line in lines)
+    assert " ".join(lines) == picture.missing
 
 
 def test_invalid_periods(capsys):

@@ -513,7 +513,7 @@ def test_the_domains_of_ports():
 def test_nodes_on_another_domain_of_this_host_are_named(context, monkeypatch):
     monkeypatch.setenv("ROS_DOMAIN_ID", "5")  # the domain of the tests may be any
     monkeypatch.setattr(
-        "turtlewire.doctor.graph_findings.udp_ports", lambda: {7410 + 250 * 100, 7410 + 250 * 5}
+        "turtlewire.doctor.network.udp_ports", lambda: {7410 + 250 * 100, 7410 + 250 * 5}
     )
     (finding,) = graph_findings(context.graph)
     assert (

@@ -468,16 +468,34 @@ def test_static_chain_has_no_net_delay(stamped):
     assert net.count == 1
 
 
+def test_the_hint_of_echo_names_other_domains_while_there_are_no_frames(stamped, monkeypatch):
+    monkeypatch.setattr("turtlewire.doctor.network.udp_ports", lambda: {7410 + 250 * 3})
+    buffer = Buffer()
+    assert tf2_echo._hints(buffer, "world", "robot", 4)[-1].endswith("export ROS_DOMAIN_ID=3")
+    assert len(tf2_echo._hints(buffer, "world", "robot", 3)) == 1
+    buffer.set_transform_static(stamped("world", "robot"), "me")
+    assert len(tf2_echo._hints(buffer, "world", "robt", 4)) == 1
+
+
+def test_echo_gives_a_hint_once(tool):
+    process = tool("tf2_echo", "world", "nothing")
+    lines, waits = [], 0
+    while waits < 2:
+        lines.append(process.stderr.readline())
+        waits += "Waiting for transform" in lines[-1]
+    _, _, rest = stop(process)
+    assert "".join([*lines, rest]).count("No transform has arrived yet") == 1
+
+
 def test_the_tools_help_with_a_frame_id_that_is_not_known(stamped):
     buffer = Buffer()
     buffer.set_transform_static(stamped("world", "robot"), "me")
-    assert "robot" in tf2_echo._hint(buffer, "world", "robt")
-    assert tf2_echo._hint(buffer, "world", "robot") == ""
+    (hint,) = tf2_echo._hints(buffer, "world", "robt", 0)
+    assert "robot" in hint
+    assert tf2_echo._hints(buffer, "world", "robot", 0) == []
     statistics = tf2_monitor.Statistics(lambda _gid: tf2_monitor.NOBODY, lambda: 0.0)
     options = argparse.Namespace(frames=["world", "robt"], json=False)
-    assert tf2_echo._hint(buffer, "world", "robt").strip() in tf2_monitor._report(
-        options, buffer, statistics, tf2_monitor.Delays()
-    )
+    assert hint in tf2_monitor._report(options, buffer, statistics, tf2_monitor.Delays())
 
 
 def test_statistics(stamped):

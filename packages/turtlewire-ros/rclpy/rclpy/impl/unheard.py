@@ -1,4 +1,4 @@
-"""A warning for a program that publishes what nothing subscribes to."""
+"""Warnings for a program whose topic has no other end: it may run on a wrong domain."""
 
 from __future__ import annotations
 
@@ -8,38 +8,57 @@ from rclpy.clock import Clock
 from rclpy.clock_type import ClockType
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from rclpy.node import Node
     from rclpy.publisher import Publisher
 
-__all__ = ["warn_if_unheard"]
 
-#: How long a publisher may be without a subscription: discovery takes less [s].
+__all__ = ["warn_if_silent", "warn_if_unheard"]
+
+#: How long a topic may be without its other end: discovery takes less [s].
 _PATIENCE_S = 2.0
 
 
-def warn_if_unheard(node: Node, publisher: Publisher) -> None:
-    """Warn once if, two seconds from now, nothing subscribes to what a node publishes.
+def warn_if_unheard(
+    node: Node, publisher: Publisher, warn: Callable[[str], object] | None = None
+) -> None:
+    """Warn once if, two seconds from now, no node subscribes to what a publisher publishes.
 
     The warning names the other domains in which this computer has nodes.
-    """
 
+    Args:
+        node: The publisher's node.
+        publisher: The publisher.
+        warn: Takes the warning; by default the node logs it.
+    """
+    text = f"No node subscribes to {publisher.topic_name}"
+    question = "Is the node that should receive it running?"
+    _warn_later(node, publisher.get_subscription_count, text, question, warn)
+
+
+def warn_if_silent(node: Node, topic: str, warn: Callable[[str], object] | None = None) -> None:
+    """Warn once if, two seconds from now, no node publishes a topic; see `warn_if_unheard`."""
+    text = f"No node publishes {topic}"
+    question = "Is the node that should publish it running?"
+    _warn_later(node, lambda: node.count_publishers(topic), text, question, warn)
+
+
+def _warn_later(
+    node: Node,
+    count: Callable[[], int],
+    text: str,
+    question: str,
+    warn: Callable[[str], object] | None,
+) -> None:
     def look() -> None:
         node.destroy_timer(timer)
-        if not publisher.get_subscription_count():
-            node.get_logger().warning(_unheard(publisher.topic_name, node.context.get_domain_id()))
+        if not count():
+            from turtlewire.doctor.network import other_domains_hint
+
+            domain = node.context.get_domain_id()
+            warning = f"{text} on domain {domain}. {other_domains_hint(domain) or question}"
+            (warn or node.get_logger().warning)(warning)
 
     real_time = Clock(clock_type=ClockType.STEADY_TIME)  # a simulated clock may stand still
     timer = node.create_timer(_PATIENCE_S, look, clock=real_time)
-
-
-def _unheard(topic: str, domain: int) -> str:
-    from turtlewire.doctor.network import domains_of, udp_ports
-
-    text = f"No node subscribes to {topic} on domain {domain}."
-    others = sorted(domains_of(udp_ports()) - {domain})
-    if not others:
-        return f"{text} Is the node running that it is for?"
-    return (
-        f"{text} This computer has nodes on domain {', '.join(map(str, others))}: to reach "
-        f"them, end this program and type: export ROS_DOMAIN_ID={others[0]}"
-    )

@@ -9,6 +9,7 @@ from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.completion import topic_names, topic_types
 from ros2cli.discovery import STRATEGY_ARGUMENTS
+from ros2cli.output import tell
 from ros2cli.qos_options import QOS_ARGUMENTS, asked_for, matching_publishers, with_options
 from ros2cli.values import positive_float, unsigned_int
 from ros2topic.verb import VerbExtension
@@ -76,6 +77,7 @@ ARGUMENTS = (
 
 def main(args: argparse.Namespace) -> str | None:
     """Print the messages until there is an end."""
+    from rclpy.impl.unheard import warn_if_silent
     from rclpy.task import Future
     from ros2cli.node.direct import DirectNode
     from ros2cli.suggestion import warn_of_other_type
@@ -109,6 +111,7 @@ def main(args: argparse.Namespace) -> str | None:
             kind, topic, printer.show, qos, raw=args.raw, event_callbacks=_lost(args)
         )
         printer.end_after_silence(direct)
+        warn_if_silent(direct.node, topic, tell)
         direct.result(end)
     return None
 

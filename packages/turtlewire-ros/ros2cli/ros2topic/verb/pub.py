@@ -10,6 +10,7 @@ from ros2cli.arguments import argument, exclusive
 from ros2cli.builtin import verb_of_module
 from ros2cli.completion import message_values, topic_names, topic_types
 from ros2cli.discovery import SPIN_ARGUMENTS
+from ros2cli.output import tell
 from ros2cli.qos_options import QOS_ARGUMENTS, with_options
 from ros2cli.values import positive_float, positive_int, read_values, shortened
 from ros2cli.values import unsigned_int as nonnegative_int
@@ -87,6 +88,7 @@ ARGUMENTS = (
 
 def main(args: argparse.Namespace) -> str | None:
     """Publish."""
+    from rclpy.impl.unheard import warn_if_unheard
     from ros2cli.node.direct import DirectNode
     from ros2cli.suggestion import field_meant, warn_of_other_type
     from ros2topic.api import message_class
@@ -108,6 +110,7 @@ def main(args: argparse.Namespace) -> str | None:
         publisher = direct.node.create_publisher(
             type(message), args.topic_name, with_options(args, "default")
         )
+        warn_if_unheard(direct.node, publisher, tell)
         wanted = args.wait_matching_subscriptions
         message_or_none = _wait_for_subscriptions(
             direct,

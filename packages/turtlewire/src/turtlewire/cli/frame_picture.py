@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+from textwrap import wrap
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.terminal.printable import printable
@@ -91,7 +92,8 @@ class Picture(NamedTuple):
     def as_text(self, *, coloured: bool = False, columns: int | None = None) -> list[str]:
         """Return a header and a line for each frame, cut at ``columns``."""
         if not self.rows:
-            return [self.missing[:columns]]
+            lines = self.missing.splitlines()
+            return [part for line in lines for part in wrap(line, columns or len(line))]
         names = [row.branch + printable(row.frame) for row in self.rows]
         width = max(len("frame"), *map(len, names))
         header = f"{'frame':{width}}  {'age':>9}  {'rate':>9}  publisher"

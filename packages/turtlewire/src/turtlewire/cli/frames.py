@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING
 
 from turtlewire.cli.frame_picture import take_picture
 from turtlewire.cli.scroll_keys import open_scroll_keys
+from turtlewire.doctor.network import other_domains_hint
 from turtlewire.tf.buffer import Buffer
 from turtlewire.tf.listener import TransformListener
 from turtlewire.tf.restarts import RestartWatch
+from turtlewire.wire.environment import domain_id
 
 if TYPE_CHECKING:
     from turtlewire.cli.frame_picture import Picture
@@ -42,7 +44,7 @@ def show_frames(top: str | None, *, once: bool, as_json: bool, period_s: float) 
     live = sys.stdout.isatty() and not as_json and not once
     buffer = Buffer()
     restarts = RestartWatch(buffer)
-    window = Window()
+    window, hinted = Window(), False
     with TransformListener(buffer), open_scroll_keys(wanted=live) as keys:
         while True:
             if _browse(keys, window, period_s) == _QUIT:
@@ -50,11 +52,22 @@ def show_frames(top: str | None, *, once: bool, as_json: bool, period_s: float) 
             restarts.look()
             picture = take_picture(buffer, time.time_ns(), top)
             if live:
-                window.show(picture)
+                window.show(_with_hint(picture, buffer))
+            elif as_json:
+                _print(picture.as_json())
             else:
-                _print(picture.as_json() if as_json else "\n".join(_lines(picture)))
+                _print("\n".join(_lines(picture if hinted else _with_hint(picture, buffer))))
+                hinted = True
             if once:
                 return 0 if picture.rows else 1
+
+
+def _with_hint(picture: Picture, buffer: Buffer) -> Picture:
+    """Add the other domains with nodes if no transform has arrived."""
+    if buffer.all_frames_as_string():
+        return picture
+    hint = other_domains_hint(domain_id())
+    return picture._replace(missing=f"{picture.missing}\n{hint}".rstrip())
 
 
 def _browse(keys: ScrollKeys, window: Window, seconds: float) -> str:

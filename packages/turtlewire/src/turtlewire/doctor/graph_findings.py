@@ -7,7 +7,7 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from turtlewire.doctor.finding import Finding, note, problem
-from turtlewire.doctor.network import domains_of, udp_ports
+from turtlewire.doctor.network import other_domains
 from turtlewire.doctor.setup_findings import looks_for_others, only_this_host
 from turtlewire.wire.environment import compares_qos, discovery, domain_id
 from turtlewire.wire.names import fully_qualified_node_name, is_hidden
@@ -72,7 +72,7 @@ def _no_nodes() -> Finding:
     domain = os.environ.get("ROS_DOMAIN_ID") or "0"
     reach = "this host" if only_this_host() else "this network"
     remedy = ["Start a node."]
-    others = sorted(domains_of(udp_ports()) - {domain_id()})
+    others = other_domains(domain_id())
     if others:
         remedy.append(
             f"This host has nodes in domain {', '.join(map(str, others))}: "

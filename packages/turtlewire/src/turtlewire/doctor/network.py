@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["domains_of", "multicast_works", "udp_ports"]
+__all__ = ["domains_of", "multicast_works", "other_domains", "other_domains_hint", "udp_ports"]
 
 # How DDS computes its ports: a domain has 250, of which participants take those from the tenth on.
 _FIRST_PORT, _PORTS_OF_DOMAIN, _FIRST_OF_PARTICIPANTS = 7400, 250, 10
@@ -43,6 +43,22 @@ def domains_of(ports: Iterable[int]) -> set[int]:
         if 0 <= domain <= _LAST_SURE_DOMAIN and offset >= _FIRST_OF_PARTICIPANTS:
             found.add(domain)
     return found
+
+
+def other_domains(domain: int) -> list[int]:
+    """Return the domains, other than this one, in which this computer has nodes."""
+    return sorted(domains_of(udp_ports()) - {domain})
+
+
+def other_domains_hint(domain: int) -> str:
+    """Say how to reach this computer's nodes on other domains; empty if there are none."""
+    others = other_domains(domain)
+    if not others:
+        return ""
+    return (
+        f"This computer has nodes on domain {', '.join(map(str, others))}: to reach them, end this "
+        f"program and type: export ROS_DOMAIN_ID={others[0]}"
+    )
 
 
 def multicast_works(limit_s: float = 1.0) -> bool:

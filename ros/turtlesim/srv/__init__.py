@@ -1,0 +1,17 @@
+"""The srv interfaces of turtlesim: classes made at first access."""
+
+from turtlewire.msg import lazy_classes
+
+__all__ = [
+    "Kill",
+    "SetPen",
+    "Spawn",
+    "TeleportAbsolute",
+    "TeleportRelative",
+]
+
+__getattr__ = lazy_classes(__name__)
+
+
+def __dir__() -> list[str]:
+    return __all__
