@@ -50,15 +50,20 @@ def package_meant(name: str) -> str:
 def interface_meant(name: str, kind: str = "") -> str:
     """`did_you_mean` for an interface; ``kind`` limits the names to msg, srv or action.
 
-    A name without a package, as ``Twist``, means the interfaces that are called so.
+    A name without a package, as ``Twist`` or misspelt ``Twits``, means all interfaces that are
+    called so.
     """
+    import difflib
+
     from ros2cli.interface_names import interface_names
 
     known = interface_names(kind)
     short = {full: full.rpartition("/")[2] for full in known}
-    if "/" not in name and name in short.values():
-        return f"\nDid you mean: {', '.join(full for full in known if short[full] == name)}"
-    return did_you_mean(name, known)
+    if "/" in name:
+        return did_you_mean(name, known)
+    near = difflib.get_close_matches(name, set(short.values()), n=1)
+    meant = [full for full in known if short[full] in near]
+    return f"\nDid you mean: {', '.join(meant)}" if meant else ""
 
 
 def say_interface_meant(name: str, kind: str) -> None:

@@ -80,7 +80,7 @@ def main(args: argparse.Namespace) -> str | None:
     from rclpy.impl.unheard import warn_if_silent
     from rclpy.task import Future
     from ros2cli.node.direct import DirectNode
-    from ros2cli.suggestion import warn_of_other_type
+    from ros2cli.suggestion import say_what_was_meant, warn_of_other_type
     from ros2topic.api import message_class, type_of_topic
     from turtlewire.msg import type_name
 
@@ -99,6 +99,7 @@ def main(args: argparse.Namespace) -> str | None:
         if not direct.node.count_publishers(topic):  # of publishers the subscription will warn
             known = direct.graph.topic_names_and_types()
             warn_of_other_type("topic", topic, type_name(kind), known)
+            say_what_was_meant(topic, known)
         _check_field(kind, args.field)
         qos = (
             with_options(args, "sensor_data")

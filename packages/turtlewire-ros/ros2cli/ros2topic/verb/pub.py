@@ -90,7 +90,7 @@ def main(args: argparse.Namespace) -> str | None:
     """Publish."""
     from rclpy.impl.unheard import warn_if_unheard
     from ros2cli.node.direct import DirectNode
-    from ros2cli.suggestion import field_meant, warn_of_other_type
+    from ros2cli.suggestion import field_meant, say_what_was_meant, warn_of_other_type
     from ros2topic.api import message_class
     from rosidl_runtime_py import set_message_fields
     from turtlewire.msg import type_name
@@ -107,6 +107,7 @@ def main(args: argparse.Namespace) -> str | None:
         if not direct.node.count_subscribers(topic):  # of subscriptions the publisher will warn
             known = direct.graph.topic_names_and_types()
             warn_of_other_type("topic", topic, type_name(type(message)), known)
+            say_what_was_meant(topic, known)
         publisher = direct.node.create_publisher(
             type(message), args.topic_name, with_options(args, "default")
         )

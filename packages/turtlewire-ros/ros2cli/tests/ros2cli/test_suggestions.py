@@ -5,6 +5,7 @@ The error line is that of ROS 2, and the nearest names follow on a line of their
 
 from __future__ import annotations
 
+import signal
 import sys
 
 import pytest
@@ -125,6 +126,31 @@ def test_names_of_the_graph(capsys):
     assert errors(capsys, "param", "get", "/turtlsim", "x") == [
         "Node not found",
         "Did you mean: /turtlesim",
+    ]
+
+
+@pytest.mark.usefixtures("pose_publisher")
+def test_a_topic_that_is_nearly_right_where_the_type_is_given(run):
+    program = "import sys; from ros2cli.main import main; sys.exit(main(sys.argv[1:]))"
+    for verb, topic, said in (
+        ("pub -w 0", "/turtel1/pose", "Did you mean: /turtle1/pose\n"),
+        ("echo", "/turtel1/pose", "Did you mean: /turtle1/pose\n"),
+        ("pub -w 0", "/qqq", ""),
+    ):
+        words = f"topic {verb} {topic} turtlesim/msg/Pose".split()
+        process = run(sys.executable, "-c", program, *words)
+        process.wait_for("No node (subscribes|publishes)")
+        process.signal_group(signal.SIGINT)
+        process.wait()
+        assert ("Did you mean" in process.text) == bool(said)
+        assert said in process.text
+
+
+@pytest.mark.parametrize("name", ["Twist", "Twits"])
+def test_a_type_without_its_package(capsys, name):
+    assert errors(capsys, "topic", "pub", "/x", name) == [
+        "The passed message type is invalid",
+        "Did you mean: geometry_msgs/msg/Twist",
     ]
 
 
