@@ -6,13 +6,14 @@
 
 from __future__ import annotations
 
-import argparse
 import ast
 import configparser
 import sys
 from collections import defaultdict
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
+
+from script_options import Parser
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -171,7 +172,7 @@ def strong_components(nodes: Iterable[str], arrows: dict[str, set[str]]) -> list
 
 def main() -> int:
     """Draw the map, check it or print figures; the exit status."""
-    parser = argparse.ArgumentParser(prog="scripts/architecture", description=__doc__)
+    parser = Parser(prog="scripts/architecture", description=__doc__)
     mode = parser.add_mutually_exclusive_group()
     mode.add_argument("--check", action="store_true", help="fail if the map is stale")
     mode.add_argument("--figures", action="store_true", help="print figures of the code")

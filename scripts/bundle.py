@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import os
 import shutil
 import subprocess
@@ -14,6 +13,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))  # also where it is loaded by its path
 
 from distributions import ROOT, distributions, import_path
+from script_options import Parser
 
 FILES = ROOT / "scripts" / "bundle_files"
 NAME = "turtlewire-class"
@@ -25,7 +25,7 @@ class BundleError(Exception):
 
 def main() -> int:
     """Make the bundle; the exit status."""
-    parser = argparse.ArgumentParser(prog="scripts/bundle", description=__doc__.splitlines()[0])
+    parser = Parser(prog="scripts/bundle", description=__doc__.splitlines()[0])
     parser.add_argument(
         "--python",
         action="append",

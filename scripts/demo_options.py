@@ -5,10 +5,12 @@ from __future__ import annotations
 import argparse
 import math
 
+from script_options import Parser
+
 
 def parse() -> argparse.Namespace:
     """Return the options of the command line; end the program at a wrong one."""
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="scripts/demo",
         description="One turtle follows another: the tutorial's launch file, ready to run.",
     )

@@ -7,7 +7,6 @@ a page that would load anything from elsewhere is refused: the site works withou
 
 from __future__ import annotations
 
-import argparse
 import hashlib
 import os
 import shutil
@@ -16,10 +15,15 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from docs_links import faults_of
 from lesson import serve
 from lesson_npm import BuildError
+from script_options import Parser
+
+if TYPE_CHECKING:
+    import argparse
 
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build"
@@ -52,7 +56,7 @@ def main() -> int:
 
 
 def _options() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="scripts/docs", description=__doc__.splitlines()[0])
+    parser = Parser(prog="scripts/docs", description=__doc__.splitlines()[0])
     parser.add_argument(
         "--output",
         type=Path,

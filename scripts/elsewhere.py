@@ -7,7 +7,6 @@ commands name, so the processes of the demo run there, too.
 
 from __future__ import annotations
 
-import argparse
 import os
 import shutil
 import sys
@@ -19,6 +18,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from distributions import ENGINE, LEARNING, ROS
 from release_steps import ROOT, ReleaseError, run, say
 from release_wheels import interpreter, wheel_tag
+from script_options import Parser
 
 HOME = ROOT / "build" / "elsewhere"
 WHEELS = ROOT / "build" / "release"
@@ -85,7 +85,7 @@ MIDDLEWARES = ("rmw_zenoh_cpp", "rmw_cyclonedds_cpp")
 
 def main() -> int:
     """Prepare what is missing, and run the trials; the exit status."""
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="scripts/elsewhere",
         description="Tries the wheels in build/release, as they are, with the Python of another "
         "Debian; scripts/release makes new ones.",

@@ -5,7 +5,6 @@ Each package of npm is pinned in ``page/packages.json``, with its hash.
 
 from __future__ import annotations
 
-import argparse
 import base64
 import gzip
 import hashlib
@@ -22,6 +21,7 @@ from typing import Any
 
 from distributions import CLASS, ENGINE, LEARNING, ROS
 from lesson_npm import BuildError, fetched
+from script_options import Parser
 
 ROOT = Path(__file__).resolve().parent.parent
 SOURCE = CLASS / "page"
@@ -42,7 +42,7 @@ PAGE = ("index.html", "style.css", "icon.svg")
 
 def main() -> int:
     """Build, and serve if asked to; the exit status."""
-    parser = argparse.ArgumentParser(prog="scripts/lesson", description=__doc__.splitlines()[0])
+    parser = Parser(prog="scripts/lesson", description=__doc__.splitlines()[0])
     parser.add_argument(
         "--output",
         type=Path,

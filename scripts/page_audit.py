@@ -7,7 +7,6 @@ is: no test asserts it.
 
 from __future__ import annotations
 
-import argparse
 import contextlib
 import json
 import shutil
@@ -17,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from playwright.sync_api import sync_playwright
+from script_options import Parser
 from served_pages import PAGES, ServedPage
 
 if TYPE_CHECKING:
@@ -123,7 +123,7 @@ def axe_findings(shown: Page) -> list[str]:
 
 def main() -> int:
     """Audit the pages that the command line names, or all; the exit status."""
-    parser = argparse.ArgumentParser(prog="scripts/page-audit", description=__doc__)
+    parser = Parser(prog="scripts/page-audit", description=__doc__)
     parser.add_argument("pages", nargs="*", metavar="PAGE", help=", ".join(PAGES))
     names = parser.parse_args().pages or list(PAGES)
     if unknown := [name for name in names if name not in PAGES]:

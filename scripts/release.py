@@ -6,7 +6,6 @@ other platforms come from .github/workflows/wheels.yml.
 
 from __future__ import annotations
 
-import argparse
 import re
 import shutil
 import sys
@@ -29,13 +28,14 @@ from release_wheels import (
     possible_machines,
     targets,
 )
+from script_options import Parser
 
 PROJECTS = {"turtlewire": ENGINE, "turtlewire-ros": ROS}
 
 
 def main() -> int:
     """Build, check and describe a release; the exit status."""
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="scripts/release",
         description="Builds sdists and wheels into build/release, checks them, and writes the "
         "notes. Uploads nothing.",

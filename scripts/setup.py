@@ -8,7 +8,6 @@ if sys.version_info < (3, 10):  # noqa: UP036 -- whatever python3 is on the mach
         "(PYTHON=python3.12 names another)"
     )
 
-import argparse
 import fcntl
 import hashlib
 import json
@@ -21,6 +20,7 @@ from typing import Any, NoReturn
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from distributions import ENGINE, LEARNING, ROOT, ROS, distributions, packages
+from script_options import Parser
 from setup_core import core_key, provide_core
 from setup_steps import PYTHON, VENV, SetupError, run_python, say, stage
 from setup_venv import install, make_venv, pip_command, pip_version
@@ -56,7 +56,7 @@ def main(extras: list[str]) -> None:
 def parse_extras(arguments: list[str]) -> list[str]:
     """Return the extras named on the command line; end the program at an unknown one."""
     described = "; ".join(f"{name}: {text}" for name, text in EXTRAS.items())
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="scripts/setup",
         description="Makes .venv in this folder or brings it up to date, and installs everything "
         "into it, editable. Outside of this folder it writes only caches: what pip or uv keeps, "

@@ -5,7 +5,6 @@ Lets a robot's processes run while others come and go, and measures them.
 
 from __future__ import annotations
 
-import argparse
 import os
 import random
 import signal
@@ -16,6 +15,7 @@ import time
 from pathlib import Path
 from typing import IO, NamedTuple
 
+from script_options import Parser
 from soak_actors import BROADCASTERS
 
 from turtlewire import wire
@@ -181,7 +181,7 @@ class Visitors:
 
 def main() -> int:
     """Run the soak; the exit status."""
-    parser = argparse.ArgumentParser(prog="scripts/soak", description=__doc__)
+    parser = Parser(prog="scripts/soak", description=__doc__)
     parser.add_argument("--minutes", type=float, default=15.0, help="default: %(default)s")
     arguments = parser.parse_args()
     if not sys.platform.startswith("linux"):

@@ -153,18 +153,71 @@ def test_a_python_that_is_not_there_is_one_line():
     assert done.stderr.count("\n") == 1
 
 
-@pytest.mark.parametrize("name", ["demo", "docs", "lesson"])
-def test_the_help_of_a_script_installs_nothing(tmp_path, name):
-    shutil.copytree(SCRIPTS, tmp_path / "scripts")
-    done = subprocess.run(
-        [tmp_path / "scripts" / name, "--help"],
-        env={**os.environ, "PYTHON": sys._base_executable},  # which has no turtlewire
-        capture_output=True,
+#: What a person types, and no helper of these.
+TYPED = sorted(
+    path.name
+    for path in SCRIPTS.iterdir()
+    if path.is_file() and "." not in path.name and path.name != "interruptible"
+)
+
+
+def typed(folder, name, *words, **streams):
+    """Type a script's name in a copy of the scripts, with a Python that has no turtlewire."""
+    if not (folder / "scripts").exists():
+        shutil.copytree(SCRIPTS, folder / "scripts")
+    (folder / "benchmarks").mkdir(exist_ok=True)
+    (folder / "benchmarks" / "bench_one.py").write_text("def rows():")
+    environment = {**os.environ, "PYTHON": sys._base_executable}
+    environment.pop("PYTHONUNBUFFERED", None)
+    return subprocess.run(
+        [folder / "scripts" / name, *words],
+        env=environment,
+        stdout=streams.get("stdout", subprocess.PIPE),
+        stderr=subprocess.PIPE,
         text=True,
         check=False,
     )
-    assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout.startswith(f"usage: scripts/{name} ")
+
+
+@pytest.mark.parametrize("name", TYPED)
+def test_the_help_of_a_script_does_nothing_else(tmp_path, name):
+    for word in ("-h", "--help"):
+        done = typed(tmp_path, name, word)
+        assert (done.returncode, done.stderr) == (0, "")
+        assert done.stdout.startswith(f"usage: scripts/{name} ")
+        assert done.stdout.count("\n") > 2
+    assert {path.name for path in tmp_path.iterdir()} == {"benchmarks", "scripts"}
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="/dev/full is of Linux")
+@pytest.mark.parametrize("name", TYPED)
+def test_the_help_of_a_script_on_a_full_disk_is_one_line(tmp_path, name):
+    with open("/dev/full", "w", encoding="utf-8") as full:
+        done = typed(tmp_path, name, "--help", stdout=full)
+    assert done.returncode == 1
+    (line,) = done.stderr.splitlines()
+    assert "No space left on device" in line
+
+
+@pytest.mark.parametrize(
+    ("command", "told"),
+    [
+        ("lint --fxi", "there is no '--fxi'; usage: scripts/lint [-h] [--fix]"),
+        ("lock --check", "there is no '--check'; usage: scripts/lock [-h]"),
+        ("npm-tools audit", "there is no 'audit'; usage: scripts/npm-tools [-h]"),
+        ("peers jazzy", "there is no 'jazzy'; usage: scripts/peers [-h]"),
+        ("picture galery", "there is no 'galery'; usage: scripts/picture [-h] [gallery]"),
+        ("smoke 3.12", "there is no '3.12'; usage: scripts/smoke [-h]"),
+        ("demo --chek", "Did you mean: --check"),
+        ("demo --secnods=3", "Did you mean: --seconds"),
+        ("setup --halp", "Did you mean: --help"),
+        ("bundle --no-demoo", "unrecognized arguments: --no-demoo"),
+    ],
+)
+def test_a_script_refuses_a_word_that_it_does_not_know(tmp_path, command, told):
+    done = typed(tmp_path, *command.split())
+    assert done.returncode == 2
+    assert done.stderr.splitlines()[-1].endswith(told)
     assert not (tmp_path / ".venv").exists()
 
 
