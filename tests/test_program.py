@@ -32,6 +32,7 @@ COMMANDS = [
     "check_urdf --help",
     "urdf_to_graphviz --help",
     "launch_test --help",
+    "rviz2 --help",
     "tf2_ros/tf2_echo --help",
     "tf2_ros/tf2_monitor --period 0.1",
     "rmw_zenoh_cpp/rmw_zenohd",

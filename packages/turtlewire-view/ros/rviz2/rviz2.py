@@ -9,6 +9,7 @@ import sys
 import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.utilities import remove_ros_args
+from turtlewire.program import program
 from turtlewire.web.desktop import open_browser, wanted_lan
 from turtlewire.web.lan import invite
 from turtlewire_view import LiveSource, Viewer
@@ -22,6 +23,7 @@ _DESCRIPTION = (
 )
 
 
+@program
 def main(args: list[str] | None = None) -> None:
     """Serve the page until Ctrl-C or the end of the context."""
     options, others = _parse(remove_ros_args(sys.argv if args is None else ["", *args])[1:])
