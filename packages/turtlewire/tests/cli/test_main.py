@@ -11,11 +11,14 @@ from pathlib import Path
 import pytest
 
 from turtlewire import msg, wire
+from turtlewire.cli.bag_commands import what_to_do_with_bag
 from turtlewire.cli.main import main
 from turtlewire.tf.listener import STATIC_QOS
 from turtlewire.wire.base import TypeId
 
 COMMAND = Path(sys.executable).parent / "turtlewire"
+BAG = Path(__file__).parents[1] / "golden/bag/d_mcap"
+SHOW_BAG = f"Its transforms: turtlewire bag tf {BAG}; what is in it: ros2 bag info {BAG}; "
 TF = TypeId("tf2_msgs/msg/TFMessage", msg.type_hash("tf2_msgs/msg/TFMessage"))
 
 
@@ -30,6 +33,14 @@ TF = TypeId("tf2_msgs/msg/TFMessage", msg.type_hash("tf2_msgs/msg/TFMessage"))
         ("doctor now", 2, "turtlewire doctor: there is no bag at now"),
         ("doctor now then", 2, "unrecognized arguments: then"),
         ("frames a b", 2, "unrecognized arguments: b"),
+        ("lesson", 2, "scripts/lesson --serve"),
+        ("demo", 2, "python -m turtlewire.demo"),
+        (f"frames {BAG}", 2, f"turtlewire frames: error: {BAG} is a bag. {SHOW_BAG}"),
+        (f"bag {BAG}", 2, f"\n{BAG} is a bag. {SHOW_BAG}"),
+        (f"{BAG}", 2, f"\n{BAG} is a bag. {SHOW_BAG}"),
+        ("bag fts", 2, "turtlewire bag: error: argument COMMAND: invalid choice: 'fts'"),
+        ("doctr", 2, "usage: turtlewire [-h] [--version] COMMAND ...\n"),
+        ("bag x", 2, "usage: turtlewire bag [-h] COMMAND ...\n"),
         ("", 0, "usage: turtlewire [-h] [--version]"),
         ("--version", 0, f"turtlewire {version('turtlewire')}\n"),
     ],
@@ -101,3 +112,13 @@ def test_completion_of_frames(tmp_path):
         assert found == ["robot"]
     finally:
         context.close()
+
+
+def test_a_folder_named_as_a_frame_is_no_bag(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("world").mkdir()
+    Path("world", "notes.txt").touch()
+    assert what_to_do_with_bag("world") == ""
+    Path("world", "world_0.mcap").touch()
+    assert what_to_do_with_bag("world").startswith("world is a bag.")
+    assert what_to_do_with_bag("nothing.mcap") == ""

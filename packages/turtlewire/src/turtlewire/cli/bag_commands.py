@@ -7,12 +7,14 @@ from __future__ import annotations
 
 import argparse
 import math
+import shlex
+from pathlib import Path
 from typing import Any
 
 from turtlewire.terminal.file_arguments import complete_bags, complete_files, reporting_errors
 from turtlewire.terminal.parser import add_tf_topics, seconds, tf_topics
 
-__all__ = ["add_bag_commands"]
+__all__ = ["add_bag_commands", "what_to_do_with_bag"]
 
 _FORMATS = ("tum", "kitti", "euroc", "csv")
 _ALIGNMENTS = ("none", "origin", "yaw", "se3", "sim3")
@@ -42,8 +44,11 @@ def _add_bag(commands: Any) -> None:
     summary = "Examine bags"
     parser = commands.add_parser("bag", help=summary, description=summary, allow_abbrev=False)
     parser.set_defaults(run=lambda _: parser.print_help() or 0, parser=parser)
+    parser.meant = what_to_do_with_bag
     verbs = parser.add_subparsers(
-        title="Commands", metavar="Call `turtlewire bag <command> -h` for more detailed usage."
+        title="Commands",
+        description="Call `turtlewire bag COMMAND -h` for more detailed usage.",
+        metavar="COMMAND",
     )
     summary = "Show the frame tree of a bag: rates, times, gaps and problems"
     tf = verbs.add_parser("tf", help=summary, description=summary, allow_abbrev=False)
@@ -174,6 +179,28 @@ def _add_pairing(parser: argparse.ArgumentParser) -> None:
 def _add_file(parser: Any, name: str, metavar: str, text: str, nargs: str | None = None) -> None:
     argument = parser.add_argument(name, metavar=metavar, help=text, nargs=nargs)
     argument.completer = complete_bags if metavar == "BAG" else complete_files
+
+
+def what_to_do_with_bag(path: str) -> str:
+    """Return the commands that show a bag; an empty string if the path is none."""
+    if not _is_bag(Path(path)):
+        return ""
+    bag = shlex.quote(path)
+    return (
+        f"{path} is a bag. Its transforms: turtlewire bag tf {bag}; what is in it: "
+        f"ros2 bag info {bag}; in 3D: turtlewire view {bag}"
+    )
+
+
+def _is_bag(path: Path) -> bool:
+    """Return True for a bag: a folder of the same name as a frame is none."""
+    try:
+        files = list(path.iterdir()) if path.is_dir() else [path] if path.is_file() else []
+    except OSError:
+        return False
+    return any(
+        file.name.removesuffix(".zstd").endswith((".mcap", ".db3", ".bag")) for file in files
+    )
 
 
 def _complete_names(parsed_args: argparse.Namespace, **_: Any) -> list[str]:

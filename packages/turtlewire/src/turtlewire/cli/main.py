@@ -9,7 +9,7 @@ import os
 import sys
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.cli.bag_commands import add_bag_commands
+from turtlewire.cli.bag_commands import add_bag_commands, what_to_do_with_bag
 from turtlewire.plugins import declared
 from turtlewire.program import program
 from turtlewire.terminal.file_arguments import complete_bags, reporting_errors
@@ -27,6 +27,11 @@ _DISTRIBUTIONS = {
     "class": "turtlewire-class",
     "foxglove": "turtlewire-view",
     "view": "turtlewire-view",
+}
+#: Programs that are no commands of `turtlewire`.
+_NOT_HERE = {
+    "demo": "To run the demo: python -m turtlewire.demo; in a clone of turtlewire: scripts/demo",
+    "lesson": "To build the lesson, in a clone of turtlewire, and show it: scripts/lesson --serve",
 }
 
 
@@ -82,8 +87,11 @@ def _parser() -> Parser:
     )
     parser.add_argument("--version", action=_Version, help="Print the version and exit")
     parser.set_defaults(run=None)
+    parser.meant = _meant
     commands = parser.add_subparsers(
-        title="Commands", metavar="Call `turtlewire <command> -h` for more detailed usage."
+        title="Commands",
+        description="Call `turtlewire COMMAND -h` for more detailed usage.",
+        metavar="COMMAND",
     )
     _add_doctor(commands)
     _add_frames(commands)
@@ -91,6 +99,10 @@ def _parser() -> Parser:
     for _, entry in sorted(declared(_COMMANDS).items()):
         entry.load()(commands)
     return parser
+
+
+def _meant(word: str) -> str:
+    return _NOT_HERE.get(word) or what_to_do_with_bag(word)
 
 
 def _add_doctor(commands: Any) -> None:
@@ -182,6 +194,8 @@ def _frames(args: argparse.Namespace) -> int:
     from turtlewire.cli.frames import show_frames
     from turtlewire.errors import WireError
 
+    if args.frame is not None and (bag := what_to_do_with_bag(args.frame)):
+        args.parser.error(bag)
     try:
         return show_frames(args.frame, once=args.once, as_json=args.json, period_s=args.period)
     except WireError as error:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from turtlewire.terminal.suggestion import did_you_mean
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
     from typing import NoReturn
 
 __all__ = ["INVALID_CHOICE", "Parser", "add_tf_topics", "seconds", "tf_topics"]
@@ -22,7 +22,13 @@ _OPTION = re.compile(r"(?<![\w-])--?[a-z][\w-]*")
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser that adds the nearest known words to its error."""
+    """A parser that adds the nearest known words to its error.
+
+    Attributes:
+        meant: Returns what a word means that is no command, or an empty string.
+    """
+
+    meant: Callable[[str], str] = staticmethod(lambda _word: "")
 
     def parse_args(  # type: ignore[override]  # a namespace class of the caller's own is not needed
         self, args: Sequence[str] | None = None, namespace: None = None
@@ -39,7 +45,8 @@ class Parser(argparse.ArgumentParser):
         unknown = _UNRECOGNIZED.match(message)
         suggestion = ""
         if choice:
-            suggestion = did_you_mean(choice[1], re.findall(r"[\w-]+", message[choice.end() :]))
+            known = re.findall(r"[\w-]+", message[choice.end() :])
+            suggestion = self.meant(choice[1]) or did_you_mean(choice[1], known)
         elif unknown:
             suggestion = did_you_mean(unknown[1], _OPTION.findall(self.format_usage()))
         super().error(f"{message}\n{suggestion}".rstrip())
