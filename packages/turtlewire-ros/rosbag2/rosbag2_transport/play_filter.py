@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from rosbag2_transport.topic_filter import EVENT_TOPIC, is_service_event, pattern
+from turtlewire.bag.encodings import is_cdr, not_in_cdr
 from turtlewire.terminal.suggestion import did_you_mean
 
 if TYPE_CHECKING:
@@ -19,13 +20,18 @@ _SECOND = 1_000_000_000
 
 
 def played_topics(bag: Bag, options: PlayOptions) -> list[str]:
-    """Names of the topics to play; patterns match whole names.
+    """Names of the topics to play, which must be in CDR; patterns match whole names.
 
     As in rosbag2, names of topics do not hold back service events, nor the other way round.
 
     Raises:
         RuntimeError: A pattern is not a regular expression.
     """
+    return [name for name in _selected(bag, options) if is_cdr(bag.topics[name])]
+
+
+def _selected(bag: Bag, options: PlayOptions) -> list[str]:
+    """Names of the topics that the options leave."""
     regex, exclude = pattern(options.regex_to_filter), pattern(options.exclude_regex_to_filter)
     own_clock = options.clock_publish_frequency > 0 or options.clock_publish_on_topic_publish
     names = []
@@ -48,10 +54,13 @@ def played_topics(bag: Bag, options: PlayOptions) -> list[str]:
 
 
 def mistakes(bag: Bag, options: PlayOptions) -> list[str]:
-    """List names in the options that the bag does not have; rosbag2 ignores them silently."""
-    return [*_unknown_topics(bag, options), *_unknown_services(bag, options)] or [
-        f"Nothing is played: {why}" for why in _emptiness(bag, options)
-    ]
+    """List what is not played although it was asked for; rosbag2 ignores it silently."""
+    foreign = not_in_cdr((bag.topics[name] for name in _selected(bag, options)), "not played")
+    return [
+        *filter(None, [foreign]),
+        *_unknown_topics(bag, options),
+        *_unknown_services(bag, options),
+    ] or [f"Nothing is played: {why}" for why in _emptiness(bag, options)]
 
 
 def _unknown_topics(bag: Bag, options: PlayOptions) -> Iterator[str]:

@@ -7,12 +7,17 @@ import math
 import sys
 
 from rclpy.utilities import remove_ros_args
+from turtlewire.printable import printable
+from turtlewire.suggestion import did_you_mean
 
 __all__ = ["check_port", "parse_options"]
 
 
 def parse_options(args: list[str]) -> argparse.Namespace:
-    """The options outside of ``--ros-args``; unknown arguments are ignored, as in the original."""
+    """Return the options outside of ``--ros-args``.
+
+    Unknown arguments are ignored, as in the original, and named on stderr.
+    """
     from turtlewire.web.desktop import wanted_lan
 
     parser = argparse.ArgumentParser(
@@ -32,7 +37,12 @@ def parse_options(args: list[str]) -> argparse.Namespace:
         metavar="N",
         help="run N times faster than real time and publish /clock; for nodes with use_sim_time",
     )
-    return parser.parse_known_args(remove_ros_args(args)[1:])[0]
+    options, unknown = parser.parse_known_args(remove_ros_args(args)[1:])
+    if unknown:
+        near = did_you_mean(unknown[0].partition("=")[0], parser._option_string_actions)
+        text = f"turtlesim_node: ignored: {' '.join(unknown)}. {near or 'See --help'}"
+        print(printable(text), file=sys.stderr)  # noqa: T201 - a command line prints
+    return options
 
 
 def check_port() -> None:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import sys
+from types import SimpleNamespace
+
 import pytest
 
 import turtlewire
 from ros2cli.main import main as ros2
-from rosbag2_py import SequentialReader
+from rosbag2_py import PlayOptions, SequentialReader
+from rosbag2_transport.play_filter import mistakes, played_topics
 from turtlewire.bag import open_bag
 from turtlewire.bag.encodings import is_cdr, not_in_cdr
 from turtlewire.bag.metadata import TopicInfo
@@ -102,3 +106,26 @@ def test_the_view_says_what_it_does_not_show(tmp_path):
         assert "/tf (json tf2_msgs/msg/TFMessage)" in source.problem
     finally:
         source.close()
+
+
+def test_a_player_names_them_once_and_plays_the_rest(tmp_path):
+    path = written(tmp_path / "x.mcap")
+    with open_bag(path) as foreign_bag:
+        topics = {**foreign_bag.topics, "/text": TopicInfo("/text", "std_msgs/msg/String")}
+        bag = SimpleNamespace(topics=topics, start_ns=0, end_ns=1)
+        assert played_topics(bag, PlayOptions()) == ["/text"]
+        (warning,) = mistakes(bag, PlayOptions())
+        assert warning == NAMED.replace("neither decoded nor shown", "not played")
+        assert mistakes(bag, PlayOptions(topics_to_filter=["/text"])) == []
+        (warning,) = mistakes(bag, PlayOptions(topics_to_filter=["/pose"]))
+        assert warning.endswith("not played: /pose (json demo.Pose).")
+
+
+def test_ros2_bag_play_warns_and_goes_on(foreign, run):
+    program = "import sys; from ros2cli.main import main; sys.exit(main(sys.argv[1:]))"
+    player = run(sys.executable, "-c", program, "bag", "play", foreign)
+    assert player.wait() == 0, player.text
+    assert (
+        player.text.count("not played: /log (protobuf foxglove.Log), /pose (json demo.Pose).") == 1
+    )
+    assert "[ERROR]" not in player.text

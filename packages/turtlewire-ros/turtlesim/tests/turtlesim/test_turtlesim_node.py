@@ -27,6 +27,7 @@ from std_srvs.srv import Empty
 from turtlesim.action import RotateAbsolute
 from turtlesim.model import TICK_NS
 from turtlesim.msg import Color, Pose
+from turtlesim.options import parse_options
 from turtlesim.srv import Kill, SetPen, Spawn, TeleportAbsolute, TeleportRelative
 from turtlesim.turtlesim_node import TurtlesimNode, main
 
@@ -585,3 +586,18 @@ def test_a_faster_simulation_has_its_speed_as_a_parameter(make_world):
     assert clocks[-1].clock.nanosec - heard.clock.nanosec <= TICK_NS  # one may be on its way
     world.sim.set_parameters([Parameter("speed", value=1.0)])
     world.spin_until(lambda: clocks[-1].clock.nanosec > heard.clock.nanosec + 3 * TICK_NS)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("--haedless", "turtlesim_node: ignored: --haedless. Did you mean: --headless, --help\n"),
+        ("--sped=2", "turtlesim_node: ignored: --sped=2. Did you mean: --speed\n"),
+        ("word", "turtlesim_node: ignored: word. See --help\n"),
+        ("--headless --ros-args -r __node:=sim", ""),
+    ],
+)
+def test_an_option_that_it_does_not_know_is_ignored_and_named(words, said, capsys):
+    options = parse_options(["turtlesim_node", *words.split()])
+    assert options.headless == ("--headless" in words)
+    assert capsys.readouterr() == ("", said)

@@ -21,14 +21,19 @@ def is_cdr(topic: TopicInfo) -> bool:
     return topic.serialization_format in ("cdr", "ros1", "")
 
 
-def not_in_cdr(topics: Iterable[TopicInfo]) -> str:
-    """Name the topics that cannot be decoded, with encoding and type; empty if all can."""
+def not_in_cdr(topics: Iterable[TopicInfo], consequence: str = "neither decoded nor shown") -> str:
+    """Name the topics that cannot be decoded, with encoding and type; empty if all can.
+
+    Args:
+        topics: The topics, of which some may be in CDR.
+        consequence: What does not happen to the messages of the others.
+    """
     others = sorted((topic for topic in topics if not is_cdr(topic)), key=lambda each: each.name)
     if not others:
         return ""
     named = [f"{each.name} ({each.serialization_format} {each.type})" for each in others]
     rest = f" and {len(named) - _MOST_NAMES} more" if len(named) > _MOST_NAMES else ""
     return printable(
-        f"Not in ROS 2's encoding, CDR, and therefore neither decoded nor shown: "
+        f"Not in ROS 2's encoding, CDR, and therefore {consequence}: "
         f"{', '.join(named[:_MOST_NAMES])}{rest}."
     )
