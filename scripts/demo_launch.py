@@ -11,6 +11,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
+# It sends the interrupt again when Python has dropped a KeyboardInterrupt.
+import rclpy.excepthooks  # noqa: F401
 from turtlewire_ros.process_family import ProcessFamily
 
 if TYPE_CHECKING:
@@ -131,6 +133,21 @@ def interrupt(_signum: int = 0, _frame: object = None) -> NoReturn:
     """End as after Ctrl-C."""
     _ignore_further_signals()
     raise KeyboardInterrupt
+
+
+def _listen_again(arguments: sys.UnraisableHookArgs) -> None:
+    """Let the interrupt come again if Python drops it, as in a callback of a weak reference.
+
+    Such callbacks run at the end of each import.
+    """
+    if issubclass(arguments.exc_type, KeyboardInterrupt):
+        for signum in ENDING:
+            signal.signal(signum, interrupt)
+    _previous_unraisable_hook(arguments)
+
+
+_previous_unraisable_hook = sys.unraisablehook
+sys.unraisablehook = _listen_again
 
 
 def _ignore_further_signals() -> None:

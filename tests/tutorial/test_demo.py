@@ -142,6 +142,37 @@ def test_ctrl_c_while_it_starts_is_one_line_and_leaves_nothing_behind(run, words
     assert demo.survivors() == []
 
 
+DROPPED = """
+import os, signal, threading, weakref
+from demo_launch import ENDING, interrupt
+
+class Module:
+    pass
+
+def callback(_):
+    os.kill(os.getpid(), signal.SIGINT)
+    for _ in range(1000):  # the handler runs in here
+        pass
+
+for signum in ENDING:
+    signal.signal(signum, interrupt)
+module = Module()
+reference = weakref.ref(module, callback)
+try:
+    del module
+    threading.Event().wait(300)
+except KeyboardInterrupt:
+    print("interrupted")
+"""
+
+
+def test_ctrl_c_in_a_callback_of_a_weak_reference_is_not_lost(run):
+    """At the end of each import there is such a callback, and Python drops its exceptions."""
+    program = run(sys.executable, "-c", DROPPED, environment={"PYTHONPATH": str(DEMO.parent)})
+    assert program.wait() == 0
+    assert [line for _, line in program.lines] == ["interrupted"]
+
+
 @pytest.mark.parametrize("command", [[DEMO.parent / "interruptible"], []], ids=["shell", "python"])
 def test_not_even_sigkill_leaves_processes_behind(run, command):
     environment = {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0", "DISPLAY": ""}
