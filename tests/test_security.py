@@ -21,7 +21,7 @@ from turtlewire.tf import inspection
 
 PAGE = ROOT / "SECURITY.md"
 
-# Beginning of a sentence, and below it its tests, or the function that makes it true.
+# Beginning of a sentence, and below it its tests.
 TESTED = """
 Nodes look for others on this computer only
   wire/test_environment.py test_the_range_is_localhost_unless_said_otherwise
@@ -60,7 +60,7 @@ DDS traffic is neither encrypted nor authenticated
   wire/test_two_hosts.py test_the_sockets_of_wider_ranges_hear_all_interfaces
 On macOS and Windows, and on Linux before 5.7 without root
   wire/test_loopback.py test_a_kernel_that_refuses_is_warned_of
-  ../src/turtlewire/wire/loopback.py bind_to_loopback
+  wire/test_loopback.py test_new_sockets_at_the_domain_s_ports_are_bound
 Otherwise use a network that you trust, a VPN, or [Zenoh with TLS]
   wire/zenoh/test_security.py test_the_commands_of_each_section_work
   wire/zenoh/test_security.py test_a_peer_without_a_certificate_sees_nothing

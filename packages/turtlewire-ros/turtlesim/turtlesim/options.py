@@ -7,8 +7,8 @@ import math
 import sys
 
 from rclpy.utilities import remove_ros_args
-from turtlewire.printable import printable
-from turtlewire.suggestion import did_you_mean
+from turtlewire.terminal.printable import printable
+from turtlewire.terminal.suggestion import did_you_mean
 
 __all__ = ["check_port", "parse_options"]
 

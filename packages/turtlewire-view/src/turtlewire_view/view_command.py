@@ -87,7 +87,7 @@ def _view(args: argparse.Namespace) -> int:
 
 
 def _source(bag: str | None, max_frames: int | None) -> Source:
-    limit = {} if max_frames is None else {"max_frames": max_frames}
+    limit: dict[str, Any] = {} if max_frames is None else {"max_frames": max_frames}
     if bag is None:
         from turtlewire_view.live import LiveSource
 

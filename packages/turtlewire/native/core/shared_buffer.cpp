@@ -8,8 +8,7 @@ Added SharedBuffer::add(std::span<const ReceivedTransform> transforms, std::stri
   const SourceId sender = tree_.sender(authority);
   Added added{0, listeners_ > 0, false};
   for (const ReceivedTransform& r : transforms) {
-    const Verdict verdict =
-        tree_.set(r.parent, r.child, r.stamp, r.pose(), sender, is_static);
+    const Verdict verdict = tree_.set(r.parent, r.child, r.stamp, r.pose(), sender, is_static);
     added.accepted += verdict == Verdict::accepted;
     added.lacks_room = added.lacks_room || verdict == Verdict::too_many_frames;
   }

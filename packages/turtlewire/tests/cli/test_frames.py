@@ -20,10 +20,10 @@ import turtlewire
 from geometry_msgs.msg import TransformStamped
 from tf2_msgs.msg import TFMessage
 from turtlewire import msg, wire
-from turtlewire.doctor import network
 from turtlewire.cli.frame_picture import take_picture
 from turtlewire.cli.frames import Window
 from turtlewire.cli.main import main
+from turtlewire.doctor import network
 from turtlewire.tf.listener import QOS, STATIC_QOS
 from turtlewire.wire.base import TypeId
 

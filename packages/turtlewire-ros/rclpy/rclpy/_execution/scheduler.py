@@ -21,7 +21,6 @@ from typing import TYPE_CHECKING, Any
 from rclpy.logging import get_logger
 from rclpy.task import Future, Task
 from turtlewire.errors import WireError
-from turtlewire.wake_up import WakeUp
 
 from .exceptions import (
     ConditionReachedException,
@@ -37,6 +36,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from rclpy.context import Context
+    from turtlewire.wake_up import WakeUp
 
     from .entity import Entity, Host, Work
 

@@ -34,13 +34,17 @@ def interrupt():
     def raise_it(*_):
         raise Interrupted
 
+    moment = random.Random(1)
+
+    def run_until_interrupted(function):
+        # again after a while, should one come where Python drops exceptions
+        signal.setitimer(signal.ITIMER_REAL, moment.uniform(1e-5, LONGEST_S), 5)
+        function()
+
     def call(function):
-        moment = random.Random(1)
         for _ in range(ROUNDS):
             with pytest.raises(Interrupted):
-                # again after a while, should one come where Python drops exceptions
-                signal.setitimer(signal.ITIMER_REAL, moment.uniform(1e-5, LONGEST_S), 5)
-                function()
+                run_until_interrupted(function)
             signal.setitimer(signal.ITIMER_REAL, 0)
             yield
 

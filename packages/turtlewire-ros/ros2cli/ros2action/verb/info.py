@@ -30,8 +30,7 @@ ARGUMENTS = (
 def main(args: argparse.Namespace) -> None:
     """Print clients and servers."""
     from ros2cli.graph import action_nodes, actions
-    from ros2cli.suggestion import did_you_mean
-    from turtlewire.doctor.network import other_domains_hint
+    from ros2cli.suggestion import say_what_was_meant
 
     with discovered_graph() as graph:
         sides = {"clients": "subscription", "servers": "publisher"}

@@ -70,8 +70,8 @@ class Buffer(BaseBuffer):
 
         Raises:
             FileNotFoundError: ``path`` does not exist.
-            BagError: ``path`` is not a bag, has none of the topics, or a topic other than the default
-                is missing or has another type.
+            BagError: ``path`` is not a bag, has none of the topics, or a topic other than the
+                default is missing or has another type.
             ValueError: The window ends before it begins.
         """
         from turtlewire.bag.transforms import fill_buffer

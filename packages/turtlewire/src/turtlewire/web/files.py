@@ -87,9 +87,8 @@ def policy(files: Mapping[str, File], sources: Mapping[str, str]) -> str:
         if path.endswith(".html")
         for text in _IMPORT_MAP.findall(file.path.read_bytes())
     ]
-    for directive, more in [("script-src", script_hash(text)) for text in maps] + [
-        *sources.items()
-    ]:
+    hashes = [("script-src", script_hash(text)) for text in maps]
+    for directive, more in [*hashes, *sources.items()]:
         given = allowed.get(directive, "'none'")
         allowed[directive] = more if given == "'none'" else f"{given} {more}"
     return "; ".join(f"{directive} {value}" for directive, value in allowed.items())
