@@ -70,6 +70,14 @@ def typed(*characters: str) -> ConsoleKeyboard:
     return ConsoleKeyboard(read_character=keys.get)
 
 
+def test_a_wait_for_a_key_of_the_console_has_a_limit():
+    with typed("k") as keys:
+        assert keys.read_within(60) == b"k"
+        assert keys.read_within(0) is None
+        keys.stop()
+        assert keys.read_within(60) == b""
+
+
 def test_the_console_gives_the_bytes_of_a_terminal():
     with typed(
         "q", "\xe0", "H", "\x00", "P", "\xe0", "M", "\xe0", "K", "é", "\xe0", "G", "x"

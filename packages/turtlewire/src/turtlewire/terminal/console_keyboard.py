@@ -76,6 +76,15 @@ class ConsoleKeyboard:
         """Wait for the next byte; empty after Ctrl-C or when :meth:`stop` was called."""
         return b"" if self._stopped else self._bytes.get()
 
+    def read_within(self, seconds: float) -> bytes | None:
+        """Wait at most this long for the next byte; None if none was typed."""
+        if self._stopped:
+            return b""
+        try:
+            return self._bytes.get(timeout=seconds)
+        except queue.Empty:
+            return None
+
     def stop(self) -> None:
         """End the present and all later reads. Safe from any thread."""
         self._stopped = True
