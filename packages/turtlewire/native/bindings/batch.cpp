@@ -316,8 +316,7 @@ nb::object transform_points(BufferObject& self, std::string_view target, std::st
                             nb::object out, nb::object status) {
   const Stamp target_stamp = nanoseconds_of(target_time, "target_stamp_ns");
   if (!fixed_frame && target_stamp != 0) {
-    throw nb::value_error(
-        "target_stamp_ns needs fixed_frame, the frame that joins the two times");
+    throw nb::value_error("target_stamp_ns needs fixed_frame, the frame that joins the two times");
   }
   const Deskew way{target, source, fixed_frame, target_stamp};
   Points<float> single;

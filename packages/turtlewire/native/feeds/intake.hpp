@@ -55,8 +55,8 @@ class Intake final : public ForkAware {
   std::uint64_t stored();
   // The next message that is stored wakes the reader thread.
   void expect();
-  // Whether an expected message came since the last time, or one with a frame for which a buffer had
-  // no room; of the latter it is told once in kRoomPeriod.
+  // Whether an expected message came since the last time, or one with a frame for which a buffer
+  // had no room; of the latter it is told once in kRoomPeriod.
   bool take_expected();
 
  private:
