@@ -51,7 +51,7 @@ def test_circles_of_imports_only_become_fewer(architecture, house):
     assert not grown, f"modules in circles of imports; see {house.circles('run', 'late', 'type')}"
 
 
-def test_nobody_imports_the_command_turtlewire_from_outside(house):
+def test_the_turtlewire_command_is_not_imported_from_outside(house):
     cli = "turtlewire.cli"
     assert [
         (found.source, found.target)
@@ -96,7 +96,7 @@ def test_import_linter_knows_every_package(house, script):
     assert sorted(layers) == packages
 
 
-def test_import_linter_forbids_circles_but_in_rclpy_and_of_the_buffers_two_shortcuts():
+def test_import_linter_forbids_circles_with_two_exceptions():
     contracts = configparser.ConfigParser()
     contracts.read(ROOT / ".importlinter")
     circles = contracts["importlinter:contract:circles"]
@@ -203,7 +203,7 @@ def test_prose_lint_rejects_a_docstring(script, docstring):
     "docstring",
     [
         "Return True if the bag is open, or False if there is no bag.",
-        "Read setup.py.\n\n    Raises:\n        ValueError: ``end_ns`` is before ``start_ns``.\n    ",
+        "Read setup.py.\n\n    Raises:\n        ValueError: ``end`` is before ``start``.\n    ",
     ],
 )
 def test_prose_lint_accepts_a_docstring(script, docstring):

@@ -23,7 +23,8 @@ PAGE = ROOT / "SECURITY.md"
 
 # Beginning of a sentence, and below it its tests.
 TESTED = """
-Nodes look for others on this computer only
+Nodes discover other nodes on this computer only
+
   wire/test_environment.py test_the_range_is_localhost_unless_said_otherwise
   wire/test_two_hosts.py test_other_hosts_cannot_reach_nodes_by_default
   wire/test_two_hosts.py test_datagrams_from_outside_reach_no_socket_by_default
@@ -37,14 +38,16 @@ With `--lan` they serve the network
   web/test_lan.py test_two_runs_have_two_tokens
 The Foxglove server listens on loopback only
   foxglove/test_hostile.py test_a_foreign_name_is_refused_with_one_line
+It refuses requests with another `Host`
+  foxglove/test_hostile.py test_a_foreign_name_is_refused_with_one_line
   foxglove/test_hostile.py test_other_pages_are_refused_with_one_line
   foxglove/test_hostile.py test_pages_of_foxglove_and_of_this_machine_connect
 `scripts/docs --serve` and `scripts/lesson --serve`
   site/test_static_server.py test_foreign_names_and_pages_are_refused
   site/test_static_server.py test_nothing_outside_the_folder_is_served test_folders_are_not_listed
-Bytes from the wire are checked
+Bytes from the network are checked
   wire/test_bad_input.py test_a_malformed_message_is_named_once_and_the_next_good_one_arrives
-Names and texts of other processes are escaped
+Names and strings from other processes are escaped
   terminal/test_printable.py test_no_character_leaves_a_control_behind
   ros2cli/test_output.py test_every_verb_is_escaped test_messages_on_stderr_are_escaped
 Parameter files, bags, saved buffers, URDF and `.rviz` files are data
@@ -52,7 +55,7 @@ Parameter files, bags, saved buffers, URDF and `.rviz` files are data
   test_security.py test_a_buffer_of_pickled_objects_is_refused
   test_security.py test_a_definition_in_a_bag_cannot_hold_code
   urdf/test_parser.py test_entities_are_refused
-The code of a student who is graded reaches neither the checks nor their results
+During grading, a student's code can reach neither the checks nor their results
   turtle_class/test_forging.py test_an_attack_gives_no_points
   turtle_class/test_forging.py test_the_processes_of_the_graders_are_closed
 DDS traffic is neither encrypted nor authenticated
@@ -73,7 +76,7 @@ With `ROS_SECURITY_ENABLE=true` turtlewire warns
   wire/test_security.py test_no_program_starts_in_the_clear
 A page that `--lan` opens is not encrypted
   web/test_lan.py test_with_it_every_address_answers_to_the_token
-The Foxglove server with another `--address` has no token
+With another `--address`, the Foxglove server is not protected by a token
   foxglove/test_hostile.py test_all_names_are_served_to_the_network_and_to_all_pages
   foxglove/test_command.py test_an_address_for_others_is_said_plainly
 Launch files are programs
@@ -83,11 +86,11 @@ Launch files are programs
   test_security.py test_showing_the_arguments_of_a_python_file_runs_it
 Xacro files evaluate expressions
   robots/test_urdf_tutorial.py test_xacro_finds_the_packages_of_the_workspace
-Grading is no sandbox
+Grading is not a sandbox
   test_security.py test_grading_runs_as_this_user
 """
 # Advice, which nothing can test.
-ADVICE = ("Run and open only those that you trust", "See [what remains]")
+ADVICE = ("Run and open only files that you trust", "See [what remains]")
 
 
 def sentences() -> list[str]:

@@ -345,8 +345,7 @@ def test_interfaces_and_a_python_package_of_one_name_are_an_error(evaluate):
     )
     ((line,), _) = plan.verdict()
     assert line.endswith(
-        ":5: rosidl_generate_interfaces makes a Python package robot, too; give one of them "
-        "another name"
+        ":5: rosidl_generate_interfaces also generates a Python package robot; rename one of them"
     )
 
 

@@ -58,8 +58,8 @@ WRONG_ANSWERS = [
         "up is z",
     ),
     WrongAnswer("camera", "on_world", (("'turtle1'", "'world'"),), "moves with turtle1"),
-    WrongAnswer("odometry", "not_turned", ((DX, "dx"), (DY, "dy")), "has a heading, too"),
-    WrongAnswer("odometry", "wrong_sign", ((DY, DY.removeprefix("-")),), "has a heading, too"),
+    WrongAnswer("odometry", "not_turned", ((DX, "dx"), (DY, "dy")), "also has a heading"),
+    WrongAnswer("odometry", "wrong_sign", ((DY, DY.removeprefix("-")),), "also has a heading"),
     WrongAnswer(
         "odometry", "one_name", (("f'{self.turtlename}/odom'", "'odom'"),), "names of its own"
     ),

@@ -26,7 +26,7 @@ class Recorder:
         log_level: ``debug``, ``info``, ``warn``, ``error`` or ``fatal``.
 
     Raises:
-        RuntimeError: There is no such level.
+        RuntimeError: The level does not exist.
     """
 
     _running: ClassVar[set[queue.SimpleQueue[None]]] = set()

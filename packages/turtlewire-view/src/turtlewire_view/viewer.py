@@ -132,7 +132,7 @@ class Viewer:
         """Subscribe for a display.
 
         Raises:
-            ViewCommandError: There is no such display or topic, or an option is refused.
+            ViewCommandError: The display or topic does not exist, or an option is invalid.
             WireError: The topic cannot be subscribed.
         """
         topics = sorted(self.source.topics(), key=lambda each: each.publishers)

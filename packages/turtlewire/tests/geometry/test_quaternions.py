@@ -71,7 +71,7 @@ def test_a_matrix_leads_back_to_its_rotation_with_tf2s_sign(q):
     assert max(back, key=abs) > 0.0 or back[3] > 0.0
 
 
-def test_the_sign_is_w_s_if_the_trace_is_positive_and_the_largest_parts_otherwise():
+def test_sign_follows_w_or_the_largest_part():
     for axis in range(3):
         for angle, w_is_positive in ((2.0, True), (-2.0, True), (3.0, True), (-3.0, False)):
             q = [0.0, 0.0, 0.0, math.cos(angle / 2)]

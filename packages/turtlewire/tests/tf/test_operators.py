@@ -78,7 +78,7 @@ def test_stamps_of_products(core):
     assert (a @ fixed).stamp_ns == 5
 
 
-def test_what_does_not_fit(core):
+def test_unsuitable_values(core):
     identity = ((0, 0, 0), (0, 0, 0, 1))
     a, c = made(core, ("a", "b"), identity, 5), made(core, ("c", "b"), identity, 7)
     with pytest.raises(ValueError, match=r"do not meet: 'b' is not 'c'; inverse\(\)"):

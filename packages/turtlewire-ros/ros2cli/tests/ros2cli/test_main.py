@@ -243,7 +243,7 @@ def test_the_help_shows_the_first_line_of_each_class():
             assert summary(entry) == first_line(entry.load()) != "", entry.value
 
 
-def test_the_help_of_a_command_that_is_not_on_the_command_line_loads_no_verb():
+def test_help_of_another_command_loads_no_verb():
     program = """
 import sys
 from ros2cli.main import main

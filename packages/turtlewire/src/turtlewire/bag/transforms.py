@@ -150,7 +150,7 @@ class _Reader:
 
     @property
     def problems(self) -> list[str]:
-        """What is damaged in the bag."""
+        """Problems of the bag's files."""
         return self._bag.problems
 
     def take(self, records: bytes | memoryview, topics: dict[int, str]) -> int:

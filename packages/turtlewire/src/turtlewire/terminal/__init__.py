@@ -7,7 +7,7 @@ module              what it holds
 `file_arguments`    arguments that name files: completion, and errors in one line
 `suggestion`        the nearest names to one that does not exist
 `printable`         text from other processes, made safe for a terminal
-`keyboard`          keys one by one: those of the present platform
+`keyboard`          keys one by one, on the current platform
 `posix_keyboard`    keys of a terminal of POSIX
 `console_keyboard`  keys of the console of Windows
 `signal_watch`      signals that are acted on while the main thread waits

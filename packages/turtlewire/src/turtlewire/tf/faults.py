@@ -1,4 +1,4 @@
-"""Faults in what a buffer has received: refused transforms, malformed messages, and conflicts."""
+"""Problems of received transforms: rejections, malformed messages, and conflicts."""
 
 from __future__ import annotations
 
