@@ -24,8 +24,10 @@ RIDDLE = re.compile(
     r"(Whether|What|Those|How|That|Which|Who|Whose|Where|When|Until|See|Of|Likewise)\b"
 )
 PHRASES = re.compile(
-    r"\b(whoever|so many \w+s|for ever|mend(s|ed|ing)?|there is none(?!, and none is needed)"
-    r"|those of|is to be called|a damage|comes? of it|is not to be had|in what)\b",
+    r"\b(whoever|somebody|so many \w+s|for ever|anew|thus|mend(s|ed|ing)?|hangs? on (?!for)\w+"
+    r"|there (is|are) none(?!, and none is needed)|those of|those who|is to be called|heard of"
+    r"|listened to|known are|lacks|lacked|a damage|comes? of it|is not to be had|in what"
+    r"|empty text|(?<!there )(is|are|was|were) no (?!longer|more|less|such|need|one\b|way)\w+)\b",
     re.IGNORECASE,
 )
 #: An entry of a `Raises:` section that does not name its subject.

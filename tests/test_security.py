@@ -24,7 +24,6 @@ PAGE = ROOT / "SECURITY.md"
 # Beginning of a sentence, and below it its tests.
 TESTED = """
 Nodes discover other nodes on this computer only
-
   wire/test_environment.py test_the_range_is_localhost_unless_said_otherwise
   wire/test_two_hosts.py test_other_hosts_cannot_reach_nodes_by_default
   wire/test_two_hosts.py test_datagrams_from_outside_reach_no_socket_by_default
@@ -167,7 +166,7 @@ def test_a_buffer_of_pickled_objects_is_refused(ran, tmp_path):
     data = io.BytesIO()
     np.savez(data, header=np.array([Touch()], dtype=object))
     (tmp_path / "buffer.npz").write_bytes(data.getvalue())
-    with pytest.raises(ValueError, match="is no saved buffer"):
+    with pytest.raises(ValueError, match="is not a saved buffer"):
         inspection.load(tmp_path / "buffer.npz")
     assert not ran.exists()
 

@@ -117,7 +117,7 @@ def test_the_page_has_the_errors_of_lookups():
 RUN_ELSEWHERE = {
     "lesson.md": "packages/turtlewire-class/tests/turtle_lesson/test_in_browser.py",
     "learning_tf2_py.md": "tests/tutorial/test_lessons.py",
-    "packages.md": "packages/turtlewire-ros/prefix/tests/turtlewire_ros/test_colcon_ament.py",
+    "packages.md": "packages/turtlewire-colcon/tests/test_colcon_ament.py",
     "performance.md": "tests/test_bench.py",
 }
 
