@@ -110,7 +110,7 @@ class ROSTopicHz:
         self.filter_expr = filter_expr
         self.use_wtime = use_wtime
         self._clock = node.get_clock()
-        # A steady clock that reads as the wall clock does: NTP's corrections are no intervals.
+        # A steady clock that reads as the wall clock does: NTP's corrections are not intervals.
         self._wall_offset_ns = time.time_ns() - time.monotonic_ns()
         self._of: dict[str | None, _Arrivals] = {}
 

@@ -375,7 +375,7 @@ class SqliteStorage:
     def walk_transforms(
         self, _names: Container[str], _start_ns: int, _end_ns: int, _target: TransformTarget
     ) -> bool:
-        """Return False: rows are no chunks."""
+        """Return False, because rows are not chunks."""
         return False
 
     def counted_messages(self) -> int | None:

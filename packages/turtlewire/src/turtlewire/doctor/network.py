@@ -51,7 +51,7 @@ def other_domains(domain: int) -> list[int]:
 
 
 def other_domains_hint(domain: int) -> str:
-    """Say how to reach this computer's nodes on other domains; empty if there are none."""
+    """Say how to reach this computer's nodes on other domains; empty if no other domains exist."""
     others = other_domains(domain)
     if not others:
         return ""

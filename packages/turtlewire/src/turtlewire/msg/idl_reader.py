@@ -172,7 +172,7 @@ class IdlReader(IdlTokens):
         return UnboundedSequence(inner) if size is None else BoundedSequence(inner, size)
 
     def named_type(self, name: str, line: int) -> AbstractType:  # noqa: ARG002
-        """Return the type of a name that is no basic type."""
+        """Return the type of a name that is not a basic type."""
         *scope, last = name.split("::")
         return NamespacedType(tuple(scope), last) if scope else NamedType(last)
 

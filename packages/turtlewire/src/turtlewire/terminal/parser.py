@@ -25,7 +25,7 @@ class Parser(argparse.ArgumentParser):
     """A parser that adds the nearest known words to its error.
 
     Attributes:
-        meant: Returns what a word means that is no command, or an empty string.
+        meant: Returns what a word means that is not a command, or an empty string.
     """
 
     meant: Callable[[str], str] = staticmethod(lambda _word: "")

@@ -35,7 +35,7 @@ __all__ = ["interpolated", "product"]
 
 
 def product(self: Transform, other: Transform) -> Transform:
-    """Return ``a_from_c`` for ``a_from_b @ b_from_c``, with the older stamp; 0 is no stamp.
+    """Return ``a_from_c`` for ``a_from_b @ b_from_c``, with the older stamp; 0 means no stamp.
 
     Raises:
         ValueError: The frames do not meet.
