@@ -14,7 +14,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))  # also where it is loaded by its path
 
-from distributions import ENGINE, ROS
+from distributions import LEARNING, distributions
 from release_checks import check_sdist, check_wheel, make_tools, tagged, tell_sizes, try_wheels
 from release_steps import ROOT, WORK, ReleaseError, output, run, say
 from release_wheels import (
@@ -30,7 +30,7 @@ from release_wheels import (
 )
 from script_options import Parser
 
-PROJECTS = {"turtlewire": ENGINE, "turtlewire-ros": ROS}
+PROJECTS = {folder.name: folder for folder in distributions() if folder != LEARNING}
 
 
 def main() -> int:
@@ -84,9 +84,10 @@ def release(versions: tuple[str, ...], machines: tuple[str, ...], *, dirty: bool
     sources = make_sources(next(iter(builders.values())))
     for target in wheels:
         make_core(tools, builders[target.python], sources["turtlewire"], target)
-    pure = next(iter(builders.values())), sources["turtlewire-ros"], None, WORK / "raw" / "ros"
-    ros = Path(shutil.copy(make_wheel(*pure), WORK))
-    check_wheel(ros, None)
+    builder = next(iter(builders.values()))
+    for name in sources.keys() - {"turtlewire"}:  # they have no compiled module
+        wheel = make_wheel(builder, sources[name], None, WORK / "raw" / name)
+        check_wheel(Path(shutil.copy(wheel, WORK)), None)
     made = sorted([*WORK.glob("*.whl"), *WORK.glob("*.tar.gz")])
     run(tools / "twine", "check", "--strict", *made, what="twine's check")
     for version, python in pythons.items():

@@ -24,7 +24,7 @@ COMPILED = (".so", ".pyd", ".dylib", ".pyc", ".o", ".a")
 
 #: Run in a fresh venv that holds nothing but the wheels and their dependencies.
 TRIAL = """
-import turtlewire, rclpy, tf2_ros, launch
+import turtlewire, turtlewire_view, rclpy, tf2_ros, launch
 from turtlewire.tf.buffer import CORE
 assert CORE == "native", "the wheel has no compiled core"
 buffer = turtlewire.Buffer()
@@ -116,13 +116,13 @@ def try_wheels(version: str, python: str) -> None:
     venv = WORK / "trial" / version
     run(python, "-m", "venv", venv, what="making a venv")
     core = wheel_for(version)
-    [ros] = WORK.glob("turtlewire_ros-*.whl")
+    pure = [next(WORK.glob(f"turtlewire_{name}-*.whl")) for name in ("ros", "view")]
     install = [venv / "bin" / "python", "-m", "pip", "install", "-q"]
     trial = TRIAL + NETWORK
     if version.endswith("t"):
         run(*install, *BUFFER_ONLY, what="what the buffer needs")
-        install, trial = [*install, "--no-deps"], TRIAL.replace(", rclpy, tf2_ros, launch", "")
-    run(*install, core, ros, what=f"installing the wheels for Python {version}")
+        install, trial = [*install, "--no-deps"], TRIAL.replace(", turtlewire_view, rclpy, tf2_ros, launch", "")
+    run(*install, core, *pure, what=f"installing the wheels for Python {version}")
     clean = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     command = [venv / "bin" / "python", "-I", "-c", trial]
     run(*command, what=f"the trial on Python {version}", environment=clean, folder=venv)
