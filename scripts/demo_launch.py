@@ -12,8 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 # It sends the interrupt again when Python has dropped a KeyboardInterrupt.
-import rclpy.excepthooks  # noqa: F401
-
+import rclpy.impl.excepthooks  # noqa: F401
 from turtlewire_ros.process_family import ProcessFamily
 
 if TYPE_CHECKING:

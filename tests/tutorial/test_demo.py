@@ -19,9 +19,9 @@ DEMO = SCRIPTS / "demo.py"
 VICTIMS = {
     "turtle_tf2_broadcaster-2": "a broadcaster has stopped",
     "turtle_tf2_broadcaster-3": "a broadcaster has stopped",
-    "turtle_tf2_listener-4": "nothing heard of the listener's commands to turtle2",
+    "turtle_tf2_listener-4": "no messages of the listener's commands to turtle2",
     "turtlesim_node-1": (
-        "nothing heard of turtle[12]|a broadcaster has stopped|the transform between the turtles"
+        "no messages of turtle[12]|a broadcaster has stopped|the transform between the turtles"
         "|the listener's commands"
     ),
 }

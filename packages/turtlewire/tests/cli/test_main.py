@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from tests import places
 from turtlewire import msg, wire
 from turtlewire.cli.bag_commands import what_to_do_with_bag
 from turtlewire.cli.main import main
@@ -17,7 +18,7 @@ from turtlewire.tf.listener import STATIC_QOS
 from turtlewire.wire.base import TypeId
 
 COMMAND = Path(sys.executable).parent / "turtlewire"
-BAG = Path(__file__).parents[1] / "golden/bag/d_mcap"
+BAG = places.GOLDEN / "bag/d_mcap"
 SHOW_BAG = f"Its transforms: turtlewire bag tf {BAG}; what is in it: ros2 bag info {BAG}; "
 TF = TypeId("tf2_msgs/msg/TFMessage", msg.type_hash("tf2_msgs/msg/TFMessage"))
 

@@ -567,7 +567,7 @@ def test_echo_escapes_names_that_would_steer_the_terminal(tool, listening, stamp
     broadcaster = StaticTransformBroadcaster(node)
     broadcaster.sendTransform([stamped(STEERING, "world"), stamped("elsewhere", "robot")])
     process = tool("tf2_echo", "world", "robot")
-    text = read_until(process, r"belongs to the tree of root", "stderr")
+    text = read_until(process, r"is in the tree with the root", "stderr")
     assert STEERING_SHOWN in text
     assert "\x1b]0" not in text
 

@@ -242,9 +242,7 @@ def test_a_crowd_says_why_it_takes_time_to_leave(make_world, monkeypatch, capfd)
     world.sim.spawn(1.0, 1.0, 0.0, "turtle2")
     lines(capfd)
     rclpy.try_shutdown()
-    assert lines(capfd) == [
-        "[INFO] Taking 2 turtles off the graph, which takes the middleware a few seconds"
-    ]
+    assert lines(capfd) == ["[INFO] Removing 2 turtles from the graph, which takes a few seconds"]
 
 
 def test_a_wrong_port_is_said_before_anything_is_announced(monkeypatch, capfd):
