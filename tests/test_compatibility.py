@@ -279,7 +279,7 @@ teleop silently publishes in a domain without subscriptions
 an error in a launch file does not include its position
   launch/test_launch_files.py test_errors_in_files_are_named_with_their_lines
 colcon builds a package whose `package.xml` cannot be read, as one that ROS does not find
-  turtlewire_ros/test_colcon_ament.py test_a_broken_manifest_is_named_with_its_line
+  test_colcon_ament.py test_a_broken_manifest_is_named_with_its_line
 SIGTERM and a single SIGINT of `ros2 run` leave the executable running
   ros2cli/test_run_command.py test_a_signal_to_ros2_run_ends_the_executable
 a playback that begins at an offset, paused or after a seek loses the latched messages from before
@@ -395,14 +395,14 @@ RViz loads meshes from any file and from `http`
   view/test_robot_model.py test_addresses_that_are_refused
 `ament_cmake` packages need CMake
   robots/test_urdf_tutorial.py test_the_workspace_is_known
-  turtlewire_ros/test_cmake.py test_installed_files
-  turtlewire_ros/test_colcon_ament.py test_scripts_modules_and_launch_files
+  test_cmake.py test_installed_files
+  test_colcon_ament.py test_scripts_modules_and_launch_files
 pip cannot install `ament_cmake` packages
-  turtlewire_ros/test_pip_install.py test_packages_are_built_after_those_that_they_need
-  turtlewire_ros/test_colcon_ament.py test_pip_installs_such_packages
+  test_pip_install.py test_packages_are_built_after_those_that_they_need
+  test_colcon_ament.py test_pip_installs_such_packages
 `ament_add_gtest` and linters are tests of `colcon test`
   turtlewire_ros/test_pytest_plugin.py test_tests_of_absent_linters_are_skipped
-  turtlewire_ros/test_cmake.py test_targets_without_compilation_pass
+  test_cmake.py test_targets_without_compilation_pass
 xacro (PyPI, 2.1)
   robots/test_urdf_tutorial.py test_every_model_is_displayed
 roslibpy (PyPI, 2.1)
@@ -420,13 +420,13 @@ yourdfpy (PyPI)
   urdf/test_kinematics.py test_as_yourdfpy
 colcon, catkin-pkg (`python3-catkin-pkg`), rosdep (PyPI)
   turtlewire_ros/test_prefix.py test_catkin_pkg_reads_our_manifests
-  turtlewire_ros/test_colcon_ament.py test_colcon_test_runs_what_the_package_adds
+  test_colcon_ament.py test_colcon_test_runs_what_the_package_adds
   tutorial/test_terminal.py test_the_five_commands
 rosbridge_suite, rosapi, nav2_common, diagnostic_updater's Python part, joint_state_publisher, urdf_tutorial
-  turtlewire_ros/test_colcon_ament.py test_scripts_modules_and_launch_files
-  turtlewire_ros/test_colcon_ament.py test_data_templates_extras_and_hooks
+  test_colcon_ament.py test_scripts_modules_and_launch_files
+  test_colcon_ament.py test_data_templates_extras_and_hooks
 geographic_msgs, control_msgs, nav2_msgs, test_msgs
-  turtlewire_ros/test_colcon_ament.py test_interfaces_with_extras_bounds_defaults_and_idl
+  test_colcon_ament.py test_interfaces_with_extras_bounds_defaults_and_idl
 `xacro` in `Command` must be in PATH
   robots/test_examples.py test_the_walker_walks
 """
