@@ -282,7 +282,7 @@ class SingleThreadedExecutor(Executor):
 class MultiThreadedExecutor(Executor):
     """Runs callbacks in a pool of threads; the thread that spins waits and hands out.
 
-    What a callback raises leaves ``spin`` in the spinning thread.
+    Exceptions from callbacks propagate out of ``spin``.
 
     Args:
         num_threads: Size of the pool; None takes the number of processors that this process may

@@ -90,7 +90,7 @@ class _Arrivals:
         return self._count + (0 if intake is None else intake.stored())
 
     def expect(self, call: Callable[[], None], intake: Intake | None) -> None:
-        """Have ``call()`` called once after the next message."""
+        """Call ``call()`` once, after the next message."""
         # In this order: a message that comes between both steps finds the call.
         with self._lock:
             self._calls[call] = None
@@ -233,7 +233,7 @@ class _Channel:
         return self._arrivals.total(None if feed is None else feed.intake)
 
     def expect(self, call: Callable[[], None]) -> None:
-        """Have ``call()`` called once after the next message; it may come without one, too."""
+        """Call ``call()`` once, after the next message; it may come without one, too."""
         feed = self._feed
         self._arrivals.expect(call, None if feed is None else feed.intake)
 
