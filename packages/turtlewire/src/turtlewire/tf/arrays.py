@@ -43,7 +43,8 @@ def pose_matrix(transform: HasPose) -> NDArray[np.float64]:
 
     It multiplies column vectors from the left.
     """
+    rows = quaternions.matrix(transform.rotation)
     matrix = np.eye(4)
-    matrix[:3, :3] = np.reshape(quaternions.matrix(transform.rotation), (3, 3))
+    matrix[:3, :3] = (rows[:3], rows[3:6], rows[6:])
     matrix[:3, 3] = transform.translation
     return matrix
