@@ -27,6 +27,7 @@ module                     what it holds
 `plain`                    the plain-Python twin of the compiled core
 `status`                   `LookupStatus`: one answer of a batch lookup
 `listener`                 `TransformListener`: puts the bytes of TF messages into buffers
+`full_buffers`             warnings of buffers that take no more frames
 `publisher_names`          the node that published a message
 `links`                    the links of a buffer with rates and ages
 `faults`                   refused transforms, malformed messages, and conflicts of senders
