@@ -37,7 +37,7 @@ def test_commands(text, command):
         ("[]", "expected an object whose type is one of set, randomize, center, play"),
         ('{"type": "reset"}', "expected an object"),
         ('{"type": "set", "joint": "a"}', "set has joint, position; got joint"),
-        ('{"type": "set", "joint": 1, "position": 1}', "joint is a text"),
+        ('{"type": "set", "joint": 1, "position": 1}', "joint must be a string"),
         ('{"type": "set", "joint": "a", "position": NaN}', "position is a finite number"),
         (
             '{"type": "set", "joint": "a", "position": 1%s}' % ("0" * 400),
