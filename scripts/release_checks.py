@@ -121,7 +121,8 @@ def try_wheels(version: str, python: str) -> None:
     trial = TRIAL + NETWORK
     if version.endswith("t"):
         run(*install, *BUFFER_ONLY, what="what the buffer needs")
-        install, trial = [*install, "--no-deps"], TRIAL.replace(", turtlewire_view, rclpy, tf2_ros, launch", "")
+        install = [*install, "--no-deps"]
+        trial = TRIAL.replace(", turtlewire_view, rclpy, tf2_ros, launch", "")
     run(*install, core, *pure, what=f"installing the wheels for Python {version}")
     clean = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     command = [venv / "bin" / "python", "-I", "-c", trial]

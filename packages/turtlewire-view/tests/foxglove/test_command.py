@@ -52,7 +52,7 @@ def test_a_port_in_use_is_named_with_the_way_out(foxglove):
         assert program.wait() == 2
     assert program.text == (
         f"turtlewire foxglove: port {port} of 127.0.0.1 is in use, perhaps by another Foxglove "
-        "server.\n--port N takes another one, --port 0 a free one."
+        "server.\n--port N uses another port, --port 0 a free one."
     )
 
 

@@ -60,7 +60,7 @@ def test_meshes_of_installed_packages_are_found(bridge, client):
 @pytest.mark.parametrize(
     ("parameters", "reason"),
     [
-        ({"tls": True}, "tls is not offered here"),
+        ({"tls": True}, "tls is not supported"),
         ({"port": 70_000}, "port 70000 does not exist"),
         ({"topic_whitelist": ["("]}, r"topic_whitelist '\(' is not a regular expression"),
         ({"capabilities": ["fly"]}, "there is no capability 'fly'; choose from clientPublish"),

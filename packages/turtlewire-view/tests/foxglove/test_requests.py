@@ -230,7 +230,7 @@ def test_wrong_parameters_are_answered_with_a_reason(serve, client, tuned):
         "1e999": "parameter /arm/tuned.count was not set: Wrong parameter type",
         "99999999999999999999": "parameter /arm/tuned.count: 99999999999999999999 does not fit",
         '[1, "a"]': "parameter /arm/tuned.count: the items of a list are of different types",
-        '{"a": 1}': "parameter /arm/tuned.count: a parameter is a bool, a number, a text or a list",
+        '{"a": 1}': "parameter /arm/tuned.count: a parameter must be a bool, a number, a string or a list",
     }.items():
         one.socket.send(
             '{"op": "setParameters", "parameters": [{"name": "/arm/tuned.count", "value": '
@@ -367,11 +367,17 @@ def test_missing_capability_is_rejected(serve, client, robot):
     assert "supportedEncodings" not in info
     for op in ("advertise", "getParameters", "subscribeParameterUpdates", "fetchAsset"):
         one.send(op)
-        assert one.status()[1].startswith(f"{op} is not offered: ")
+        assert one.status()[1].startswith(f"{op} is not supported: ")
     one.socket.send(b"\x01\x01\0\0\0{}")
-    assert one.status() == (2, "to publish is not offered: clientPublish is no capability here")
+    assert one.status() == (
+        2,
+        "publishing is not supported: the server does not have the capability clientPublish",
+    )
     one.call(1, 1, b"{}")
-    assert one.status() == (2, "to call services is not offered: services is no capability here")
+    assert one.status() == (
+        2,
+        "calling services is not supported: the server does not have the capability services",
+    )
 
 
 def test_a_reliable_clock_is_not_needed(serve, client, robot):

@@ -138,7 +138,7 @@ def test_a_map_moves_with_its_frame(scene):
     message = grid([0, 0, 0, 0])
     message.header.frame_id = "carrier"
     scene.show("occupancy_grid", message, alpha=1.0)
-    scene.expect_status("No transform tells where the map's frame 'carrier' is")
+    scene.expect_status("No transform from the map's frame 'carrier'")
     scene.source.put_frame("map", "carrier", (0, 0, 0))
     scene.expect(((0.5, 0, 0), WHITE), ((2.5, 0, 0), GROUND))
     scene.expect_no_status("No transform")
@@ -334,7 +334,7 @@ def test_a_texture_that_is_none(scene):
     message = textured("embedded://four")
     message.texture.data = b"no image"
     scene.show("marker", message)
-    scene.expect_status("marker n/1: 'embedded://four' is no image that this browser can read")
+    scene.expect_status("marker n/1: 'embedded://four' is not an image that this browser can read")
 
 
 def stl(*triangles):
@@ -392,7 +392,7 @@ def test_materials_of_an_obj_file(scene):
 def test_lost_materials_of_an_obj_file(scene, shown_page):
     scene.show("marker", marker(10, mesh_resource="package://arm/meshes/lost.obj"))
     scene.expect_red((1.2, 0.2, 0))
-    scene.expect_status("'package://arm/meshes/lost.obj' asks for 'none.mtl', which cannot be")
+    scene.expect_status("'package://arm/meshes/lost.obj' needs 'none.mtl', which cannot be")
     (answer,) = shown_page[2]  # the browser itself tells of the file that there is not
     assert "404" in answer
     shown_page[2].clear()

@@ -124,7 +124,7 @@ def test_missing_bytes_and_fields_are_said():
     assert status.level == "warn"
     assert "10 x 1 points of 12 bytes, which are 120 bytes, and holds 51" in status.text
     (status,) = PointCloudDisplay().content(cloud({"x": np.zeros(2, "f4"), "y": np.zeros(2, "f4")}))
-    assert status.text == "the cloud has no field z to place points by; its fields: x, y"
+    assert status.text == "the cloud has no field z for positions; its fields: x, y"
 
 
 def test_a_claim_of_billions_of_points_takes_no_memory():

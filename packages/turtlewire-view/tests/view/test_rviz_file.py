@@ -107,10 +107,10 @@ def test_a_file_of_rviz_is_read():
     [
         ("", "holds no properties"),
         ("- a", "holds no properties"),
-        ("a: [", "the file is no YAML"),
+        ("a: [", "the file is not YAML"),
         ("a: 1", "has no 'Visualization Manager'"),
-        ("!!python/object/apply:os.system [echo]", "the file is no YAML"),
-        ("\x00", "the file is no YAML"),
+        ("!!python/object/apply:os.system [echo]", "the file is not YAML"),
+        ("\x00", "the file is not YAML"),
         ("x" * 2_000_000, "too many for a .rviz file"),
         ("[" * 100_000, "^the file is not YAML: nested too deeply$"),
     ],

@@ -168,7 +168,7 @@ def test_a_file_that_is_no_view_is_a_line(scene, tmp_path):
     file.write_text("Displays: {")
     scene.page.set_input_files("#view-file", file)
     scene.page.wait_for_function(
-        "() => document.querySelector('#notice').textContent.startsWith('This is no view: ')",
+        "() => document.querySelector('#notice').textContent.startsWith('This is not a view: ')",
         timeout=LIMIT_MS,
     )
 

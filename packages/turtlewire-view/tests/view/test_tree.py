@@ -78,8 +78,8 @@ def test_a_link_that_ended_is_named():
     found = relation(buffer, "base", "stopped", 0)
     assert "extrapolation into the past" in found["error"]
     assert found["hint"] == (
-        "The last transform of 'stopped' is 29 s older than that of 'base', of which 3 s are kept. "
-        "Does /old_node still publish 'stopped'?"
+        "The last transform of 'stopped' is 29 s older than the last transform of 'base', of which "
+        "3 s are kept. Does /old_node still publish 'stopped'?"
     )
 
 

@@ -108,7 +108,7 @@ def test_a_middleware_that_is_not_here_is_one_line_and_cyclone_is_taken(theirs: 
     ("asked", "missing", "taken", "said"),
     [
         ("rmw_zenoh_cpp", "zenoh", "CycloneContext", "pip install 'turtlewire[zenoh]'"),
-        ("", "cyclonedds", "ZenohContext", "Zenoh is taken"),
+        ("", "cyclonedds", "ZenohContext", "Zenoh is used"),
         ("rmw_zenoh_cpp", "", "ZenohContext", ""),
     ],
 )
@@ -271,7 +271,7 @@ def test_static_peer_fatal_to_cyclone_is_skipped_with_a_warning(peer: str):
     )
     assert (done.returncode, done.stdout) == (0, "alive\n")
     [line] = done.stderr.splitlines()
-    assert f"ROS_STATIC_PEERS: {peer} is left out" in line
+    assert f"ROS_STATIC_PEERS: {peer} is ignored" in line
 
 
 @pytest.mark.parametrize("chosen", ["LOCALHOST", "SUBNET", "OFF", "SYSTEM_DEFAULT"])

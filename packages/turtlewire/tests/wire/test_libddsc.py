@@ -111,7 +111,7 @@ def test_an_unknown_version_is_told_and_not_taken(system, monkeypatch, version):
     found, [sentence] = find_libddsc()
     assert found is None
     assert str(path) in sentence
-    assert sentence.endswith("is not taken: only 11.0 and 0.10 are known here")
+    assert sentence.endswith("is not used: only 11.0 and 0.10 are supported")
 
 
 def run_python(code: str, **environment: str) -> subprocess.CompletedProcess[str]:

@@ -191,7 +191,7 @@ def test_values_of_parameters(nodes):
             [{"x": ParameterValue("a", value_type=bool)}],
             "Expected one of 'yes|true|on|no|false|off', got 'a'",
         ),
-        ([{"x": ParameterValue("a", value_type=list[int])}], "'a' is no list of int"),
+        ([{"x": ParameterValue("a", value_type=list[int])}], "'a' is not a list of int"),
     ],
 )
 def test_values_that_parameters_do_not_have(launch, show, parameters, message):

@@ -270,6 +270,8 @@ class Scheduler:
         if not entity._GATED:
             return
         entity.callback_group.ending_execution(entity)
+        # A callback of this group may have freed another one: programs write groups of their own.
+        self.resume_paused()
         entity.callback_group._rclpy_wake_schedulers()
 
     def resume_paused(self) -> None:

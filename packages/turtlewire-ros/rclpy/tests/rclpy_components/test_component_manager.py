@@ -172,8 +172,14 @@ def test_unloading(call):
         (f"{MODULE}.Fails", "ValueError: no battery"),
         (f"{MODULE}.Nobody", "AttributeError: module 'test_components' has no attribute 'Nobody'"),
         ("no_such_module.Talker", "ModuleNotFoundError: No module named 'no_such_module'"),
-        (f"{MODULE}.NoNode", "TypeError: 'test_components.NoNode' makes a dict, which is no node"),
-        ("Talker", "ValueError: 'Talker' is no component of test; expected 'package.module.Class'"),
+        (
+            f"{MODULE}.NoNode",
+            "TypeError: 'test_components.NoNode' creates a dict, which is not a node",
+        ),
+        (
+            "Talker",
+            "ValueError: 'Talker' is not a component of test; expected 'package.module.Class'",
+        ),
     ],
 )
 def test_unloadable_files(call, plugin, message):

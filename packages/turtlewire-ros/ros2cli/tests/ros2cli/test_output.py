@@ -121,7 +121,7 @@ def test_node_info_of_a_hostile_peer(monkeypatch, capsys):
     text, told = capsys.readouterr()
     assert "    /x\\nPublisher count: 9: a/msg/T\\n/forged\n" in text
     assert "    /s\\nrv: a/msg/T\\n/forged\n" in text
-    assert told.startswith(r"The services of /\x1b]0;owned\x07\x1b[2J\nnode, those of parameters")
+    assert told.startswith(r"The services of /\x1b]0;owned\x07\x1b[2J\nnode, including parameters")
     assert "it runs on Fast DDS. Start the node with RMW_IMPLEMENTATION=rmw_cyclonedds_cpp" in told
 
 

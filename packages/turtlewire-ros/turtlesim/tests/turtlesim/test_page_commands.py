@@ -80,7 +80,7 @@ def test_commands(message, command):
         ('{"type": ["drive"]}', "type is one of"),
         ('{"type": "kill"}', "kill has turtle; got no fields"),
         ('{"type": "clear", "x": 1}', "clear has no fields; got x"),
-        ('{"type": "kill", "turtle": 3}', "turtle is a text"),
+        ('{"type": "kill", "turtle": 3}', "turtle must be a string"),
         ('{"type": "kill", "turtle": "' + 300 * "x" + '"}', "at most 255"),
         ('{"type": "drive", "turtle": "t", "linear": NaN, "angular": 0}', "linear is a number"),
         ('{"type": "drive", "turtle": "t", "linear": 1e400, "angular": 0}', "linear is a number"),

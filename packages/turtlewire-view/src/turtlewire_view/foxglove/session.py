@@ -174,10 +174,10 @@ class FoxgloveSession:
     def _receive_binary(self, frame: bytes) -> None:
         parsed = protocol.parse_binary(frame)
         if isinstance(parsed, ClientMessage):
-            self._require("clientPublish", "to publish")
+            self._require("clientPublish", "publishing")
             self._publishing.publish(parsed.channel_id, parsed.payload)
         else:
-            self._require("services", "to call services")
+            self._require("services", "calling services")
             self._call_service(parsed)
 
     def _require(self, capability: str, what: str) -> None:

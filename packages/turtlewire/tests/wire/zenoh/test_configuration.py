@@ -123,7 +123,10 @@ def test_a_file_replaces_all(monkeypatch: pytest.MonkeyPatch, tmp_path):
     [
         ('listen/endpoints=["tcp/192.0.2.1:7000"]', "TCP listener bound to tcp/192.0.2.1:7000"),
         ('connect/endpoints=["udpp/127.0.0.1:3"]', "not supported for udpp protocol"),
-        ('mode="client";connect/endpoints=["tcp/127.0.0.1"]', "tcp/127.0.0.1 is no address"),
+        (
+            'mode="client";connect/endpoints=["tcp/127.0.0.1"]',
+            "tcp/127.0.0.1 is not a reachable address",
+        ),
         (  # at the usual address, a router of another test might be found
             'mode="client";connect/endpoints=[];scouting/multicast/address="224.0.0.224:47017"',
             "connect/endpoints names no router",

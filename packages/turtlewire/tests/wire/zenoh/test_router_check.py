@@ -84,4 +84,4 @@ def test_a_number_that_is_none(port, monkeypatch, capfd):
     monkeypatch.setenv("ZENOH_ROUTER_CHECK_ATTEMPTS", "often")
     open_and_close()
     [line] = capfd.readouterr().err.splitlines()
-    assert "ZENOH_ROUTER_CHECK_ATTEMPTS is no whole number" in line
+    assert "ZENOH_ROUTER_CHECK_ATTEMPTS is not an integer" in line

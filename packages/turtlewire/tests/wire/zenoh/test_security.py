@@ -174,7 +174,7 @@ def test_a_peer_without_a_certificate_sees_nothing(router, client, run, ended, f
         "the other side requires a certificate (mutual TLS), but none was presented"
         in without.stderr
     )
-    refusing.wait_for("refused a connection: it shows no certificate")
+    refusing.wait_for("refused a connection: it presents no certificate")
     beside = ended("ros2 node list", RMW_IMPLEMENTATION="rmw_zenoh_cpp")
     assert (beside.returncode, beside.stdout) == (0, "")
 
@@ -274,7 +274,7 @@ def test_no_user_and_password(router, client, ended):
     failed = ended(client(MUTUAL))
     assert failed.returncode == 1
     assert "the peer at that address opened no session" in failed.stderr
-    assert "wants a user and password" in failed.stderr
+    assert "requires a user and password" in failed.stderr
     refusing.wait_for("it gives no user and password")
 
 
