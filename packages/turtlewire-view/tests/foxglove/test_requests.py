@@ -230,7 +230,9 @@ def test_wrong_parameters_are_answered_with_a_reason(serve, client, tuned):
         "1e999": "parameter /arm/tuned.count was not set: Wrong parameter type",
         "99999999999999999999": "parameter /arm/tuned.count: 99999999999999999999 does not fit",
         '[1, "a"]': "parameter /arm/tuned.count: the items of a list are of different types",
-        '{"a": 1}': "parameter /arm/tuned.count: a parameter must be a bool, a number, a string or a list",
+        '{"a": 1}': (
+            "parameter /arm/tuned.count: a parameter must be a bool, a number, a string or a list"
+        ),
     }.items():
         one.socket.send(
             '{"op": "setParameters", "parameters": [{"name": "/arm/tuned.count", "value": '
