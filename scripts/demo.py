@@ -8,6 +8,7 @@ if __name__ == "__main__":
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # until there are processes to stop
 
 import os
+import shlex
 import sys
 import time
 from typing import TYPE_CHECKING
@@ -80,10 +81,9 @@ def greet() -> None:
     )
     print(f"[demo] ROS domain {domain}, discovery range {discovery.range.name} ({reach})")
     print("[demo] drive turtle1 with the arrow keys, in the page or in a second terminal:")
-    print(
-        f"[demo]     export PATH={VENV / 'bin'}:$PATH"
-        + (f" ROS_DOMAIN_ID={domain}" if domain else "")
-    )
+    print(f"[demo]     source {shlex.quote(str(VENV / 'setup.bash'))}")
+    if domain:
+        print(f"[demo]     export ROS_DOMAIN_ID={domain}")
     print("[demo]     ros2 run turtlesim turtle_teleop_key")
     print("[demo] Ctrl-C ends it", flush=True)
     if other_demo_runs(domain):

@@ -64,6 +64,7 @@ def test_the_demo_reports_and_ends_at_ctrl_c_with_all_its_processes(run, termina
     demo = run(sys.executable, DEMO, environment=environment, terminal=terminal)
     domain = os.environ["ROS_DOMAIN_ID"]
     demo.wait_for(rf"ROS domain {domain}, discovery range LOCALHOST \(this computer only")
+    demo.wait_for(r"source \S+/\.venv/setup\.bash")
     demo.wait_for("ros2 run turtlesim turtle_teleop_key")
     demo.wait_for(r"The field is shown at http://127\.0\.0\.1:\d+/")
     demo.wait_for(r"\[demo\] turtle2 follows turtle1, \d+\.\d\d m away")
