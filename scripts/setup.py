@@ -138,7 +138,9 @@ def usable(stamp: dict[str, Any], wanted: dict[str, Any]) -> bool:
 
 
 def read_stamp() -> dict[str, Any]:
-    """Return what was installed last; nothing if .venv is missing or was not made by this."""
+    """Return what was installed last; nothing if .venv is missing, broken or not made by this."""
+    if not PYTHON.exists():  # the link leads nowhere when its Python was removed
+        return {}
     try:
         stamp: dict[str, Any] = json.loads(STAMP.read_text(encoding="utf-8"))
     except (OSError, ValueError):

@@ -64,6 +64,32 @@ def test_nothing_is_done_twice(setup):
     assert len(setup.calls) == 2
 
 
+def test_a_venv_whose_python_is_gone_is_made_anew(setup, monkeypatch, tmp_path):
+    setup.main([])
+    assert setup.missing([])[1] == {}
+    (tmp_path / "python").symlink_to(tmp_path / "removed")
+    monkeypatch.setattr(setup, "PYTHON", tmp_path / "python")
+    assert setup.missing([])[0] == {}
+    assert setup.missing([])[1]
+
+
+@pytest.mark.parametrize(
+    ("stamp", "expected"),
+    [
+        ({}, True),  # by hand, or by an interrupted set-up
+        ({"python": "3", "distributions": ["a"]}, True),
+        ({"python": "3", "distributions": ["b"]}, False),
+        ({"python": "3"}, False),
+        ({"python": "4", "distributions": ["a"]}, False),
+    ],
+)
+def test_another_python_or_other_distributions_need_a_new_venv(module, stamp, expected):
+    spec = importlib.util.spec_from_file_location("setup_itself", SETUP)
+    script = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(script)
+    assert script.usable(stamp, {"python": "3", "distributions": ["a"]}) == expected
+
+
 def test_ci_installs_what_is_locked_first(setup, monkeypatch):
     monkeypatch.setenv("CI", "true")
     setup.main(["test"])
