@@ -109,8 +109,8 @@ def install(extras: Sequence[str], *, only_extras: bool) -> None:
     workspace = "[workspace]" if "workspace" in extras else ""
     words = [f"turtlewire-colcon{workspace}"]
     if not only_extras:
-        folders = dict.fromkeys(distributions(), "") | {COLCON: workspace}
-        words = [word for folder, extra in folders.items() for word in ("-e", f"{folder}{extra}")]
+        folders = [f"{path}{workspace if path == COLCON else ''}" for path in distributions()]
+        words = [word for folder in folders for word in ("-e", folder)]
     for name in extras:
         if name != "workspace":
             words += ["--group", f"{ROOT / 'pyproject.toml'}:{name}"]
