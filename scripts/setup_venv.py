@@ -107,7 +107,8 @@ def version_of(text: str) -> tuple[int, ...]:
 def install(extras: Sequence[str], *, only_extras: bool) -> None:
     """Install our distributions editable, unless they are there, and the extras."""
     workspace = "[workspace]" if "workspace" in extras else ""
-    words = [f"turtlewire-colcon{workspace}"]
+    # A distribution whose folder was deleted is left out.
+    words = [f"turtlewire-colcon{workspace}" if COLCON.is_dir() else "turtlewire"]
     if not only_extras:
         folders = [f"{path}{workspace if path == COLCON else ''}" for path in distributions()]
         words = [word for folder in folders for word in ("-e", folder)]
