@@ -249,7 +249,7 @@ def test_a_static_peer_that_nobody_knows_is_left_out_with_one_warning(
         assert peers(configuration(Discovery(Range.LOCALHOST, ("robot",)))) == ["127.0.0.1"]
     [line] = capsys.readouterr().err.splitlines()
     assert line.endswith(
-        "ROS_STATIC_PEERS: robot is left out, it has no IPv4 address: Name or service not known"
+        "ROS_STATIC_PEERS: robot is ignored, it has no IPv4 address: Name or service not known"
     )
 
 

@@ -116,7 +116,7 @@ def _resolved(peer: str) -> str:
     except (OSError, UnicodeError) as error:
         warn_once(
             f"static peer {peer}",
-            f"ROS_STATIC_PEERS: {peer} is left out, it has no IPv4 address: {error.args[-1]}",
+            f"ROS_STATIC_PEERS: {peer} is ignored, it has no IPv4 address: {error.args[-1]}",
         )
         return ""
     if address == "0.0.0.0":  # noqa: S104 - nothing is bound to it
