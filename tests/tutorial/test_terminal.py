@@ -149,7 +149,7 @@ def drive(turtles, teleop, key, arrived):
 def test_the_five_commands(bash, turtles):
     built(bash)
     launch = bash(
-        "source install/local_setup.bash", "ros2 launch learning_tf2_py turtle_tf2_demo.launch.py"
+        "source install/setup.bash", "ros2 launch learning_tf2_py turtle_tf2_demo.launch.py"
     )
     launch.wait_for("Could not retrieve transform")  # the listings spawn no turtle2
     spawn = bash(
@@ -181,7 +181,7 @@ PACKAGE = """
 cd src && ros2 pkg create --build-type ament_python --node-name n p > /dev/null && cd ..
 rosdep install -i --from-path src --rosdistro jazzy -y
 colcon build --symlink-install --packages-select p
-source install/local_setup.bash
+source install/setup.bash
 ros2 run p n
 sed -i 's/Hi from/Hello from/' src/p/p/n.py
 ros2 run p n

@@ -435,7 +435,7 @@ def test_pip_installs_such_packages(tmp_path):
     for name in ("macro_tool", "bridge_msgs"):
         shutil.copytree(PACKAGES_HERE / "good" / name, tmp_path / name)
     (tmp_path / "macro_tool/pyproject.toml").write_text(
-        '[build-system]\nrequires = ["turtlewire-ros"]\n'
+        '[build-system]\nrequires = ["turtlewire-colcon"]\n'
         'build-backend = "turtlewire_colcon.build_backend"\n'
     )
     script = """

@@ -85,9 +85,8 @@ def _print_section(title: str, found: list[tuple[str, list[str]]]) -> None:
 
 
 def print_names_and_types(names_and_types: Iterable[tuple[str, list[str]]]) -> None:
-    """Print topics, services or actions with their types, indented."""
-    for name, types in names_and_types:
-        print(f"    {name}: {', '.join(types)}")
+    """Print topics, services or actions with their types, indented; an empty line for none."""
+    print(*(f"    {name}: {', '.join(types)}" for name, types in names_and_types), sep="\n")
 
 
 @verb_of_module
