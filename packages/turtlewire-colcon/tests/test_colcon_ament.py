@@ -417,7 +417,7 @@ def test_each_fault_is_one_line_that_names_file_and_line(tmp_path):
     for name, text in {
         "compiles": ":4: add_executable(talker) compiles C++, which turtlewire does not",
         "fatal": ":4: not on Linux",
-        "misses": ":4: there is no package 'nobody_has_this_msgs'; add it to the workspace, or ",
+        "misses": ":4: there is no package 'nobody_has_this_msgs'; add it to the workspace, ",
         "no_file": ":4: install(FILES): there is no ",
         "no_python": ":5: ament_python_install_package(no_python): there is no folder ",
         "not_closed": ":4: if() has no endif()",

@@ -40,7 +40,7 @@ def test_the_stages_that_run_waits_for_are_shown(browser, host):
     page.goto(host.url)
     page.wait_for_selector("#stages li[data-stage=python][data-state=current]")
     assert page.is_disabled("#run")
-    assert "Run waits for Python" in page.inner_text("#loading-text")
+    assert "Run is waiting for Python" in page.inner_text("#loading-text")
     assert page.inner_text("#status") == "starting Python …"
     wait_until_loaded(page)
     assert page.evaluate("stages") == STAGES

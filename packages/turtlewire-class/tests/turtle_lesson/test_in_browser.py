@@ -273,7 +273,7 @@ def test_a_hidden_fault_is_guessed(open_page):
     page.evaluate("Math.random = () => 0.99")  # the last of the list
     page.click("#surprise")
     page.click("#faults input[value=delay]")
-    assert "not that one" in page.text_content("#guess")
+    assert "Not this one" in page.text_content("#guess")
     page.check("#faults input[value=two_publishers]")
     assert "Two publishers" in page.text_content("#guess")
     page.click("#surprise")  # another one
