@@ -79,7 +79,7 @@ def test_the_search_finds_a_method(open_page):
 
 def test_the_search_finds_an_error(open_page):
     page = open_page("search.html?q=extrapolation+into+the+past")
-    page.locator("#search-results li a", has_text="Errors by their texts").first.wait_for()
+    page.locator("#search-results li a", has_text="Troubleshooting: error messages").first.wait_for()
 
 
 def test_dark_follows_the_system_and_the_button(open_page):
@@ -108,6 +108,6 @@ def test_a_wrong_address_shows_a_page_whose_links_work(open_page, built):
     text = (built / "404.html").read_text(encoding="utf-8")
     page.context.route("**/no/such/page", lambda route: route.fulfill(status=404, body=text))
     page.goto(f"{front}no/such/page")
-    assert page.inner_text("h1").startswith("There is no such page")
+    assert page.inner_text("h1").startswith("Page not found")
     page.get_by_role("link", name="the front page").click()
     page.wait_for_url(f"{front}index.html")
