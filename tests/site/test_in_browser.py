@@ -79,7 +79,9 @@ def test_the_search_finds_a_method(open_page):
 
 def test_the_search_finds_an_error(open_page):
     page = open_page("search.html?q=extrapolation+into+the+past")
-    page.locator("#search-results li a", has_text="Troubleshooting: error messages").first.wait_for()
+    page.locator(
+        "#search-results li a", has_text="Troubleshooting: error messages"
+    ).first.wait_for()
 
 
 def test_dark_follows_the_system_and_the_button(open_page):
