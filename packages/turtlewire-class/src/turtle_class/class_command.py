@@ -5,11 +5,11 @@ The modules that do the work, which need rclpy and turtlesim, are imported when 
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from turtle_class.errors import ClassError
+from turtlewire.terminal.file_arguments import reporting_errors
 from turtlewire.terminal.parser import seconds
 from turtlewire.web.options import add_page_options
 
@@ -19,12 +19,14 @@ if TYPE_CHECKING:
 
 __all__ = ["add_class_command"]
 
+_EXPECTED = (ClassError, OSError)
+
 
 def add_class_command(commands: Any) -> None:
     """Add ``class`` to the command's words."""
     summary = "Show the turtles of many students on one page; grade their exercises"
     parser = commands.add_parser("class", help=summary, description=summary, allow_abbrev=False)
-    parser.set_defaults(run=_reporting_errors(_show), parser=parser)
+    parser.set_defaults(run=reporting_errors("class", _show, _EXPECTED), parser=parser)
     who = parser.add_mutually_exclusive_group()
     who.add_argument(
         "--domains",
@@ -48,7 +50,7 @@ def add_class_command(commands: Any) -> None:
 
 def _verb(verbs: Any, name: str, summary: str, run: Callable[..., int | None]) -> Any:
     parser = verbs.add_parser(name, help=summary, description=summary, allow_abbrev=False)
-    parser.set_defaults(run=_reporting_errors(run), parser=parser)
+    parser.set_defaults(run=reporting_errors("class", run, _EXPECTED), parser=parser)
     return parser
 
 
@@ -120,49 +122,32 @@ def _add_exercises(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _reporting_errors(run: Callable[..., int | None]) -> Callable[[argparse.Namespace], int]:
-    """Call a verb; its errors are one line and status 2."""
-
-    def call(args: argparse.Namespace) -> int:
-        try:
-            return run(args) or 0
-        except (ClassError, OSError) as error:
-            print(f"turtlewire class: {error}", file=sys.stderr)
-            return 2
-
-    return call
-
-
-def _show(args: argparse.Namespace) -> int | None:
+def _show(args: argparse.Namespace) -> None:
     from turtle_class import commands
 
     commands.show(args.domains, args.roster, args.port, lan=args.lan)
-    return None
 
 
-def _grade(args: argparse.Namespace) -> int | None:
+def _grade(args: argparse.Namespace) -> None:
     from turtle_class import commands
 
     commands.grade(args.folder, args.exercise, args.limit, args.output)
-    return None
 
 
-def _check(args: argparse.Namespace) -> int | None:
+def _check(args: argparse.Namespace) -> int:
     from turtle_class import commands
 
     status: int = commands.check(args.folder, args.exercise, args.limit, args.junit)
     return status
 
 
-def _start(args: argparse.Namespace) -> int | None:
+def _start(args: argparse.Namespace) -> None:
     from turtle_class import commands
 
     commands.start(args.folder, args.exercise)
-    return None
 
 
-def _list(args: argparse.Namespace) -> int | None:
+def _list(args: argparse.Namespace) -> None:
     from turtle_class import commands
 
     commands.list_exercises(as_json=args.json)
-    return None

@@ -1,4 +1,4 @@
-"""Makes ROS 2's classes of this distribution's commands and verbs.
+"""Decorators that make ROS 2's classes from modules of commands and verbs.
 
 A verb is a module with ``ARGUMENTS`` and ``main``; a command may have a ``VERB_GROUP`` as well. The
 command line calls the module. These decorators give programs and extensions ROS 2's class of it.
@@ -21,13 +21,13 @@ def verb_of_module(cls: Class) -> Class:
     """Give a class the ``ARGUMENTS`` and the ``main`` of its module."""
     module = sys.modules[cls.__module__]
 
-    def add_arguments(self: Any, parser: argparse.ArgumentParser, cli_name: str) -> None:  # noqa: ARG001
+    def add_arguments(self: Any, parser: argparse.ArgumentParser, cli_name: str) -> None:
         """Define the command line of the verb."""
         from ros2cli import arguments
 
         arguments.add_arguments(parser, getattr(module, "ARGUMENTS", ()))
 
-    def main(self: Any, *, args: Any) -> Any:  # noqa: ARG001
+    def main(self: Any, *, args: Any) -> Any:
         """Run the verb; returns the exit status, the text of an error, or None."""
         return module.main(args)
 
@@ -41,7 +41,7 @@ def command_of_module(cls: Class) -> Class:
     name = cls.__module__
 
     def add_arguments(
-        self: Any,  # noqa: ARG001
+        self: Any,
         parser: argparse.ArgumentParser,
         cli_name: str,
         *,
@@ -52,7 +52,7 @@ def command_of_module(cls: Class) -> Class:
 
         define(parser, cli_name, argv or [], name)
 
-    def main(self: Any, *, parser: argparse.ArgumentParser, args: Any) -> Any:  # noqa: ARG001
+    def main(self: Any, *, parser: argparse.ArgumentParser, args: Any) -> Any:
         """Run the command; prints the help and returns 0 if a verb is missing."""
         module = getattr(args, "module", None)
         if module is None:

@@ -1,4 +1,4 @@
-"""A wait of the main thread that a signal may interrupt at any moment."""
+"""An event for the main thread that a signal cannot leave locked."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class WakeUp:
 
     def set(self) -> None:
         """End the current wait, or the next one at once."""
-        with suppress(RuntimeError):  # it is set already
+        with suppress(RuntimeError):  # already set
             self._lock.release()
 
     def wait(self, timeout: float | None = None) -> bool:
@@ -33,6 +33,6 @@ class WakeUp:
             timeout: Seconds; None for no limit.
 
         Returns:
-            False if the time was over before.
+            False after the timeout.
         """
         return self._lock.acquire(timeout=-1 if timeout is None else max(timeout, 0.0))

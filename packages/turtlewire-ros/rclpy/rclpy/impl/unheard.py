@@ -1,4 +1,4 @@
-"""Warnings for a program whose topic has no other end: it may run on a wrong domain."""
+"""Warnings about topics without a matching endpoint, a sign of a wrong domain."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["warn_if_silent", "warn_if_unheard"]
 
-#: How long a topic may be without its other end: discovery takes less [s].
+#: Time for discovery [s]; it usually takes less.
 _PATIENCE_S = 2.0
 
 
@@ -30,7 +30,7 @@ def warn_if_unheard(
     Args:
         node: The publisher's node.
         publisher: The publisher.
-        warn: Takes the warning; by default the node logs it.
+        warn: Called with the warning; by default the node logs it.
     """
     text = f"No node subscribes to {publisher.topic_name}"
     question = "Is the node that should receive it running?"

@@ -28,7 +28,7 @@ _DISTRIBUTIONS = {
     "foxglove": "turtlewire-view",
     "view": "turtlewire-view",
 }
-#: Programs that are no commands of `turtlewire`.
+#: What to type instead of words that are not commands.
 _NOT_HERE = {
     "demo": "To run the demo: python -m turtlewire.demo; in a clone of turtlewire: scripts/demo",
     "lesson": "To build the lesson, in a clone of turtlewire, and show it: scripts/lesson --serve",

@@ -13,12 +13,12 @@ __all__ = ["complete_bags", "complete_files", "reporting_errors"]
 
 
 def complete_files(prefix: str, **_: Any) -> list[str]:
-    """For the shell: files and folders."""
+    """Complete a word with files and folders."""
     return _complete(prefix, ())
 
 
 def complete_bags(prefix: str, **_: Any) -> list[str]:
-    """For the shell: bags and folders."""
+    """Complete a word with bags and folders."""
     return _complete(prefix, ("mcap", "db3", "zstd"))
 
 
@@ -29,17 +29,29 @@ def _complete(prefix: str, endings: tuple[str, ...]) -> list[str]:
 
 
 def reporting_errors(
-    command: str, run: Callable[[argparse.Namespace], int]
+    command: str,
+    run: Callable[[argparse.Namespace], int | None],
+    expected: tuple[type[Exception], ...] | None = None,
 ) -> Callable[[argparse.Namespace], int]:
-    """Return the function, but what it cannot read is one line on stderr and the exit status 2."""
+    """Wrap ``run``: for an expected error, print one line on stderr and return 2.
+
+    Args:
+        command: The word after ``turtlewire``.
+        run: Returns the exit status; None stands for 0.
+        expected: The expected errors; by default errors of bags, files and transforms.
+    """
 
     def guarded(args: argparse.Namespace) -> int:
         from turtlewire.errors import BagError, TransformException
         from turtlewire.terminal.printable import printable_lines
 
+        caught = expected or (
+            *(BagError, TransformException),
+            *(ModuleNotFoundError, OSError, ValueError),
+        )
         try:
-            return run(args)
-        except (BagError, TransformException, ModuleNotFoundError, OSError, ValueError) as error:
+            return run(args) or 0
+        except caught as error:
             text = _text_of(error)
             if hint := getattr(error, "hint", ""):
                 text = f"{text}{'' if text.rstrip().endswith('.') else '.'} {hint}"
@@ -50,7 +62,7 @@ def reporting_errors(
 
 
 def _text_of(error: Exception) -> str:
-    """Return the error's text; of the system's errors without their number."""
+    """Return the error's message; system errors lose their number."""
     if isinstance(error, OSError) and error.strerror and error.filename:
         return f"{error.filename}: {error.strerror}"
     return str(error)

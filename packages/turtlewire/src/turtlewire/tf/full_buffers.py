@@ -1,4 +1,4 @@
-"""Warnings of buffers that take no more frames."""
+"""Warnings about buffers that are full."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from turtlewire.wire.report import warn
 
 __all__ = ["FullBuffers"]
 
-#: Seconds from one warning of a topic to the next.
+#: Seconds between two warnings about a topic.
 _PERIOD_S = 60.0
-#: Seconds from one look to the next, while there is nothing to warn of: counting takes a while.
+#: Seconds between two counts of the rejected transforms: counting is slow.
 _LOOK_PERIOD_S = 1.0
 
 
 class FullBuffers:
-    """Warns of buffers that refuse frames, at most once a minute.
+    """Warns about buffers that reject frames, at most once a minute.
 
     Args:
         topic: The topic that fills them.
@@ -30,7 +30,7 @@ class FullBuffers:
         self._refused: WeakKeyDictionary[Buffer, int] = WeakKeyDictionary()
 
     def look(self, store: object) -> None:
-        """Warn if a buffer has refused frames since the last warning."""
+        """Warn if a buffer has rejected frames since the last warning."""
         now_s = time.monotonic()
         if not isinstance(store, Buffer) or not store.is_full or now_s < self._next_look_s:
             return
