@@ -10,8 +10,8 @@ import pytest
 from tests.places import GOLDEN
 
 from turtlewire import Buffer
-from turtlewire.bag import load_trajectory
 from turtlewire.errors import BagError, LookupException, WireError
+from turtlewire.trajectory import Trajectory
 
 
 @pytest.mark.parametrize(
@@ -40,7 +40,10 @@ def test_a_traceback_shows_the_hint():
     path = GOLDEN / "bag" / "d_mcap"
     for call, hint in (
         (lambda: Buffer.from_bag(path, topics=["/tf", "/tff"]), "Topics of type tf2_msgs"),
-        (lambda: load_trajectory(path, "/odm"), "Did you mean: /odom. Topics with poses: /goal"),
+        (
+            lambda: Trajectory.from_bag(path, "/odm"),
+            "Did you mean: /odom. Topics with poses: /goal",
+        ),
     ):
         with pytest.raises(BagError) as caught:
             call()

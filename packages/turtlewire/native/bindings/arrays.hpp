@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "../core/samples.hpp"
 #include "gil.hpp"
@@ -26,11 +27,14 @@ bool is_array(nb::handle object, Array& array) {
   return nb::hasattr(object, "__len__") && nb::try_cast(object, array, false);
 }
 
-// numpy.ascontiguousarray(object, dtype)
-nb::object contiguous_array(nb::handle object, const char* dtype);
+// A named tuple of turtlewire.tf.answers.
+nb::object make_answer(const char* name, const nb::tuple& fields);
 
-// int64 stamps from an array or sequence of integers. Floats raise a TypeError, as they cannot hold
-// a present stamp; integers beyond 64 bits raise an OverflowError.
+// The array that a function of turtlewire.tf.array_arguments makes of what a caller passed; its
+// errors say what fits.
+nb::object checked_array(const char* function, nb::handle object);
+
+// int64 stamps from an array or sequence of integers or datetime64.
 Stamps stamps_of(nb::handle object);
 
 // A new array that owns its memory.
@@ -44,17 +48,26 @@ nb::ndarray<nb::numpy, T> new_array(std::initializer_list<std::size_t> shape) {
   return nb::ndarray<nb::numpy, T>(begin, shape, owner);
 }
 
+// As Python writes tuples: (7,) and (5, 7).
+template <typename Extents>
+std::string shape_text(const Extents& extents) {
+  std::string text;
+  for (const std::size_t extent : extents)
+    text += (text.empty() ? "" : ", ") + std::to_string(extent);
+  return "(" + text + (extents.size() == 1 ? ",)" : ")");
+}
+
 // Throws a ValueError that names both shapes unless they are equal.
 template <typename Array>
 void check_shape(const Array& array, std::initializer_list<std::size_t> shape, const char* name) {
-  std::string wanted, given;
-  for (const std::size_t extent : shape)
-    wanted += (wanted.empty() ? "" : ", ") + std::to_string(extent);
-  for (std::size_t i = 0; i < array.ndim(); ++i)
-    given += (given.empty() ? "" : ", ") + std::to_string(array.shape(i));
-  if (wanted == given) return;
-  throw nb::value_error(
-      (std::string(name) + " must have the shape (" + wanted + "), not (" + given + ")").c_str());
+  bool fits = array.ndim() == shape.size();
+  for (std::size_t i = 0; fits && i < shape.size(); ++i) fits = array.shape(i) == shape.begin()[i];
+  if (fits) return;
+  std::vector<std::size_t> given(array.ndim());
+  for (std::size_t i = 0; i < given.size(); ++i) given[i] = array.shape(i);
+  throw nb::value_error((std::string(name) + " must have the shape " + shape_text(shape) +
+                         ", not " + shape_text(given))
+                            .c_str());
 }
 
 }  // namespace turtlewire::python

@@ -13,19 +13,18 @@
 
 #include "../core/batch.hpp"
 #include "arrays.hpp"
+#include "buffer.hpp"
 #include "errors.hpp"
 
 namespace turtlewire::python {
 namespace {
 
-using namespace nb::literals;
-
 using Output = nb::ndarray<double, nb::c_contig, nb::device::cpu>;
-using Statuses = nb::ndarray<std::uint8_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using NewArray = nb::ndarray<nb::numpy, double>;
 
 // The given array, or a new one; `begin` is its first number.
-nb::object output(nb::object out, std::initializer_list<std::size_t> shape, double*& begin) {
+nb::object output(PyObject* given, std::initializer_list<std::size_t> shape, double*& begin) {
+  const nb::object out = nb::borrow(or_none(given));
   if (out.is_none()) {
     const NewArray array = new_array<double>(shape);
     begin = array.data();
@@ -39,45 +38,40 @@ nb::object output(nb::object out, std::initializer_list<std::size_t> shape, doub
   return out;
 }
 
-// The given array of statuses, or one that is thrown away.
-class StatusOutput {
- public:
-  StatusOutput(nb::object given, std::size_t n) : wanted_(!given.is_none()) {
-    if (!wanted_) {
-      own_.resize(n);
-      return;
-    }
-    if (!is_array(given, array_))
-      throw nb::type_error("status must be a writable, C-contiguous uint8 array");
-    check_shape(array_, {n}, "status");
-  }
+// What becomes of rows that have no answer: an exception for the first one, or NaN.
+enum class Errors : std::uint8_t { raise, nan };
 
-  bool wanted() const { return wanted_; }
-  Status* begin() { return wanted_ ? reinterpret_cast<Status*>(array_.data()) : own_.data(); }
+Errors errors_of(PyObject* name) {
+  return choice_of(name, "errors", "raise", "nan") == 0 ? Errors::raise : Errors::nan;
+}
 
- private:
-  bool wanted_;
-  Statuses array_;
-  std::vector<Status> own_;
-};
-static_assert(sizeof(Status) == sizeof(std::uint8_t));
+Stamp beyond_of(PyObject* object) {
+  const Stamp beyond = nanoseconds_or(object, 0, "extrapolate_ns");
+  if (beyond < 0) throw nb::value_error("extrapolate_ns must not be negative");
+  return beyond;
+}
+
+// A frame that may be left out, or None.
+std::optional<std::string_view> frame_if(PyObject* object, const char* what) {
+  if (object == nullptr || object == Py_None) return std::nullopt;
+  return text_of(nb::handle(object), what);
+}
 
 void check_signals() {
   if (taking_gil(PyErr_CheckSignals) != 0) throw nb::python_error();
 }
 
 // Raises what a single lookup at the first stamp without an answer raises.
-[[noreturn]] void raise_first(BufferObject& self, std::string_view target, std::string_view source,
-                              Stamp t, Status status) {
+[[noreturn]] void raise_first(BufferObject& self, const Request& request, Status status) {
   Found found;
   Failure failure;
-  if (self.shared.lookup(Request{target, source, t}, found, failure) == Status::ok) {
+  if (self.shared.lookup(request, found, failure) == Status::ok) {
     failure.status = status;  // the data has changed since
-    failure.target = target;
-    failure.source = source;
-    failure.requested = t;
+    failure.target = request.target;
+    failure.source = request.source;
+    failure.requested = request.t;
   }
-  raise(failure, Question::lookup, nb::find(self).ptr());
+  raise_in_batch(failure, nb::find(self).ptr());
   throw nb::python_error();
 }
 
@@ -110,37 +104,52 @@ void write_matrices(const Lanes& lanes, std::size_t n, double* out) {
   }
 }
 
-// Runs over all stamps in blocks without the GIL; the index of the first stamp without an answer if
-// that ends it.
+struct Fault {
+  std::size_t row;
+  Status status;
+};
+
+// Runs over all stamps in blocks without the GIL; the first stamp without an answer if that ends
+// it.
 template <typename Each>
-std::optional<std::size_t> for_blocks(BatchLookup& lookup, const Stamps& stamps,
-                                      StatusOutput& status, Each each) {
+std::optional<Fault> for_blocks(BatchLookup& lookup, const Stamps& stamps, Errors errors,
+                                Each each) {
   const Unlocked unlocked;
   Lanes poses;
+  Status statuses[kLanes];
   const std::size_t size = stamps.shape(0);
   for (std::size_t begin = 0; begin < size; begin += kLanes) {
     const std::size_t n = std::min(kLanes, size - begin);
-    Status* statuses = status.begin() + begin;
     lookup.block({stamps.data() + begin, n}, poses, statuses);
-    if (!status.wanted()) {
+    if (errors == Errors::raise) {
       const Status* fault =
           std::find_if(statuses, statuses + n, [](Status s) { return s != Status::ok; });
-      if (fault != statuses + n) return begin + static_cast<std::size_t>(fault - statuses);
+      if (fault != statuses + n)
+        return Fault{begin + static_cast<std::size_t>(fault - statuses), *fault};
     }
     each(begin, n, poses);
   }
   return std::nullopt;
 }
 
-nb::object lookup_batch(BufferObject& self, std::string_view target, std::string_view source,
-                        nb::handle stamps_object, bool matrices, nb::object out,
-                        nb::object status_object) {
-  const Stamps stamps = stamps_of(stamps_object);
+constexpr Parameters<7> kLookupTransforms{
+    "lookup_transforms",
+    3,
+    3,
+    {"target_frame", "source_frame", "stamps", "errors", "extrapolate_ns", "matrices", "out"}};
+
+nb::object lookup_transforms(BufferObject& self, const Values<7>& given) {
+  const auto [target_frame, source_frame, when, errors_name, extrapolate, as_matrices, out] = given;
+  const std::string_view target = text_of(nb::handle(target_frame), "target_frame"),
+                         source = text_of(nb::handle(source_frame), "source_frame");
+  const Errors errors = errors_of(errors_name);
+  const Stamp beyond = beyond_of(extrapolate);
+  const bool matrices = is_true(as_matrices);
+  const Stamps stamps = stamps_of(when);
   const std::size_t n = stamps.shape(0);
   double* begin = nullptr;
   nb::object result = matrices ? output(out, {n, 4, 4}, begin) : output(out, {n, 7}, begin);
-  StatusOutput status(status_object, n);
-  BatchLookup lookup(self.shared, target, source);
+  BatchLookup lookup(self.shared, target, source, beyond);
   const auto write = [&](std::size_t first, std::size_t count, const Lanes& poses) {
     if (matrices) {
       write_matrices(poses, count, begin + 16 * first);
@@ -148,16 +157,19 @@ nb::object lookup_batch(BufferObject& self, std::string_view target, std::string
       write_poses(poses, count, begin + 7 * first);
     }
   };
-  const auto fault = for_blocks(lookup, stamps, status, write);
-  if (fault) raise_first(self, target, source, stamps.data()[*fault], status.begin()[*fault]);
+  const auto fault = for_blocks(lookup, stamps, errors, write);
+  if (fault) raise_first(self, {target, source, stamps.data()[fault->row], beyond}, fault->status);
   check_signals();
   return result;
 }
 
 // ---------------------------------------------------------------- all frames
 
-nb::tuple lookup_all(BufferObject& self, std::string_view target, nb::handle when) {
-  const Stamp t = nanoseconds_of(when, "stamp_ns");
+constexpr Parameters<2> kLookupAll{"lookup_all", 1, 2, {"target_frame", "stamp_ns"}};
+
+nb::object lookup_all(BufferObject& self, const Values<2>& given) {
+  const std::string_view target = text_of(nb::handle(given[0]), "target_frame");
+  const Stamp t = moment_of(nb::handle(given[1]), "stamp_ns");
   std::vector<FramePose> found;
   Failure failure;
   Status status;
@@ -179,7 +191,7 @@ nb::tuple lookup_all(BufferObject& self, std::string_view target, nb::handle whe
     const double row[7] = {p.x, p.y, p.z, q.x, q.y, q.z, q.w};
     std::copy_n(row, 7, poses.data() + 7 * i);
   }
-  return nb::make_tuple(frames, poses, stamps);
+  return make_answer("FramePoses", nb::make_tuple(frames, poses, stamps));
 }
 
 bool is_datetime(nb::handle object) {
@@ -190,13 +202,13 @@ bool is_datetime(nb::handle object) {
          nb::hasattr(object, "to_datetime64");
 }
 
-// The time, if it is one and no array: an int, one of NumPy's integers, or a datetime64.
+// The time, if it is one and no array: None, an int, one of NumPy's integers, or a datetime64.
 std::optional<Stamp> single_stamp(nb::handle object) {
-  if (is_datetime(object)) return nanoseconds_of(object, "stamps");
+  if (object.is_none()) return kLatest;
+  if (PyLong_CheckExact(object.ptr())) return nanoseconds_of(object, "stamps");
+  if (is_datetime(object)) return moment_of(object, "stamps");
   if (!PyIndex_Check(object.ptr()) || PySequence_Check(object.ptr())) return std::nullopt;
-  const Stamp value = taking_gil([object] { return PyLong_AsLongLong(object.ptr()); });
-  if (value == -1 && PyErr_Occurred() != nullptr) throw nb::python_error();
-  return value;
+  return nanoseconds_of(object, "stamps");
 }
 
 // ---------------------------------------------------------------- points
@@ -251,7 +263,7 @@ Pose target_from_fixed(BufferObject& self, std::string_view target, std::string_
   Found found;
   Failure failure;
   if (self.shared.lookup(Request{target, fixed, t}, found, failure) != Status::ok) {
-    raise(failure, Question::lookup, nb::find(self).ptr());
+    raise_in_batch(failure, nb::find(self).ptr());
     throw nb::python_error();
   }
   return found.target_from_source;
@@ -265,10 +277,10 @@ struct Deskew {
 
 template <typename T>
 nb::object move_points(BufferObject& self, const Deskew& way, const Points<T>& points,
-                       nb::handle when, nb::object out, nb::object status_object) {
+                       nb::handle when, nb::handle out, Errors errors) {
   const std::size_t n = points.shape(0);
   T* begin = nullptr;
-  nb::object result = out;
+  nb::object result = nb::borrow(out);
   if (out.is_none()) {
     const auto array = new_array<T>({n, 3});
     begin = array.data();
@@ -287,55 +299,78 @@ nb::object move_points(BufferObject& self, const Deskew& way, const Points<T>& p
   const Pose last =
       way.fixed ? target_from_fixed(self, way.target, *way.fixed, way.target_stamp) : Pose{};
   if (const auto one = single_stamp(when)) {
-    if (!status_object.is_none()) throw nb::value_error("status is for a stamp for each point");
     const Pose own = target_from_fixed(self, own_target, way.source, *one);
     const Unlocked unlocked;
     move_all(last * own, input.begin(), begin, n);
     return result;
   }
   const Stamps stamps = stamps_of(when);
-  if (stamps.shape(0) != n) throw nb::value_error("stamps must be one int, or one for each point");
-  StatusOutput status(status_object, n);
+  if (stamps.shape(0) != n) {
+    const std::string text =
+        "stamps must be one time, or one for each point: " + std::to_string(n) + " points have " +
+        std::to_string(stamps.shape(0)) + " stamps";
+    throw nb::value_error(text.c_str());
+  }
   BatchLookup lookup(self.shared, own_target, way.source);
   Lanes outer;
   outer.fill(last);
   const auto fault =
-      for_blocks(lookup, stamps, status, [&](std::size_t first, std::size_t count, Lanes& poses) {
+      for_blocks(lookup, stamps, errors, [&](std::size_t first, std::size_t count, Lanes& poses) {
         if (way.fixed) kernels().compose(outer, poses);
         move_each(poses, input.begin() + 3 * first, begin + 3 * first, count);
       });
-  if (fault)
-    raise_first(self, own_target, way.source, stamps.data()[*fault], status.begin()[*fault]);
+  if (fault) raise_first(self, {own_target, way.source, stamps.data()[fault->row]}, fault->status);
   check_signals();
   return result;
 }
 
-nb::object transform_points(BufferObject& self, std::string_view target, std::string_view source,
-                            nb::handle points, nb::handle stamps,
-                            std::optional<std::string_view> fixed_frame, nb::handle target_time,
-                            nb::object out, nb::object status) {
-  const Stamp target_stamp = nanoseconds_of(target_time, "target_stamp_ns");
-  if (!fixed_frame && target_stamp != 0) {
+constexpr Parameters<8> kTransformPoints{"transform_points",
+                                         3,
+                                         4,
+                                         {"target_frame", "source_frame", "points", "stamps",
+                                          "fixed_frame", "target_stamp_ns", "errors", "out"}};
+
+nb::object transform_points(BufferObject& self, const Values<8>& given) {
+  const nb::handle points = given[2], stamps = or_none(given[3]), out = or_none(given[7]);
+  const std::string_view target = text_of(nb::handle(given[0]), "target_frame"),
+                         source = text_of(nb::handle(given[1]), "source_frame");
+  const auto fixed_frame = frame_if(given[4], "fixed_frame");
+  const Errors errors = errors_of(given[6]);
+  const Stamp target_stamp = moment_of(nb::handle(given[5]), "target_stamp_ns");
+  if (!fixed_frame && target_stamp != kLatest) {
     throw nb::value_error("target_stamp_ns needs fixed_frame, the frame that joins the two times");
   }
   const Deskew way{target, source, fixed_frame, target_stamp};
   Points<float> single;
-  if (is_array(points, single)) return move_points<float>(self, way, single, stamps, out, status);
+  if (is_array(points, single)) return move_points<float>(self, way, single, stamps, out, errors);
   Points<double> doubles;
-  const nb::object array = contiguous_array(points, "float64");
-  if (!is_array(array, doubles)) throw nb::value_error("points must have the shape (N, 3)");
-  return move_points<double>(self, way, doubles, stamps, out, status);
+  if (is_array(points, doubles))
+    return move_points<double>(self, way, doubles, stamps, out, errors);
+  const nb::object array = checked_array("point_array", points);
+  if (is_array(array, single)) return move_points<float>(self, way, single, stamps, out, errors);
+  return move_points<double>(self, way, nb::cast<Points<double>>(array), stamps, out, errors);
 }
 
 // ---------------------------------------------------------------- velocities
 
-nb::object lookup_velocity(BufferObject& self, std::string_view tracking, std::string_view observer,
-                           nb::handle when, Stamp interval, std::optional<std::string_view> axes,
-                           nb::handle where, std::optional<std::string_view> point_frame,
-                           nb::object out, nb::object status_object) {
+constexpr Parameters<9> kLookupVelocity{"lookup_velocity",
+                                        2,
+                                        3,
+                                        {"target_frame", "source_frame", "stamps", "interval_ns",
+                                         "axes_frame", "point", "point_frame", "errors", "out"}};
+
+nb::object lookup_velocity(BufferObject& self, const Values<9>& given) {
+  const nb::handle when = or_none(given[2]);
+  PyObject* const out = given[8];
+  const std::string_view observer = text_of(nb::handle(given[0]), "target_frame"),
+                         tracking = text_of(nb::handle(given[1]), "source_frame");
+  const auto axes = frame_if(given[4], "axes_frame"),
+             point_frame = frame_if(given[6], "point_frame");
+  const Errors errors = errors_of(given[7]);
+  const Stamp interval = nanoseconds_or(given[3], 100'000'000, "interval_ns");
   if (interval <= 0) throw nb::value_error("interval_ns must be positive");
-  double point[3];
-  if (!numbers_of(where.ptr(), point, 3, "point")) throw nb::python_error();
+  double point[3] = {};
+  if (given[5] != nullptr && !numbers_of(given[5], point, 3, "point")) throw nb::python_error();
   const VelocityRequest request{tracking,
                                 observer,
                                 axes.value_or(observer),
@@ -348,99 +383,98 @@ nb::object lookup_velocity(BufferObject& self, std::string_view tracking, std::s
       single ? std::span(&*single, 1) : std::span(many.data(), many.shape(0));
   double* begin = nullptr;
   nb::object result = single ? output(out, {6}, begin) : output(out, {stamps.size(), 6}, begin);
-  StatusOutput status(status_object, stamps.size());
+  std::vector<Status> statuses(stamps.size());
   std::optional<Request> fault;
   {
     const Unlocked unlocked;
     static_assert(sizeof(Velocity) == 6 * sizeof(double));
     fault = lookup_velocities(self.shared, request, stamps, reinterpret_cast<Velocity*>(begin),
-                              status.begin());
+                              statuses.data());
   }
-  if (fault && !status.wanted())
-    raise_first(self, fault->target, fault->source, fault->t, Status::no_data);
+  if (fault && errors == Errors::raise) raise_first(self, *fault, Status::no_data);
   return result;
 }
 
 }  // namespace
 
-void add_batch_methods(nb::class_<BufferObject>& cls) {
-  cls.def(
-         "lookup_batch", &lookup_batch, "target_frame"_a, "source_frame"_a, "stamps"_a,
-         nb::kw_only(), "matrices"_a = false, "out"_a = nb::none(), "status"_a = nb::none(),
-         "lookup_transform at many times.\n\n"
-         "Args:\n"
-         "    target_frame: The frame in which the answers are expressed.\n"
-         "    source_frame: The frame whose poses are asked for.\n"
-         "    stamps: Times in nanoseconds, int64, shape (N,); 0 asks for the latest common time.\n"
-         "    matrices: Answer with homogeneous matrices instead of poses.\n"
-         "    out: A float64 array to write to, of the shape of the result.\n"
-         "    status: A uint8 array of shape (N,): it receives a `LookupStatus` for each stamp (0 "
-         "is success), rows\n"
-         "        without an answer become NaN, and nothing is raised for them.\n\n"
-         "Returns:\n"
-         "    (N, 7): x, y, z, qx, qy, qz, qw in metres and unit quaternions; or (N, 4, 4).\n\n"
-         "Raises:\n"
-         "    TransformException: Without `status`, what lookup_transform raises at the first "
-         "stamp without an answer.")
-      .def("lookup_all", &lookup_all, "target_frame"_a, "stamp_ns"_a = 0,
-           "The poses of all frames in one frame at one time.\n\n"
-           "Args:\n"
-           "    target_frame: The frame in which the answers are expressed.\n"
-           "    stamp_ns: The time; 0 asks for the latest time common to the target and each "
-           "frame.\n\n"
-           "Returns:\n"
-           "    The names of the M frames that have a pose then, their poses (M, 7), and the times "
-           "(M,) in nanoseconds.")
-      .def("transform_points", &transform_points, "target_frame"_a, "source_frame"_a, "points"_a,
-           "stamps"_a = 0, nb::kw_only(), "fixed_frame"_a = nb::none(), "target_stamp_ns"_a = 0,
-           "out"_a = nb::none(), "status"_a = nb::none(),
-           "Expresses points of the source frame in the target frame.\n\n"
-           "Args:\n"
-           "    target_frame: The frame to express them in.\n"
-           "    source_frame: The frame that they are in.\n"
-           "    points: Shape (N, 3), in metres; float32 stays float32, all else becomes float64.\n"
-           "    stamps: One time in nanoseconds for all, or int64 of shape (N,): each point's own "
-           "time.\n"
-           "    fixed_frame: A frame that does not move, such as odom: points are taken from the "
-           "source at their own "
-           "times\n"
-           "        into it, and from it into the target at `target_stamp_ns` (the deskewing of a "
-           "lidar's sweep).\n"
-           "    target_stamp_ns: The time of the target with a fixed frame; 0 is the latest.\n"
-           "    out: An array like `points` to write to; it may be `points` itself or overlap it.\n"
-           "    status: As in lookup_batch, with a stamp for each point; points without an answer "
-           "become NaN.\n\n"
-           "Returns:\n"
-           "    (N, 3) points in the target frame.\n\n"
-           "Raises:\n"
-           "    TransformException: A lookup has no answer.")
-      .def(
-          "lookup_velocity", &lookup_velocity, "tracking_frame"_a, "observation_frame"_a,
-          "stamps"_a = 0, nb::kw_only(), "interval_ns"_a = 100'000'000,
-          "reference_frame"_a = nb::none(), "point"_a = nb::make_tuple(0.0, 0.0, 0.0),
-          "point_frame"_a = nb::none(), "out"_a = nb::none(), "status"_a = nb::none(),
+std::array<PyMethodDef, 4> batch_methods() {
+  return {{
+      buffer_method<kLookupTransforms, lookup_transforms>(
+          "lookup_transforms($self, target_frame, source_frame, stamps, *, errors='raise', "
+          "extrapolate_ns=0, matrices=False, out=None)\n--\n\n"
+          "lookup_transform at many times.\n\n"
+          "Args:\n"
+          "    target_frame: The frame in which the answers are expressed.\n"
+          "    source_frame: The frame whose poses are asked for.\n"
+          "    stamps: Times, shape (N,): integers of nanoseconds, or datetime64; 0 is the time "
+          "0.\n"
+          "    errors: 'raise' raises at the first stamp without an answer, 'nan' makes such rows "
+          "NaN; `explain` says why one has none.\n"
+          "    extrapolate_ns: As in lookup_transform.\n"
+          "    matrices: Answer with homogeneous matrices instead of poses.\n"
+          "    out: A float64 array to write to, of the shape of the result.\n\n"
+          "Returns:\n"
+          "    (N, 7): x, y, z, qx, qy, qz, qw in metres and unit quaternions; or (N, 4, 4).\n\n"
+          "Raises:\n"
+          "    TransformException: What lookup_transform raises at the first stamp without an "
+          "answer."),
+      buffer_method<kLookupAll, lookup_all>(
+          "lookup_all($self, target_frame, stamp_ns=None)\n--\n\n"
+          "The poses of all frames in one frame at one time.\n\n"
+          "Args:\n"
+          "    target_frame: The frame in which the answers are expressed.\n"
+          "    stamp_ns: The time; None asks for the latest time common to the target and each "
+          "frame.\n\n"
+          "Returns:\n"
+          "    FramePoses: the names of the M frames that have a pose then, their poses (M, 7), "
+          "and the times (M,) in nanoseconds, NaT's value for the latest time of static links."),
+      buffer_method<kTransformPoints, transform_points>(
+          "transform_points($self, target_frame, source_frame, points, stamps=None, *, "
+          "fixed_frame=None, target_stamp_ns=None, errors='raise', out=None)\n--\n\n"
+          "Expresses points of the source frame in the target frame.\n\n"
+          "Args:\n"
+          "    target_frame: The frame to express them in.\n"
+          "    source_frame: The frame that they are in.\n"
+          "    points: Shape (N, 3), in metres; float32 stays float32, all else becomes float64.\n"
+          "    stamps: One time for all, None being the latest; or each point's own time, shape "
+          "(N,).\n"
+          "    fixed_frame: A frame that does not move, such as odom: points are taken from the "
+          "source at their own times into it, and from it into the target at `target_stamp_ns` "
+          "(the deskewing of a lidar's sweep).\n"
+          "    target_stamp_ns: The time of the target with a fixed frame; None is the latest.\n"
+          "    errors: 'raise' raises for the first point without an answer, 'nan' makes such "
+          "points NaN, with a stamp for each point.\n"
+          "    out: An array like `points` to write to; it may be `points` itself or overlap "
+          "it.\n\n"
+          "Returns:\n"
+          "    (N, 3) points in the target frame.\n\n"
+          "Raises:\n"
+          "    TransformException: A lookup has no answer."),
+      buffer_method<kLookupVelocity, lookup_velocity>(
+          "lookup_velocity($self, target_frame, source_frame, stamps=None, *, "
+          "interval_ns=100000000, axes_frame=None, point=(0.0, 0.0, 0.0), point_frame=None, "
+          "errors='raise', out=None)\n--\n\n"
           "How a body moves: the velocity of a point that is fixed to it, and its angular "
           "velocity.\n\n"
           "The mean over an interval around the time, or over the interval before the latest data "
-          "where the middle "
-          "would\n"
-          "lie beyond it.\n\n"
+          "if the middle would lie beyond it.\n\n"
           "Args:\n"
-          "    tracking_frame: The body that moves.\n"
-          "    observation_frame: The observer, who is taken for at rest.\n"
-          "    stamps: A time in nanoseconds, 0 being the latest; or int64 of shape (N,).\n"
+          "    target_frame: The observer, who is taken for at rest.\n"
+          "    source_frame: The body that moves.\n"
+          "    stamps: A time, None being the latest; or times, shape (N,).\n"
           "    interval_ns: The length of the interval.\n"
-          "    reference_frame: The frame in whose axes the answer is given; the observation frame "
-          "without it.\n"
+          "    axes_frame: The frame in whose axes the answer is given; by default the target.\n"
           "    point: The point (x, y, z) whose velocity is asked for, in metres.\n"
-          "    point_frame: The frame in which the point is given; the tracking frame without it.\n"
-          "    out: A float64 array to write to, of the shape of the result.\n"
-          "    status: As in lookup_batch.\n\n"
+          "    point_frame: The frame in which the point is given; by default the source.\n"
+          "    errors: 'raise' raises for the first time without an answer, 'nan' makes such rows "
+          "NaN.\n"
+          "    out: A float64 array to write to, of the shape of the result.\n\n"
           "Returns:\n"
           "    vx, vy, vz in m/s and wx, wy, wz in rad/s: shape (6,), or (N, 6) for an array of "
           "stamps.\n\n"
           "Raises:\n"
-          "    TransformException: A lookup has no answer.");
+          "    TransformException: A lookup has no answer."),
+  }};
 }
 
 }  // namespace turtlewire::python

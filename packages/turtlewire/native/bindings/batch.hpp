@@ -1,10 +1,13 @@
 // The methods of turtlewire.Buffer that take and give NumPy arrays.
 #pragma once
 
-#include "buffer.hpp"
+#include <array>
+
+#include "python.hpp"
 
 namespace turtlewire::python {
 
-void add_batch_methods(nb::class_<BufferObject>& cls);
+// Entries of the method table.
+std::array<PyMethodDef, 4> batch_methods();
 
 }  // namespace turtlewire::python

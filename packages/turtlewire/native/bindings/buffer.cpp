@@ -18,12 +18,32 @@ Status ask(SharedBuffer& shared, const FullRequest& request, Found* found, Failu
 
 }  // namespace
 
-BufferObject::BufferObject(std::optional<Stamp> cache_time_ns,
-                           std::optional<std::int64_t> max_frames)
-    : shared(cache_time_ns.value_or(kForever), static_cast<std::size_t>(max_frames.value_or(0))) {
-  if (shared.keep() < 0) throw nb::value_error("cache_time_ns must not be negative");
-  if (max_frames && *max_frames < 2) throw nb::value_error("max_frames must be at least 2");
+namespace {
+
+Stamp keep_of(nb::handle cache_time) {
+  if (cache_time.is_none()) return kForever;
+  const Stamp keep = nanoseconds_of(cache_time, "cache_time_ns");
+  if (keep < 0) throw nb::value_error("cache_time_ns must not be negative");
+  return keep;
 }
+
+std::size_t most_frames_of(nb::handle max_frames) {
+  if (max_frames.is_none()) return 0;
+  const long long most = taking_gil([max_frames] { return PyLong_AsLongLong(max_frames.ptr()); });
+  if (most == -1 && PyErr_Occurred() != nullptr) {
+    if (PyErr_ExceptionMatches(PyExc_TypeError) == 0) throw nb::python_error();
+    PyErr_Clear();
+    const nb::str text("max_frames must be an int or None, not {}");
+    throw nb::type_error(text.format(max_frames.type().attr("__name__")).c_str());
+  }
+  if (most < 2) throw nb::value_error("max_frames must be at least 2");
+  return static_cast<std::size_t>(most);
+}
+
+}  // namespace
+
+BufferObject::BufferObject(nb::handle cache_time_ns, nb::handle max_frames)
+    : shared(keep_of(cache_time_ns), most_frames_of(max_frames)) {}
 
 BufferObject::~BufferObject() {
   for (const KnownPath& known : known_paths_) {
@@ -69,14 +89,30 @@ void BufferObject::remember_path(PyObject* target, PyObject* source, std::string
 
 // Asks; while the answer is no, waits for data as long as that can help. False if a Python error is
 // set.
-template <typename Request, typename Ask>
-bool BufferObject::answer(const Request& request, Stamp timeout, Failure& failure, Ask found) {
-  if (ask(shared, request, found, failure) == Status::ok || timeout <= 0) return true;
+template <typename Request>
+bool BufferObject::answer_or_wait(const Request& request, Stamp timeout, Failure& failure,
+                                  Found* found) {
+  if (python::ask(shared, request, found, failure) == Status::ok || timeout <= 0) return true;
   const auto attempt = [&] {
     failure = {};
-    return ask(shared, request, found, failure) == Status::ok || !shared.worth_waiting(failure);
+    return python::ask(shared, request, found, failure) == Status::ok ||
+           !shared.worth_waiting(failure);
   };
   return wait_until(shared, interrupts, timeout, attempt) == Waited::done;
+}
+
+bool BufferObject::answer(const Request& request, Stamp timeout, Failure& failure, Found* found) {
+  return answer_or_wait(request, timeout, failure, found);
+}
+
+bool BufferObject::answer(const FullRequest& request, Stamp timeout, Failure& failure,
+                          Found* found) {
+  return answer_or_wait(request, timeout, failure, found);
+}
+
+bool BufferObject::raise_failure(const Failure& failure) {
+  raise(failure, Question::lookup, nb::find(*this).ptr());
+  return false;
 }
 
 bool BufferObject::lookup(PyObject* target, PyObject* source, Stamp t, Stamp timeout,
@@ -105,23 +141,7 @@ bool BufferObject::lookup_by_name(PyObject* target, PyObject* source, Stamp t, S
     remember_path(target, source, request.target, request.source);
     return true;
   }
-  raise(failure, Question::lookup, nb::find(*this).ptr());
-  return false;
-}
-
-bool BufferObject::lookup(PyObject* target, Stamp target_time, PyObject* source, Stamp source_time,
-                          PyObject* fixed, Stamp timeout, Found& found) {
-  FullRequest request{.target_time = target_time, .source_time = source_time};
-  if (!text_of(target, request.target, "target_frame") ||
-      !text_of(source, request.source, "source_frame") ||
-      !text_of(fixed, request.fixed, "fixed_frame")) {
-    return false;
-  }
-  Failure failure;
-  if (!answer(request, timeout, failure, &found)) return false;
-  if (failure.status == Status::ok) return true;
-  raise(failure, Question::lookup, nb::find(*this).ptr());
-  return false;
+  return raise_failure(failure);
 }
 
 bool BufferObject::certainly_can_transform(PyObject* target, PyObject* source, Stamp t) {
@@ -136,34 +156,21 @@ bool BufferObject::can_transform(PyObject* target, PyObject* source, Stamp t, St
   if (!text_of(target, request.target, "target_frame") ||
       !text_of(source, request.source, "source_frame"))
     return false;
-  if (!answer(request, timeout, failure, static_cast<Found*>(nullptr))) return false;
+  if (!answer(request, timeout, failure, nullptr)) return false;
   if (failure.status == Status::ok) remember_path(target, source, request.target, request.source);
   return true;
 }
 
-bool BufferObject::can_transform(PyObject* target, Stamp target_time, PyObject* source,
-                                 Stamp source_time, PyObject* fixed, Stamp timeout,
-                                 Failure& failure) {
-  FullRequest request{.target_time = target_time, .source_time = source_time};
-  if (!text_of(target, request.target, "target_frame") ||
-      !text_of(source, request.source, "source_frame") ||
-      !text_of(fixed, request.fixed, "fixed_frame")) {
-    return false;
-  }
-  return answer(request, timeout, failure, static_cast<Found*>(nullptr));
-}
-
-std::string BufferObject::set(std::string_view parent, std::string_view child, Stamp stamp,
-                              const Pose& pose, std::string_view authority, bool is_static) {
+Verdict BufferObject::set(std::string_view parent, std::string_view child, Stamp stamp,
+                          const Pose& pose, std::string_view authority, bool is_static) {
   Verdict verdict;
   {
     const SharedBuffer::Access access(shared);
     verdict = access->set(parent, child, stamp, pose, access->sender(authority), is_static);
     if (verdict == Verdict::accepted) access.wake_waiters();
   }
-  return verdict == Verdict::accepted
-             ? ""
-             : explain(Refusal{verdict, parent, child, authority, stamp, pose});
+  if (verdict == Verdict::accepted) call_listeners();
+  return verdict;
 }
 
 void BufferObject::refuse_message(std::string_view fault, std::string_view authority) {
@@ -193,6 +200,11 @@ void BufferObject::wake() {
   const SharedBuffer::Access access(shared);
   ++interrupts;
   access.wake_waiters();
+}
+
+void throw_failure(BufferObject& buffer, const Failure& failure, Question question) {
+  raise(failure, question, nb::find(buffer).ptr());
+  throw nb::python_error();
 }
 
 }  // namespace turtlewire::python

@@ -2,15 +2,19 @@
 
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/pair.h>
+#include <nanobind/stl/vector.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <stdexcept>
 
 #include "../cyclone/abort.hpp"
+#include "../cyclone/first_requests.hpp"
 #include "../cyclone/inlet.hpp"
 #include "../cyclone/library.hpp"
+#include "../cyclone/service_types.hpp"
 #include "../cyclone/writer.hpp"
 
 namespace turtlewire::python {
@@ -18,6 +22,7 @@ namespace {
 
 using namespace nb::literals;
 using cyclone::Entity;
+using cyclone::FirstRequests;
 using cyclone::Inlet;
 using cyclone::Library;
 using cyclone::Samples;
@@ -103,6 +108,27 @@ std::int32_t write(Writer& self, nb::handle cdr) {
   return self.write(parts, buffers.size());
 }
 
+FirstRequests::Guid guid_of(const nb::bytes& bytes) {
+  FirstRequests::Guid guid;
+  if (bytes.size() != guid.size()) throw std::invalid_argument("a GUID has 16 bytes");
+  std::memcpy(guid.data(), bytes.c_str(), guid.size());
+  return guid;
+}
+
+void make_first_requests(FirstRequests* self, const FirstRequests::Functions& functions,
+                         const nb::bytes& reader, FirstRequests::Targets targets) {
+  new (self) FirstRequests(functions, guid_of(reader), std::move(targets));
+}
+
+std::int32_t write_identified(Writer& self, nb::handle cdr, const nb::bytes& guid,
+                              std::int64_t number) {
+  const cyclone::Identity identity{guid_of(guid), number};
+  const Buffers buffers(cdr.ptr());
+  Writer::Parts parts = buffers.parts();
+  const Unlocked unlocked;
+  return self.write_identified(parts, buffers.size(), identity);
+}
+
 }  // namespace
 
 void add_cyclone_types(nb::module_& module) {
@@ -133,6 +159,10 @@ void add_cyclone_types(nb::module_& module) {
            "the GIL. A negative code if that failed: one of Cyclone's, -1001 for bytes that are "
            "no\n"
            "message, -1002 after close(), -1003 if Cyclone makes no sample of them.")
+      .def("write_identified", &write_identified, "cdr"_a, "guid"_a, "number"_a,
+           "Send a message of a service with the identity of a request beside it, as Fast DDS "
+           "does.\n"
+           "The code is that of write(), or -1004 if no message of Cyclone's took the identity.")
       .def("close", &Writer::close, "To be called before the writer is deleted.");
   nb::class_<Inlet>(
       module, "CycloneInlet",
@@ -150,6 +180,42 @@ void add_cyclone_types(nb::module_& module) {
                              reinterpret_cast<std::uintptr_t>(&self));
           },
           "What the reader calls when data is available, and its argument.");
+  nb::class_<FirstRequests>(
+      module, "CycloneFirstRequests",
+      "Asks new clients on Fast DDS for their first request. It must outlive the reader.\n\n"
+      "Args:\n"
+      "    functions: Addresses of dds_get_matched_publication_data and\n"
+      "        dds_builtintopic_free_endpoint.\n"
+      "    reader: The GUID of the reader of requests.\n"
+      "    targets: IPv4 addresses, as numbers, and ports at which Cyclone receives.")
+      .def("__init__", &make_first_requests, "functions"_a, "reader"_a, "targets"_a)
+      .def(
+          "close",
+          [](FirstRequests& self) {
+            const Unlocked unlocked;
+            self.close();
+          },
+          "Ask no more clients; wait for the end of the thread that does.")
+      .def(
+          "listener",
+          [](FirstRequests& self) {
+            return std::pair(reinterpret_cast<std::uintptr_t>(&FirstRequests::on_matched),
+                             reinterpret_cast<std::uintptr_t>(&self));
+          },
+          "What the reader calls when it matches a writer, and its argument.");
+  module.def("carry_identities", &cyclone::carry_identities, "library"_a, "sertype"_a, "base"_a = 0,
+             "Have messages of a type carry the identities of requests, as Fast DDS does: those "
+             "received\nbegin with a mark, a GUID and a number. False if Cyclone's memory is not "
+             "laid out as expected.\n\nArgs:\n"
+             "    library: The functions of Cyclone.\n"
+             "    sertype: Address of the type.\n"
+             "    base: Address of the type of which Cyclone made this one; 0 if it made it anew.");
+  module.def("keep_type", &cyclone::keep_type, "library"_a, "sertype"_a,
+             "Have the writers of a type use it itself, in Cyclone 0.10. False if Cyclone's memory "
+             "is not laid out as expected.");
+  module.def("tagged_samples", &cyclone::tagged_samples,
+             "The number of samples that have an identity at this moment.");
+  module.attr("NUMBER_OF_SAMPLE") = cyclone::Identity::kOfSample;
   module.def("print_on_abort", &cyclone::print_on_abort, "pipe"_a,
              "When this process aborts, write on stderr what can be read from a pipe.");
 }

@@ -17,11 +17,16 @@ enum Class : std::size_t {
   connectivity,
   transform,
   extrapolation,
+  invalid_transform,
   kClasses
 };
-constexpr std::array<const char*, kClasses> kNames{"CdrError",           "InvalidArgumentException",
-                                                   "LookupException",    "ConnectivityException",
-                                                   "TransformException", "ExtrapolationException"};
+constexpr std::array<const char*, kClasses> kNames{"CdrError",
+                                                   "InvalidArgumentException",
+                                                   "LookupException",
+                                                   "ConnectivityException",
+                                                   "TransformException",
+                                                   "ExtrapolationException",
+                                                   "InvalidTransformError"};
 std::array<PyObject*, kClasses> classes;  // those of turtlewire.errors
 
 // The attributes of the exceptions, by the names that turtlewire.errors documents.
@@ -37,14 +42,16 @@ enum Field : std::size_t {
   requested_ns,
   oldest_ns,
   newest_ns,
-  has_data,
   reason,
+  sender,
+  row,
+  in_batch,
   kFields
 };
 constexpr std::array<const char*, kFields> kFieldNames{
     "frame",       "_buffer",      "target_frame", "source_frame", "target_root",
     "source_root", "parent_frame", "child_frame",  "requested_ns", "oldest_ns",
-    "newest_ns",   "_has_data",    "reason"};
+    "newest_ns",   "reason",       "sender",       "row",          "_in_batch"};
 std::array<PyObject*, kFields> field_names;
 
 PyObject* text_of(const std::string& text) {
@@ -57,6 +64,7 @@ Class class_of(Status status, Question question) {
     case Status::slash_name:
       return invalid_argument;
     case Status::unknown_frame:
+    case Status::no_static_data:
       return lookup;
     case Status::loop:
       return question == Question::latest_common_time ? transform : lookup;
@@ -78,6 +86,31 @@ const char* reason_of(Status status) {
   }
 }
 
+const char* reason_of(const Refusal& refusal) {
+  switch (refusal.verdict) {
+    case Verdict::accepted:
+      break;
+    case Verdict::self_transform:
+      return "self";
+    case Verdict::no_child_frame:
+      return "no child";
+    case Verdict::no_parent_frame:
+      return "no parent";
+    case Verdict::nan_value:
+      return refusal.pose.rotation == Quat{0, 0, 0, 0} ? "zero quaternion" : "nan";
+    case Verdict::denormalized:
+      return "denormalized";
+    case Verdict::old_data:
+      return "old";
+    case Verdict::reserved_name:
+    case Verdict::bad_name:
+      return "bad name";
+    case Verdict::too_many_frames:
+      return "too many frames";
+  }
+  return "";
+}
+
 // Each sets one attribute; false with a Python error set.
 bool set(PyObject* error, Field field, PyObject* value) {
   return PyObject_SetAttr(error, field_names[field], value) == 0;
@@ -93,11 +126,19 @@ bool set(PyObject* error, Field field, const std::string& text) {
 bool set(PyObject* error, Field field, Stamp stamp) {
   return set_new(error, field, PyLong_FromLongLong(stamp));
 }
+bool set_if(bool known, PyObject* error, Field field, Stamp stamp) {
+  return known ? set(error, field, stamp) : set(error, field, Py_None);
+}
 
 bool describe(PyObject* error, const Failure& f, Question question, PyObject* buffer) {
   switch (f.status) {
+    case Status::empty_name:
+    case Status::slash_name:
+      return set(error, frame, f.name);
     case Status::unknown_frame:
       return set(error, frame, f.name) && set(error, buffer_asked, buffer);
+    case Status::loop:
+      return question == Question::latest_common_time || set(error, buffer_asked, buffer);
     case Status::not_connected:
       return question == Question::latest_common_time ||
              (set(error, target_frame, f.target) && set(error, source_frame, f.source) &&
@@ -107,9 +148,9 @@ bool describe(PyObject* error, const Failure& f, Question question, PyObject* bu
     case Status::past:
       return set(error, target_frame, f.target) && set(error, source_frame, f.source) &&
              set(error, parent_frame, f.link_parent) && set(error, child_frame, f.link_child) &&
-             set(error, requested_ns, f.requested) && set(error, oldest_ns, f.oldest) &&
-             set(error, newest_ns, f.newest) &&
-             set(error, has_data, f.emptied ? Py_False : Py_True) &&
+             set_if(f.requested != kLatest, error, requested_ns, f.requested) &&
+             set_if(!f.emptied, error, oldest_ns, f.oldest) &&
+             set_if(!f.emptied, error, newest_ns, f.newest) &&
              set_new(error, reason, PyUnicode_InternFromString(reason_of(f.status)));
     default:
       return true;
@@ -136,11 +177,38 @@ void load_error_classes() {
     field_names[i] = PyUnicode_InternFromString(kFieldNames[i]);
 }
 
+PyObject* make_error(const Failure& failure, Question question, PyObject* buffer) {
+  PyObject* error = make(class_of(failure.status, question), explain(failure, question));
+  if (error == nullptr || describe(error, failure, question, buffer)) return error;
+  Py_DECREF(error);
+  return nullptr;
+}
+
 PyObject* raise(const Failure& failure, Question question, PyObject* buffer) {
-  const Class which = class_of(failure.status, question);
-  PyObject* error = make(which, explain(failure, question));
-  if (error != nullptr && describe(error, failure, question, buffer))
+  PyObject* error = make_error(failure, question, buffer);
+  if (error != nullptr) PyErr_SetObject(classes[class_of(failure.status, question)], error);
+  Py_XDECREF(error);
+  return nullptr;
+}
+
+PyObject* raise_in_batch(const Failure& failure, PyObject* buffer) {
+  PyObject* error = make_error(failure, Question::lookup, buffer);
+  const Class which = class_of(failure.status, Question::lookup);
+  if (error != nullptr && (which != extrapolation || set(error, in_batch, Py_True)))
     PyErr_SetObject(classes[which], error);
+  Py_XDECREF(error);
+  return nullptr;
+}
+
+PyObject* raise(const Refusal& refusal, std::optional<std::size_t> place) {
+  PyObject* error = make(invalid_transform, explain(refusal));
+  if (error != nullptr && set(error, parent_frame, std::string(refusal.parent)) &&
+      set(error, child_frame, std::string(refusal.child)) &&
+      set(error, sender, std::string(refusal.authority)) &&
+      set_new(error, reason, PyUnicode_InternFromString(reason_of(refusal))) &&
+      (!place || set_new(error, row, PyLong_FromSize_t(*place)))) {
+    PyErr_SetObject(classes[invalid_transform], error);
+  }
   Py_XDECREF(error);
   return nullptr;
 }

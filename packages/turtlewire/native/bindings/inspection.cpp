@@ -5,10 +5,11 @@
 #include <nanobind/stl/tuple.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "arrays.hpp"
 #include "errors.hpp"
 #include "transform.hpp"
 
@@ -17,20 +18,11 @@ namespace {
 
 using namespace nb::literals;
 
-using PoseRows = nb::ndarray<const double, nb::shape<-1, 7>, nb::c_contig, nb::device::cpu>;
-
-nb::str text(std::string_view value) { return nb::str(value.data(), value.size()); }
-
-[[noreturn]] void raise_failure(BufferObject& self, const Failure& failure) {
-  raise(failure, Question::lookup, nb::find(self).ptr());
-  throw nb::python_error();
-}
-
 // The names of two frames; raises if one has no UTF-8.
-Request frames_of(const nb::str& target, const nb::str& source) {
+Request frames_of(PyObject* target, PyObject* source) {
   Request request;
-  if (!text_of(target.ptr(), request.target, "target_frame") ||
-      !text_of(source.ptr(), request.source, "source_frame")) {
+  if (!text_of(target, request.target, "target_frame") ||
+      !text_of(source, request.source, "source_frame")) {
     throw nb::python_error();
   }
   return request;
@@ -48,39 +40,21 @@ bool resolve_both(const Tree& tree, std::string_view target, std::string_view so
   return failure.status == Status::ok;
 }
 
-nb::object extrapolate_transform(BufferObject& self, nb::str target, nb::str source,
-                                 nb::handle when, Stamp limit) {
-  const Request names = frames_of(target, source);
-  const Stamp t = nanoseconds_of(when, "stamp_ns");
-  if (limit < 0) throw nb::value_error("limit_ns must not be negative");
-  Found found{t, {}};
-  Failure failure;
-  {
-    const SharedBuffer::Access access(self.shared);
-    FrameId target_id = 0, source_id = 0;
-    const Tree& tree = *access;
-    if (resolve_both(tree, names.target, names.source, target_id, source_id, failure) &&
-        target_id != source_id) {
-      failure.status = tree.lookup(target_id, source_id, Rule{.t = t, .beyond = limit},
-                                   found.target_from_source, nullptr, &failure);
-    }
-  }
-  if (failure.status != Status::ok) raise_failure(self, failure);
-  return nb::steal(make_transform(target.ptr(), source.ptr(), found));
-}
+constexpr Parameters<4> kLookupNewest{
+    "lookup_newest", 2, 2, {"target_frame", "source_frame", "max_age_ns", "now_ns"}};
 
-nb::tuple lookup_latest(BufferObject& self, nb::str target, nb::str source, Stamp max_age,
-                        nb::handle present) {
-  const Request names = frames_of(target, source);
-  const Stamp now = nanoseconds_of(present, "now_ns");
-  if (max_age != 0 && now == 0)
+nb::object lookup_newest(BufferObject& self, const Values<4>& given) {
+  const Request names = frames_of(given[0], given[1]);
+  const nb::handle age = or_none(given[2]);
+  const Stamp now = moment_of(nb::handle(given[3]), "now_ns");
+  const Stamp max_age = age.is_none() ? kForever : nanoseconds_of(age, "max_age_ns");
+  if (!age.is_none() && now == kLatest)
     throw nb::value_error("max_age_ns needs now_ns, the present by the clock of the stamps");
   Found found;
   Failure failure;
-  std::vector<FrameId> used;
-  std::vector<std::pair<std::string, Stamp>> stamps;
   {
     const SharedBuffer::Access access(self.shared);
+    std::vector<FrameId> used;
     FrameId target_id = 0, source_id = 0;
     const Tree& tree = *access;
     if (resolve_both(tree, names.target, names.source, target_id, source_id, failure) &&
@@ -90,27 +64,57 @@ nb::tuple lookup_latest(BufferObject& self, nb::str target, nb::str source, Stam
           tree.lookup(target_id, source_id, rule, found.target_from_source, &used, &failure);
     }
     for (const FrameId frame : used) {
-      const Link& link = tree.link(frame);
-      if (!link.is_static()) stamps.emplace_back(tree.frames()[frame], link.newest());
+      const Stamp newest = tree.link(frame).reached();
+      if (newest != kLatest && (found.stamp == kLatest || newest < found.stamp))
+        found.stamp = newest;
     }
   }
-  if (failure.status != Status::ok) raise_failure(self, failure);
-  nb::dict by_child;
-  for (const auto& [child, stamp] : stamps) {
-    by_child[text(child)] = stamp;
-    found.stamp = found.stamp == 0 ? stamp : std::min(found.stamp, stamp);
-  }
-  return nb::make_tuple(nb::steal(make_transform(target.ptr(), source.ptr(), found)), by_child);
+  if (failure.status != Status::ok) throw_failure(self, failure, Question::lookup);
+  return nb::steal(make_transform(given[0], given[1], found));
 }
 
-bool remove_frame(BufferObject& self, std::string_view child) {
+// When lookups answer: from the oldest common time to the latest; None if always.
+constexpr Parameters<2> kTimeRange{"time_range", 2, 2, {"target_frame", "source_frame"}};
+
+nb::object time_range(BufferObject& self, const Values<2>& given) {
+  const Request names = frames_of(given[0], given[1]);
+  Failure failure;
+  Stamp oldest = kLatest, newest = kLatest;
+  {
+    const SharedBuffer::Access access(self.shared);
+    std::vector<FrameId> used;
+    FrameId target_id = 0, source_id = 0;
+    const Tree& tree = *access;
+    if (resolve_both(tree, names.target, names.source, target_id, source_id, failure) &&
+        target_id != source_id) {
+      failure.status = tree.latest_common_time(target_id, source_id, newest, &failure);
+      Pose unused;
+      if (failure.status == Status::ok)
+        failure.status =
+            tree.lookup(target_id, source_id, Rule{.t = newest}, unused, &used, &failure);
+    }
+    for (const FrameId frame : used) {
+      if (!tree.link(frame).is_static()) oldest = std::max(oldest, tree.link(frame).oldest());
+    }
+  }
+  if (failure.status != Status::ok) throw_failure(self, failure, Question::lookup);
+  if (newest == kLatest) return nb::none();
+  return nb::make_tuple(oldest, newest);
+}
+
+constexpr Parameters<1> kRemoveFrame{"remove_frame", 1, 1, {"child_frame"}};
+
+nb::bool_ remove_frame(BufferObject& self, const Values<1>& given) {
+  const std::string_view child = text_of(nb::handle(given[0]), "child_frame");
   const SharedBuffer::Access access(self.shared);
   FrameId id = 0;
-  return access->resolve(child, id) == Status::ok && !access->remove({&id, 1}).empty();
+  return nb::bool_(access->resolve(child, id) == Status::ok && !access->remove({&id, 1}).empty());
 }
 
-nb::list remove_stale(BufferObject& self, nb::handle since) {
-  const Stamp before = nanoseconds_of(since, "before_ns");
+constexpr Parameters<1> kRemoveStale{"remove_stale", 1, 1, {"before_ns"}};
+
+nb::list remove_stale(BufferObject& self, const Values<1>& given) {
+  const Stamp before = nanoseconds_of(nb::handle(given[0]), "before_ns");
   std::vector<std::string> removed;
   {
     const SharedBuffer::Access access(self.shared);
@@ -128,7 +132,7 @@ nb::list remove_stale(BufferObject& self, nb::handle since) {
 }
 
 // ---------------------------------------------------------------- descriptions, for
-// turtlewire.tf.inspection
+// turtlewire.tf.links and turtlewire.tf.faults
 
 struct LinkDescription {
   std::string child, parent;
@@ -180,7 +184,7 @@ nb::list describe_links(BufferObject& self, std::size_t most) {
 nb::dict describe_refusals(BufferObject& self) {
   static constexpr const char* kinds[kVerdicts] = {
       "accepted", "self_transform", "no_child_frame", "no_parent_frame", "nan_value",
-      "old_data", "reserved_name",  "bad_name",       "too_many_frames"};
+      "old_data", "reserved_name",  "bad_name",       "too_many_frames", "denormalized"};
   std::map<std::string, RefusalRecord, std::less<>> records;
   {
     const SharedBuffer::Access access(self.shared);
@@ -194,11 +198,7 @@ nb::dict describe_refusals(BufferObject& self) {
     }
     const std::string last = explain(
         Refusal{record.last, record.parent, child, record.authority, record.stamp, record.pose});
-    PyObject* decoded =
-        PyUnicode_DecodeUTF8(last.data(), static_cast<Py_ssize_t>(last.size()), "replace");
-    PyObject* key =
-        PyUnicode_DecodeUTF8(child.data(), static_cast<Py_ssize_t>(child.size()), "replace");
-    all[nb::steal(key)] = nb::make_tuple(counts, nb::steal(decoded));
+    all[nb::steal(to_python(child))] = nb::make_tuple(counts, nb::steal(to_python(last)));
   }
   return all;
 }
@@ -220,159 +220,51 @@ void rename_sender(BufferObject& self, std::string_view name, std::string_view s
   access->rename_sender(name, shown);
 }
 
-// ---------------------------------------------------------------- whole histories
-
-struct Run {
-  std::string parent;
-  std::vector<Stamp> stamps;
-  std::vector<Pose> poses;
-};
-
-std::vector<Run> runs_of(const Tree& tree, const Link& link) {
-  std::vector<Run> runs;
-  if (link.is_static())
-    return {{std::string(tree.frames()[link.parent()]), {0}, {link.static_pose()}}};
-  for (std::size_t i = 0; i < link.samples().size(); ++i) {
-    const Sample& sample = link.samples()[i];
-    const std::string_view parent = tree.frames()[sample.parent];
-    if (runs.empty() || runs.back().parent != parent) runs.push_back({std::string(parent), {}, {}});
-    runs.back().stamps.push_back(link.samples().stamp(i));
-    runs.back().poses.push_back(sample.pose);
-  }
-  return runs;
-}
-
-nb::list samples(BufferObject& self, std::string_view child) {
-  std::vector<Run> runs;
-  Failure failure;
-  {
-    const SharedBuffer::Access access(self.shared);
-    FrameId id = 0;
-    failure.status = access->resolve(child, id);
-    failure.name = child;
-    if (failure.status == Status::ok) runs = runs_of(*access, access->link(id));
-  }
-  if (failure.status != Status::ok) raise_failure(self, failure);
-  nb::list list;
-  for (const Run& run : runs) {
-    const auto stamps = new_array<Stamp>({run.stamps.size()});
-    const auto poses = new_array<double>({run.stamps.size(), 7});
-    std::copy(run.stamps.begin(), run.stamps.end(), stamps.data());
-    for (std::size_t i = 0; i < run.poses.size(); ++i) {
-      const auto& [t, q] = run.poses[i];
-      const double row[7] = {t.x, t.y, t.z, q.x, q.y, q.z, q.w};
-      std::copy_n(row, 7, poses.data() + 7 * i);
-    }
-    list.append(nb::make_tuple(text(run.parent), stamps, poses));
-  }
-  return list;
-}
-
-nb::ndarray<nb::numpy, Stamp> stamps(BufferObject& self, std::string_view child) {
-  std::vector<Stamp> found;
-  Failure failure;
-  {
-    const SharedBuffer::Access access(self.shared);
-    FrameId id = 0;
-    failure.status = access->resolve(child, id);
-    failure.name = child;
-    if (failure.status == Status::ok && !access->link(id).is_static()) {
-      const auto& samples = access->link(id).samples();
-      found.resize(samples.size());
-      for (std::size_t i = 0; i < found.size(); ++i) found[i] = samples.stamp(i);
-    }
-  }
-  if (failure.status != Status::ok) raise_failure(self, failure);
-  const auto result = new_array<Stamp>({found.size()});
-  std::copy(found.begin(), found.end(), result.data());
-  return result;
-}
-
-std::size_t set_transforms(BufferObject& self, std::string_view parent, std::string_view child,
-                           nb::handle stamps_object, nb::handle poses_object,
-                           std::string_view authority) {
-  const Stamps stamps = stamps_of(stamps_object);
-  PoseRows rows;
-  const nb::object array = contiguous_array(poses_object, "float64");
-  if (!is_array(array, rows)) throw nb::value_error("poses must have the shape (N, 7)");
-  check_shape(rows, {stamps.shape(0), 7}, "poses");
-  std::size_t accepted = 0;
-  {
-    const Unlocked unlocked;
-    const SharedBuffer::Access access(self.shared);
-    const SourceId sender = access->sender(authority);
-    for (std::size_t i = 0; i < stamps.shape(0); ++i) {
-      const double* v = rows.data() + 7 * i;
-      const Pose pose{{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}};
-      accepted +=
-          access->set(parent, child, stamps.data()[i], pose, sender, false) == Verdict::accepted;
-    }
-    if (accepted > 0) access.wake_waiters();
-  }
-  if (accepted > 0) self.call_listeners();
-  return accepted;
-}
-
 }  // namespace
 
-void add_inspection_methods(nb::class_<BufferObject>& cls) {
-  cls.def("extrapolate_transform", &extrapolate_transform, "target_frame"_a, "source_frame"_a,
-          "stamp_ns"_a, "limit_ns"_a,
-          "lookup_transform, but a time up to `limit_ns` outside of a link's data is answered as "
-          "well.\n\n"
-          "The motion between the two outermost samples of the link is taken to go on. tf2 never "
-          "does this; a lookup "
-          "that\n"
-          "does not name a limit never does either.\n\n"
+std::array<PyMethodDef, 4> inspection_methods() {
+  return {{
+      buffer_method<kLookupNewest, lookup_newest>(
+          "lookup_newest($self, target_frame, source_frame, *, max_age_ns=None, now_ns=None)"
+          "\n--\n\n"
+          "The transform made of the newest data of each link, whatever its time.\n\n"
+          "lookup_transform takes all links at one time, the newest that all of them know; one "
+          "link that is late makes the whole answer late. Here each link gives its newest "
+          "pose.\n\n"
+          "Args:\n"
+          "    target_frame: The frame in which the answer is expressed.\n"
+          "    source_frame: The frame whose pose is asked for.\n"
+          "    max_age_ns: How old the newest data of a link may be at `now_ns`; None allows any "
+          "age.\n"
+          "    now_ns: The present, by the clock of the stamps.\n\n"
+          "Returns:\n"
+          "    The Transform, stamped with the oldest of the times used.\n\n"
           "Raises:\n"
-          "    TransformException: As lookup_transform; the time lies still further outside.")
-      .def("lookup_latest", &lookup_latest, "target_frame"_a, "source_frame"_a, nb::kw_only(),
-           "max_age_ns"_a = 0, "now_ns"_a = 0,
-           "The transform made of the newest data of each link, whatever its time.\n\n"
-           "lookup_transform at time 0 takes all links at one time, the newest that all of them "
-           "know; one link that is\n"
-           "late makes the whole answer late. Here each link gives its newest pose.\n\n"
-           "Args:\n"
-           "    target_frame: The frame in which the answer is expressed.\n"
-           "    source_frame: The frame whose pose is asked for.\n"
-           "    max_age_ns: How old the newest data of a link may be at `now_ns`; 0 allows any "
-           "age.\n"
-           "    now_ns: The present, by the clock of the stamps.\n\n"
-           "Returns:\n"
-           "    The Transform, stamped with the oldest of the times used, and those times by child "
-           "frame.\n\n"
-           "Raises:\n"
-           "    TransformException: A frame is unknown, the frames are not connected, or a link is "
-           "too old.")
-      .def("remove_frame", &remove_frame, "child_frame"_a,
-           "Forgets how a frame lies in its parent: its history or its static transform.\n\n"
-           "Names that then stand for nothing are forgotten too.\n\n"
-           "Returns:\n"
-           "    Whether there was anything to forget.")
-      .def("remove_stale", &remove_stale, "before_ns"_a,
-           "Removes all frames that move and have no data since a time; returns their names.")
-      .def("samples", &samples, "child_frame"_a,
-           "The whole history of one frame, oldest first.\n\n"
-           "Returns:\n"
-           "    For each run of samples with one parent: the parent, the stamps (N,) in "
-           "nanoseconds, and the poses (N, "
-           "7).\n"
-           "    A static transform is one sample with stamp 0.")
-      .def("stamps", &stamps, "child_frame"_a,
-           "The times of a frame's samples in nanoseconds, oldest first: int64, shape (N,); none "
-           "for a static transform.")
-      .def("set_transforms", &set_transforms, "parent_frame"_a, "child_frame"_a, "stamps"_a,
-           "poses"_a, "authority"_a = "default_authority",
-           "set_transform for many samples of one frame.\n\n"
-           "Args:\n"
-           "    parent_frame: The parent.\n"
-           "    child_frame: The child.\n"
-           "    stamps: Times in nanoseconds, int64, shape (N,).\n"
-           "    poses: x, y, z, qx, qy, qz, qw, shape (N, 7).\n"
-           "    authority: Who says so.\n\n"
-           "Returns:\n"
-           "    How many were accepted.")
-      .def("_describe_links", &describe_links, "most"_a)
+          "    TransformException: A frame is unknown, the frames are not connected, or a link is "
+          "too old."),
+      buffer_method<kTimeRange, time_range>(
+          "time_range($self, target_frame, source_frame)\n--\n\n"
+          "The oldest and the newest time at which lookup_transform gives an answer.\n\n"
+          "Returns:\n"
+          "    Both times in nanoseconds; None if only static links lie between the frames, which "
+          "answer at all times.\n\n"
+          "Raises:\n"
+          "    TransformException: A frame is unknown, the frames are not connected, or their "
+          "links have no time in common."),
+      buffer_method<kRemoveFrame, remove_frame>(
+          "remove_frame($self, child_frame)\n--\n\n"
+          "Forgets how a frame lies in its parent: its history or its static transform.\n\n"
+          "Names that then stand for nothing are forgotten too.\n\n"
+          "Returns:\n"
+          "    Whether there was anything to forget."),
+      buffer_method<kRemoveStale, remove_stale>(
+          "remove_stale($self, before_ns)\n--\n\n"
+          "Removes all frames that move and have no data since a time; returns their names."),
+  }};
+}
+
+void add_inspection_methods(nb::class_<BufferObject>& cls) {
+  cls.def("_describe_links", &describe_links, "most"_a)
       .def("_describe_refusals", &describe_refusals)
       .def("_describe_malformed", &describe_malformed)
       .def("_rename_sender", &rename_sender, "name"_a, "shown"_a,

@@ -149,7 +149,8 @@ class StampedMaker {
 
   PyObject* make(PyObject* target, PyObject* source, const Found& found) const {
     constexpr Stamp second = 1'000'000'000;
-    Stamp sec = found.stamp / second, nanosec = found.stamp % second;
+    const Stamp stamp_ns = found.stamp != kLatest ? found.stamp : 0;
+    Stamp sec = stamp_ns / second, nanosec = stamp_ns % second;
     if (nanosec < 0) {
       nanosec += second;
       --sec;
@@ -201,16 +202,63 @@ MessageLookup* self_of(PyObject* self) {
   return nb::inst_ptr<MessageLookup>(self);
 }
 
-// How the methods call their arguments: ROS times, and a Duration.
-struct RosTimes {
-  static constexpr std::size_t kRequired = 3;
-  static constexpr std::array<const char*, 4> kNames{"target_frame", "source_frame", "time",
-                                                     "timeout"};
-  static constexpr std::array<const char*, 6> kFullNames{
-      "target_frame", "target_time", "source_frame", "source_time", "fixed_frame", "timeout"};
-  static bool time(PyObject* object, Stamp& t, const char*) { return time_of(object, t, "time"); }
-  static bool timeout(PyObject* object, Stamp& span, const char*) {
-    return object == nullptr || time_of(object, span, "duration");
+// A time of ROS; 0 means the latest.
+bool moment_of_message(PyObject* object, Stamp& t) {
+  if (!time_of(object, t, "time")) return false;
+  if (t == 0) t = kLatest;
+  return true;
+}
+
+bool timeout_of(PyObject* object, Stamp& span) {
+  return object == nullptr || time_of(object, span, "duration");
+}
+
+struct AtOneTime {
+  static constexpr std::size_t kCount = 4;
+
+  PyObject *target = nullptr, *source = nullptr;
+  Stamp t = kLatest, timeout = 0;
+
+  static Parameters<kCount> parameters(const char* method) {
+    return {method, 3, 4, {"target_frame", "source_frame", "time", "timeout"}};
+  }
+  bool take(const Values<kCount>& v) {
+    target = v[0];
+    source = v[1];
+    return moment_of_message(v[2], t) && timeout_of(v[3], timeout);
+  }
+  bool lookup(BufferObject& buffer, Found& found) const {
+    return buffer.lookup(target, source, t, timeout, found);
+  }
+};
+
+// By way of a frame that did not move meanwhile.
+struct AtTwoTimes {
+  static constexpr std::size_t kCount = 6;
+
+  PyObject *target = nullptr, *source = nullptr, *fixed = nullptr;
+  Stamp target_time = kLatest, source_time = kLatest, timeout = 0;
+
+  static Parameters<kCount> parameters(const char* method) {
+    return {
+        method,
+        5,
+        6,
+        {"target_frame", "target_time", "source_frame", "source_time", "fixed_frame", "timeout"}};
+  }
+  bool take(const Values<kCount>& v) {
+    target = v[0];
+    source = v[2];
+    fixed = v[4];
+    return moment_of_message(v[1], target_time) && moment_of_message(v[3], source_time) &&
+           timeout_of(v[5], timeout);
+  }
+  bool lookup(BufferObject& buffer, Found& found) const {
+    FullRequest request{.target_time = target_time, .source_time = source_time};
+    return text_of(target, request.target, "target_frame") &&
+           text_of(source, request.source, "source_frame") &&
+           text_of(fixed, request.fixed, "fixed_frame") &&
+           buffer.ask(request, timeout, &found, nullptr);
   }
 };
 
@@ -231,13 +279,14 @@ PyMethodDef lookup(const char* doc) {
 }
 
 PyMethodDef methods[] = {
-    lookup<kLookup, AtOneTime<RosTimes>>(
+    lookup<kLookup, AtOneTime>(
         "lookup($self, target_frame, source_frame, time, timeout=None)\n--\n\n"
         "Buffer.lookup_transform with ROS times, returning a TransformStamped."),
-    lookup<kLookupFull, AtTwoTimes<RosTimes>>(
+    lookup<kLookupFull, AtTwoTimes>(
         "lookup_full($self, target_frame, target_time, source_frame, source_time, fixed_frame, "
         "timeout=None)\n"
-        "--\n\nBuffer.lookup_transform_full with ROS times, returning a TransformStamped."),
+        "--\n\nBuffer.lookup_transform through a fixed frame, with ROS times, returning a "
+        "TransformStamped."),
     {nullptr, nullptr, 0, nullptr},
 };
 

@@ -1,3 +1,4 @@
+#include "bag_messages.hpp"
 #include "buffer.hpp"
 #include "cyclone.hpp"
 #include "errors.hpp"
@@ -23,6 +24,7 @@ NB_MODULE(_native, module) {
   add_joint_frames_type(module);
   add_joint_relay_type(module);
   add_record_walk_type(module);
+  add_bag_message_types(module);
   add_cyclone_types(module);
   add_zenoh_types(module);
 }

@@ -8,7 +8,9 @@
 #include <cstdint>
 #include <exception>
 #include <new>
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include "../core/samples.hpp"
 #include "concrete.hpp"
@@ -18,14 +20,21 @@ namespace turtlewire::python {
 
 namespace nb = nanobind;
 
-// A hot method in the vectorcall convention, as the method table wants it. No C++ exception may
-// pass through Python.
+// A method in the vectorcall convention, as the method table wants it. No C++ exception may pass
+// through Python.
 using FastMethod = PyObject* (*)(PyObject*, PyObject* const*, Py_ssize_t, PyObject*);
 template <FastMethod Method>
 PyObject* guarded(PyObject* self, PyObject* const* arguments, Py_ssize_t count,
                   PyObject* keywords) {
   try {
     return Method(self, arguments, count, keywords);
+  } catch (nb::python_error& error) {
+    error.restore();
+    return nullptr;
+  } catch (const nb::builtin_exception& error) {
+    const bool is_value = error.type() == nb::exception_type::value_error;
+    PyErr_SetString(is_value ? PyExc_ValueError : PyExc_TypeError, error.what());
+    return nullptr;
   } catch (const std::bad_alloc&) {
     return PyErr_NoMemory();
   } catch (const std::exception& error) {
@@ -40,63 +49,102 @@ PyMethodDef fast_method(const char* name, const char* doc) {
           METH_FASTCALL | METH_KEYWORDS, doc};
 }
 
-// Positional and keyword arguments of a hot method, in the order of the names; missing optional
-// ones are null.
+// A tuple of objects; null with a Python error set.
+PyObject* tuple_of(std::span<PyObject* const> items);
+
+// False, with the TypeError of turtlewire.call_errors for arguments that do not fit; `keywords` is
+// null or a tuple.
+bool raise_misfit(const char* method, std::span<PyObject* const> names, std::size_t required,
+                  std::size_t positional, Py_ssize_t given, PyObject* keywords);
+
+// The names of a method's parameters. The first `required` must be given, those after the first
+// `positional` by keyword.
+template <std::size_t N>
+struct Parameters {
+  const char* method;
+  std::size_t required, positional;
+  std::array<const char*, N> names;
+};
+
+// What a call gives for the parameters, in their order; null for what it leaves out.
+template <std::size_t N>
+using Values = std::array<PyObject*, N>;
+
+// Reads the positional and keyword arguments of a call.
 template <std::size_t N>
 class Signature {
  public:
-  Signature(const char* method, std::size_t required, const std::array<const char*, N>& names)
-      : method_(method), required_(required) {
-    for (std::size_t i = 0; i < N; ++i) names_[i] = PyUnicode_InternFromString(names[i]);
+  explicit Signature(const Parameters<N>& parameters)
+      : method_(parameters.method),
+        required_(parameters.required),
+        positional_(parameters.positional) {
+    for (std::size_t i = 0; i < N; ++i) names_[i] = PyUnicode_InternFromString(parameters.names[i]);
   }
 
+  // False with a TypeError if they do not fit.
   bool read(PyObject* const* arguments, Py_ssize_t count, PyObject* keywords,
-            std::array<PyObject*, N>& values) const {
-    values.fill(nullptr);
-    if (static_cast<std::size_t>(count) > N) {
-      PyErr_Format(PyExc_TypeError, "%s() takes at most %zu arguments (%zd given)", method_, N,
-                   count);
-      return false;
+            Values<N>& values) const {
+    if (take(arguments, count, keywords, values)) [[likely]]
+      return true;
+    return raise_misfit(method_, names_, required_, positional_, count, keywords);
+  }
+
+  // The same for the arguments of a constructor: a tuple and a dictionary, which may be null.
+  bool read_all(PyObject* arguments, PyObject* keywords, Values<N>& values) const {
+    std::vector<PyObject*> given, names;
+    for (Py_ssize_t i = 0; i < tuple_size(arguments); ++i)
+      given.push_back(tuple_item(arguments, i));
+    PyObject *name = nullptr, *value = nullptr;
+    Py_ssize_t place = 0;
+    while (keywords != nullptr && PyDict_Next(keywords, &place, &name, &value)) {
+      names.push_back(name);
+      given.push_back(value);
     }
+    PyObject* all_names = tuple_of(names);
+    if (all_names == nullptr) return false;
+    const bool fits = read(given.data(), tuple_size(arguments), all_names, values);
+    Py_DECREF(all_names);
+    return fits;
+  }
+
+ private:
+  bool take(PyObject* const* arguments, Py_ssize_t count, PyObject* keywords,
+            Values<N>& values) const {
+    values.fill(nullptr);
+    if (static_cast<std::size_t>(count) > positional_) return false;
     for (Py_ssize_t i = 0; i < count; ++i) values[static_cast<std::size_t>(i)] = arguments[i];
-    if (keywords != nullptr && !read_keywords(arguments + count, keywords, values)) return false;
+    if (keywords != nullptr && !take_keywords(arguments + count, keywords, values)) return false;
     for (std::size_t i = 0; i < required_; ++i) {
-      if (values[i] == nullptr) {
-        PyErr_Format(PyExc_TypeError, "%s() is missing the argument '%U'", method_, names_[i]);
-        return false;
-      }
+      if (values[i] == nullptr) return false;
     }
     return true;
   }
 
- private:
-  bool read_keywords(PyObject* const* given, PyObject* keywords,
-                     std::array<PyObject*, N>& values) const {
+  bool take_keywords(PyObject* const* given, PyObject* keywords, Values<N>& values) const {
     for (Py_ssize_t k = 0; k < tuple_size(keywords); ++k) {
-      PyObject* keyword = tuple_item(keywords, k);
-      std::size_t i = 0;
-      while (i < N && names_[i] != keyword && PyUnicode_Compare(names_[i], keyword) != 0) ++i;
-      if (i == N) {
-        PyErr_Format(PyExc_TypeError, "%s() got an unexpected keyword argument '%U'", method_,
-                     keyword);
-        return false;
-      }
-      if (values[i] != nullptr) {
-        PyErr_Format(PyExc_TypeError, "%s() got multiple values for argument '%U'", method_,
-                     keyword);
-        return false;
-      }
+      const std::size_t i = index_of(tuple_item(keywords, k));
+      if (i == N || values[i] != nullptr) return false;
       values[i] = given[k];
     }
     return true;
   }
 
+  // N for a name that is none of them. Calls spell keywords with interned strings, so the pointers
+  // of all names are compared before the text of any.
+  std::size_t index_of(PyObject* keyword) const {
+    for (std::size_t i = 0; i < N; ++i)
+      if (names_[i] == keyword) return i;
+    std::size_t i = 0;
+    while (i < N && PyUnicode_Compare(names_[i], keyword) != 0) ++i;
+    return i;
+  }
+
   const char* method_;
-  std::size_t required_;
+  std::size_t required_, positional_;
   std::array<PyObject*, N> names_;
 };
 
-// False, with the TypeError for an object that is no str.
+// False, with the TypeError of turtlewire.call_errors for an object that is no str.
 bool raise_no_text(PyObject* object, const char* what);
 
 // A string's own bytes; they live as long as the object. False with a TypeError or
@@ -111,6 +159,12 @@ inline bool text_of(PyObject* object, std::string_view& text, const char* what) 
   text = {bytes, static_cast<std::size_t>(size)};
   return true;
 }
+
+// A str of UTF-8; bytes that are none become U+FFFD.
+inline PyObject* to_python(std::string_view text) {
+  return PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace");
+}
+inline nb::str text(std::string_view value) { return nb::str(value.data(), value.size()); }
 
 // As PyLong_AsLongLong(), which takes a detour through an array of bytes for ints of stamps' size.
 inline std::int64_t to_int64(PyObject* object) {
@@ -134,10 +188,27 @@ inline bool nanoseconds_of(PyObject* object, Stamp& value, const char* what) {
   return nanoseconds_of_other(object, value, what);
 }
 
+// The time of a question: a null object or None is kLatest. False with a Python error set.
+bool raise_no_time(const char* what);
+inline bool moment_of(PyObject* object, Stamp& value, const char* what) {
+  value = kLatest;
+  if (object == nullptr || object == Py_None) return true;
+  return nanoseconds_of(object, value, what) && (value != kLatest || raise_no_time(what));
+}
+
 // So many numbers from a sequence. False with a Python error set.
 bool numbers_of(PyObject* sequence, double* values, Py_ssize_t count, const char* what);
 
+// None for an argument that was left out.
+inline nb::handle or_none(PyObject* value) { return value == nullptr ? Py_None : value; }
+
 // The same for functions of nanobind: throws if there is a Python error.
 Stamp nanoseconds_of(nb::handle object, const char* what);
+Stamp nanoseconds_or(PyObject* object, Stamp value, const char* what);  // null is `value`
+Stamp moment_of(nb::handle object, const char* what);
+bool is_true(PyObject* object);  // null is false
+// Which of two words it is; null is the first.
+int choice_of(PyObject* object, const char* what, std::string_view first, std::string_view second);
+std::string_view text_of(nb::handle object, const char* what);
 
 }  // namespace turtlewire::python

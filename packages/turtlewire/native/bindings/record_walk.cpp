@@ -68,7 +68,7 @@ void add_record_walk_type(nb::module_& module) {
       module, "RecordWalk",
       "Walks the records of MCAP chunks and adds the TFMessages among them to a buffer.\n\n"
       "One thread at a time may use it. Messages that are no TFMessages are counted by the\n"
-      "buffer, as those of `ingest` are.\n\n"
+      "buffer, as those of `add_tf_message` are.\n\n"
       "Args:\n"
       "    start_ns: The first log time of the messages that are taken.\n"
       "    end_ns: The last log time.")

@@ -3,14 +3,15 @@
 #include <structmember.h>
 
 #include <cstddef>
+#include <tuple>
 
 namespace turtlewire::python {
 namespace {
 
 struct TransformObject {
   PyObject_HEAD;
-  PyObject* frame_id;        // the target
-  PyObject* child_frame_id;  // the source
+  PyObject* target_frame;
+  PyObject* source_frame;
   Stamp stamp;
   Pose pose;
 };
@@ -34,25 +35,53 @@ PyObject* floats(std::initializer_list<double> values) {
   return tuple;
 }
 
+constexpr char kArrays[] = "turtlewire.tf.arrays", kProducts[] = "turtlewire.tf.products";
+
+// NumPy is imported there, only when an array or a picture is asked for.
+template <typename... Arguments>
+PyObject* call_helper(const char* home, const char* helper, Arguments... arguments) {
+  return taking_gil([=]() -> PyObject* {
+    PyObject* module = PyImport_ImportModule(home);
+    if (module == nullptr) return nullptr;
+    PyObject* function = PyObject_GetAttrString(module, helper);
+    Py_DECREF(module);
+    if (function == nullptr) return nullptr;
+    PyObject* result = PyObject_CallFunctionObjArgs(function, arguments..., nullptr);
+    Py_DECREF(function);
+    return result;
+  });
+}
+
+constexpr Parameters<5> kTransform{
+    "Transform", 3, 4, {"target_frame", "source_frame", "translation", "rotation", "stamp_ns"}};
+
 PyObject* create(PyTypeObject*, PyObject* arguments, PyObject* keywords) {
-  static const char* names[] = {"frame_id",    "child_frame_id", "stamp_ns",
-                                "translation", "rotation",       nullptr};
-  PyObject *frame_id, *child_frame_id;
-  long long stamp;
-  Pose pose;
-  auto& [t, q] = pose;
-  if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "UUL(ddd)(dddd)", const_cast<char**>(names),
-                                   &frame_id, &child_frame_id, &stamp, &t.x, &t.y, &t.z, &q.x, &q.y,
-                                   &q.z, &q.w)) {
+  static const Signature signature(kTransform);
+  Values<5> given;
+  if (!signature.read_all(arguments, keywords, given)) return nullptr;
+  const auto [target, source, translation, rotation, moment] = given;
+  double t[3], q[4] = {0, 0, 0, 1};
+  Stamp stamp = kLatest;
+  std::string_view name;
+  if (!text_of(target, name, "target_frame") || !text_of(source, name, "source_frame") ||
+      !numbers_of(translation, t, 3, "translation") ||
+      (rotation != nullptr && !numbers_of(rotation, q, 4, "rotation")) ||
+      !moment_of(moment, stamp, "stamp_ns")) {
     return nullptr;
   }
-  return make_transform(frame_id, child_frame_id, {stamp, pose});
+  const Quat turn{q[0], q[1], q[2], q[3]};
+  if (dot(turn, turn) == 0) {
+    PyErr_SetString(PyExc_ValueError,
+                    "rotation must not be (0, 0, 0, 0); the identity is (0, 0, 0, 1)");
+    return nullptr;
+  }
+  return make_transform(target, source, {stamp, {{t[0], t[1], t[2]}, turn}});
 }
 
 void destroy(PyObject* self) {
   PyTypeObject* type = Py_TYPE(self);
-  Py_DECREF(cast(self)->frame_id);
-  Py_DECREF(cast(self)->child_frame_id);
+  Py_DECREF(cast(self)->target_frame);
+  Py_DECREF(cast(self)->source_frame);
   PyObject_Free(self);
   Py_DECREF(type);
 }
@@ -67,33 +96,34 @@ PyObject* rotation(PyObject* self, void*) {
   return floats({q.x, q.y, q.z, q.w});
 }
 
+PyObject* stamp_ns(PyObject* self, void*) {
+  const Stamp stamp = cast(self)->stamp;
+  if (stamp == kLatest) Py_RETURN_NONE;
+  return PyLong_FromLongLong(stamp);
+}
+
 PyObject* inverse_of(PyObject* self, PyObject*) {
   const TransformObject* transform = cast(self);
   const Pose back = inverse(transform->pose);
-  return make_transform(transform->child_frame_id, transform->frame_id,
+  return make_transform(transform->source_frame, transform->target_frame,
                         {transform->stamp, {back.translation, canonical(back.rotation)}});
 }
 
-PyObject* reduce(PyObject* self, PyObject*) {
-  const TransformObject* transform = cast(self);
-  return Py_BuildValue("O(OOLNN)", Py_TYPE(self), transform->frame_id, transform->child_frame_id,
-                       static_cast<long long>(transform->stamp), translation(self, nullptr),
-                       rotation(self, nullptr));
-}
+PyObject* reduce(PyObject* self, PyObject*) { return call_helper(kArrays, "reduced", self); }
 
 PyObject* represent(PyObject* self) {
   const TransformObject* transform = cast(self);
   PyObject* t = translation(self, nullptr);
   PyObject* q = rotation(self, nullptr);
+  PyObject* stamp = stamp_ns(self, nullptr);
   PyObject* text = nullptr;
-  if (t != nullptr && q != nullptr) {
-    text = PyUnicode_FromFormat(
-        "Transform(frame_id=%R, child_frame_id=%R, stamp_ns=%lld, translation=%R, rotation=%R)",
-        transform->frame_id, transform->child_frame_id, static_cast<long long>(transform->stamp), t,
-        q);
+  if (t != nullptr && q != nullptr && stamp != nullptr) {
+    text = PyUnicode_FromFormat("Transform(%R, %R, %R, %R, stamp_ns=%R)", transform->target_frame,
+                                transform->source_frame, t, q, stamp);
   }
   Py_XDECREF(t);
   Py_XDECREF(q);
+  Py_XDECREF(stamp);
   return text;
 }
 
@@ -102,102 +132,95 @@ PyObject* compare(PyObject* a, PyObject* b, int operation) {
     Py_RETURN_NOTIMPLEMENTED;
   const TransformObject *x = cast(a), *y = cast(b);
   const bool equal = x->stamp == y->stamp && x->pose == y->pose &&
-                     PyUnicode_Compare(x->frame_id, y->frame_id) == 0 &&
-                     PyUnicode_Compare(x->child_frame_id, y->child_frame_id) == 0;
+                     PyUnicode_Compare(x->target_frame, y->target_frame) == 0 &&
+                     PyUnicode_Compare(x->source_frame, y->source_frame) == 0;
   return PyBool_FromLong(equal == (operation == Py_EQ));
 }
 
-// NumPy is imported there, only when an array or a picture is asked for.
-PyObject* call_helper(const char* home, const char* helper, PyObject* self, PyObject* arguments,
-                      PyObject* keywords) {
-  return taking_gil([=]() -> PyObject* {
-    PyObject* module = PyImport_ImportModule(home);
-    if (module == nullptr) return nullptr;
-    PyObject* function = PyObject_GetAttrString(module, helper);
-    Py_DECREF(module);
-    if (function == nullptr) return nullptr;
-    PyObject* first = PyTuple_Pack(1, self);
-    PyObject* all = first == nullptr ? nullptr : PySequence_Concat(first, arguments);
-    PyObject* result = all == nullptr ? nullptr : PyObject_Call(function, all, keywords);
-    Py_XDECREF(all);
-    Py_XDECREF(first);
-    Py_DECREF(function);
-    return result;
-  });
+// What a helper in Python answers to a method that reads the arguments `Names`; None for those that
+// are left out.
+template <const auto& Names, const char* Home, const char* Helper>
+PyObject* asked(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  static const Signature signature(Names);
+  Values<Names.names.size()> given;
+  if (!signature.read(arguments, count, keywords, given)) return nullptr;
+  return std::apply(
+      [self](auto... each) { return call_helper(Home, Helper, self, or_none(each).ptr()...); },
+      given);
+}
+template <const auto& Names, const char* Home, const char* Helper>
+PyMethodDef helped(const char* doc) {
+  return fast_method<asked<Names, Home, Helper>>(Names.method, doc);
 }
 
-PyObject* as_array(PyObject* self, PyObject* arguments, PyObject* keywords) {
-  return call_helper("turtlewire.tf.arrays", "pose_array", self, arguments, keywords);
-}
+constexpr char kPoseArray[] = "pose_array", kApplied[] = "applied", kOfMatrix[] = "of_matrix",
+               kInterpolated[] = "interpolated";
+constexpr Parameters<2> kArray{"__array__", 0, 2, {"dtype", "copy"}};
+constexpr Parameters<1> kApply{"apply", 1, 1, {"points"}};
+constexpr Parameters<2> kInterpolate{"interpolate", 2, 2, {"other", "stamp_ns"}};
+constexpr Parameters<4> kFromMatrix{
+    "from_matrix", 3, 3, {"target_frame", "source_frame", "matrix", "stamp_ns"}};
 
-PyObject* call_helper(const char* home, const char* helper, PyObject* self) {
-  PyObject* nothing = PyTuple_New(0);
-  if (nothing == nullptr) return nullptr;
-  PyObject* result = call_helper(home, helper, self, nothing, nullptr);
-  Py_DECREF(nothing);
-  return result;
-}
-
-PyObject* as_matrix(PyObject* self, PyObject*) {
-  return call_helper("turtlewire.tf.arrays", "pose_matrix", self);
-}
+PyObject* as_matrix(PyObject* self, PyObject*) { return call_helper(kArrays, "pose_matrix", self); }
 
 // The slot is asked for both operands; the right one may be anything.
 PyObject* product(PyObject* left, PyObject* right) {
   if (Py_TYPE(left) != transform_type) Py_RETURN_NOTIMPLEMENTED;
-  PyObject* arguments = PyTuple_Pack(1, right);
-  if (arguments == nullptr) return nullptr;
-  PyObject* result = call_helper("turtlewire.tf.products", "product", left, arguments, nullptr);
-  Py_DECREF(arguments);
-  return result;
-}
-
-PyObject* interpolated(PyObject* self, PyObject* arguments, PyObject* keywords) {
-  return call_helper("turtlewire.tf.products", "interpolated", self, arguments, keywords);
+  return call_helper(kProducts, "product", left, right);
 }
 
 PyObject* as_html(PyObject* self, PyObject*) {
   return call_helper("turtlewire.tf.notebook", "transform_html", self);
 }
 
+PyObject* euler(PyObject* self, void*) { return call_helper(kArrays, "euler_angles", self); }
+
 constexpr auto kPose = static_cast<Py_ssize_t>(offsetof(TransformObject, pose));
 constexpr Py_ssize_t number(int i) { return kPose + i * static_cast<Py_ssize_t>(sizeof(double)); }
 
 PyMemberDef members[] = {
-    {"frame_id", T_OBJECT, offsetof(TransformObject, frame_id), READONLY,
+    {"target_frame", T_OBJECT, offsetof(TransformObject, target_frame), READONLY,
      "The target frame, in which the pose is."},
-    {"child_frame_id", T_OBJECT, offsetof(TransformObject, child_frame_id), READONLY,
+    {"source_frame", T_OBJECT, offsetof(TransformObject, source_frame), READONLY,
      "The source frame: whose pose it is."},
-    {"stamp_ns", T_LONGLONG, offsetof(TransformObject, stamp), READONLY,
-     "The time of the pose, in nanoseconds."},
     {"x", T_DOUBLE, number(0), READONLY, "Translation along x, in metres."},
     {"y", T_DOUBLE, number(1), READONLY, "Translation along y, in metres."},
     {"z", T_DOUBLE, number(2), READONLY, "Translation along z, in metres."},
-    {"qx", T_DOUBLE, number(3), READONLY, "x of the unit quaternion."},
-    {"qy", T_DOUBLE, number(4), READONLY, "y of the unit quaternion."},
-    {"qz", T_DOUBLE, number(5), READONLY, "z of the unit quaternion."},
-    {"qw", T_DOUBLE, number(6), READONLY, "w of the unit quaternion."},
     {nullptr, 0, 0, 0, nullptr},
 };
 
 PyGetSetDef properties[] = {
+    {"stamp_ns", stamp_ns, nullptr,
+     "The time of the pose, in nanoseconds; None if only static links were used.", nullptr},
+    {"euler", euler, nullptr, "Roll, pitch and yaw, in radians.", nullptr},
     {"translation", translation, nullptr, "(x, y, z) in metres.", nullptr},
     {"rotation", rotation, nullptr, "The unit quaternion (x, y, z, w).", nullptr},
     {nullptr, nullptr, nullptr, nullptr, nullptr},
 };
 
+PyMethodDef class_method(PyMethodDef method) {
+  method.ml_flags |= METH_CLASS;
+  return method;
+}
+
 PyMethodDef methods[] = {
     {"inverse", inverse_of, METH_NOARGS,
      "inverse($self)\n--\n\nThe transform the other way round: source_from_target."},
-    {"interpolate", reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(interpolated)),
-     METH_VARARGS | METH_KEYWORDS,
-     "interpolate($self, other, stamp_ns)\n--\n\n"
-     "The transform at a time between two of the same frames: lerp and slerp, as tf2 does."},
+    helped<kInterpolate, kProducts, kInterpolated>(
+        "interpolate($self, other, stamp_ns)\n--\n\n"
+        "The transform at a time between two of the same frames: lerp and slerp, as tf2 does."),
+    helped<kApply, kArrays, kApplied>(
+        "apply($self, points)\n--\n\n"
+        "Points of the source frame, shape (..., 3), in the target frame."),
+    class_method(helped<kFromMatrix, kArrays, kOfMatrix>(
+        "from_matrix($type, target_frame, source_frame, matrix, *, stamp_ns=None)\n--\n\n"
+        "The transform of a homogeneous 4x4 matrix.\n\n"
+        "Raises:\n"
+        "    InvalidTransformError: The matrix is not a rotation and a translation.")),
     {"as_matrix", as_matrix, METH_NOARGS,
      "as_matrix($self)\n--\n\nThe 4x4 matrix that acts on column vectors from the left."},
-    {"__array__", reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(as_array)),
-     METH_VARARGS | METH_KEYWORDS,
-     "__array__($self, dtype=None, copy=None)\n--\n\nThe seven numbers x, y, z, qx, qy, qz, qw."},
+    helped<kArray, kArrays, kPoseArray>("__array__($self, dtype=None, copy=None)\n--\n\n"
+                                        "The seven numbers x, y, z, qx, qy, qz, qw."),
     {"_repr_html_", as_html, METH_NOARGS,
      "_repr_html_($self)\n--\n\nNumbers and a picture, for notebooks."},
     {"__reduce__", reduce, METH_NOARGS, nullptr},
@@ -205,12 +228,15 @@ PyMethodDef methods[] = {
 };
 
 const char kDoc[] =
-    "Transform(frame_id, child_frame_id, stamp_ns, translation, rotation)\n--\n\n"
-    "The pose of `child_frame_id` (source) in `frame_id` (target) at one time: "
+    "Transform(target_frame, source_frame, translation, rotation=(0, 0, 0, 1), *, stamp_ns=None)"
+    "\n--\n\n"
+    "The pose of `source_frame` in `target_frame` at one time: "
     "`target_from_source`.\n\n"
     "Immutable. It takes data of the source frame into the target frame. Translation in metres; "
     "rotation a unit\n"
-    "quaternion in the order x, y, z, w. `numpy.asarray(transform)` gives the seven numbers.";
+    "quaternion in the order x, y, z, w. `numpy.asarray(transform)` gives the seven numbers.\n\n"
+    "Raises:\n"
+    "    ValueError: The rotation has length 0. Other lengths are corrected where it is used.";
 
 PyType_Slot slots[] = {
     {Py_tp_doc, const_cast<char*>(kDoc)},
@@ -240,8 +266,8 @@ bool add_transform_type(nb::module_& module) {
 PyObject* make_transform(PyObject* target, PyObject* source, const Found& found) {
   auto* transform = PyObject_New(TransformObject, transform_type);
   if (transform == nullptr) return nullptr;
-  transform->frame_id = Py_NewRef(target);
-  transform->child_frame_id = Py_NewRef(source);
+  transform->target_frame = Py_NewRef(target);
+  transform->source_frame = Py_NewRef(source);
   transform->stamp = found.stamp;
   transform->pose = found.target_from_source;
   return reinterpret_cast<PyObject*>(transform);

@@ -48,8 +48,9 @@ void find_in_any_order(const Samples& samples, const Stamp* times, Samples::Pair
 
 }  // namespace
 
-BatchLookup::BatchLookup(SharedBuffer& shared, std::string_view target, std::string_view source)
-    : shared_(shared), target_(target), source_(source) {}
+BatchLookup::BatchLookup(SharedBuffer& shared, std::string_view target, std::string_view source,
+                         Stamp beyond)
+    : shared_(shared), target_(target), source_(source), beyond_(beyond) {}
 
 const Path* BatchLookup::path(Tree& tree) {
   if (source_id_ == 0 || epoch_ != tree.path_epoch()) {
@@ -72,7 +73,7 @@ const Path* BatchLookup::path(Tree& tree) {
 
 Stamp BatchLookup::latest() {
   const SharedBuffer::Access access(shared_);
-  Stamp t = 0;
+  Stamp t = kLatest;
   if (target_ != source_ && path(*access) != nullptr)
     access->latest_common_time(target_id_, source_id_, t, nullptr);
   return t;
@@ -99,11 +100,17 @@ void BatchLookup::block(std::span<const Stamp> stamps, Lanes& poses, Status* sta
 void BatchLookup::scalar_block(const Tree& tree, const Path& path, std::span<const Stamp> stamps,
                                Lanes& poses, Status* statuses) {
   for (std::size_t i = 0; i < stamps.size(); ++i) {
-    Stamp t = stamps[i];
     Pose pose;
-    statuses[i] = tree.lookup(path, t, pose, nullptr);
+    statuses[i] = find(tree, path, stamps[i], pose);
     poses.set(i, statuses[i] == Status::ok ? pose : kNoPose);
   }
+}
+
+Status BatchLookup::find(const Tree& tree, const Path& path, Stamp t, Pose& pose) const {
+  const Status status = tree.lookup(path, t, pose, nullptr);
+  if (status == Status::ok || beyond_ == 0) return status;
+  const Rule rule{.t = t, .beyond = beyond_};
+  return tree.lookup(path.target, path.source, rule, pose, nullptr, nullptr);
 }
 
 void BatchLookup::direct_block(const Tree& tree, const Path& path, std::span<const Stamp> stamps,
@@ -113,7 +120,7 @@ void BatchLookup::direct_block(const Tree& tree, const Path& path, std::span<con
   const Stamp latest = turtlewire::latest_common_time(path);
   for (std::size_t i = 0; i < kLanes; ++i) {
     const Stamp t = stamps[std::min(i, stamps.size() - 1)];
-    times[i] = t != 0 ? t : latest;
+    times[i] = t != kLatest ? t : latest;
   }
   arm(path.up, times, up_hints_, missing, poses);
   if (!path.down.empty()) {
@@ -121,13 +128,12 @@ void BatchLookup::direct_block(const Tree& tree, const Path& path, std::span<con
     arm(path.down, times, down_hints_, missing, down);
     kernels().between(down, poses);
   }
-  kernels().canonicalize(poses);
+  if (!tree.rules().keeps_rotations) kernels().canonicalize(poses);
   for (std::size_t i = 0; i < stamps.size(); ++i) {
     if (!missing[i]) continue;
-    Pose unused;
-    statuses[i] = tree.lookup(path, times[i], unused,
-                              nullptr);  // tf2's order decides which link it blames
-    poses.set(i, kNoPose);
+    Pose pose;
+    statuses[i] = find(tree, path, times[i], pose);  // tf2's order decides which link it blames
+    poses.set(i, statuses[i] == Status::ok ? pose : kNoPose);
   }
 }
 
@@ -153,7 +159,7 @@ void BatchLookup::read_link(const Link& link, const Stamp* stamps, std::size_t& 
   Stamp times[kLanes];
   for (std::size_t i = 0; i < kLanes; ++i) {
     missing[i] |= !link.covers(stamps[i]);
-    times[i] = stamps[i] == 0 || missing[i] ? samples.newest() : stamps[i];
+    times[i] = stamps[i] == kLatest || missing[i] ? samples.newest() : stamps[i];
   }
   Samples::Pair pairs[kLanes];
   if (std::is_sorted(times, times + kLanes)) {
@@ -194,6 +200,7 @@ class Forest {
       nodes_[frame].state = State::open;
       line_.push_back(frame);
       const Link& link = tree_.link(frame);
+      if (link.has_scaling()) break;
       if (link.kind() == LinkKind::none) {
         nodes_[frame] = {State::known, frame, {}};
         line_.pop_back();
@@ -247,15 +254,15 @@ Status lookup_all(SharedBuffer& shared, std::string_view target, Stamp t,
   }
   Forest forest(tree, t);
   Pose root_from_target, root_from_frame;
-  const bool at_once = t != 0 && forest.root_from(target_id, target_root, root_from_target);
+  const bool at_once = t != kLatest && forest.root_from(target_id, target_root, root_from_target);
   for (const FrameId frame : tree.known_frames()) {
     Pose pose;
     Stamp stamp = t;
     if (frame == target_id) {
-      if (t == 0) stamp = tree.newest(frame);
+      if (t == kLatest) stamp = tree.link(frame).reached();
     } else if (at_once && forest.root_from(frame, root, root_from_frame) && root == target_root) {
       pose = between(root_from_target, root_from_frame);
-      pose.rotation = canonical(pose.rotation);
+      pose.rotation = tree.stored(pose.rotation);
     } else if (tree.lookup(tree.path(target_id, frame), stamp, pose, nullptr) != Status::ok) {
       continue;
     }
@@ -289,7 +296,7 @@ Velocity mean_velocity(const Pose& first, const Pose& last, const Vec3& fixed_po
           per_second * rotation_vector(last.rotation * conjugate(first.rotation))};
 }
 
-// As in ROS 2, an interval that would begin before time 0, or at 0, which means the latest time,
+// As in ROS 2, whose time 0 is no time of data, an interval that would begin at 0 or before it
 // begins 10 microseconds after it.
 Stamp interval_start(Stamp end, Stamp interval) {
   constexpr Stamp kFirst = 10'000;
@@ -304,7 +311,9 @@ std::optional<Request> lookup_velocities(SharedBuffer& shared, const VelocityReq
   BatchLookup motion(shared, request.observer, request.tracking);
   BatchLookup axes(shared, request.axes, request.observer);
   BatchLookup point(shared, request.tracking, request.point_frame);
-  const Stamp latest = motion.latest();
+  const Stamp reached = motion.latest();
+  const Stamp latest =
+      reached != kLatest ? reached : 0;  // any time is as good between static links
   std::optional<Request> fault;
   Lanes first, last, turn, body;
   for (std::size_t begin = 0; begin < stamps.size(); begin += kLanes) {
@@ -312,7 +321,7 @@ std::optional<Request> lookup_velocities(SharedBuffer& shared, const VelocityReq
     Stamp starts[kLanes], ends[kLanes], times[kLanes];
     Status status[4][kLanes];
     for (std::size_t i = 0; i < n; ++i) {
-      times[i] = stamps[begin + i] != 0 ? stamps[begin + i] : latest;
+      times[i] = stamps[begin + i] != kLatest ? stamps[begin + i] : latest;
       ends[i] = times[i] <= latest ? std::min(times[i] + request.interval / 2, latest) : times[i];
       starts[i] = interval_start(ends[i], request.interval);
     }

@@ -17,11 +17,13 @@ namespace turtlewire {
 // the pose is NaN, and the status says why.
 class BatchLookup {
  public:
-  BatchLookup(SharedBuffer& shared, std::string_view target, std::string_view source);
+  // `beyond`: as in Request.
+  BatchLookup(SharedBuffer& shared, std::string_view target, std::string_view source,
+              Stamp beyond = 0);
 
-  // At most kLanes stamps; 0 asks for the latest common time.
+  // At most kLanes stamps; kLatest asks for the latest common time.
   void block(std::span<const Stamp> stamps, Lanes& poses, Status* statuses);
-  // The latest common time; 0 also if there is none.
+  // The latest common time; kLatest also if there is none.
   Stamp latest();
 
  private:
@@ -29,6 +31,7 @@ class BatchLookup {
   using Hints = std::vector<std::size_t>;
 
   const Path* path(Tree& tree);  // null if a name is unknown
+  Status find(const Tree& tree, const Path& path, Stamp t, Pose& pose) const;
   void scalar_block(const Tree& tree, const Path& path, std::span<const Stamp> stamps, Lanes& poses,
                     Status* statuses);
   void direct_block(const Tree& tree, const Path& path, std::span<const Stamp> stamps, Lanes& poses,
@@ -40,14 +43,15 @@ class BatchLookup {
 
   SharedBuffer& shared_;
   std::string target_, source_;
+  Stamp beyond_;
   FrameId target_id_ = 0, source_id_ = 0;
   Status unresolved_ = Status::ok;
   std::uint64_t epoch_ = 0, version_ = 0;
   Hints up_hints_, down_hints_;
 };
 
-// The poses of all frames that have one, in `target` at one time; 0 takes the latest common time of
-// each.
+// The poses of all frames that have one, in `target` at one time; kLatest takes the latest common
+// time of each.
 struct FramePose {
   std::string frame;
   Stamp stamp;

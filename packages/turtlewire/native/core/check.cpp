@@ -7,14 +7,13 @@ namespace turtlewire {
 
 std::string Link::fault() const {
   if (kind_ == LinkKind::none && (parent_ != 0 || !samples_.empty())) return "a root has data";
-  if (is_static() && (parent_ == 0 || !samples_.empty()))
-    return "a static link has a history or no parent";
+  if (is_static() && !samples_.empty()) return "a static link has a history";
   if (kind_ == LinkKind::dynamic_link && (parent_ == 0) != samples_.empty())
     return "a parent without samples, or the reverse";
   std::size_t changes = 0;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     const Sample& sample = samples_[i];
-    if (std::fabs(dot(sample.pose.rotation, sample.pose.rotation) - 1.0) > 1e-9)
+    if (!has_scaling_ && std::fabs(dot(sample.pose.rotation, sample.pose.rotation) - 1.0) > 1e-9)
       return "a rotation is not unit";
     if (has_nan(sample.pose.translation) || sample.parent == 0) return "a sample is not valid";
     if (!is_finite(sample.pose.translation) && !has_infinity_)

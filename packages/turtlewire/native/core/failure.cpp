@@ -61,30 +61,35 @@ std::string explain_name(const Failure& f, Question question) {
                " - in tf2 frame_ids ", why});
 }
 
-std::string explain_time(const Failure& f) {
+std::string explain_time(const Failure& f, Question question) {
+  const Stamp requested = f.requested != kLatest ? f.requested : 0;
   std::string text;
   if (f.status == Status::future) {
     text = format(
         "Lookup would require extrapolation into the future.  Requested time %.6f but the latest "
         "data is at time %.6f",
-        seconds(f.requested), seconds(f.newest));
+        seconds(requested), seconds(f.newest));
   } else if (f.status == Status::past) {
     text = format(
         "Lookup would require extrapolation into the past.  Requested time %.6f but the earliest "
         "data is at time %.6f",
-        seconds(f.requested), seconds(f.oldest));
-  } else if (!f.emptied) {
+        seconds(requested), seconds(f.oldest));
+  } else if (f.status == Status::no_static_data) {
+    if (question == Question::lookup) text = "Static cache is empty";
+  } else if (!f.emptied || f.is_emptied_told) {
     text = format(
         "Lookup would require extrapolation at time %.6f, but only time %.6f is in the buffer",
-        seconds(f.requested), seconds(f.newest));
+        seconds(requested), seconds(f.newest));
   }
   return text + ", when looking up transform from frame [" + f.source + "] to frame [" + f.target +
          "]";
 }
 
+std::string values(const Quat& q) { return format("(%f %f %f %f)", q.x, q.y, q.z, q.w); }
+
 std::string values(const Pose& pose) {
-  const auto& [t, q] = pose;
-  return format("(%f %f %f) (%f %f %f %f)", t.x, t.y, t.z, q.x, q.y, q.z, q.w);
+  const Vec3& t = pose.translation;
+  return format("(%f %f %f) ", t.x, t.y, t.z) + values(pose.rotation);
 }
 
 }  // namespace
@@ -105,7 +110,8 @@ std::string explain(const Failure& f, Question question) {
     case Status::no_data:
     case Status::future:
     case Status::past:
-      return explain_time(f);
+    case Status::no_static_data:
+      return explain_time(f, question);
   }
   return "";
 }
@@ -128,6 +134,10 @@ std::string explain(const Refusal& r) {
       return "TF_NAN_INPUT: Ignoring transform for child_frame_id \"" + child +
              "\" from authority \"" + authority + "\" because of a nan value in the transform " +
              values(r.pose);
+    case Verdict::denormalized:
+      return "TF_DENORMALIZED_QUATERNION: Ignoring transform for child_frame_id \"" + child +
+             "\" from authority \"" + authority +
+             "\" because of an invalid quaternion in the transform " + values(r.pose.rotation);
     case Verdict::old_data:
       return "TF_OLD_DATA ignoring data from the past for frame " + child + " at time " +
              format("%.6f", seconds(r.stamp)) + " according to authority " + authority +

@@ -21,6 +21,7 @@ enum class Status : std::uint8_t {
   no_data,  // the link has no sample, or one sample of another time
   future,
   past,
+  no_static_data,  // the link is static and was cleared
 };
 
 // Which call asked: tf2 words its complaints about frame ids by it.
@@ -34,10 +35,11 @@ struct Failure {
   std::string target, source;            // of this step: a lookup through a fixed frame has two
   std::string target_root, source_root;  // of two frames that are not connected
   std::string link_child,
-      link_parent;       // the link whose data does not reach, with its newest parent
-  bool emptied = false;  // that link has no sample at all
-  bool latest = false;   // the latest time was asked for, which new data moves on
-  Stamp requested = 0, oldest = 0, newest = 0;
+      link_parent;               // the link whose data does not reach, with its newest parent
+  bool emptied = false;          // that link has no sample at all
+  bool is_emptied_told = false;  // and the text says so
+  bool latest = false;           // the latest time was asked for, which new data moves on
+  Stamp requested = kLatest, oldest = 0, newest = 0;
   std::string frames;  // all_frames_as_string() of a tree with a loop
 };
 
@@ -54,8 +56,9 @@ enum class Verdict : std::uint8_t {
   reserved_name,
   bad_name,
   too_many_frames,
+  denormalized,
 };
-inline constexpr std::size_t kVerdicts = 9;
+inline constexpr std::size_t kVerdicts = 10;
 
 struct Refusal {
   Verdict verdict = Verdict::accepted;

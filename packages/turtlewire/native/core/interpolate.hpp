@@ -51,17 +51,32 @@ inline Weights arc_weights(double cosine, double ratio) {
   return {std::sin((1.0 - ratio) * angle) * scale, std::sin(ratio * angle) * scale};
 }
 
-inline Quat slerp(const Quat& older, const Quat& newer, double ratio) {
-  const double cosine = dot(older, newer);
-  auto [wo, wn] = arc_weights(std::fabs(cosine), ratio);
-  if (cosine < 0.0) wn = -wn;
+// The sum of both, by the shorter way: q and -q are one rotation.
+inline Quat weigh(const Quat& older, const Quat& newer, Weights weights, double cosine) {
+  const double wo = weights.older, wn = cosine < 0.0 ? -weights.newer : weights.newer;
   return {wo * older.x + wn * newer.x, wo * older.y + wn * newer.y, wo * older.z + wn * newer.z,
           wo * older.w + wn * newer.w};
+}
+
+inline Quat slerp(const Quat& older, const Quat& newer, double ratio) {
+  const double cosine = dot(older, newer);
+  return weigh(older, newer, arc_weights(std::fabs(cosine), ratio), cosine);
+}
+
+// Of quaternions of any length: by the angle between them; of one direction, it is the older.
+inline Quat slerp_scaling(const Quat& older, const Quat& newer, double ratio) {
+  const double cosine = dot(older, newer) / std::sqrt(dot(older, older) * dot(newer, newer));
+  if (std::fabs(cosine) >= 1.0) return older;
+  return weigh(older, newer, arc_weights(std::fabs(cosine), ratio), cosine);
 }
 
 inline Pose interpolate(const Pose& older, const Pose& newer, double ratio) {
   return {(1.0 - ratio) * older.translation + ratio * newer.translation,
           slerp(older.rotation, newer.rotation, ratio)};
+}
+inline Pose interpolate_scaling(const Pose& older, const Pose& newer, double ratio) {
+  return {(1.0 - ratio) * older.translation + ratio * newer.translation,
+          slerp_scaling(older.rotation, newer.rotation, ratio)};
 }
 
 }  // namespace turtlewire

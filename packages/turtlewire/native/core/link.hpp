@@ -51,13 +51,19 @@ class Link {
 
   LinkKind kind() const { return kind_; }
   bool is_static() const { return kind_ == LinkKind::static_link; }
-  bool has_data() const { return is_static() || !samples_.empty(); }
+  bool has_data() const { return parent_ != 0; }
   // The parent of the newest sample; 0 without data.
   FrameId parent() const { return parent_; }
+  // The same, but of a static link that was cleared its last one: the search for the latest common
+  // time of Lyrical's tf2 still goes that way.
+  FrameId last_parent() const { return parent_ != 0 ? parent_ : cleared_parent_; }
   // Samples of different parents are in the history, so the tree depends on the time asked for.
   bool reparented() const { return parent_changes_ > 0; }
   // An infinite translation was accepted (tf2 does): it spoils every walk through this link.
   bool has_infinity() const { return has_infinity_; }
+  // A rotation was stored that is not unit, as tf2 does since Kilted: poses on the way scale.
+  bool has_scaling() const { return has_scaling_; }
+  void note_scaling() { has_scaling_ = true; }
   const Pose& static_pose() const { return static_pose_; }
   const Samples& samples() const { return samples_; }
 
@@ -71,13 +77,16 @@ class Link {
   Stamp oldest() const { return samples_.oldest(); }
   Stamp newest() const { return samples_.newest(); }
 
+  // The newest time of a dynamic link; kLatest for a static one.
+  Stamp reached() const { return samples_.empty() ? kLatest : samples_.newest(); }
+
   // What is wrong with the link's own state; empty if nothing is.
   std::string fault() const;
 
   // Calls `visit` with each parent in the data; once at least.
   template <typename Visit>
   void for_parents(Visit visit) const {
-    if (has_data()) visit(parent_);
+    if (last_parent() != 0) visit(last_parent());
     for (std::size_t i = 0; parent_changes_ > 0 && i < samples_.size(); ++i)
       visit(samples_[i].parent);
   }
@@ -88,7 +97,8 @@ class Link {
     const auto flags = static_cast<std::uint64_t>(kind_) |
                        static_cast<std::uint64_t>(has_data()) << 2 |
                        static_cast<std::uint64_t>(reparented()) << 3 |
-                       static_cast<std::uint64_t>(has_infinity_) << 4;
+                       static_cast<std::uint64_t>(has_infinity_) << 4 |
+                       static_cast<std::uint64_t>(has_scaling_) << 5;
     return flags << 32 | parent_;
   }
 
@@ -97,13 +107,14 @@ class Link {
     if (kind == kind_) return;
     clear_samples();
     kind_ = kind;
-    has_infinity_ = false;
+    has_infinity_ = has_scaling_ = false;
   }
 
   void set_static(FrameId parent, const Pose& pose) {
     parent_ = parent;
     static_pose_ = pose;
     has_infinity_ = !is_finite(pose.translation);
+    has_scaling_ = false;
   }
 
   // tf2's order of things: drop what is too old by the newest stamp so far, refuse what is older
@@ -144,25 +155,26 @@ class Link {
   void reset() {
     clear_samples();
     kind_ = LinkKind::none;
-    has_infinity_ = false;
+    has_infinity_ = has_scaling_ = false;
     static_pose_ = {};
     sender_ = {};
     former_senders_ = {};
   }
 
-  // The history goes; a static pose stays.
-  void clear() {
-    if (!is_static()) {
-      clear_samples();
-      has_infinity_ = false;
-    }
+  // The history goes, and a static pose if it is not to stay.
+  void clear(bool static_stays) {
+    if (is_static() && static_stays) return;
+    const FrameId parent = last_parent();
+    clear_samples();
+    if (is_static()) cleared_parent_ = parent;
+    has_infinity_ = has_scaling_ = false;
   }
 
-  // The pose at `t`; 0 means the newest.
+  // The pose at `t`; kLatest means the newest.
   Reading read(Stamp t) const {
+    if (!has_data()) return {};
     if (is_static()) return {ReadStatus::ok, parent_, static_pose_};
-    if (samples_.empty()) return {};
-    if (t == 0) return sample_reading(samples_.back());
+    if (t == kLatest) return sample_reading(samples_.back());
     if (samples_.size() == 1)
       return samples_.newest() == t ? sample_reading(samples_.back()) : Reading{};
     if (t >= samples_.newest())
@@ -191,15 +203,15 @@ class Link {
 
   // Whether a dynamic link of one parent has a pose at `t`, without computing it.
   bool covers(Stamp t) const {
-    if (samples_.size() < 2) return !samples_.empty() && (t == 0 || t == samples_.newest());
-    return t == 0 || (t <= samples_.newest() && t >= samples_.oldest());
+    if (samples_.size() < 2) return !samples_.empty() && (t == kLatest || t == samples_.newest());
+    return t == kLatest || (t <= samples_.newest() && t >= samples_.oldest());
   }
 
   // The pose of a dynamic link of one parent, where it is stored or in `room`; null when it has
   // none at `t`.
   const Pose* pose_at(Stamp t, Pose& room) const {
     if (samples_.empty()) return nullptr;
-    if (t == samples_.newest() || t == 0) return &samples_.back().pose;
+    if (t == samples_.newest() || t == kLatest) return &samples_.back().pose;
     if (t == samples_.oldest()) return &samples_.front().pose;
     if (t > samples_.newest() || t < samples_.oldest()) return nullptr;
     room = interpolated(samples_.around(t), t);
@@ -216,8 +228,10 @@ class Link {
     return {ReadStatus::ok, sample.parent, sample.pose};
   }
 
-  static Pose interpolated(const Samples::Pair& pair, Stamp t) {
-    return interpolate(pair.older->pose, pair.newer->pose, pair.ratio(t));
+  Pose interpolated(const Samples::Pair& pair, Stamp t) const {
+    const Pose &older = pair.older->pose, &newer = pair.newer->pose;
+    return has_scaling_ ? interpolate_scaling(older, newer, pair.ratio(t))
+                        : interpolate(older, newer, pair.ratio(t));
   }
 
   void append(Stamp stamp, const Sample& sample) {
@@ -294,12 +308,14 @@ class Link {
     samples_.clear();
     floods_.clear();
     parent_changes_ = 0;
-    parent_ = 0;
+    parent_ = cleared_parent_ = 0;
   }
 
   LinkKind kind_ = LinkKind::none;
   bool has_infinity_ = false;
+  bool has_scaling_ = false;
   FrameId parent_ = 0;
+  FrameId cleared_parent_ = 0;
   Sender sender_;
   std::size_t parent_changes_ = 0;
   Samples samples_;

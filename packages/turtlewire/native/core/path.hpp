@@ -22,17 +22,18 @@ struct Path {
   // parents, emptied links or infinite values on the way to the root), each lookup walks the tree
   // as tf2 does.
   bool direct = false;
+  Stamp no_time = kLatest;  // as in the tree
   std::vector<Step> up, down;
 };
 
-// The newest time that every dynamic link of the path has reached; 0 if none has.
+// The newest time that every dynamic link of the path has reached; kLatest if all are static.
 inline Stamp latest_common_time(const Path& path) {
-  Stamp latest = 0;
+  Stamp latest = kLatest;
   for (const auto* arm : {&path.up, &path.down}) {
     for (const Step& step : *arm) {
       if (step.link == nullptr) continue;
       const Stamp newest = step.link->newest();
-      if (newest != 0 && (latest == 0 || newest < latest)) latest = newest;
+      if (newest != path.no_time && (latest == kLatest || newest < latest)) latest = newest;
     }
   }
   return latest;

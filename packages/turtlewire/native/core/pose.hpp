@@ -55,6 +55,20 @@ inline Pose operator*(const Pose& a, const Pose& b) {
   return {a.translation + rotate(a.rotation, b.translation), a.rotation * b.rotation};
 }
 
+// The same for quaternions of any length, which scale what they turn by its square.
+inline Vec3 rotate_scaling(const Quat& q, const Vec3& v) {
+  const Vec3 axis{q.x, q.y, q.z};
+  const Vec3 twice = 2.0 * cross(axis, v);
+  return dot(q, q) * v + q.w * twice + cross(axis, twice);
+}
+inline Pose compose_scaling(const Pose& a, const Pose& b) {
+  return {a.translation + rotate_scaling(a.rotation, b.translation), a.rotation * b.rotation};
+}
+inline Pose between_scaling(const Pose& a, const Pose& b) {
+  const Quat back = conjugate(a.rotation);
+  return {rotate_scaling(back, b.translation - a.translation), back * b.rotation};
+}
+
 inline Pose inverse(const Pose& p) {
   const Quat back = conjugate(p.rotation);
   return {-1.0 * rotate(back, p.translation), back};
@@ -71,6 +85,8 @@ inline bool has_nan(const Vec3& v) { return std::isnan(v.x) || std::isnan(v.y) |
 inline bool has_nan(const Quat& q) {
   return std::isnan(q.x) || std::isnan(q.y) || std::isnan(q.z) || std::isnan(q.w);
 }
+// Whether a quaternion turns without scaling, to the precision of the arithmetic.
+inline bool is_unit(const Quat& q) { return std::fabs(dot(q, q) - 1.0) < 1e-12; }
 inline bool is_finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }

@@ -14,10 +14,13 @@
 namespace turtlewire {
 
 using FrameId = std::uint32_t;   // 0 is "NO_PARENT"
-using Stamp = std::int64_t;      // nanoseconds; 0 asks for the latest
+using Stamp = std::int64_t;      // nanoseconds
 using SourceId = std::uint32_t;  // who sent it
 
 inline constexpr Stamp kForever = std::numeric_limits<Stamp>::max();
+// In a question: the latest common time. In an answer: no time, as only static links were used. It
+// is the value of NumPy's NaT, which is no time of data.
+inline constexpr Stamp kLatest = std::numeric_limits<Stamp>::min();
 
 // The time a span before another; the first of all times if there is none.
 inline Stamp earlier(Stamp t, Stamp span) {

@@ -7,10 +7,6 @@
 namespace turtlewire {
 namespace {
 
-void add_time(Stamp stamp, Stamp& earliest) {
-  if (stamp != 0 && (earliest == 0 || stamp < earliest)) earliest = stamp;
-}
-
 // The links of one arm or the other; those in both lie above the meeting point.
 void leave_difference(std::vector<FrameId>& up, const std::vector<FrameId>& down) {
   std::vector<FrameId> both;
@@ -28,10 +24,10 @@ void leave_difference(std::vector<FrameId>& up, const std::vector<FrameId>& down
 
 Status Tree::lookup(const Path& path, Stamp& t, Pose& target_from_source, Failure* failure) const {
   if (path.direct) [[likely]] {
-    const Stamp at = t != 0 ? t : turtlewire::latest_common_time(path);
+    const Stamp at = t != kLatest ? t : turtlewire::latest_common_time(path);
     if (follow(path, at, target_from_source)) [[likely]] {
       t = at;
-      target_from_source.rotation = canonical(target_from_source.rotation);
+      target_from_source.rotation = stored(target_from_source.rotation);
       return Status::ok;
     }
   }
@@ -39,28 +35,32 @@ Status Tree::lookup(const Path& path, Stamp& t, Pose& target_from_source, Failur
 }
 
 Status Tree::can_transform(const Path& path, Stamp t, Failure* failure) const {
-  if (path.direct && covers(path, t != 0 ? t : turtlewire::latest_common_time(path)))
+  if (path.direct && covers(path, t != kLatest ? t : turtlewire::latest_common_time(path)))
     return Status::ok;
   return walk(path.target, path.source, t, nullptr, failure);
 }
 
-// By the newest parent of each link, whatever the time; the frames of one line ask for each link's
-// newest stamp, and a stamp of 0 counts as static.
+void Tree::add_time(const Link& link, Stamp& earliest) const {
+  const Stamp stamp = link.reached();
+  if (stamp != kLatest && stamp != rules_.no_time && (earliest == kLatest || stamp < earliest))
+    earliest = stamp;
+}
+
+// By the newest parent of each link, whatever the time.
 Status Tree::latest_common_time(FrameId target, FrameId source, Stamp& t, Failure* failure) const {
-  t = 0;
+  t = kLatest;
   if (target == source) {
-    t = newest(source);
+    t = link(source).reached();
     return Status::ok;
   }
-  std::vector<std::pair<Stamp, FrameId>>
-      line;  // of the source: newest stamp and parent of each link
+  std::vector<const Link*> line;  // of the source
   int depth = 0;
-  Stamp earliest = 0;
-  for (FrameId frame = source; links_[frame]->has_data();) {
+  Stamp earliest = kLatest;
+  for (FrameId frame = source; links_[frame]->last_parent() != 0;) {
     const Link& link = *links_[frame];
-    add_time(link.newest(), earliest);
-    line.emplace_back(link.newest(), link.parent());
-    frame = link.parent();
+    add_time(link, earliest);
+    line.push_back(&link);
+    frame = link.last_parent();
     if (frame == target) {
       t = earliest;
       return Status::ok;
@@ -68,15 +68,15 @@ Status Tree::latest_common_time(FrameId target, FrameId source, Stamp& t, Failur
     if (++depth > kMaxGraphDepth) return fail_loop(failure);
   }
   depth = 0;
-  earliest = 0;
-  for (FrameId frame = target; links_[frame]->has_data();) {
+  earliest = kLatest;
+  for (FrameId frame = target; links_[frame]->last_parent() != 0;) {
     const Link& link = *links_[frame];
-    add_time(link.newest(), earliest);
-    frame = link.parent();
-    const auto meeting = std::find_if(line.begin(), line.end(),
-                                      [&](const auto& entry) { return entry.second == frame; });
+    add_time(link, earliest);
+    frame = link.last_parent();
+    const auto meeting = std::find_if(
+        line.begin(), line.end(), [&](const Link* below) { return below->last_parent() == frame; });
     if (meeting != line.end()) {
-      for (auto it = line.begin(); it != meeting + 1; ++it) add_time(it->first, earliest);
+      for (auto it = line.begin(); it != meeting + 1; ++it) add_time(**it, earliest);
       t = earliest;
       return Status::ok;
     }
@@ -93,8 +93,8 @@ Status Tree::latest_common_time(FrameId target, FrameId source, Stamp& t, Failur
 
 Reading Rule::read(const Link& link) const {
   if (newest) {
-    const Stamp age = max_age != 0 && !link.is_static() ? t - link.newest() : 0;
-    return age <= max_age ? link.read(0) : Reading{ReadStatus::future};
+    const Stamp age = max_age != kForever && !link.is_static() ? t - link.newest() : 0;
+    return age <= max_age ? link.read(kLatest) : Reading{ReadStatus::future};
   }
   return beyond != 0 ? link.read_beyond(t, beyond) : link.read(t);
 }
@@ -116,14 +116,15 @@ struct Tree::Climb {
   }
   void step(const Reading& reading, std::vector<FrameId>* used) {
     if (used != nullptr) used->push_back(frame);
-    top_from_start = reading.pose * top_from_start;
+    top_from_start = buffer.rules_.keeps_rotations ? compose_scaling(reading.pose, top_from_start)
+                                                   : reading.pose * top_from_start;
     frame = reading.parent;
   }
 };
 
 Status Tree::walk(FrameId target, FrameId source, Stamp& t, Pose* target_from_source,
                   Failure* failure) const {
-  if (t == 0) {
+  if (t == kLatest) {
     if (const Status status = latest_common_time(target, source, t, failure); status != Status::ok)
       return status;
   }
@@ -164,9 +165,11 @@ Status Tree::climb(FrameId target, FrameId source, const Rule& rule, Pose* targe
     return fail_connection(target, source, failure);
   }
   if (target_from_source != nullptr) {
-    const Pose p =
-        met ? between(down.top_from_start, up.top_from_start) : inverse(down.top_from_start);
-    *target_from_source = {p.translation, canonical(p.rotation)};
+    if (!met) up.top_from_start = {};
+    const Pose p = rules_.keeps_rotations ? between_scaling(down.top_from_start, up.top_from_start)
+                   : met                  ? between(down.top_from_start, up.top_from_start)
+                                          : inverse(down.top_from_start);
+    *target_from_source = {p.translation, stored(p.rotation)};
   }
   if (used != nullptr) leave_difference(*used, down_used);
   return Status::ok;
@@ -198,17 +201,19 @@ Status Tree::fail_connection(FrameId target, FrameId source, Failure* failure) c
 
 Status Tree::fail_reading(const Climb& climb, FrameId target, FrameId source,
                           Failure* failure) const {
+  const Link& link = *links_[climb.frame];
   const Status status = climb.stopped == ReadStatus::future ? Status::future
                         : climb.stopped == ReadStatus::past ? Status::past
+                        : link.is_static()                  ? Status::no_static_data
                                                             : Status::no_data;
   if (failure != nullptr) {
-    const Link& link = *links_[climb.frame];
     failure->status = status;
     failure->target = name(target);
     failure->source = name(source);
     failure->link_child = name(climb.frame);
     failure->link_parent = name(link.parent());
     failure->emptied = !link.has_data();
+    failure->is_emptied_told = rules_.tells_emptied;
     failure->requested = climb.rule.t;
     failure->oldest = link.oldest();
     failure->newest = link.newest();

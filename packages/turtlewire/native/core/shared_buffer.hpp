@@ -1,5 +1,5 @@
-// A buffer for many threads: one lock, held for short and never while words are made or others are
-// called.
+// A buffer for many threads: one lock, held briefly, and never while a message is formatted or a
+// callback runs.
 #pragma once
 
 #include <algorithm>
@@ -31,24 +31,26 @@ class Waiter {
 // The questions of tf2, by name. A lookup "through" a fixed frame has two times.
 struct Request {
   std::string_view target, source;
-  Stamp t = 0;
+  Stamp t = kLatest;
+  Stamp beyond = 0;  // so far outside of a link's data its motion is taken to go on; never in tf2
 };
 struct FullRequest {
   std::string_view target;
-  Stamp target_time = 0;
+  Stamp target_time = kLatest;
   std::string_view source;
-  Stamp source_time = 0;
+  Stamp source_time = kLatest;
   std::string_view fixed;
+  Stamp beyond = 0;
 };
 
 struct Found {
-  Stamp stamp = 0;
+  Stamp stamp = kLatest;
   Pose target_from_source;
 };
 
 struct Added {
-  long accepted = 0;         // so many transforms
-  bool listened_to = false;  // somebody is to be told of it
+  long accepted = 0;         // transforms that were stored
+  bool listened_to = false;  // a listener must be called
   bool lacks_room = false;   // a frame was refused because of max_frames
 };
 
@@ -67,7 +69,7 @@ class SharedBuffer final : public ForkAware {
 
     // To be called after data came in.
     void wake_waiters() const noexcept { shared_.wake_waiters(); }
-    // How many want to be told of new data by the thread that adds it.
+    // The number of listeners that the adding thread must call.
     void set_listeners(std::size_t count) const { shared_.listeners_ = count; }
 
    private:
@@ -107,6 +109,7 @@ class SharedBuffer final : public ForkAware {
   }
   Status resolve(std::string_view name, Argument argument, FrameId& id, Failure& failure) const;
   Status find(const Request& request, Found& found, Failure& failure);
+  Status find(FrameId target, FrameId source, Stamp beyond, Found& found, Failure& failure);
   Status test(const Request& request, Failure& failure);
 
   std::mutex mutex_;  // guards the three below

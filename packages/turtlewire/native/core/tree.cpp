@@ -1,12 +1,14 @@
 #include "tree.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace turtlewire {
 namespace {
 
 constexpr std::size_t kMostPaths = 1 << 16;
+constexpr double kLengthTolerance = 10e-3;  // of a quaternion's squared length, in tf2
 
 Verdict judge_names(std::string_view parent, std::string_view child) {
   if (child == parent) return Verdict::self_transform;
@@ -75,10 +77,9 @@ Verdict Tree::set(std::string_view parent, std::string_view child, Stamp stamp, 
     const Verdict verdict = judge_names(parent, child);
     if (verdict != Verdict::accepted) return refuse(verdict, parent, child, stamp, pose, source);
   }
-  Sample sample{{pose.translation, canonical(pose.rotation)}, parent_id, source};
-  if (has_nan(pose.translation) || has_nan(sample.pose.rotation)) [[unlikely]] {
-    return refuse(Verdict::nan_value, parent, child, stamp, pose, source);
-  }
+  Sample sample{{pose.translation, stored(pose.rotation)}, parent_id, source};
+  if (const Verdict verdict = judge_stored(sample.pose); verdict != Verdict::accepted) [[unlikely]]
+    return refuse(verdict, parent, child, stamp, pose, source);
   if (parent_id == 0) [[unlikely]] {
     if (!has_room(parent, child)) {
       is_full_ = true;
@@ -100,12 +101,32 @@ Verdict Tree::set(std::string_view parent, std::string_view child, Stamp stamp, 
     link.become(LinkKind::dynamic_link);
     added = link.insert(stamp, sample, keep_) != InsertStatus::too_old;
   }
+  if (rules_.keeps_rotations && added && !is_unit(sample.pose.rotation)) link.note_scaling();
   if (link.shape() != shape) [[unlikely]]
     ++version_;
   if (!added) [[unlikely]]
     return refuse(Verdict::old_data, parent, child, stamp, pose, source);
   link.count_sender(source, parent_id, stamp);
   return Verdict::accepted;
+}
+
+Verdict Tree::judge_stored(const Pose& pose) const {
+  if (has_nan(pose.translation) || has_nan(pose.rotation)) return Verdict::nan_value;
+  if (rules_.keeps_rotations &&
+      !(std::fabs(dot(pose.rotation, pose.rotation) - 1.0) < kLengthTolerance))
+    return Verdict::denormalized;
+  return Verdict::accepted;
+}
+
+Verdict Tree::judge(std::string_view parent, std::string_view child, const Pose& pose) const {
+  parent = without_slash(parent);
+  child = without_slash(child);
+  const Verdict verdict = judge_names(parent, child);
+  if (verdict != Verdict::accepted) return verdict;
+  if (const Verdict unfit = judge_stored({pose.translation, stored(pose.rotation)});
+      unfit != Verdict::accepted)
+    return unfit;
+  return has_room(parent, child) ? Verdict::accepted : Verdict::too_many_frames;
 }
 
 Verdict Tree::refuse(Verdict verdict, std::string_view parent, std::string_view child, Stamp stamp,
@@ -153,11 +174,16 @@ void Tree::forget(std::vector<FrameId> frames) {
 }
 
 void Tree::clear() {
-  for (const auto& link : links_) link->clear();
+  for (const auto& link : links_) link->clear(!rules_.clears_static);
   ++version_;
 }
 
 // ---------------------------------------------------------------- names
+
+const Link* Tree::find_link(std::string_view child) const {
+  const auto known = frames_.find(without_slash(child));
+  return known && *known != 0 && is_known_[*known] ? links_[*known].get() : nullptr;
+}
 
 Status Tree::resolve(std::string_view name, FrameId& id) const {
   if (name.empty()) return Status::empty_name;
@@ -201,7 +227,7 @@ bool Tree::ancestors(FrameId frame, std::vector<FrameId>& line) const {
     line.push_back(frame);
     const Link& link = *links_[frame];
     if (link.kind() == LinkKind::none) return true;
-    if (!link.has_data() || link.reparented() || link.has_infinity() ||
+    if (!link.has_data() || link.reparented() || link.has_infinity() || link.has_scaling() ||
         line.size() > kMaxGraphDepth)
       return false;
   }
@@ -219,6 +245,7 @@ void Tree::add_step(std::vector<Step>& arm, const Link& link) const {
 
 void Tree::build(Path& path) const {
   path.version = version_;
+  path.no_time = rules_.no_time;
   path.up.clear();
   path.down.clear();
   std::vector<FrameId> from_source, from_target;

@@ -25,12 +25,28 @@ inline constexpr int kMaxGraphDepth = 1000;  // tf2 takes more hops for a loop
 // What a link is asked for: its pose at a time; that, but up to `beyond` outside of its data; or
 // its newest pose, if that is not older than `max_age` at the time.
 struct Rule {
-  Stamp t = 0;
+  Stamp t = kLatest;
   Stamp beyond = 0;
   bool newest = false;
-  Stamp max_age = 0;  // 0: any
+  Stamp max_age = kForever;
 
   Reading read(const Link& link) const;
+};
+
+// How the releases of tf2 differ. A new tree follows none: its links may begin at stamp 0.
+struct Rules {
+  Stamp no_time = kLatest;       // a newest stamp that does not count for the latest common time
+  bool keeps_rotations = false;  // as they were given, if nearly unit; else by way of a matrix
+  bool tells_emptied = false;    // the text of a lookup says that a link has no data at all
+  bool clears_static = false;    // clear() forgets static poses, too
+
+  static Rules of_jazzy() { return {.no_time = 0}; }
+  static Rules of_kilted() {
+    return {.no_time = 0, .keeps_rotations = true, .tells_emptied = true};
+  }
+  static Rules of_lyrical() {
+    return {.no_time = 0, .keeps_rotations = true, .tells_emptied = true, .clears_static = true};
+  }
 };
 
 class Tree {
@@ -43,11 +59,27 @@ class Tree {
   // Whether a frame was refused because of max_frames, since frames were last removed.
   bool is_full() const { return is_full_; }
 
+  // To be called before data comes in.
+  void use(const Rules& rules) {
+    rules_ = rules;
+    ++version_;
+  }
+  const Rules& rules() const { return rules_; }
+  // A rotation as the rules store it and give it as an answer.
+  Quat stored(const Quat& rotation) const {
+    return rules_.keeps_rotations ? rotation : canonical(rotation);
+  }
+
   // -- in
   // Adds one sample. `pose` is as received; a leading '/' of the names is dropped.
   Verdict set(std::string_view parent, std::string_view child, Stamp stamp, const Pose& pose,
               SourceId source, bool is_static);
-  // Forgets all samples; frames, static transforms and senders stay, as in tf2.
+  // What `set` would say of this sample, but for its time.
+  Verdict judge(std::string_view parent, std::string_view child, const Pose& pose) const;
+  // Counts a transform that is not added.
+  Verdict refuse(Verdict verdict, std::string_view parent, std::string_view child, Stamp stamp,
+                 const Pose& pose, SourceId source);
+  // Forgets all samples; frames and senders stay, and static transforms by most rules.
   void clear();
   // Forgets the links of these frames with their history and static poses, and the names that then
   // stand for nothing. Takes time in proportion to the number of all frames. Returns the names of
@@ -70,6 +102,8 @@ class Tree {
   // All frames that were ever heard of and not removed, in order of arrival.
   const std::vector<FrameId>& known_frames() const { return known_frames_; }
   bool is_known(FrameId frame) const { return is_known_[frame]; }
+  // The link above a frame, by its name in a transform; null if there never was one.
+  const Link* find_link(std::string_view child) const;
   // ok, empty_name, slash_name or unknown_frame
   Status resolve(std::string_view name, FrameId& id) const;
 
@@ -82,7 +116,7 @@ class Tree {
   // numbers of frames of another epoch mean nothing.
   std::uint64_t path_epoch() const { return path_epoch_; }
 
-  // target_from_source at `t`. t = 0 asks for the latest common time, and is replaced by it.
+  // target_from_source at `t`. kLatest asks for the latest common time, and is replaced by it.
   Status lookup(const Path& path, Stamp& t, Pose& target_from_source, Failure* failure) const;
   Status can_transform(const Path& path, Stamp t, Failure* failure) const;
   Status latest_common_time(FrameId target, FrameId source, Stamp& t, Failure* failure) const;
@@ -92,8 +126,6 @@ class Tree {
                 std::vector<FrameId>* used, Failure* failure) const;
   // The link above a frame.
   const Link& link(FrameId frame) const { return *links_[frame]; }
-  // Its newest stamp; 0 if there is none.
-  Stamp newest(FrameId frame) const { return links_[frame]->newest(); }
 
   // What is wrong with the buffer's own state; empty if nothing is.
   std::string fault() const;
@@ -105,6 +137,7 @@ class Tree {
  private:
   struct Climb;
 
+  Verdict judge_stored(const Pose& pose) const;
   FrameId frame(std::string_view name);
   bool has_room(std::string_view parent, std::string_view child) const;
   FrameId predicted(FrameId id, std::string_view name) const;
@@ -114,12 +147,11 @@ class Tree {
   void build(Path& path) const;
   bool ancestors(FrameId frame, std::vector<FrameId>& line) const;
   void add_step(std::vector<Step>& arm, const Link& link) const;
-  Verdict refuse(Verdict verdict, std::string_view parent, std::string_view child, Stamp stamp,
-                 const Pose& pose, SourceId source);
   Status walk(FrameId target, FrameId source, Stamp& t, Pose* target_from_source,
               Failure* failure) const;
   Status climb(FrameId target, FrameId source, const Rule& rule, Pose* target_from_source,
                std::vector<FrameId>* used, Failure* failure) const;
+  void add_time(const Link& link, Stamp& earliest) const;
   static const Climb& later_failure(const Climb& up, const Climb& down);
   Status fail_loop(Failure* failure) const;
   Status fail_connection(FrameId first, FrameId second, Failure* failure) const;
@@ -131,6 +163,7 @@ class Tree {
   Stamp keep_;
   std::size_t max_frames_;
   bool is_full_ = false;
+  Rules rules_;
   Names frames_{kNoParent};
   Names senders_{"no recorded authority"};
   std::string last_sender_name_ = "no recorded authority";  // saves hashing it

@@ -3,19 +3,22 @@
 
 #include <array>
 #include <atomic>
+#include <memory>
 #include <mutex>
 #include <span>
 
 #include "../feeds/outlet.hpp"
 #include "library.hpp"
+#include "service_types.hpp"
 
 namespace turtlewire::cyclone {
 
 class Writer final : public Outlet {
  public:
-  // Not a code of Cyclone's: the bytes are no little endian CDR, the writer was closed, and Cyclone
-  // makes no sample of the bytes.
-  static constexpr std::int32_t kNoMessage = -1001, kClosed = -1002, kRefused = -1003;
+  // Not codes of Cyclone's: the bytes are no little endian CDR, the writer was closed, Cyclone
+  // makes no sample of the bytes, and none of its messages took the identity.
+  static constexpr std::int32_t kNoMessage = -1001, kClosed = -1002, kRefused = -1003,
+                                kNoIdentity = -1004;
 
   // `type` is the ddsi_sertype of `writer`, which lives until the writer is deleted.
   Writer(const Library& library, Entity writer, std::uintptr_t type)
@@ -28,14 +31,20 @@ class Writer final : public Outlet {
   // Sends a message, whose first part begins with its encapsulation, and copies it once, into
   // Cyclone's sample; a negative code if that failed. May block.
   std::int32_t write(Parts& parts, std::size_t count) {
-    std::size_t size = 0;
-    for (std::size_t i = 0; i < count; ++i) size += parts[i].size;
-    if (size <= kHeader || parts[0].size < kHeader) return kNoMessage;
-    const auto* const start = static_cast<const unsigned char*>(parts[0].start);
-    if (start[0] != 0 || start[1] != 1) return kNoMessage;
-    void* const sample = sample_of(parts, count, size);
-    if (sample == nullptr) return closed_ ? kClosed : kRefused;
-    return library_.write(writer_, sample);
+    void* sample;
+    const std::int32_t code = make(parts, count, sample);
+    return code < 0 ? code : library_.write(writer_, sample);
+  }
+
+  // The same, with an identity beside it; the writer's type carries identities.
+  std::int32_t write_identified(Parts& parts, std::size_t count, const Identity& identity) {
+    void* sample;
+    std::int32_t code = make(parts, count, sample);
+    if (code < 0) return code;
+    const auto sent = std::make_shared<Tag>(identity);
+    tag(sample, sent);
+    code = library_.write(writer_, sample);
+    return code == 0 && sent->refused && !sent->appended ? kNoIdentity : code;
   }
 
   std::int32_t send(std::span<const unsigned char> bytes) override {
@@ -53,6 +62,17 @@ class Writer final : public Outlet {
  private:
   static constexpr std::size_t kHeader = 4;
   static constexpr int kData = 2;  // SDK_DATA
+
+  std::int32_t make(Parts& parts, std::size_t count, void*& sample) {
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < count; ++i) size += parts[i].size;
+    if (size <= kHeader || parts[0].size < kHeader) return kNoMessage;
+    const auto* const start = static_cast<const unsigned char*>(parts[0].start);
+    if (start[0] != 0 || start[1] != 1) return kNoMessage;
+    sample = sample_of(parts, count, size);
+    if (sample == nullptr) return closed_ ? kClosed : kRefused;
+    return 0;
+  }
 
   void* sample_of(Parts& parts, std::size_t count, std::size_t size) {
     static constexpr unsigned char kZeros[4] = {};

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "../core/shared_buffer.hpp"
+#include "bag_records.hpp"
 #include "tf_message.hpp"
 
 namespace turtlewire {
@@ -56,13 +57,11 @@ class RecordWalk {
   const auto& clocks() const { return clocks_; }
 
  private:
-  struct Record;
   struct Hash : std::hash<std::string_view> {
     using is_transparent = void;
   };
 
-  bool read(Record& record, std::span<const unsigned char> records, std::size_t at) const;
-  void take(Tree& tree, const Record& record, const TfChannel& channel, SourceId sender);
+  void take(Tree& tree, const BagRecord& record, const TfChannel& channel, SourceId sender);
   void note_stamp(std::uint64_t log_time, const ReceivedTransform& first);
 
   std::uint64_t first_, last_;

@@ -466,7 +466,8 @@ void test_intake() {
   const auto newest = [](SharedBuffer& buffer) {
     FrameId base = 0;
     const SharedBuffer::Access access(buffer);
-    return access->resolve("base", base) == Status::ok ? access->newest(base) / 1'000'000'000 : 0;
+    return access->resolve("base", base) == Status::ok ? access->link(base).newest() / 1'000'000'000
+                                                       : 0;
   };
   intake.feed({&shared, &other});
   check(intake.receive(7, 1, message_at(1)),

@@ -3,21 +3,29 @@
 ===================  =====================================================================
 module               what it holds
 ===================  =====================================================================
+`attribute_hints`    AttributeErrors that say what to use, for names of other libraries
 `bag`                rosbag2 folders, MCAP and sqlite3, read and written
+`call_errors`        errors of calls whose arguments do not fit
 `cli`                the ``turtlewire`` command and its verbs
 `demo`               ``python -m turtlewire.demo``: one turtle follows another
+`distro`             the distribution of ROS 2 that ``ROS_DISTRO`` chooses
 `doctor`             checks of the installation, the graph and the transforms
 `errors`             every error that turtlewire raises on purpose
 `geometry`           quaternions, poses and matrices as numbers
 `msg`                interface definitions, message classes, CDR and type hashes
+`net`                topics and transforms of a network: `connect`
+`package_sources`    what to clone for well-known packages that are missing
+`path_arguments`     paths that callers pass, and near names of those that are missing
 `platforms`          what this platform can do, and which core is asked for
 `plugins`            entry points that installed packages declare
 `program`            how a command ends whose output cannot be written
+`relay`              topics and services carried between two networks
 `terminal`           command lines, keys and text of terminals
 `testing`            a domain, a filled buffer and waiting, for users' tests
 `tf`                 the transform buffer, the listener that fills it, and its pictures
 `trajectory`         poses over time: sampled, in files, compared
 `urdf`               robots: a parser of URDF and forward kinematics
+`viewing`            `show`, which opens the 3D view of turtlewire-view
 `wake_up`            a wait of the main thread that a signal may interrupt at any moment
 `web`                a small HTTP and WebSocket server for this machine's browsers
 `wire`               the middleware: bytes, QoS, names and the graph
@@ -26,25 +34,52 @@ module               what it holds
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from turtlewire import bag as bag
+    from turtlewire import errors as errors
+    from turtlewire import geometry as geometry
+    from turtlewire import msg as msg
+    from turtlewire import testing as testing
+    from turtlewire import trajectory as trajectory
+    from turtlewire import urdf as urdf
+    from turtlewire import wire as wire
+    from turtlewire.net import connect as connect
     from turtlewire.tf.buffer import Buffer as Buffer
     from turtlewire.tf.buffer import Transform as Transform
-    from turtlewire.tf.status import LookupStatus as LookupStatus
+    from turtlewire.viewing import show as show
 
     __version__: str
 
-__all__ = ["Buffer", "LookupStatus", "Transform", "__version__"]
+__all__ = ["Buffer", "Transform", "__version__", "connect", "show"]
+
+_HOMES = {
+    "Buffer": "turtlewire.tf.buffer",
+    "Transform": "turtlewire.tf.buffer",
+    "connect": "turtlewire.net",
+    "show": "turtlewire.viewing",
+}
+#: Found without an import of their own.
+_MODULES = {"bag", "errors", "geometry", "msg", "testing", "trajectory", "urdf", "wire"}
 
 
-def __getattr__(name: str) -> object:
-    # The core is loaded when it is first used: `import turtlewire.msg` and its like stay light.
-    if name not in __all__:
-        raise AttributeError(f"module 'turtlewire' has no attribute {name!r}")
-    value = _version() if name == "__version__" else _of_the_buffer(name)
-    globals()[name] = value
-    return value
+if not TYPE_CHECKING:  # a type checker would accept any name
+
+    def __getattr__(name: str) -> object:
+        # The core is loaded when it is first used: `import turtlewire.msg` and its like stay light.
+        value: object
+        if name == "__version__":
+            value = _version()
+        elif name in _HOMES:
+            value = getattr(import_module(_HOMES[name]), name)
+        elif name in _MODULES:
+            return import_module(f"turtlewire.{name}")
+        else:
+            raise AttributeError(f"module 'turtlewire' has no attribute {name!r}")
+        globals()[name] = value
+        return value
 
 
 def __dir__() -> list[str]:
@@ -55,9 +90,3 @@ def _version() -> str:
     from importlib.metadata import version
 
     return version("turtlewire")
-
-
-def _of_the_buffer(name: str) -> object:
-    from turtlewire.tf import buffer, status
-
-    return getattr(status if name == "LookupStatus" else buffer, name)

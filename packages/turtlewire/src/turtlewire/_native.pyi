@@ -1,39 +1,58 @@
 # The compiled core; use it through turtlewire.Buffer. The module itself has the docstrings.
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any, final
+from collections.abc import Callable, Container, Mapping, Sequence
+from typing import Any, Literal, final
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 from typing_extensions import Buffer as AnyBuffer
 
+from turtlewire.errors import TransformException
+from turtlewire.tf.answers import FramePoses, Samples
+from turtlewire.tf.datetimes import Span, Stamp
+
 @final
 class Transform:
-    frame_id: str
-    child_frame_id: str
-    stamp_ns: int
-    x: float
-    y: float
-    z: float
-    qx: float
-    qy: float
-    qz: float
-    qw: float
+    @property
+    def x(self) -> float: ...
+    @property
+    def y(self) -> float: ...
+    @property
+    def z(self) -> float: ...
     def __new__(
         cls,
-        frame_id: str,
-        child_frame_id: str,
-        stamp_ns: int,
-        translation: tuple[float, float, float],
-        rotation: tuple[float, float, float, float],
+        target_frame: str,
+        source_frame: str,
+        translation: Sequence[float],
+        rotation: Sequence[float] = ...,
+        *,
+        stamp_ns: Stamp | None = None,
     ) -> Transform: ...
+    @classmethod
+    def from_matrix(
+        cls,
+        target_frame: str,
+        source_frame: str,
+        matrix: ArrayLike,
+        *,
+        stamp_ns: Stamp | None = None,
+    ) -> Transform: ...
+    @property
+    def target_frame(self) -> str: ...
+    @property
+    def source_frame(self) -> str: ...
+    @property
+    def stamp_ns(self) -> int | None: ...
+    @property
+    def euler(self) -> tuple[float, float, float]: ...
     @property
     def translation(self) -> tuple[float, float, float]: ...
     @property
     def rotation(self) -> tuple[float, float, float, float]: ...
     def inverse(self) -> Transform: ...
     def __matmul__(self, other: Transform) -> Transform: ...
-    def interpolate(self, other: Transform, stamp_ns: int) -> Transform: ...
+    def apply(self, points: ArrayLike) -> NDArray[Any]: ...
+    def interpolate(self, other: Transform, stamp_ns: Stamp) -> Transform: ...
     def as_matrix(self) -> NDArray[np.float64]: ...
     def _repr_html_(self) -> str: ...
     def __array__(
@@ -42,7 +61,7 @@ class Transform:
     def __eq__(self, other: object) -> bool: ...
 
 class Buffer:
-    def __init__(self, cache_time_ns: int | None = ..., max_frames: int | None = ...) -> None: ...
+    def __init__(self, cache_time_ns: Span | None = ..., max_frames: int | None = ...) -> None: ...
     @property
     def cache_time_ns(self) -> int | None: ...
     @property
@@ -53,121 +72,152 @@ class Buffer:
         self,
         parent_frame: str,
         child_frame: str,
-        stamp_ns: int,
+        stamp_ns: Stamp,
+        translation: Sequence[float],
+        rotation: Sequence[float] = ...,
+        *,
+        sender: str = "default_authority",
+    ) -> None: ...
+    def set_static_transform(
+        self,
+        parent_frame: str,
+        child_frame: str,
+        translation: Sequence[float],
+        rotation: Sequence[float] = ...,
+        *,
+        sender: str = "default_authority",
+    ) -> None: ...
+    def _set_transform(
+        self,
+        parent_frame: str,
+        child_frame: str,
+        stamp_ns: Stamp,
         translation: Sequence[float],
         rotation: Sequence[float],
-        static: bool = False,
-        authority: str = "default_authority",
+        static: bool,
+        sender: str,
     ) -> str: ...
-    def ingest(
+    def add_tf_message(
         self,
         cdr: bytes | bytearray | memoryview,
+        *,
         static: bool = False,
-        authority: str = "default_authority",
+        sender: str = "default_authority",
     ) -> int: ...
     def clear(self) -> None: ...
     def lookup_transform(
-        self, target_frame: str, source_frame: str, stamp_ns: int = 0, timeout_ns: int = 0
-    ) -> Transform: ...
-    def lookup_transform_full(
         self,
         target_frame: str,
-        target_stamp_ns: int,
         source_frame: str,
-        source_stamp_ns: int,
-        fixed_frame: str,
-        timeout_ns: int = 0,
+        stamp_ns: Stamp | None = None,
+        *,
+        timeout_ns: Span = 0,
+        extrapolate_ns: Span = 0,
+        fixed_frame: str | None = None,
+        target_stamp_ns: Stamp | None = None,
     ) -> Transform: ...
     def can_transform(
-        self, target_frame: str, source_frame: str, stamp_ns: int = 0, timeout_ns: int = 0
-    ) -> bool: ...
-    def can_transform_full(
         self,
         target_frame: str,
-        target_stamp_ns: int,
         source_frame: str,
-        source_stamp_ns: int,
-        fixed_frame: str,
-        timeout_ns: int = 0,
+        stamp_ns: Stamp | None = None,
+        *,
+        timeout_ns: Span = 0,
+        extrapolate_ns: Span = 0,
+        fixed_frame: str | None = None,
+        target_stamp_ns: Stamp | None = None,
     ) -> bool: ...
-    def can_transform_reason(
-        self, target_frame: str, source_frame: str, stamp_ns: int = 0, timeout_ns: int = 0
-    ) -> str: ...
-    def can_transform_full_reason(
+    def explain(
         self,
         target_frame: str,
-        target_stamp_ns: int,
         source_frame: str,
-        source_stamp_ns: int,
-        fixed_frame: str,
-        timeout_ns: int = 0,
+        stamp_ns: Stamp | None = None,
+        *,
+        timeout_ns: Span = 0,
+        extrapolate_ns: Span = 0,
+        fixed_frame: str | None = None,
+        target_stamp_ns: Stamp | None = None,
+    ) -> TransformException | None: ...
+    def _can_transform_reason(
+        self,
+        target_frame: str,
+        source_frame: str,
+        stamp_ns: Stamp | None = None,
+        *,
+        timeout_ns: Span = 0,
+        extrapolate_ns: Span = 0,
+        fixed_frame: str | None = None,
+        target_stamp_ns: Stamp | None = None,
     ) -> str: ...
-    def latest_common_time(self, target_frame: str, source_frame: str) -> int: ...
-    def frame_strings(self) -> list[str]: ...
-    def frame_exists(self, frame: str) -> bool: ...
-    def all_frames_as_string(self) -> str: ...
-    def all_frames_as_yaml(self, now: float = 0.0) -> str: ...
-    def all_frames_as_dot(self, now: float = 0.0) -> str: ...
+    def _follow_tf2(self, year: int) -> None: ...
+    def _latest_common_time(self, target_frame: str, source_frame: str) -> int: ...
+    def frames(self) -> list[str]: ...
+    def _knows(self, frame: str) -> bool: ...
+    def _frames_as_string(self) -> str: ...
+    def to_yaml(self, *, now_ns: Stamp | None = None) -> str: ...
+    def to_dot(self, *, now_ns: Stamp | None = None) -> str: ...
     def _repr_svg_(self) -> str: ...
-    def add_change_listener(self, listener: Callable[[], object]) -> Callable[[], None]: ...
-    def wake(self) -> None: ...
-    def lookup_batch(
+    def on_change(self, call: Callable[[], object]) -> Callable[[], None]: ...
+    def _wake(self) -> None: ...
+    def lookup_transforms(
         self,
         target_frame: str,
         source_frame: str,
         stamps: ArrayLike,
         *,
+        errors: Literal["raise", "nan"] = "raise",
+        extrapolate_ns: Span = 0,
         matrices: bool = False,
         out: NDArray[np.float64] | None = None,
-        status: NDArray[np.uint8] | None = None,
     ) -> NDArray[np.float64]: ...
-    def lookup_all(
-        self, target_frame: str, stamp_ns: int = 0
-    ) -> tuple[list[str], NDArray[np.float64], NDArray[np.int64]]: ...
+    def lookup_all(self, target_frame: str, stamp_ns: Stamp | None = None) -> FramePoses: ...
     def transform_points(
         self,
         target_frame: str,
         source_frame: str,
         points: ArrayLike,
-        stamps: int | ArrayLike = 0,
+        stamps: Stamp | ArrayLike | None = None,
         *,
         fixed_frame: str | None = None,
-        target_stamp_ns: int = 0,
+        target_stamp_ns: Stamp | None = None,
+        errors: Literal["raise", "nan"] = "raise",
         out: NDArray[Any] | None = None,
-        status: NDArray[np.uint8] | None = None,
     ) -> NDArray[Any]: ...
     def lookup_velocity(
         self,
-        tracking_frame: str,
-        observation_frame: str,
-        stamps: int | ArrayLike = 0,
+        target_frame: str,
+        source_frame: str,
+        stamps: Stamp | ArrayLike | None = None,
         *,
-        interval_ns: int = ...,
-        reference_frame: str | None = None,
+        interval_ns: Span = ...,
+        axes_frame: str | None = None,
         point: tuple[float, float, float] = ...,
         point_frame: str | None = None,
+        errors: Literal["raise", "nan"] = "raise",
         out: NDArray[np.float64] | None = None,
-        status: NDArray[np.uint8] | None = None,
     ) -> NDArray[np.float64]: ...
-    def extrapolate_transform(
-        self, target_frame: str, source_frame: str, stamp_ns: int, limit_ns: int
+    def lookup_newest(
+        self,
+        target_frame: str,
+        source_frame: str,
+        *,
+        max_age_ns: Span | None = None,
+        now_ns: Stamp | None = None,
     ) -> Transform: ...
-    def lookup_latest(
-        self, target_frame: str, source_frame: str, *, max_age_ns: int = 0, now_ns: int = 0
-    ) -> tuple[Transform, dict[str, int]]: ...
+    def time_range(self, target_frame: str, source_frame: str) -> tuple[int, int] | None: ...
     def remove_frame(self, child_frame: str) -> bool: ...
-    def remove_stale(self, before_ns: int) -> list[str]: ...
-    def samples(
-        self, child_frame: str
-    ) -> list[tuple[str, NDArray[np.int64], NDArray[np.float64]]]: ...
-    def stamps(self, child_frame: str) -> NDArray[np.int64]: ...
+    def remove_stale(self, before_ns: Stamp) -> list[str]: ...
+    def samples(self, child_frame: str) -> list[Samples]: ...
+    def _stamps(self, child_frame: str) -> NDArray[np.int64]: ...
     def set_transforms(
         self,
         parent_frame: str,
         child_frame: str,
         stamps: ArrayLike,
         poses: ArrayLike,
-        authority: str = "default_authority",
+        *,
+        errors: Literal["raise", "skip"] = "raise",
+        sender: str = "default_authority",
     ) -> int: ...
     def _describe_links(
         self, most: int
@@ -177,7 +227,7 @@ class Buffer:
     def _rename_sender(self, name: str, shown: str) -> None: ...
     def _fault(self) -> str: ...
 
-def bind_hot_methods(buffer_type: type[Buffer]) -> None: ...
+def bind_methods(buffer_type: type[Buffer]) -> None: ...
 
 class JointFrames:
     def __init__(
@@ -206,6 +256,16 @@ class RecordWalk:
     def jumps(self) -> list[tuple[int, str, int]]: ...
     @property
     def steps_back(self) -> dict[str, tuple[int, int]]: ...
+
+class Ros1ToCdr:
+    def __init__(self, steps: list[tuple[int, int, int, int]]) -> None: ...
+    def convert(self, message: bytes | memoryview) -> bytes | None: ...
+
+class ColumnReader:
+    def __init__(self, steps: list[tuple[int, int, int, int, int]], columns: int) -> None: ...
+    def take(self, messages: list[tuple[int, int, int, bytes]]) -> bool: ...
+    @property
+    def columns(self) -> list[bytes]: ...
 
 class MessageLookup:
     def __init__(self, buffer: Buffer, example: Any) -> None: ...
@@ -268,10 +328,20 @@ class Cyclone:
 class CycloneWriter(Outlet):
     def __init__(self, library: Cyclone, writer: int, sertype: int) -> None: ...
     def write(self, cdr: AnyBuffer | tuple[AnyBuffer, ...]) -> int: ...
+    def write_identified(
+        self, cdr: AnyBuffer | tuple[AnyBuffer, ...], guid: bytes, number: int
+    ) -> int: ...
     def close(self) -> None: ...
 
 class CycloneInlet:
     def __init__(self, library: Cyclone, guard: int, sink: Any) -> None: ...
+    def listener(self) -> tuple[int, int]: ...
+
+class CycloneFirstRequests:
+    def __init__(
+        self, functions: Sequence[int], reader: bytes, targets: Sequence[tuple[int, int]]
+    ) -> None: ...
+    def close(self) -> None: ...
     def listener(self) -> tuple[int, int]: ...
 
 class ZenohInlet:
@@ -280,4 +350,21 @@ class ZenohInlet:
     def gid_of(self, publisher: int) -> bytes: ...
     def forget(self, gid: bytes) -> None: ...
 
+NUMBER_OF_SAMPLE: int
+
+def mcap_messages(
+    records: bytes | memoryview,
+    position: int,
+    wanted: Container[int] | None,
+    into: list[tuple[int, int, int, bytes]],
+) -> int: ...
+def ros1_messages(
+    records: bytes | memoryview,
+    position: int,
+    wanted: Container[int] | None,
+    into: list[tuple[int, int, int, bytes]],
+) -> int: ...
+def carry_identities(library: Cyclone, sertype: int, base: int = 0) -> bool: ...
+def keep_type(library: Cyclone, sertype: int) -> bool: ...
+def tagged_samples() -> int: ...
 def print_on_abort(pipe: int) -> None: ...

@@ -41,6 +41,7 @@ def main(argv: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(
         prog="python -m turtlewire.demo",
         description="One turtle follows another in the browser: the tutorial's launch file.",
+        allow_abbrev=False,
     )
     parser.add_argument("--seconds", type=float, help="stop after this many seconds")
     seconds: float | None = parser.parse_args(argv).seconds

@@ -6,6 +6,8 @@
     ├── BagError                      a bag is damaged, incomplete or of an unknown kind
     ├── CdrError                      malformed CDR bytes, or a value that its field cannot hold
     ├── InterfaceError                an unknown or unreadable .msg/.srv/.action definition
+    ├── InvalidTransformError         a buffer refuses a transform
+    ├── UrdfError                     a robot description that urdfdom refuses
     ├── WireError                     the middleware refused something, or is missing
     │   └── UncallableServiceError    a server would misread a request, so none was sent
     └── TransformException            (the tree of ROS 2's tf2; also in tf2_py and tf2_ros)
@@ -31,11 +33,13 @@ __all__ = [
     "ExtrapolationException",
     "InterfaceError",
     "InvalidArgumentException",
+    "InvalidTransformError",
     "LookupException",
     "TimeoutException",
     "TransformException",
     "TurtlewireError",
     "UncallableServiceError",
+    "UrdfError",
     "WireError",
 ]
 
@@ -78,6 +82,95 @@ class CdrError(TurtlewireError, ValueError):
 
 class InterfaceError(TurtlewireError, LookupError):
     """An interface definition is unknown or cannot be read."""
+
+
+class InvalidTransformError(TurtlewireError, ValueError):
+    """A buffer did not add a transform; the text is tf2's reason.
+
+    Attributes:
+        reason: ``"nan"``: a number is not a number; ``"zero quaternion"``: all four numbers of the
+            rotation are 0; ``"self"``: a frame in itself; ``"no parent"`` and ``"no child"``: an
+            empty name; ``"old"``: older than the cache time by the newest sample; ``"bad name"``:
+            a name that no frame can have; ``"too many frames"``: more than ``max_frames``;
+            ``"not a rotation"``: a matrix that is not a rigid motion; empty if unknown.
+        parent_frame: The parent of the transform.
+        child_frame: The child of the transform.
+        sender: The sender, as it was given.
+        row: The index of the transform in its batch; None outside of batches.
+    """
+
+    reason: Literal[
+        "nan",
+        "zero quaternion",
+        "self",
+        "no parent",
+        "no child",
+        "old",
+        "bad name",
+        "too many frames",
+        "not a rotation",
+        "",
+    ] = ""
+    parent_frame: str = ""
+    child_frame: str = ""
+    sender: str = ""
+    row: int | None = None
+
+    @property
+    def hint(self) -> str:  # type: ignore[override]  # computed from the reason
+        """Advice in one or two sentences: what to do; may be empty."""
+        where = "" if self.row is None else f"It is row {self.row} of the batch. "
+        return where + _TRANSFORM_HINTS.get(self.reason, "")
+
+    @property
+    def __notes__(self) -> list[str]:
+        """Lines below the message in a traceback: the hint."""
+        return [self.hint] if self.hint else []
+
+
+_TRANSFORM_HINTS = {
+    "nan": "Leave out poses that are not known.",
+    "zero quaternion": "A rotation is a quaternion of length 1 in the order x, y, z, w; leave it "
+    "out, or pass (0, 0, 0, 1), for no rotation.",
+    "self": "Give the frame another parent.",
+    "no parent": "Name the parent frame.",
+    "no child": "Name the child frame.",
+    "old": "By default, a buffer keeps the newest 10 s. To keep everything, create it with "
+    "Buffer(cache_time_ns=None).",
+    "bad name": "Choose another name.",
+    "too many frames": "Make the buffer with a larger max_frames.",
+    "not a rotation": "The upper left 3 by 3 numbers must be a rotation matrix, and the last row "
+    "0, 0, 0, 1.",
+}
+
+
+class UrdfError(TurtlewireError, ValueError):
+    """A robot description that urdfdom refuses, or that has no kinematics.
+
+    ``str(error)`` is the first text that urdfdom logs; ``hint`` names the place.
+
+    Attributes:
+        reports: All texts that urdfdom logs, in its order.
+        line: The line of the element, from 1; 0 if the description is empty.
+        element: The element, for example ``<origin> in <joint name="elbow">``; may be empty.
+    """
+
+    def __init__(self, text: str, line: int = 0, element: str = "") -> None:
+        super().__init__(text)
+        self.reports: list[str] = [text]
+        self.line = line
+        self.element = element
+        self.with_hint(self.place)
+
+    @property
+    def place(self) -> str:
+        """Line and element, as ``line 7 in <origin> in <joint name="elbow">``; may be empty."""
+        if not self.line:
+            return ""
+        return f"line {self.line} in {self.element}" if self.element else f"line {self.line}"
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return (type(self), (str(self), self.line, self.element), {"reports": self.reports})
 
 
 class WireError(TurtlewireError, RuntimeError):
@@ -166,7 +259,7 @@ class LookupException(TransformException):
     """A frame named in the request does not exist.
 
     Attributes:
-        frame: The name; empty if unknown.
+        frame: The name; empty if unknown, and if the tree contains a loop.
     """
 
     frame: str = ""
@@ -178,12 +271,15 @@ class LookupException(TransformException):
 
         if self._buffer is None:
             return ""
-        frame, names = self.frame, self._buffer.frame_strings()
-        if not names:
+        if not self.frame:
             return (
-                "No transform has arrived yet. Is a broadcaster running, and does a "
-                "TransformListener fill this buffer?"
+                "A frame is below itself. Swap parent and child of the transform that closes the "
+                "loop; turtlewire.Buffer.problems() names the frames."
             )
+        frame, names = self.frame, self._buffer.frames()
+        if not names:
+            why_empty = getattr(self._buffer, "_why_empty", None)  # a core alone has none
+            return str(why_empty()) if why_empty else "No transform was set yet."
         # 'turtle1' and 'turtle2' are two things, of which one may not have been spawned yet.
         others = [name for name in names if name.strip(digits) != frame.strip(digits)]
         near = difflib.get_close_matches(frame, others, 3, 0.5)
@@ -191,6 +287,39 @@ class LookupException(TransformException):
             return f"Did you mean {' or '.join(map(repr, near))}?"
         some = ", ".join(map(repr, names[:10]))
         return f"The frames are {some}{f' and {len(names) - 10} more' if len(names) > 10 else ''}."
+
+
+#: Nanoseconds of the units that times come in by mistake.
+_UNITS = {"s": 10**9, "ms": 10**6, "us": 10**3}
+_NEAR_NS = 10 * 10**9
+_SINCE_1970_NS = 10**17  # data with clock times, from 1973 on
+_LEAST_NS = 10**6  # a stamp so near to the origin is probably in seconds
+
+
+def _wrong_unit(requested: int, oldest: int, newest: int) -> str:
+    """Return what to write if a requested time, or the data, are not in nanoseconds.
+
+    Args:
+        requested: A time in which there is no data.
+        oldest: The stamp of the oldest sample.
+        newest: The stamp of the newest sample.
+    """
+    if requested == 0:
+        return "0 is a time; leave out the time to get the latest." if oldest > 0 else ""
+    for unit, factor in _UNITS.items():
+        meant = requested * factor
+        is_likely = unit == "s" or oldest > _SINCE_1970_NS
+        if is_likely and oldest - _NEAR_NS <= meant <= newest + _NEAR_NS:
+            return f"Times are in nanoseconds: for {requested} {unit}, write {meant:_}."
+    gap = min(abs(requested - oldest), abs(requested - newest))
+    if abs(requested) < _LEAST_NS and gap >= 10**9:
+        return (
+            f"Times are in nanoseconds: for {requested} s, write {requested * 10**9:_}; the data "
+            f"begins at {oldest:_}."
+        )
+    if 0 < newest < _LEAST_NS and 10**9 <= requested <= (newest + 10) * 10**9:
+        return f"Stamps are in nanoseconds: is the newest one, {newest}, in seconds?"
+    return ""
 
 
 class ExtrapolationException(TransformException):
@@ -208,9 +337,9 @@ class ExtrapolationException(TransformException):
             and source are the ends of the part that failed.
         parent_frame: The parent of the transform that failed.
         child_frame: The child of the transform that failed.
-        requested_ns: The requested time, in nanoseconds.
-        oldest_ns: The stamp of the oldest sample of the transform; 0 without data.
-        newest_ns: The stamp of the newest sample of the transform; 0 without data.
+        requested_ns: The requested time, in nanoseconds; None if unknown.
+        oldest_ns: The stamp of the oldest sample of the transform; None without data.
+        newest_ns: The stamp of the newest sample of the transform; None without data.
     """
 
     reason: Literal["future", "past", "no data", ""] = ""
@@ -218,43 +347,56 @@ class ExtrapolationException(TransformException):
     source_frame: str = ""
     parent_frame: str = ""
     child_frame: str = ""
-    requested_ns: int = 0
-    oldest_ns: int = 0
-    newest_ns: int = 0
-    _has_data: bool = True
+    requested_ns: int | None = None
+    oldest_ns: int | None = None
+    newest_ns: int | None = None
+    _in_batch: bool = False  # one of many stamps, in a call that has the argument `errors`
 
     def _make_hint(self) -> str:
         if not self.child_frame:
             return ""
-        link = f"the transform from '{self.child_frame}' to '{self.parent_frame}'"
-        if self.reason == "future":
-            gap = (self.requested_ns - self.newest_ns) / 1e9
-            return (
-                f"The newest sample of {link} is {gap:.6g} s older than the requested time. "
-                "Give the lookup a timeout to wait for it, or request time 0, the latest."
-            )
-        if self.reason == "past":
-            gap = (self.oldest_ns - self.requested_ns) / 1e9
-            kept = (self.newest_ns - self.oldest_ns) / 1e9
-            return (
-                f"The oldest sample of {link} is {gap:.6g} s newer than the requested time; "
-                f"the buffer holds {kept:.6g} s."
-            )
-        return self._no_data_hint(link)
-
-    def _no_data_hint(self, link: str) -> str:
-        if not self._has_data:
+        if self.requested_ns is None or self.oldest_ns is None or self.newest_ns is None:
             return f"No transform of '{self.child_frame}' has arrived since the buffer was cleared."
-        gap = (self.requested_ns - self.newest_ns) / 1e9
-        side = "older" if gap > 0 else "newer"
+        advice = _wrong_unit(self.requested_ns, self.oldest_ns, self.newest_ns)
+        if not advice and self._in_batch:
+            advice = "Pass errors='nan' to get NaN where the data does not reach."
+        elif not advice and self.reason == "future":
+            advice = (
+                "Give the lookup a timeout to wait for it, or leave out the time to get the latest."
+            )
+        return f"{self._gap(self.requested_ns, self.oldest_ns, self.newest_ns)} {advice}".rstrip()
+
+    def _gap(self, requested: int, oldest: int, newest: int) -> str:
+        link = f"the transform from '{self.child_frame}' to '{self.parent_frame}'"
+        late, early = (requested - newest) / 1e9, (oldest - requested) / 1e9
+        if self.reason == "future":
+            return f"The newest sample of {link} is {late:.6g} s older than the requested time."
+        if self.reason == "past":
+            return (
+                f"The oldest sample of {link} is {early:.6g} s newer than the requested time; "
+                f"the buffer holds {(newest - oldest) / 1e9:.6g} s."
+            )
+        side = "older" if late > 0 else "newer"
         return (
-            f"The buffer holds one sample of {link}, {abs(gap):.6g} s {side} than the requested "
+            f"The buffer holds one sample of {link}, {abs(late):.6g} s {side} than the requested "
             "time; interpolation needs two."
         )
 
 
 class InvalidArgumentException(TransformException):
-    """A frame id is empty or starts with a slash."""
+    """A frame id is empty or starts with a slash.
+
+    Attributes:
+        frame: The name; None if unknown.
+    """
+
+    frame: str | None = None
+
+    def _make_hint(self) -> str:
+        if self.frame is None:
+            return ""
+        bare = self.frame.lstrip("/")
+        return f"Write '{bare}', without the slash." if bare else "Name a frame."
 
 
 class TimeoutException(TransformException):

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from typing import Protocol
 
     from turtlewire.tf.buffer import Buffer
+    from turtlewire.tf.datetimes import Span
 
     Link = (
         tuple[str, str]
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
     class Changing(Protocol):
         """Calls back after changes, as :class:`turtlewire.Buffer` and a context's graph do."""
 
-        def add_change_listener(self, listener: Callable[[], None], /) -> Callable[[], None]:
+        def on_change(self, call: Callable[[], None], /) -> Callable[[], None]:
             """Call ``listener`` after each change; returns a function that ends it."""
             ...
 
@@ -103,17 +104,17 @@ def isolated_domain() -> Iterator[int]:
                     os.environ[name] = value
 
 
-def filled_buffer(links: Iterable[Link], *, stamp_ns: int = 0) -> Buffer:
+def filled_buffer(links: Iterable[Link], *, stamp_ns: int | None = None) -> Buffer:
     """Return a buffer with the given links.
 
     Args:
         links: For each link the parent frame, the child frame, and where the child is in the
             parent: its translation [m], zero unless given, and its rotation as xyzw, none unless
             given.
-        stamp_ns: The time of the transforms; 0 makes them static.
+        stamp_ns: The time of the transforms; None makes them static.
 
     Raises:
-        ValueError: The buffer refuses a link; the text says why.
+        InvalidTransformError: The buffer refuses a link.
     """
     from turtlewire.tf.buffer import Buffer
 
@@ -121,31 +122,37 @@ def filled_buffer(links: Iterable[Link], *, stamp_ns: int = 0) -> Buffer:
     for parent, child, *pose in links:
         translation = pose[0] if pose else (0.0, 0.0, 0.0)
         rotation = pose[1] if len(pose) > 1 else (0.0, 0.0, 0.0, 1.0)
-        static = stamp_ns == 0
-        refusal = buffer.set_transform(parent, child, stamp_ns, translation, rotation, static)
-        if refusal:
-            raise ValueError(refusal)
+        if stamp_ns is None:
+            buffer.set_static_transform(parent, child, translation, rotation)
+        else:
+            buffer.set_transform(parent, child, stamp_ns, translation, rotation)
     return buffer
 
 
-def wait_for(predicate: Callable[[], bool], *sources: Changing, timeout_s: float = 60.0) -> None:
+def wait_for(
+    predicate: Callable[[], bool], *sources: Changing, timeout_ns: Span = 60_000_000_000
+) -> None:
     """Block until a predicate is true; it is tested at once and after each change of a source.
 
     Args:
         predicate: Called on this thread, without locks held.
         sources: What the predicate depends on: buffers (``turtlewire.Buffer``).
-        timeout_s: A limit, generous because test machines are busy.
+        timeout_ns: A limit in nanoseconds or as ``timedelta64``, generous because test machines
+            are busy.
 
     Raises:
-        TimeoutError: The predicate is still false after ``timeout_s``.
+        TimeoutError: The predicate is still false after ``timeout_ns``.
     """
     import time
 
+    from turtlewire.tf.datetimes import as_nanoseconds
+
+    timeout_s = as_nanoseconds(timeout_ns, "timeout_ns") / 1e9
     changed = threading.Event()
     end = time.monotonic() + timeout_s
     with contextlib.ExitStack() as stack:
         for source in sources:
-            stack.callback(source.add_change_listener(changed.set))
+            stack.callback(source.on_change(changed.set))
         while not predicate():
             if not changed.wait(max(0.0, end - time.monotonic())):
                 raise TimeoutError(f"the condition was not met within {timeout_s:g} s")

@@ -1,11 +1,15 @@
-"""An event for the main thread that a signal cannot leave locked."""
+"""Events that end a wait: of a thread, safe from signals, and of a task of asyncio."""
 
 from __future__ import annotations
 
 import threading
 from contextlib import suppress
+from typing import TYPE_CHECKING
 
-__all__ = ["WakeUp"]
+if TYPE_CHECKING:
+    import asyncio
+
+__all__ = ["LoopWakeUp", "WakeUp"]
 
 
 class WakeUp:
@@ -36,3 +40,43 @@ class WakeUp:
             False after the timeout.
         """
         return self._lock.acquire(timeout=-1 if timeout is None else max(timeout, 0.0))
+
+
+class LoopWakeUp:
+    """Ends the wait of a task of an asyncio loop; each wait clears it.
+
+    One task waits at a time.
+
+    Args:
+        loop: The loop of the task.
+    """
+
+    def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
+        self._loop = loop
+        self._is_set = False
+        self._waiter: asyncio.Future[None] | None = None
+
+    def set(self) -> None:
+        """End the current wait, or the next one at once. For any thread."""
+        if self._is_set:
+            return
+        self._is_set = True
+        with suppress(RuntimeError):  # the loop has ended
+            self._loop.call_soon_threadsafe(self._finish)
+
+    def _finish(self) -> None:
+        if self._waiter is not None and not self._waiter.done():
+            self._waiter.set_result(None)
+
+    async def wait(self, timeout: float | None = None) -> None:
+        """Wait until it is set, at most ``timeout`` seconds, and clear it."""
+        if not self._is_set:
+            self._waiter = self._loop.create_future()
+            alarm = None if timeout is None else self._loop.call_later(timeout, self._finish)
+            try:
+                await self._waiter
+            finally:
+                self._waiter = None
+                if alarm is not None:
+                    alarm.cancel()
+        self._is_set = False

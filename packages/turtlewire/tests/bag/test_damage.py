@@ -19,7 +19,8 @@ from types import SimpleNamespace
 import pytest
 from tests.bags import START, contents, write_bag
 
-from turtlewire.bag import BagWriter, load_transforms, open_bag, reindex
+from turtlewire import Buffer
+from turtlewire.bag import BagWriter, open_bag, reindex
 from turtlewire.bag.compression import compress, decompress, most_bytes
 from turtlewire.bag.unpacking import unpack_file
 from turtlewire.errors import BagError
@@ -70,7 +71,7 @@ def test_whole_messages_of_a_cut_chunk_are_read(tmp_path, compression):
             assert len(bag) > 4000
             assert "is cut off or damaged" in bag.problems[0]
             assert len(bag.problems) == 1
-        _, report = load_transforms(path)
+        report = Buffer.from_bag(path).bag_report
         assert report.messages > 4000
         assert len(report.problems) == 1
 
@@ -264,7 +265,7 @@ def test_a_copy_that_fills_the_disk(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("name", ["d_mcap", "real/g_mcap_zstd_fast", "real/g_sqlite3"])
 def test_a_real_bag_cut_at_every_thousandth_byte(tmp_path, name):
-    """What `load_transforms` takes are the messages before the cut, and it says where that is."""
+    """What `Buffer.from_bag` takes are the messages before the cut, and it says where that is."""
     (path,) = (file for file in (GOLDEN / name).iterdir() if file.suffix in {".mcap", ".db3"})
     whole = path.read_bytes()
     cut = tmp_path / path.name
@@ -272,7 +273,7 @@ def test_a_real_bag_cut_at_every_thousandth_byte(tmp_path, name):
     for length in range(0, len(whole), 1000):
         cut.write_bytes(whole[:length])
         try:
-            _, report = load_transforms(cut)
+            report = Buffer.from_bag(cut).bag_report
         except BagError as error:
             complaints.append(str(error))
             continue
@@ -280,7 +281,7 @@ def test_a_real_bag_cut_at_every_thousandth_byte(tmp_path, name):
         assert report.messages >= (0.7 * last if path.suffix == ".db3" else last)
         assert report.problems or report.messages == last
         last = report.messages
-    _, report = load_transforms(path)
+    report = Buffer.from_bag(path).bag_report
     assert 0 < last <= report.messages
     assert all(str(cut) in complaint for complaint in complaints)
 
@@ -321,18 +322,19 @@ def test_flipped_bytes_in_the_native_walk(tmp_path):
             damaged[dice.randrange(len(damaged))] = dice.randrange(256)
         path.write_bytes(damaged)
         try:
-            buffer, report = load_transforms(folder)
+            buffer = Buffer.from_bag(folder)
+            report = buffer.bag_report
         except BagError:
             continue
         assert report.messages <= 101 + 10
-        assert len(buffer) < 10
+        assert len(buffer.frames()) < 10
 
 
 def test_a_missing_file_is_named_and_the_others_are_read(tmp_path):
     folder = write_bag(tmp_path / "made", max_file_bytes=4000, chunk_bytes=500)
     first, second, *_ = sorted(folder.glob("*.mcap"))
     second.unlink()
-    _, report = load_transforms(folder)
+    report = Buffer.from_bag(folder).bag_report
     assert 10 < report.messages < 101
     assert second.name in " ".join(report.problems)
     first.unlink()
@@ -407,7 +409,7 @@ def test_a_missing_file_of_messages_is_named_and_the_others_are_read(tmp_path):
         assert 50 < len(found) < 111
         assert len(bag.problems) == 1
     assert "reindex" in error.value.hint
-    assert sum(second.name in line for line in load_transforms(folder)[1].problems) == 1
+    assert sum(second.name in line for line in Buffer.from_bag(folder).bag_report.problems) == 1
 
 
 def test_damaged_metadata_in_a_file_costs_no_message(tmp_path):
@@ -485,5 +487,5 @@ def test_missing_message_is_reported(tmp_path):
     assert len(messages) == 110
     assert "1 messages listed in its statistics are missing" in complaint
     assert "1 messages listed in its statistics are missing" in " ".join(
-        load_transforms(folder)[1].problems
+        Buffer.from_bag(folder).bag_report.problems
     )

@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from turtlewire.bag import load_transforms, open_bag
+from turtlewire import Buffer
+from turtlewire.bag import open_bag
 from turtlewire.errors import TransformException
 
 from .conftest import ANSWERED, GOLDEN
@@ -60,7 +61,8 @@ def test_every_message_can_be_decoded(name):
 
 @pytest.mark.parametrize("name", ANSWERED)
 def test_lookups(name):
-    buffer, report = load_transforms(GOLDEN / name)
+    buffer = Buffer.from_bag(GOLDEN / name)
+    report = buffer.bag_report
     assert report.problems == []
     wrong, other_leg = [], 0
     with gzip.open(GOLDEN / f"{name}.answers.jsonl.gz", "rt") as file:
@@ -87,17 +89,21 @@ def is_of_other_leg(question, answer):
 def ask(buffer, q):
     try:
         if "fixed" in q:
-            found = buffer.lookup_transform_full(
-                q["target"], q["target_ns"], q["source"], q["ns"], q["fixed"]
+            found = buffer.lookup_transform(
+                q["target"],
+                q["source"],
+                q["ns"] or None,
+                fixed_frame=q["fixed"],
+                target_stamp_ns=q["target_ns"] or None,
             )
         else:
-            found = buffer.lookup_transform(q["target"], q["source"], q["ns"])
+            found = buffer.lookup_transform(q["target"], q["source"], q["ns"] or None)
     except TransformException as error:
         return {"error": type(error).__name__, "text": str(error)}
     return {
-        "stamp": found.stamp_ns,
-        "frame": found.frame_id,
-        "child": found.child_frame_id,
+        "stamp": found.stamp_ns or 0,  # static transforms are always true
+        "frame": found.target_frame,
+        "child": found.source_frame,
         "pose": [*found.translation, *found.rotation],
     }
 
@@ -119,8 +125,9 @@ def test_every_way_in_which_rosbag2_writes_a_bag(name):
         assert len(times) == len(bag) > 200
         assert times == sorted(times)
         assert (times[0], times[-1]) == (bag.start_ns, bag.end_ns)
-    buffer, report = load_transforms(GOLDEN / "real" / name)
-    assert len(buffer.frame_strings()) == 5
+    buffer = Buffer.from_bag(GOLDEN / "real" / name)
+    report = buffer.bag_report
+    assert len(buffer.frames()) == 5
     assert report.problems == []
     assert report.jumps == []
 

@@ -7,7 +7,8 @@ import os
 import pytest
 from tests.bags import SECOND, START, contents, transform, write_bag
 
-from turtlewire.bag import BagWriter, load_transforms, open_bag
+from turtlewire import Buffer
+from turtlewire.bag import BagWriter, open_bag
 from turtlewire.errors import BagError, InterfaceError
 
 
@@ -61,7 +62,7 @@ def test_both_ends_of_a_window_belong_to_it(tmp_path, options):
             for window, count in (((start, start), 1), ((start + 1, start + 1), 0)):
                 ends = {"start_ns": window[0], "end_ns": window[1]}
                 assert len(list(bag.messages(**ends))) == count
-                assert load_transforms(bag.path, **ends)[1].messages == count
+                assert Buffer.from_bag(bag.path, **ends).bag_report.messages == count
 
 
 def test_topic_names_are_whole_names(bag_path):
@@ -105,6 +106,18 @@ def test_messages_are_in_order_of_time_across_overlapping_chunks_and_files(tmp_p
         assert [m.log_time_ns for m in bag.messages(start_ns=1050, end_ns=1060)] == list(
             range(1050, 1061)
         )
+
+
+def test_a_short_file_within_a_long_one_does_not_end_the_overlap(tmp_path):
+    with BagWriter(tmp_path / "made") as writer:
+        writer.add_topic("/a", "std_msgs/msg/String")
+        for times in ((0, 55, 100), (10, 20), (50, 60), (100, 101)):
+            for time in times:
+                writer.write("/a", bytes(8), time)
+            writer.split()
+    with open_bag(tmp_path / "made") as bag:
+        assert len([file for file in bag.metadata.files if file.message_count]) == 4
+        assert [m.log_time_ns for m in bag] == [0, 10, 20, 50, 55, 60, 100, 100, 101]
 
 
 def test_invalid_bags(tmp_path):
@@ -170,3 +183,22 @@ def test_types_that_only_the_bag_defines(tmp_path):
     assert own.things[0].name == "hi"
     assert (own.inner.x, own.inner.stamp.sec, own.inner.stamp.nanosec) == (1.5, 2, 3)
     assert msg.serialize(own) == cdr
+
+
+@pytest.mark.parametrize("topics", [["/a"], ["/b"], ["/a", "/b"], ["/b", "/a", "/empty"]])
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+def test_small_and_large_messages_come_in_order(tmp_path, storage, topics):
+    """A sqlite3 file is read in blocks, which are shorter after a message of 64 KiB."""
+    written = []
+    with BagWriter(tmp_path / "made", storage=storage) as writer:
+        for name in ("/a", "/b", "/empty"):
+            writer.add_topic(name, "std_msgs/msg/String")
+        for number in range(400):
+            topic = "/b" if number % 3 else "/a"
+            size = (1 << 16) + number % 2 if 128 <= number % 150 < 140 else 8
+            data = bytes([number % 256]) * size
+            writer.write(topic, data, 1000 - number // 2)
+            written.append((topic, "std_msgs/msg/String", 1000 - number // 2, data))
+    written.sort(key=lambda each: each[2])
+    with open_bag(tmp_path / "made") as bag:
+        assert contents(bag.messages(topics)) == [each for each in written if each[0] in topics]

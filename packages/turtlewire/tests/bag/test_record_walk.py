@@ -13,7 +13,8 @@ from tests.needs import COMPILED_CORE
 
 from turtlewire import msg
 from turtlewire.tf import plain
-from turtlewire.tf.inspection import links, malformed, refusals
+from turtlewire.tf.faults import malformed, refusals
+from turtlewire.tf.links import links
 
 _native = pytest.importorskip("turtlewire._native", reason=COMPILED_CORE)
 
@@ -65,7 +66,7 @@ def outcome(core, records, window=(0, FOREVER)):
     damage = [walk.walk(buffer, part, CHANNELS) for part in records]
     history = {
         frame: [(p, s.tolist(), rounded(poses)) for p, s, poses in buffer.samples(frame)]
-        for frame in buffer.frame_strings()
+        for frame in buffer.frames()
     }
     described = [link._replace(memory_bytes=0) for link in links(buffer)]
     return (
@@ -117,7 +118,7 @@ def test_listeners_hear_of_it_and_views_are_taken():
     heard = []
     for core in (_native, plain):
         buffer = core.Buffer(None)
-        buffer.add_change_listener(lambda: heard.append(1))
+        buffer.on_change(lambda: heard.append(1))
         records = memoryview(message(1, 5, msg.serialize(transform(1))))
         core.RecordWalk(0, FOREVER).walk(buffer, records, CHANNELS)
         assert buffer.lookup_transform("odom", "base_link", START + 10_000_000).x == 0.01
@@ -131,3 +132,15 @@ def test_no_transforms_but_more_bytes_and_names_that_are_no_text():
     records = [message(1, 5, empty) + message(1, 6, bytes(odd))]
     assert outcome(_native, records) == outcome(plain, records)
     assert outcome(plain, records)[1] == 2
+
+
+@pytest.mark.parametrize("core", [_native, plain])
+@pytest.mark.parametrize(("steps", "jumps"), [(100, []), (101, [(2, "base", 1_010_000_000)])])
+def test_only_more_than_a_second_back_is_a_jump(core, steps, jumps):
+    buffer, walk = core.Buffer(None), core.RecordWalk(0, FOREVER)
+    parts = [
+        message(1, time, several(transform(i, "odom", "base")))
+        for time, i in ((1, 200), (2, 200 - steps))
+    ]
+    walk.walk(buffer, b"".join(parts), CHANNELS)
+    assert [tuple(each) for each in walk.jumps] == jumps

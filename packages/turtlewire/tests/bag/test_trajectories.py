@@ -6,8 +6,10 @@ import pytest
 from tests.bags import SECOND, START
 
 from turtlewire import msg
-from turtlewire.bag import BagWriter, load_trajectory, open_bag, pose_topics
+from turtlewire.bag import BagWriter, open_bag
+from turtlewire.bag.trajectories import pose_topics
 from turtlewire.errors import BagError
+from turtlewire.trajectory import Trajectory
 
 PLACES = {
     "nav_msgs/msg/Odometry": lambda m: (m.pose.pose.position, m.pose.pose.orientation),
@@ -51,18 +53,19 @@ def path(tmp_path):
 
 @pytest.mark.parametrize("kind", PLACES)
 def test_every_type_with_a_pose(path, kind):
-    trajectory = load_trajectory(path, f"/{kind.rpartition('/')[2].lower()}")
+    with pytest.warns(UserWarning, match="2 of 102 messages of .* have the stamp of another"):
+        trajectory = Trajectory.from_bag(path, f"/{kind.rpartition('/')[2].lower()}")
     assert len(trajectory) == 100
     assert trajectory.stamps_ns[49] == START + 490_000_007
     assert trajectory.poses[49].tolist() == [24.5, 0, 3, 0, 0, 0.6, 0.8]
-    assert trajectory.frame_id == "odom"
-    assert trajectory.child_frame_id == ("base" if "Odom" in kind or "Transform" in kind else "")
+    assert trajectory.target_frame == "odom"
+    assert trajectory.source_frame == ("base" if "Odom" in kind or "Transform" in kind else "")
     assert trajectory.gaps == ((START + 490_000_007, START + 2 * SECOND + 7),)
 
 
 def test_a_window_and_progress(path):
     shares = []
-    part = load_trajectory(
+    part = Trajectory.from_bag(
         path, "/odometry", start_ns=START + 10, end_ns=START + 19, progress=shares.append
     )
     assert part.positions[:, 0].tolist() == [0.5 * i for i in range(10, 20)]
@@ -78,10 +81,10 @@ def test_wrong_topics(path):
             "/transformstamped",
         ]
     with pytest.raises(BagError, match="has no topic /odometri") as error:
-        load_trajectory(path, "/odometri")
+        Trajectory.from_bag(path, "/odometri")
     assert "Did you mean: /odometry" in error.value.hint
     with pytest.raises(BagError, match="which has no poses") as error:
-        load_trajectory(path, "/chatter")
+        Trajectory.from_bag(path, "/chatter")
     assert "Topics with poses: /odometry" in error.value.hint
     with pytest.raises(BagError, match="no message of /odometry in that time"):
-        load_trajectory(path, "/odometry", end_ns=5)
+        Trajectory.from_bag(path, "/odometry", end_ns=START - 5)

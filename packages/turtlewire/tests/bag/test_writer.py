@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import re
 import sqlite3
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -146,11 +150,11 @@ def test_mistakes(tmp_path):
             writer.add_topic("/a", "std_msgs/msg/Bool")
         with pytest.raises(BagError, match="'/b' was not added") as error:
             writer.write("/b", b"\0\1\0\0", 1)
-        assert error.value.hint == "Call add_topic() first."
+        assert error.value.hint.startswith("Call add_topic() first: bytes")
     writer.close()
     with pytest.raises(BagError, match="is closed"):
         writer.write("/a", b"\0\1\0\0", 1)
-    with pytest.raises(FileExistsError):
+    with pytest.raises(FileExistsError, match=r"choose another path, or remove .* '.*/made'"):
         BagWriter(tmp_path / "made")
     with pytest.raises(BagError, match="unknown storage 'mcp'"):
         BagWriter(tmp_path / "other", storage="mcp")
@@ -285,6 +289,7 @@ def test_messages_that_a_topic_does_not_hold(tmp_path, storage):
         {"storage": "sqlite3", "compression": "lz4"},
         {"max_file_bytes": -4},
         {"max_file_ns": -1},
+        {"max_files": -1},
         {"chunk_bytes": 0},
     ],
 )
@@ -294,9 +299,134 @@ def test_options_without_effect_are_refused(tmp_path, options):
     assert not (tmp_path / "made").exists()
 
 
+@pytest.mark.parametrize(("max_file_ns", "counts"), [(0, [4]), (9, [1, 1, 2]), (10, [2, 2])])
+def test_a_message_at_the_end_of_a_file_belongs_to_it(tmp_path, max_file_ns, counts):
+    with BagWriter(tmp_path / "made", max_file_ns=max_file_ns) as writer:
+        writer.add_topic("/a", "std_msgs/msg/String")
+        for time in (100, 110, 120, 120):
+            writer.write("/a", bytes(8), time)
+    assert [file.message_count for file in writer.metadata.files] == counts
+
+
 def test_a_name_that_is_none_of_a_type(tmp_path):
     with (
         BagWriter(tmp_path / "made") as writer,
         pytest.raises(BagError, match="'foo' is not the name of a message type"),
     ):
         writer.add_topic("/q", "foo")
+
+
+def test_a_message_object_adds_its_topic(tmp_path):
+    text = msg.get_message("std_msgs/msg/String")
+    with BagWriter(tmp_path / "made") as writer:
+        writer.write("/chatter", text(data="a"), 5)
+        writer.write("/chatter", msg.serialize(text(data="b")), 6)
+        with pytest.raises(TypeError):
+            writer.write("/chatter", msg.get_message("std_msgs/msg/Header")(), 7)
+    with pytest.raises(BagError, match="closed"):
+        writer.write("/other", text(data="c"), 8)
+    with open_bag(tmp_path / "made") as bag:
+        assert bag.topics["/chatter"].type == "std_msgs/msg/String"
+        assert [message.decode().data for message in bag.messages("/chatter")] == ["a", "b"]
+
+
+@pytest.mark.parametrize("topic", ["/tf", "/tf_static", "/robot1/tf", "tf"])
+def test_topics_of_transforms_begin_with_their_type(tmp_path, topic):
+    """A bag with other messages there has no TF for any reader."""
+    sample = msg.get_message("geometry_msgs/msg/TransformStamped")()
+    whole = msg.get_message("tf2_msgs/msg/TFMessage")(transforms=[sample])
+    with BagWriter(tmp_path / "made") as writer:
+        with pytest.raises(TypeError) as caught:
+            writer.write(topic, sample, log_time_ns=1)
+        assert str(caught.value) == (
+            f"{topic} carries tf2_msgs/msg/TFMessage, not geometry_msgs/msg/TransformStamped; put "
+            "it into TFMessage(transforms=[...])"
+        )
+        assert writer.topics == {}
+        writer.write(topic, whole, log_time_ns=1)
+        writer.write("/pose_of_tf", sample, log_time_ns=1)
+
+
+def test_a_type_that_is_added_on_purpose(tmp_path):
+    sample = msg.get_message("geometry_msgs/msg/TransformStamped")()
+    with BagWriter(tmp_path / "made") as writer:
+        writer.add_topic("/tf", "geometry_msgs/msg/TransformStamped")
+        writer.write("/tf", sample, log_time_ns=1)
+    with open_bag(tmp_path / "made") as bag:
+        assert bag.topics["/tf"].type == "geometry_msgs/msg/TransformStamped"
+
+
+def test_message_and_topic_in_the_wrong_order(tmp_path):
+    sample = msg.get_message("geometry_msgs/msg/TransformStamped")()
+    with (
+        BagWriter(tmp_path / "made") as writer,
+        pytest.raises(TypeError, match="topic must be str, not TransformStamped"),
+    ):
+        writer.write(sample, "/pose", log_time_ns=1)
+
+
+def test_data_that_is_no_message(tmp_path):
+    sample = msg.get_message("geometry_msgs/msg/TransformStamped")()
+    with BagWriter(tmp_path / "made") as writer:
+        with pytest.raises(TypeError, match="/tf accepts a message or its CDR bytes, not list"):
+            writer.write("/tf", [sample], log_time_ns=1)
+        with pytest.raises(TypeError, match="the name of a type must be str, not type"):
+            writer.add_topic("/pose", type(sample))
+
+
+@pytest.mark.parametrize(
+    ("folder", "names"),
+    [
+        ("ride", ["0_ride_T.mcap", "1_ride_T.mcap"]),
+        ("rosbag2_2026_05_01-10_11_12", ["0_rosbag2_T.mcap", "1_rosbag2_T.mcap"]),
+    ],
+)
+def test_files_of_lyrical_have_the_number_in_front_and_the_time_behind(tmp_path, folder, names):
+    path = tmp_path / folder
+    with BagWriter(path, max_file_ns=1, ros_distro="lyrical") as writer:
+        for stamp in (START, START + 10):
+            writer.write("/chatter", msg.get_message("std_msgs/msg/String")(data="x"), stamp)
+    times = r"_\d{4}(_\d\d){2}-\d\d(_\d\d){2}\.mcap"
+    assert [re.sub(times, "_T.mcap", name) for name in writer.metadata.paths] == names
+    (path / "metadata.yaml").unlink()
+    with open_bag(path) as bag:  # the order is that of the numbers
+        assert bag.metadata.paths == writer.metadata.paths
+        assert [message.log_time_ns for message in bag] == [START, START + 10]
+
+
+@pytest.mark.parametrize(
+    "end", ["", "writer = None", "writer.close(); del writer", "raise SystemExit(0)"]
+)
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+def test_a_bag_is_finished_when_the_program_forgets_to_close_it(tmp_path, storage, end):
+    program = f"""
+from turtlewire.bag import BagWriter
+from turtlewire.msg import get_message
+writer = BagWriter("out", storage="{storage}")
+writer.write("/a", get_message("std_msgs/msg/String")(data="x"), log_time_ns=1)
+{end}
+"""
+    subprocess.run([sys.executable, "-c", program], check=True, cwd=tmp_path)
+    assert (tmp_path / "out" / "metadata.yaml").exists()
+    with open_bag(tmp_path / "out") as bag:
+        assert len(bag) == len(list(bag)) == 1
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="Windows has no fork()")
+def test_a_fork_does_not_finish_the_bag_of_its_parent(tmp_path):
+    program = """
+import os, sys, warnings
+from turtlewire.bag import BagWriter
+from turtlewire.msg import get_message
+String = get_message("std_msgs/msg/String")
+warnings.simplefilter("ignore")
+writer = BagWriter("out")
+writer.write("/a", String(data="before"), log_time_ns=1)
+if os.fork() == 0:
+    sys.exit(0)
+os.wait()
+writer.write("/a", String(data="behind"), log_time_ns=2)
+"""
+    subprocess.run([sys.executable, "-c", program], check=True, cwd=tmp_path)
+    with open_bag(tmp_path / "out") as bag:
+        assert [message.log_time_ns for message in bag] == [1, 2]

@@ -17,7 +17,7 @@ from tests.bags import SECOND, START, transform, write_bag
 from turtlewire import msg
 from turtlewire.bag import BagWriter, reindex
 from turtlewire.cli.main import main
-from turtlewire.trajectory import read_kitti, read_tum, write_tum
+from turtlewire.trajectory import Trajectory
 
 from ..bag.conftest import GOLDEN
 from .test_main import offered
@@ -117,12 +117,12 @@ def test_a_trajectory_is_shown_written_and_drawn(capsys, bag, tmp_path):
     assert "  poses     10\n" in done.out
     assert "  rate      10.0 Hz\n" in done.out
     assert f"  written   {out} (kitti)\n" in done.out
-    written = read_kitti(out, tmp_path / "out_times.txt")
+    written = Trajectory.load(out)
     assert written.stamps_ns.tolist() == [START + i * SECOND // 10 for i in range(10)]
     assert picture.read_text().startswith("<svg")
     converted = run(capsys, "trajectory", out, "-o", tmp_path / "out.tum", "--json")
     assert json.loads(converted.out)["poses"] == 10
-    assert len(read_tum(tmp_path / "out.tum")) == 10
+    assert len(Trajectory.load(tmp_path / "out.tum")) == 10
 
 
 def test_a_topic_and_its_gaps(capsys, tmp_path):
@@ -198,6 +198,20 @@ def test_a_file_without_data_is_no_trajectory(capsys, tmp_path, text, what):
     done = run(capsys, "trajectory", tmp_path / "empty.txt")
     assert (done.status, done.out) == (2, "")
     assert f"empty.txt is not a trajectory: it contains {what}, but no lines of numbers" in done.err
+
+
+def test_remarks_about_a_file_are_lines_below_each_other(capsys, tmp_path):
+    path = tmp_path / "walk.tum"
+    path.write_text("1 0 0 0 0 0 0 2\n1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n")
+    remarks = (
+        f"note: {path}: 1 of 3 stamps repeat the one before; the first pose is taken\n"
+        f"note: {path}: 1 of 3 quaternions are normalised\n"
+    )
+    done = run(capsys, "trajectory", path)
+    assert (done.status, done.err) == (0, remarks)
+    assert "  poses     2\n" in done.out
+    done = run(capsys, "compare", path, path)
+    assert (done.status, done.err) == (0, 2 * remarks)
 
 
 @pytest.mark.parametrize(
@@ -372,10 +386,11 @@ def test_damage_is_named_where_it_left_no_transforms(capsys, tmp_path):
     assert done.status == 2
     assert "none of the topics /tf, /tf_static. It has no TF. Damaged: " in done.err
     assert damage in done.err
-    reindex(tmp_path / "cut")
     done = run(capsys, "doctor", tmp_path / "cut")
     assert done.status == 1
     assert damage in done.out
+    reindex(tmp_path / "cut")  # makes the file whole
+    assert run(capsys, "doctor", tmp_path / "cut").status == 0
 
 
 def test_a_file_has_gaps_too(capsys, tmp_path):
@@ -391,7 +406,7 @@ def test_tab(tmp_path, bag, monkeypatch):
     assert {"bag", "trajectory", "compare", "doctor", "frames"} <= set(
         offered("turtlewire ", answers)
     )
-    assert offered("turtlewire bag ", answers) == ["tf"]
+    assert offered("turtlewire bag ", answers) == ["info", "cut", "filter", "merge", "split", "tf"]
     assert "made/" in offered("turtlewire bag tf m", answers)
     assert offered("turtlewire trajectory made c", answers) == ["camera"]
     assert offered("turtlewire trajectory made odom ba", answers) == ["base_link"]
@@ -403,5 +418,5 @@ def test_tab(tmp_path, bag, monkeypatch):
 def test_a_path_with_a_colon(capsys, tmp_path, bag):
     run(capsys, "trajectory", bag, "odom", "camera", "-o", tmp_path / "a.tum")
     odd = tmp_path / "a:b.tum"
-    write_tum(read_tum(tmp_path / "a.tum"), odd)
+    Trajectory.load(tmp_path / "a.tum").save(odd)
     assert run(capsys, "compare", odd, odd).status == 0

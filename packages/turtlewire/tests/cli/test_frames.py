@@ -36,16 +36,11 @@ RED, BLUE = "\033[31m", "\033[34m"
 
 def put(buffer, parent, child, *ages_s, now_ns=NOW_NS, static=False, sender="/someone"):
     for age_s in ages_s:
-        why = buffer.set_transform(
-            parent,
-            child,
-            now_ns - round(age_s * 1e9),
-            (1.0, 0.0, 0.0),
-            (0.0, 0.0, 0.0, 1.0),
-            static,
-            sender,
-        )
-        assert not why
+        if static:
+            buffer.set_static_transform(parent, child, (1.0, 0.0, 0.0), sender=sender)
+        else:
+            stamp_ns = now_ns - round(age_s * 1e9)
+            buffer.set_transform(parent, child, stamp_ns, (1.0, 0.0, 0.0), sender=sender)
 
 
 @pytest.fixture

@@ -19,7 +19,7 @@ from turtlewire.wire.base import TypeId
 
 COMMAND = Path(sys.executable).parent / "turtlewire"
 BAG = places.GOLDEN / "bag/d_mcap"
-SHOW_BAG = f"Its transforms: turtlewire bag tf {BAG}; what is in it: ros2 bag info {BAG}; "
+SHOW_BAG = f"Its transforms: turtlewire bag tf {BAG}; what is in it: turtlewire bag info {BAG}; "
 TF = TypeId("tf2_msgs/msg/TFMessage", msg.type_hash("tf2_msgs/msg/TFMessage"))
 
 
@@ -78,7 +78,8 @@ def offered(line, answers):
             "turtlewire ",
             [
                 "--version",
-                *("bag", "class", "compare", "doctor", "foxglove", "frames", "trajectory", "view"),
+                *("bag", "class", "compare", "doctor", "foxglove", "frames", "relay"),
+                *("trajectory", "view"),
             ],
         ),
         ("turtlewire d", ["doctor"]),

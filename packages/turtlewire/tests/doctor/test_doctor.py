@@ -12,10 +12,12 @@ import time
 from pathlib import Path
 
 import pytest
+from tests.needs import needs_cyclone_dds
 
 from turtlewire import msg
 from turtlewire.cli.main import main
 from turtlewire.doctor import examination
+from turtlewire.doctor import fast_dds_findings as fast_dds
 from turtlewire.doctor import setup_findings as setup
 from turtlewire.doctor.finding import Finding
 from turtlewire.doctor.graph_findings import graph_findings
@@ -25,12 +27,13 @@ from turtlewire.doctor.tf_findings import tf_findings
 from turtlewire.doctor.tf_traffic import TfListener, TfTraffic, frame_names
 from turtlewire.errors import WireError
 from turtlewire.wire import open_context
-from turtlewire.wire.base import TypeId
+from turtlewire.wire.base import EndpointInfo, TypeId
 from turtlewire.wire.libddsc import Libddsc, Search
 from turtlewire.wire.qos import Durability, QoS, Reliability
 
 STRING = TypeId("std_msgs/msg/String", "RIHS01_" + "1" * 64)
 TF = TypeId("tf2_msgs/msg/TFMessage", msg.type_hash("tf2_msgs/msg/TFMessage"))
+CYCLONE = "rmw_cyclonedds_cpp"
 NOW_NS = 1_800_000_000_000_000_000
 
 
@@ -89,6 +92,74 @@ def test_servers_that_would_misread_requests(foreign_server):
         "from here, including parameters and actions; topics work. Nodes: /stranger."
     )
     assert finding.remedy.startswith("Start the nodes with RMW_IMPLEMENTATION=rmw_cyclonedds_cpp,")
+
+
+@pytest.mark.parametrize(
+    ("variables", "middleware", "told"),
+    [
+        ({}, CYCLONE, []),
+        ({"ROS_DISCOVERY_SERVER": "10.0.0.1:11811"}, CYCLONE, [(True, "are not seen")]),
+        ({"ROS_DISCOVERY_SERVER": "10.0.0.1:11811"}, "rmw_zenoh_cpp", []),
+        ({"FASTDDS_BUILTIN_TRANSPORTS": "SHM"}, CYCLONE, [(False, "exchange no messages")]),
+        ({"FASTDDS_BUILTIN_TRANSPORTS": "LARGE_DATA?max_msg_size=1MB"}, CYCLONE, [(False, "no")]),
+        ({"FASTDDS_BUILTIN_TRANSPORTS": "UDPv4"}, CYCLONE, []),
+    ],
+)
+def test_variables_that_keep_fast_dds_out_of_reach(variables, middleware, told):
+    found = fast_dds.fast_dds_environment(variables, middleware)
+    assert [finding.is_problem for finding in found] == [is_problem for is_problem, _ in told]
+    assert all(text in finding.text for finding, (_, text) in zip(found, told, strict=True))
+
+
+class Mixed:
+    """A graph with participants on two middlewares."""
+
+    def middlewares(self):
+        return {"Fast DDS (rmw_fastrtps_cpp)": 2, "Cyclone DDS (rmw_cyclonedds_cpp)": 1}
+
+
+def test_participants_are_counted_by_middleware(context):
+    (finding,) = fast_dds.fast_dds_findings(Mixed(), {})
+    assert finding.text == (
+        "The other participants of this domain: 1 on Cyclone DDS (rmw_cyclonedds_cpp), 2 on Fast "
+        "DDS (rmw_fastrtps_cpp)."
+    )
+    assert fast_dds.fast_dds_findings(context.graph, {}) == []
+
+
+@pytest.mark.parametrize(
+    ("reliability", "vendor", "buffer", "is_small"),
+    [
+        (Reliability.BEST_EFFORT, b"\x01\x0f", 212_992, True),
+        (Reliability.BEST_EFFORT, b"\x01\x0f", 4_194_303, True),
+        (Reliability.BEST_EFFORT, b"\x01\x0f", 4_194_304, False),
+        (Reliability.RELIABLE, b"\x01\x0f", 212_992, False),
+        (Reliability.BEST_EFFORT, b"\x01\x10", 212_992, False),
+    ],
+)
+def test_socket_buffers_that_are_too_small_for_images(
+    context, monkeypatch, tmp_path, reliability, vendor, buffer, is_small
+):
+    setting = tmp_path / "rmem_default"
+    setting.write_text(f"{buffer}\n")
+    monkeypatch.setattr(fast_dds, "_DEFAULT_BUFFER", setting)
+    ends = [
+        EndpointInfo(kind, "/camera", "sensor_msgs/msg/Image", "", None, gid.ljust(16), qos)
+        for kind, gid, qos in (
+            ("publisher", b"\x01\x10", QoS()),
+            ("subscription", vendor, QoS(reliability=reliability)),
+        )
+    ]
+    found = fast_dds.fast_dds_findings(context.graph, {"/camera": ends})
+    assert [f"holds {buffer:,} bytes" in finding.text for finding in found] == [True] * is_small
+
+
+@pytest.mark.parametrize(("asked", "told"), [({}, True), ({"RMW_IMPLEMENTATION": "local"}, False)])
+def test_zenoh_instead_of_cyclone_is_named(asked, told, monkeypatch):
+    pytest.importorskip("zenoh")
+    monkeypatch.setattr(setup, "find_libddsc", lambda: Search(None, []))
+    found = [finding for finding in setup_findings(asked, []) if "Zenoh is used" in finding.text]
+    assert [finding.is_problem for finding in found] == [False] * told
 
 
 @pytest.mark.parametrize(
@@ -379,7 +450,7 @@ def test_listening_ends_when_each_publisher_was_heard_often(context, monkeypatch
     assert len(heard[0].stamps_ns["moving", publisher.gid]) >= 50
 
 
-def test_beside_static_transforms_alone_listening_ends_when_they_came(context, monkeypatch):
+def test_listening_ends_once_all_static_transforms_have_arrived(context, monkeypatch):
     """The time limit is longer than the test's: only the event can end the wait."""
     monkeypatch.setattr(examination, "_LISTEN_S", 1000.0)
     monkeypatch.setattr("turtlewire.wire.open_context", lambda: context)
@@ -521,6 +592,7 @@ def test_nodes_on_another_domain_of_this_host_are_named(context, monkeypatch):
     )
 
 
+@needs_cyclone_dds
 @pytest.mark.skipif(sys.platform != "linux", reason="the ports in use are read from /proc")
 def test_the_ports_of_a_context_are_seen():
     opened = open_context()
@@ -540,7 +612,7 @@ def test_multicast_matters_only_where_others_are_looked_for(monkeypatch):
 def test_multicast_that_does_not_come_back(monkeypatch):
     assert multicast_works(0.01) in (True, False)
     monkeypatch.setattr(
-        "turtlewire.doctor.network._GROUP", "127.0.0.1"
+        "turtlewire.doctor.network.GROUP", "127.0.0.1"
     )  # no group: joining it fails as without a network
     assert not multicast_works(0.01)
 
@@ -584,6 +656,7 @@ def test_an_empty_domain_costs_no_listening(monkeypatch):
     assert "No node publishes transforms." in texts(examination.examine(1000.0))
 
 
+@needs_cyclone_dds  # with Zenoh, QoS of any kind match
 def test_everything_at_once_on_the_wire(run):
     """All faults of the traffic, from publishers of another process."""
     opened = open_context()

@@ -76,6 +76,33 @@ def test_too_few_moments_say_nothing(stamps):
     assert find_gaps(stamps) is None
 
 
+def stamps_of(*periods, period_ns=20_000_000):
+    """Stamps that are so many periods apart."""
+    return [sum(periods[:k]) * period_ns for k in range(len(periods) + 1)]
+
+
+LOSS = (1, 1, 1, 1, 1, 2, 2, 3, 4, 4)
+
+
+def test_ten_steps_are_enough():
+    gaps = find_gaps(stamps_of(*LOSS))
+    assert (gaps.share, gaps.period_s, gaps.longest_s) == pytest.approx((0.5, 0.02, 0.08))
+    assert find_gaps(stamps_of(*LOSS[:-1])) is None
+
+
+def test_a_lack_of_three_tenths_is_enough():
+    steps = [1] * 27 + [2, 2, 2, 3, 3, 3, 4, 4]
+    assert find_gaps(stamps_of(*steps)).share == pytest.approx(0.3)
+    assert find_gaps(stamps_of(*steps, 1)) is None
+
+
+@pytest.mark.parametrize(("apart_ns", "period_s"), [(0, 0.02), (1_000_000, 0.02), (1_000_001, 0)])
+def test_stamps_within_a_millisecond_are_one_moment(apart_ns, period_s):
+    stamps = stamps_of(*LOSS)
+    gaps = find_gaps(stamps + [stamp + apart_ns for stamp in stamps])
+    assert (0.0 if gaps is None else gaps.period_s) == pytest.approx(period_s, rel=0.1, abs=0.002)
+
+
 LOSSY = """
 import rclpy
 from geometry_msgs.msg import TransformStamped

@@ -49,7 +49,7 @@ def all_messages():
     included.
     """
     names = []
-    for package, kinds in sorted(msg.interface_names().items()):
+    for package, kinds in sorted(msg.interfaces().items()):
         names += [f"{package}/msg/{name}" for name in kinds["msg"]]
         names += [
             f"{package}/srv/{name}_{part}"

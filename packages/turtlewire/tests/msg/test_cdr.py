@@ -184,15 +184,30 @@ def test_big_endian_bytes_are_decoded():
     assert list(msg.deserialize(scan, bytes.fromhex("00000000" + body)).position) == [1.0]
 
 
+def test_a_name_is_accepted_instead_of_a_class():
+    header = Header(frame_id="map")
+    name = "std_msgs/msg/Header"
+    data = msg.serialize(header)
+    assert msg.deserialize(name, data) == header
+    assert msg.deserialize(name, data, arrays=True).frame_id == "map"
+    assert msg.type_hash(Header) == msg.type_hash(name)
+    with pytest.raises(InterfaceError, match="unknown interface 'std_msgs/msg/Haeder'"):
+        msg.deserialize("std_msgs/msg/Haeder", data)
+    with pytest.raises(CdrError, match="Header: field 'frame_id' at offset"):
+        msg.deserialize(name, data[:-1])
+    with pytest.raises(CdrError, match="std_msgs/msg/Header: unknown encapsulation 00 07"):
+        msg.deserialize(name, b"\0\7" + data[2:])
+
+
 def test_plain_messages_are_read_as_rows():
     polygon = msg.get_message("geometry_msgs/msg/Polygon")
     body = bytes.fromhex("00000000 00000002 3f800000 40000000 40400000 00000000 00000000 bf800000")
-    points = msg.deserialize_rows(polygon, body).points
+    points = msg.deserialize(polygon, body, arrays=True).points
     assert points.tolist() == [[1, 2, 3], [0, 0, -1]]
     assert not points.flags.writeable
     for data in (body[:-1], body[:7], b"", b"\0\7" + body[2:]):
         with pytest.raises(CdrError, match="Polygon"):
-            msg.deserialize_rows(polygon, data)
+            msg.deserialize(polygon, data, arrays=True)
 
 
 def test_big_endian_fixed_arrays_and_wide_strings_are_decoded():
@@ -359,15 +374,20 @@ def _mutate(data, generator):
 
 
 def test_every_truncation_of_a_message_is_refused(golden):
-    count = 0
+    count = older = 0
     for case in golden("cdr_cases.json"):
         cls = msg.get_message(case["type"])
         data = bytes.fromhex(case["bytes"])
         for size in range(0, len(data), max(1, len(data) // 100)):
-            with pytest.raises(CdrError):
-                msg.deserialize(cls, data[:size])
             count += 1
+            try:
+                found = msg.deserialize(cls, data[:size])
+            except CdrError:
+                continue
+            assert msg.missing_fields(found)  # these are also the bytes of an older ROS 2
+            older += 1
     assert count > 3000
+    assert older < 10
 
 
 def test_a_clocks_time_in_a_stamp_is_refused_with_its_conversion():

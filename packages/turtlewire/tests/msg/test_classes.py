@@ -47,10 +47,40 @@ def test_the_constructor_takes_keywords_only_and_refuses_unknown_ones():
     with pytest.raises(AssertionError) as caught:
         Vector3(x=1.0, w=2.0, a=0.0)
     assert str(caught.value) == "Invalid arguments passed to constructor: a, w"
+    assert caught.value.hint == "The fields are x, y, z."
+    assert getattr(caught.value, "__notes__", [caught.value.hint]) == [caught.value.hint]
+
+
+def test_names_that_are_no_str():
+    with pytest.raises(TypeError, match=r"a message, for example 'geo.*/Twist', not NoneType$"):
+        msg.get_message(None)
+    with pytest.raises(TypeError, match=r"not list$"):
+        msg.get_message([])
+    with pytest.raises(TypeError, match=r"not the class Vector3$"):
+        msg.get_message(Vector3)
+    with pytest.raises(TypeError, match=r"a service, for example '.*/Spawn', not int$"):
+        msg.get_service(3)
+    with pytest.raises(TypeError, match=r"an action, for example '.*/RotateAbsolute', not int$"):
+        msg.get_action(3)
+
+
+@pytest.mark.parametrize("check", [False, True])
+def test_slots_have_the_names_of_ros_2(check):
+    for name in ("tf2_msgs/msg/TFMessage", "sensor_msgs/msg/Imu", "turtlesim/srv/Spawn_Request"):
+        message = msg.get_message(name)(check_fields=check)
+        fields = list(message.get_fields_and_field_types())
+        assert [slot[1:] for slot in message.__slots__] == fields
+        for slot in message.__slots__:
+            value = getattr(message, slot[1:])
+            assert getattr(message, slot) is value
+    imu = msg.get_message("sensor_msgs/msg/Imu")(check_fields=check)
+    imu._orientation_covariance[3] = 2.0
+    assert imu.orientation_covariance[3] == 2.0
+    assert copy.deepcopy(imu) == pickle.loads(pickle.dumps(imu)) == imu
 
 
 def test_fields_are_plain_slots_that_do_not_take_other_names():
-    assert TransformStamped.__slots__ == ("header", "child_frame_id", "transform")
+    assert TransformStamped.__slots__ == ("_header", "_child_frame_id", "_transform")
     message = TransformStamped()
     assert not hasattr(message, "__dict__")
     with pytest.raises(
@@ -89,8 +119,8 @@ def test_defaults_and_constants_are_attributes_of_the_class():
         is True
     )
     assert msg.get_message("sensor_msgs/msg/NavSatStatus")().status == -2
-    assert Log.WARN == b"\x1e"
-    assert Log().WARN == b"\x1e"
+    assert Log.WARN == Log().WARN == 30
+    assert msg.get_message("diagnostic_msgs/msg/DiagnosticStatus").WARN == b"\x01"
     assert msg.get_message("visualization_msgs/msg/Marker").ARROW == 0
 
 

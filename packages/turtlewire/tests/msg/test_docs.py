@@ -40,5 +40,5 @@ def test_the_examples_of_the_page_do_what_it_says(tmp_path, monkeypatch):
 
 def test_the_page_names_every_package():
     page = PAGE.read_text()
-    for package in registry.interface_names():
+    for package in registry.interfaces():
         assert f"`{package}`" in page or package == "my_interfaces"

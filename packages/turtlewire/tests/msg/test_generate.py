@@ -102,7 +102,7 @@ again = msg.deserialize(Everything, msg.serialize(message))
 assert msg.serialize(again) == msg.serialize(message)
 print(again.three.tolist(), again.numbers.tolist(), again.words, again.raw,
       again.pair[1].radius, again.blob)
-print(msg.interface_names()["my_interfaces"])
+print(msg.interfaces()["my_interfaces"])
 """
     environment = {**os.environ, "PYTHONPATH": str(generated)}
     done = subprocess.run(

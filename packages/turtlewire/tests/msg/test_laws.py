@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import warnings
 from array import array
-from dataclasses import make_dataclass
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -68,7 +68,7 @@ def _flat(value):
 def test_rows_hold_the_same_numbers(all_messages, messages):
     def check(message):
         data = msg.serialize(message)
-        read = msg.deserialize_rows(type(message), data)
+        read = msg.deserialize(type(message), data, arrays=True)
         assert repr(_flat(read)) == repr(_flat(msg.deserialize(type(message), data)))
 
     _check_all(all_messages, messages, check, FEW)
@@ -111,12 +111,10 @@ class _Pycdr2Types:
         if name not in self.classes:
             fields = [(field.name, self.type_of(field.type)) for field in load_message(name).fields]
             fields = fields or [("structure_needs_at_least_one_member", idl.uint8)]
-            self.classes[name] = make_dataclass(
-                name.replace("/", "_"),
-                fields,
-                bases=(IdlStruct,),
-                namespace={"__module__": __name__},
-            )
+            # pycdr2 does not see the fields of make_dataclass() on Python 3.14.
+            namespace = {"__module__": __name__, "__annotations__": dict(fields)}
+            made = type(IdlStruct)(name.replace("/", "_"), (IdlStruct,), namespace)
+            self.classes[name] = dataclass(made)
         return self.classes[name]
 
     def convert(self, type_, value):
@@ -162,7 +160,7 @@ def _same_as_pycdr2():
 def _run_pycdr2(all_messages, messages, limits):
     names = [name for name in all_messages if not _has_wide_strings(name)]
     _check_all(names, messages, _same_as_pycdr2(), limits)
-    assert len(names) == len(all_messages) - 1 == 596
+    assert len(names) == len(all_messages) - 1 == 619
 
 
 def test_every_type_round_trips_with_the_bytes_of_pycdr2(all_messages, messages):

@@ -73,6 +73,10 @@ def test_types(text, type_):
         ("int32[] x []", []),
         ('string[2] x ["a, b", "c"]', ["a, b", "c"]),
         ("float32[<=3] x [1.5]", [1.5]),
+        ("int32[<=2] x [1, 2]", [1, 2]),
+        ("string<=3 x 'abc'", "abc"),
+        ("wstring<=1 x 'ä'", "ä"),
+        ("string<=2 x 'ä'", "ä"),
         ("\tint32\tx\t3", 3),
     ],
 )
@@ -127,6 +131,7 @@ def test_services_and_actions_have_parts():
         ("float32 x abc", "could not convert string to float: 'abc'"),
         ("bool x maybe", "'maybe' is not a bool"),
         ("string<=2 x 'abc'", "'abc' is longer than string<2>"),
+        ("string<=1 x 'ä'", "'ä' is longer than string<1>"),
         ("int32[] x 3", "'3' is not a list of values"),
         ("int32[2] x [1]", "1 values do not fit int32[2]"),
         ("int32[<=2] x [1, 2, 3]", "3 values do not fit sequence<int32, 2>"),

@@ -12,8 +12,8 @@ import pytest
 from turtlewire import msg
 from turtlewire.errors import InterfaceError
 from turtlewire.msg.registry import (
-    interface_names,
     interface_path,
+    interfaces,
     load_action,
     load_message,
     load_service,
@@ -30,7 +30,7 @@ def prefix(tmp_path, monkeypatch):
 
 
 def test_definitions_of_a_prefix_are_found(prefix):
-    assert interface_names()["prefix_interfaces"] == {"msg": ["Thing"], "srv": [], "action": []}
+    assert interfaces()["prefix_interfaces"] == {"msg": ["Thing"], "srv": [], "action": []}
     assert interface_path("prefix_interfaces/msg/Thing") == str(
         prefix / "share/prefix_interfaces/msg/Thing.msg"
     )
@@ -43,11 +43,11 @@ def test_packages_that_pip_installed_need_no_sourcing(prefix, monkeypatch):
     """An environment's index names them; what else lies in ``share`` is not looked at."""
     monkeypatch.setenv("AMENT_PREFIX_PATH", "")
     monkeypatch.setattr(sys, "prefix", str(prefix))
-    assert "prefix_interfaces" not in interface_names()
+    assert "prefix_interfaces" not in interfaces()
     index = prefix / "share/ament_index/resource_index/rosidl_interfaces"
     index.mkdir(parents=True)
     (index / "prefix_interfaces").write_text("msg/Thing.msg\nmsg/Thing.idl")
-    assert interface_names()["prefix_interfaces"]["msg"] == ["Thing"]
+    assert interfaces()["prefix_interfaces"]["msg"] == ["Thing"]
     path = prefix / "share/prefix_interfaces/msg/Thing.msg"
     assert interface_path("prefix_interfaces/msg/Thing") == str(path)
 
@@ -58,18 +58,18 @@ def test_our_definitions_win_over_those_of_a_prefix(tmp_path, monkeypatch):
     (folder / "String.msg").write_text("int32 other\n")
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
     assert "other" not in interface_path("std_msgs/msg/String")
-    assert len(interface_names()["std_msgs"]["msg"]) == 30
+    assert len(interfaces()["std_msgs"]["msg"]) == 30
 
 
 def test_all_interfaces_are_listed():
-    names = interface_names()
-    assert len(names) == 33
+    names = interfaces()
+    assert len(names) == 32
     assert names["turtlesim"] == {
         "msg": ["Color", "Pose"],
         "srv": ["Kill", "SetPen", "Spawn", "TeleportAbsolute", "TeleportRelative"],
         "action": ["RotateAbsolute"],
     }
-    assert sum(len(kind) for kinds in names.values() for kind in kinds.values()) == 364
+    assert sum(len(kind) for kinds in names.values() for kind in kinds.values()) == 387
 
 
 @pytest.mark.parametrize(
@@ -87,9 +87,10 @@ def test_all_interfaces_are_listed():
         ),
         (
             "Twist",
-            "'Twist//' is not the name of an interface",
-            "Names look like geometry_msgs/msg/Twist",
+            "'Twist' is not the name of an interface",
+            "Did you mean geometry_msgs/msg/Twist?",
         ),
+        ("Twst", "'Twst' is not the name of an interface", "Names look like geometry_msgs/msg/T"),
         ("a/msg/../../etc", "'a/msg/..' is not the name of an interface", "Names look like"),
         (
             "geometry_msgs/msgs/Twist",

@@ -3,22 +3,24 @@ from __future__ import annotations
 import pytest
 import yaml
 
-from turtlewire.tf.frame_tree import FrameTree, Link, read_frame_tree
+from turtlewire.tf.frame_tree import FrameLink, FrameTree, read_frame_tree
 
 IDENTITY = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)
 
 
 def tree_of(*pairs):
-    return FrameTree(Link(child, parent, "", False, 1.0, 2.0, 1.0, 1.0) for parent, child in pairs)
+    return FrameTree(
+        FrameLink(child, parent, "", False, 1.0, 2.0, 1.0, 1.0) for parent, child in pairs
+    )
 
 
 def test_figures_of_a_buffer(buffer):
     for second in (1, 2, 3):
-        buffer.set_transform("map", "base", second * 10**9, *IDENTITY, authority="robot")
-    buffer.set_transform("base", "laser", 0, *IDENTITY, static=True, authority="urdf")
+        buffer.set_transform("map", "base", second * 10**9, *IDENTITY, sender="robot")
+    buffer.set_static_transform("base", "laser", *IDENTITY, sender="urdf")
     tree = read_frame_tree(buffer)
-    assert tree.links["base"] == Link("base", "map", "robot", False, 1.5, 3.0, 1.0, 2.0)
-    assert tree.links["laser"] == Link("laser", "base", "urdf", True, 10_000.0, 0.0, 0.0, 0.0)
+    assert tree.links["base"] == FrameLink("base", "map", "robot", False, 1.5, 3.0, 1.0, 2.0)
+    assert tree.links["laser"] == FrameLink("laser", "base", "urdf", True, 10_000.0, 0.0, 0.0, 0.0)
     assert (tree.roots, tree.loops) == (["map"], [])
     assert tree.children == {"map": ["base"], "base": ["laser"], "laser": []}
 
@@ -29,10 +31,10 @@ def test_an_empty_buffer(buffer):
 
 
 def test_figures_are_those_of_tf2s_yaml(buffer):
-    buffer.set_transform("map", "base", 10**9, *IDENTITY, authority="robot")
-    buffer.set_transform("map", "base", 3 * 10**9, *IDENTITY, authority="another")
-    buffer.set_transform("base", "laser", 0, *IDENTITY, static=True)
-    described = yaml.safe_load(buffer.all_frames_as_yaml())
+    buffer.set_transform("map", "base", 10**9, *IDENTITY, sender="robot")
+    buffer.set_transform("map", "base", 3 * 10**9, *IDENTITY, sender="another")
+    buffer.set_static_transform("base", "laser", *IDENTITY)
+    described = yaml.safe_load(buffer.to_yaml())
     links = read_frame_tree(buffer).links
     assert described.keys() == links.keys()
     for child, link in links.items():
@@ -48,7 +50,7 @@ def test_figures_are_those_of_tf2s_yaml(buffer):
 
 def test_links_whose_samples_are_forgotten_are_left_out(buffer):
     buffer.set_transform("map", "base", 10**9, *IDENTITY)
-    buffer.set_transform("map", "fixed", 0, *IDENTITY, static=True)
+    buffer.set_static_transform("map", "fixed", *IDENTITY)
     buffer.clear()
     assert list(read_frame_tree(buffer).links) == ["fixed"]
 

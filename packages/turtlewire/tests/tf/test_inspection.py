@@ -12,7 +12,9 @@ import numpy as np
 import pytest
 
 from turtlewire import errors, msg
-from turtlewire.tf import inspection
+from turtlewire.tf import faults
+from turtlewire.tf.buffer import Buffer
+from turtlewire.tf.links import links
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -25,9 +27,9 @@ STILL = (0.0, 0.0, 0.0, 1.0)
 
 def test_links_and_senders(buffer: turtlewire.Buffer) -> None:
     for t in range(11):
-        buffer.set_transform("map", "base", t * SECOND + 1, (0, 0, 0), STILL, authority="odometry")
-    buffer.set_transform("base", "camera", 5, (0, 0, 0), STILL, static=True, authority="me")
-    base, camera = inspection.links(buffer)
+        buffer.set_transform("map", "base", t * SECOND + 1, (0, 0, 0), STILL, sender="odometry")
+    buffer.set_static_transform("base", "camera", (0, 0, 0), STILL, sender="me")
+    base, camera = links(buffer)
     assert (base.child_frame, base.parent_frame, base.static, base.samples) == (
         "base",
         "map",
@@ -37,7 +39,7 @@ def test_links_and_senders(buffer: turtlewire.Buffer) -> None:
     assert (base.rate_hz, base.age_ns(12 * SECOND + 1)) == (1.0, 2 * SECOND)
     assert base.senders == (("odometry", "map", 11, 10 * SECOND + 1),)
     assert (camera.static, camera.rate_hz, camera.age_ns(99)) == (True, 0.0, 0)
-    assert inspection.conflicts(buffer) == []
+    assert faults.conflicts(buffer) == []
 
 
 def test_two_publishers(buffer: turtlewire.Buffer) -> None:
@@ -48,9 +50,9 @@ def test_two_publishers(buffer: turtlewire.Buffer) -> None:
             t * SECOND + 1,
             (0, 0, 0),
             STILL,
-            authority="odometry" if t % 2 else "slam",
+            sender="odometry" if t % 2 else "slam",
         )
-    (conflict,) = inspection.conflicts(buffer)
+    (conflict,) = faults.conflicts(buffer)
     assert (conflict.kind, conflict.child_frame) == ("two publishers", "base")
     assert "'odometry' and 'slam'" in conflict.text
 
@@ -61,14 +63,44 @@ def test_two_parents_but_not_a_hand_over(buffer: turtlewire.Buffer) -> None:
         buffer.set_transform(
             "table" if t < 5 else "gripper", "cup", t * SECOND + 1, (0, 0, 0), STILL
         )
-    (conflict,) = inspection.conflicts(buffer)
+    (conflict,) = faults.conflicts(buffer)
     assert (conflict.kind, conflict.child_frame) == ("two parents", "part")
+
+
+def loops_of(buffer: turtlewire.Buffer) -> list[tuple[str, str]]:
+    return [
+        (each.child_frame, each.text)
+        for each in faults.problems(buffer)
+        if each.kind == "loop" and each.count == 1
+    ]
+
+
+def test_loops_are_problems(buffer: turtlewire.Buffer) -> None:
+    for parent, child in (("a", "b"), ("b", "a"), ("b", "c"), ("c", "d"), ("map", "base")):
+        buffer.set_transform(parent, child, SECOND, (0, 0, 0), STILL)
+    remedy = "is a loop; swap parent and child of one of these transforms."
+    assert loops_of(buffer) == [("b", f"'b' in 'a' in 'b' {remedy}")]
+    for parent, child in (("x", "y"), ("y", "z"), ("z", "x")):
+        buffer.set_static_transform(parent, child, (0, 0, 0))
+    assert loops_of(buffer)[1:] == [("y", f"'y' in 'x' in 'z' in 'y' {remedy}")]
+    assert len(faults.problems(buffer)) == 2
+
+
+@pytest.mark.parametrize(("later", "loops"), [(5, 1), (6, 0)])
+def test_a_link_that_was_turned_round_is_no_loop(
+    buffer: turtlewire.Buffer, later: int, loops: int
+) -> None:
+    for stamp in (1, 5):
+        buffer.set_transform("a", "b", stamp * SECOND, (0, 0, 0), STILL)
+    for stamp in (later, 7):
+        buffer.set_transform("b", "a", stamp * SECOND, (0, 0, 0), STILL)
+    assert len(loops_of(buffer)) == loops
 
 
 def test_many_senders_stay_bounded(buffer: turtlewire.Buffer) -> None:
     for t in range(1000):
-        buffer.set_transform("map", "base", t + 1, (0, 0, 0), STILL, authority=f"node{t}")
-    (link,) = inspection.links(buffer)
+        buffer.set_transform("map", "base", t + 1, (0, 0, 0), STILL, sender=f"node{t}")
+    (link,) = links(buffer)
     assert len(link.senders) <= 17
     assert link.senders[-1].name == "node999"
 
@@ -76,25 +108,25 @@ def test_many_senders_stay_bounded(buffer: turtlewire.Buffer) -> None:
 def test_refusals_are_counted(buffer: turtlewire.Buffer) -> None:
     buffer.set_transform("map", "base", 100 * SECOND, (0, 0, 0), STILL)
     for _ in range(3):
-        buffer.set_transform("map", "base", SECOND, (0, 0, 0), STILL, authority="late")
-    buffer.set_transform("map", "base", 100 * SECOND, (math.nan, 0, 0), STILL, authority="broken")
-    buffer.set_transform("base", "base", 100 * SECOND, (0, 0, 0), STILL)
-    refused = inspection.refusals(buffer)
+        buffer._set_transform("map", "base", SECOND, (0, 0, 0), STILL, False, "late")
+    buffer._set_transform("map", "base", 100 * SECOND, (math.nan, 0, 0), STILL, False, "broken")
+    buffer._set_transform("base", "base", 100 * SECOND, (0, 0, 0), STILL, False, "me")
+    refused = faults.refusals(buffer)
     assert refused["base"].counts == {"old_data": 3, "nan_value": 1, "self_transform": 1}
     assert refused["base"].last.startswith("TF_SELF_TRANSFORM")
     for i in range(2000):
-        buffer.set_transform(f"x{i}", f"x{i}", 1, (0, 0, 0), STILL)
-    refused = inspection.refusals(buffer)
+        buffer._set_transform(f"x{i}", f"x{i}", 1, (0, 0, 0), STILL, False, "me")
+    refused = faults.refusals(buffer)
     assert len(refused) <= 1001
     assert refused["(others)"].counts["self_transform"] >= 999
 
 
 def test_malformed_messages_are_counted(buffer: turtlewire.Buffer) -> None:
-    assert inspection.malformed(buffer) == (0, "", "")
+    assert faults.malformed(buffer) == (0, "", "")
     for data in (b"", b"\x00\x01\x00\x00\xff\xff\xff\xff"):
         with pytest.raises(errors.CdrError):
-            buffer.ingest(data, authority="broken")
-    assert inspection.malformed(buffer) == (
+            buffer.add_tf_message(data, sender="broken")
+    assert faults.malformed(buffer) == (
         2,
         "4294967295 transforms are announced, which do not fit into 8 bytes",
         "broken",
@@ -103,9 +135,9 @@ def test_malformed_messages_are_counted(buffer: turtlewire.Buffer) -> None:
 
 def test_a_frame_id_that_is_no_text_is_refused_and_the_rest_kept(buffer: turtlewire.Buffer) -> None:
     good = tf_message([("map", "base"), ("map", "robo#"), ("m#p", "cart"), ("map", "arm")])
-    assert buffer.ingest(good.replace(b"#", b"\xff"), authority="broken") == 2
-    assert buffer.frame_strings() == ["base", "map", "arm"]
-    refused = inspection.refusals(buffer)
+    assert buffer.add_tf_message(good.replace(b"#", b"\xff"), sender="broken") == 2
+    assert buffer.frames() == ["base", "map", "arm"]
+    refused = faults.refusals(buffer)
     assert {child: record.counts for child, record in refused.items()} == {
         "robo\ufffd": {"bad_name": 1},
         "cart": {"bad_name": 1},
@@ -127,18 +159,18 @@ def tf_message(frames: list[tuple[str, str]]) -> bytes:
 
 def test_a_sender_may_get_its_name_late(buffer: turtlewire.Buffer) -> None:
     for t, sender in ((1, "/slam"), (2, "0a0b"), (3, "/slam"), (4, "0a0b")):
-        buffer.set_transform("map", "base", t, (0, 0, 0), STILL, authority=sender)
+        buffer.set_transform("map", "base", t, (0, 0, 0), STILL, sender=sender)
     buffer._rename_sender("0a0b", "/odometry")
     buffer._rename_sender("0c0d", "/odometry")
-    buffer.set_transform("map", "base", 5, (0, 0, 0), STILL, authority="0c0d")
-    (link,) = inspection.links(buffer)
+    buffer.set_transform("map", "base", 5, (0, 0, 0), STILL, sender="0c0d")
+    (link,) = links(buffer)
     assert link.senders == (("/slam", "map", 2, 3), ("/odometry", "map", 3, 5))
-    assert "'/odometry'" in buffer.all_frames_as_yaml()
+    assert "'/odometry'" in buffer.to_yaml()
 
 
 def test_remove(buffer: turtlewire.Buffer) -> None:
-    buffer.set_transform("a", "b", 1, (1, 0, 0), STILL, static=True)
-    buffer.set_transform("b", "c", 1, (1, 0, 0), STILL, static=True)
+    buffer.set_static_transform("a", "b", (1, 0, 0), STILL)
+    buffer.set_static_transform("b", "c", (1, 0, 0), STILL)
     buffer.set_transform("b", "d", 1, (1, 0, 0), STILL)
     assert buffer.can_transform("a", "c")
     assert buffer.remove_frame("c")
@@ -146,12 +178,12 @@ def test_remove(buffer: turtlewire.Buffer) -> None:
     assert not buffer.remove_frame("nobody")
     with pytest.raises(errors.LookupException):
         buffer.lookup_transform("a", "c")
-    assert buffer.frame_strings() == ["b", "a", "d"]
-    assert not buffer.frame_exists("c")
+    assert buffer.frames() == ["b", "a", "d"]
+    assert "c" not in buffer.frames()
     assert buffer.lookup_transform("a", "d").x == 2.0
     assert buffer.remove_frame("b")  # d still hangs on it
-    assert buffer.frame_strings() == ["b", "d"]
-    buffer.set_transform("b", "c", 1, (5, 0, 0), STILL, static=True)
+    assert buffer.frames() == ["b", "d"]
+    buffer.set_static_transform("b", "c", (5, 0, 0), STILL)
     assert buffer.lookup_transform("b", "c").x == 5.0
     assert buffer._fault() == ""
 
@@ -159,9 +191,9 @@ def test_remove(buffer: turtlewire.Buffer) -> None:
 def test_remove_stale(buffer: turtlewire.Buffer) -> None:
     for name, t in (("old", 1), ("new", 5)):
         buffer.set_transform("map", name, t * SECOND, (0, 0, 0), STILL)
-    buffer.set_transform("map", "fixed", 0, (0, 0, 0), STILL, static=True)
+    buffer.set_static_transform("map", "fixed", (0, 0, 0), STILL)
     assert buffer.remove_stale(3 * SECOND) == ["old"]
-    assert buffer.frame_strings() == ["map", "new", "fixed"]
+    assert buffer.frames() == ["map", "new", "fixed"]
 
 
 def test_extrapolation(buffer: turtlewire.Buffer) -> None:
@@ -169,27 +201,29 @@ def test_extrapolation(buffer: turtlewire.Buffer) -> None:
         buffer.set_transform(
             "a", "b", t * SECOND, (10.0 * t, 0, 0), (0, 0, math.sin(0.1 * t), math.cos(0.1 * t))
         )
-    after = buffer.extrapolate_transform("a", "b", 4 * SECOND, SECOND)
+    after = buffer.lookup_transform("a", "b", 4 * SECOND, extrapolate_ns=SECOND)
     assert after.translation == pytest.approx((40, 0, 0))
     assert after.rotation == pytest.approx((0, 0, math.sin(0.4), math.cos(0.4)))
-    before = buffer.extrapolate_transform("b", "a", SECOND // 2, SECOND)
+    before = buffer.lookup_transform("b", "a", SECOND // 2, extrapolate_ns=SECOND)
     assert before.inverse().translation == pytest.approx((5, 0, 0))
-    assert buffer.extrapolate_transform("a", "b", 2 * SECOND, 0).x == 20.0
+    assert buffer.lookup_transform("a", "b", 2 * SECOND, extrapolate_ns=0).x == 20.0
     with pytest.raises(errors.ExtrapolationException, match="into the future"):
-        buffer.extrapolate_transform("a", "b", 4 * SECOND + 1, SECOND)
+        buffer.lookup_transform("a", "b", 4 * SECOND + 1, extrapolate_ns=SECOND)
     with pytest.raises(errors.ExtrapolationException, match="into the past"):
-        buffer.extrapolate_transform("a", "b", 1, SECOND - 2)
+        buffer.lookup_transform("a", "b", 1, extrapolate_ns=SECOND - 2)
     with pytest.raises(ValueError, match="negative"):
-        buffer.extrapolate_transform("a", "b", 1, -1)
+        buffer.lookup_transform("a", "b", 1, extrapolate_ns=-1)
 
 
 @pytest.mark.parametrize("names", [("a\udcff", "b"), ("a", "b\udcff")])
 def test_names_without_utf_8_are_refused(buffer: turtlewire.Buffer, names: tuple[str, str]) -> None:
     buffer.set_transform("a", "b", SECOND, (0, 0, 0), STILL)
     with pytest.raises(UnicodeEncodeError, match="surrogates"):
-        buffer.lookup_latest(*names)
+        buffer.lookup_newest(*names)
     with pytest.raises(UnicodeEncodeError, match="surrogates"):
-        buffer.extrapolate_transform(*names, SECOND, 0)
+        buffer.lookup_transform(*names, SECOND, extrapolate_ns=1)
+    with pytest.raises(UnicodeEncodeError, match="surrogates"):
+        buffer.time_range(*names)
 
 
 def test_latest_of_each_link(buffer: turtlewire.Buffer) -> None:
@@ -197,30 +231,47 @@ def test_latest_of_each_link(buffer: turtlewire.Buffer) -> None:
         buffer.set_transform("map", "base", t * SECOND, (t, 0, 0), STILL)
     buffer.set_transform("base", "arm", 3 * SECOND, (0, 1, 0), STILL)
     buffer.set_transform("base", "lamp", 9 * SECOND, (0, 0, 1), STILL)
-    buffer.set_transform("arm", "hand", 0, (0, 0, 1), STILL, static=True)
-    found, stamps = buffer.lookup_latest("map", "hand")
-    assert (found.translation, found.stamp_ns, stamps) == (
-        (10.0, 1.0, 1.0),
-        3 * SECOND,
-        {"arm": 3 * SECOND, "base": 10 * SECOND},
-    )
-    assert buffer.lookup_latest("lamp", "hand")[1] == {
-        "arm": 3 * SECOND,
-        "lamp": 9 * SECOND,
-    }  # not of the links above base
-    assert buffer.lookup_latest("map", "base", max_age_ns=SECOND, now_ns=11 * SECOND)[0].x == 10.0
+    buffer.set_static_transform("arm", "hand", (0, 0, 1), STILL)
+    found = buffer.lookup_newest("map", "hand")
+    assert (found.translation, found.stamp_ns) == ((10.0, 1.0, 1.0), 3 * SECOND)
+    assert buffer.lookup_newest("map", "lamp").stamp_ns == 9 * SECOND
+    assert buffer.lookup_newest("map", "base", max_age_ns=SECOND, now_ns=11 * SECOND).x == 10.0
     with pytest.raises(errors.ExtrapolationException) as caught:
-        buffer.lookup_latest("map", "hand", max_age_ns=SECOND, now_ns=11 * SECOND)
+        buffer.lookup_newest("map", "hand", max_age_ns=SECOND, now_ns=11 * SECOND)
     error = caught.value
     assert (error.reason, error.child_frame, error.newest_ns) == ("future", "arm", 3 * SECOND)
     with pytest.raises(ValueError, match="now_ns"):
-        buffer.lookup_latest("map", "hand", max_age_ns=SECOND)
+        buffer.lookup_newest("map", "hand", max_age_ns=SECOND)
+
+
+def test_time_range(buffer: turtlewire.Buffer) -> None:
+    for t in range(1, 11):
+        buffer.set_transform("map", "base", t * SECOND, (t, 0, 0))
+    for t in range(3, 6):
+        buffer.set_transform("base", "arm", t * SECOND, (0, 1, 0))
+    buffer.set_static_transform("arm", "hand", (0, 0, 1))
+    assert buffer.time_range("map", "base") == (SECOND, 10 * SECOND)
+    assert buffer.time_range("hand", "map") == (3 * SECOND, 5 * SECOND)
+    assert buffer.time_range("arm", "hand") is None
+    assert buffer.time_range("map", "map") is None
+    for t in buffer.time_range("map", "hand") or ():
+        assert buffer.can_transform("map", "hand", t)
+    assert not buffer.can_transform("map", "hand", 3 * SECOND - 1)
+    assert not buffer.can_transform("map", "hand", 5 * SECOND + 1)
+    with pytest.raises(errors.LookupException):
+        buffer.time_range("map", "nobody")
+    buffer.set_transform("other", "island", SECOND, (0, 0, 0))
+    with pytest.raises(errors.ConnectivityException):
+        buffer.time_range("map", "island")
+    buffer.set_transform("base", "lamp", 20 * SECOND, (0, 0, 0))
+    with pytest.raises(errors.ExtrapolationException):  # no time in common
+        buffer.time_range("map", "lamp")
 
 
 def test_whole_history(buffer: turtlewire.Buffer) -> None:
     stamps = np.arange(1, 6) * SECOND
     poses = np.array([[i, 0, 0, 0, 0, 0, 1] for i in range(5)], dtype=float)
-    assert buffer.set_transforms("a", "b", stamps, poses, "robot") == 5
+    assert buffer.set_transforms("a", "b", stamps, poses, sender="robot") == 5
     assert buffer.set_transforms("z", "b", [6 * SECOND, 7 * SECOND], poses[:2]) == 2
     (first, second) = buffer.samples("b")
     assert first[0] == "a"
@@ -242,13 +293,13 @@ def test_save_and_load(buffer: turtlewire.Buffer, tmp_path: Path) -> None:
             t * SECOND,
             (t, 0, 0),
             (0, 0, math.sin(t), math.cos(t)),
-            authority="robot",
+            sender="robot",
         )
-    buffer.set_transform("b", "c", 0, (1, 2, 3), (0.5, 0.5, 0.5, 0.5), static=True, authority="me")
+    buffer.set_static_transform("b", "c", (1, 2, 3), (0.5, 0.5, 0.5, 0.5), sender="me")
     path = tmp_path / "tree.saved"
-    inspection.save(buffer, path)
-    again = inspection.load(path)
-    assert again.all_frames_as_yaml() == buffer.all_frames_as_yaml()
+    Buffer.save(buffer, path)
+    again = Buffer.load(path)
+    assert again.to_yaml() == buffer.to_yaml()
     assert again.cache_time_ns == buffer.cache_time_ns
     for t in (1, 2, 3.5, 5):
         stamp = int(t * SECOND)
@@ -258,16 +309,32 @@ def test_save_and_load(buffer: turtlewire.Buffer, tmp_path: Path) -> None:
         )
 
 
+@pytest.mark.parametrize(
+    ("name", "advice"),
+    [
+        ("b.csv", r"saved as \.npz, not \.csv; buffer\.trajectory\(.*\)\.save"),
+        ("b.JSON", r"saved as \.npz, not \.json$"),
+        ("b.mcap", "BagWriter"),
+        ("b.txt", r"print\(buffer\)"),
+        ("b.png", r"\.plot\(\)\.save"),
+    ],
+)
+def test_names_of_other_formats(tmp_path: Path, name: str, advice: str) -> None:
+    with pytest.raises(ValueError, match=advice):
+        Buffer().save(tmp_path / name)
+    assert not (tmp_path / name).exists()
+
+
 def test_save_while_a_frame_is_removed(
     buffer: turtlewire.Buffer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     buffer.set_transform("map", "base", SECOND, (1, 2, 3), STILL)
     buffer.set_transform("map", "cup", SECOND, (1, 2, 3), STILL)
-    listed = inspection.links(buffer)
+    listed = links(buffer)
     buffer.remove_frame("cup")
-    monkeypatch.setattr(inspection, "links", lambda _buffer: listed)
-    inspection.save(buffer, tmp_path / "file")
-    assert inspection.load(tmp_path / "file").frame_strings() == ["base", "map"]
+    monkeypatch.setattr("turtlewire.tf.archive.links", lambda _buffer: listed)
+    Buffer.save(buffer, tmp_path / "file")
+    assert Buffer.load(tmp_path / "file").frames() == ["base", "map"]
 
 
 HEADER = b'{"format": "turtlewire buffer 1", "cache_time_ns": 1, "runs": [["a", "b", false, "me"]]}'
@@ -296,7 +363,7 @@ def test_load_any_bytes(buffer: turtlewire.Buffer, tmp_path: Path) -> None:
     for t in range(1, 6):
         buffer.set_transform("a", "b", t * SECOND, (t, 0, 0), STILL)
     path = tmp_path / "tree.saved"
-    inspection.save(buffer, path)
+    Buffer.save(buffer, path)
     whole = path.read_bytes()
     random = Random(1)
     refused = 0
@@ -306,7 +373,7 @@ def test_load_any_bytes(buffer: turtlewire.Buffer, tmp_path: Path) -> None:
             data[random.randrange(len(data))] = random.randrange(256)
         path.write_bytes(data)
         try:
-            inspection.load(path)
+            Buffer.load(path)
         except ValueError:
             refused += 1
     assert refused > 300
@@ -332,17 +399,47 @@ def test_load_something_else(buffer: turtlewire.Buffer, tmp_path: Path, damage: 
     for t in range(1, 6):
         buffer.set_transform("a", "b", t * SECOND, (t, 0, 0), STILL)
     path = tmp_path / "tree.saved"
-    inspection.save(buffer, path)
+    Buffer.save(buffer, path)
     path.write_bytes(damage if isinstance(damage, bytes) else damage(path.read_bytes()))
     with pytest.raises(ValueError, match="is not a saved buffer"):
-        inspection.load(path)
+        Buffer.load(path)
     with pytest.raises(FileNotFoundError):
-        inspection.load(tmp_path / "missing")
+        Buffer.load(tmp_path / "missing")
+
+
+def test_errors_of_load_say_what_to_do(tmp_path: Path) -> None:
+    path = tmp_path / "a.npz"
+    for wrong in (3, None):
+        with pytest.raises(TypeError, match=f"what Buffer.save wrote, not {type(wrong).__name__}"):
+            Buffer.load(wrong)  # type: ignore[arg-type]
+    np.savez(path, poses=np.zeros(7))
+    with pytest.raises(ValueError, match=r"has the arrays poses, .* numpy\.load, .*set_transforms"):
+        Buffer.load(path)
+    path.write_bytes(b"")
+    with pytest.raises(ValueError, match="because it is empty; save the buffer again"):
+        Buffer.load(path)
+    Buffer().save(path)
+    path.write_bytes(path.read_bytes()[:-30])
+    with pytest.raises(ValueError, match="cut off or damaged; save the buffer again"):
+        Buffer.load(path)
 
 
 def test_unlimited(core: Any) -> None:
     buffer = core.Buffer(None)
     assert buffer.cache_time_ns is None
     for t in (1, 10**18):
-        assert buffer.set_transform("a", "b", t, (0, 0, 0), STILL) == ""
+        buffer.set_transform("a", "b", t, (0, 0, 0), STILL)
     assert buffer.can_transform("a", "b", 1)
+
+
+@pytest.mark.parametrize("count", [15, 16, 17, 18])
+def test_sixteen_senders_of_a_link_are_remembered(core, count):
+    buffer = core.Buffer(None)
+    for number in range(count):
+        stamp_ns = (100 if number == 0 else number) * SECOND  # the first was heard last
+        buffer.set_transform("a", "b", stamp_ns, (number, 0, 0), sender=f"sender {number}")
+    (link,) = links(buffer)
+    forgotten = {f"sender {number}" for number in range(1, count - 15)}
+    assert {sender.name for sender in link.senders} == {
+        f"sender {number}" for number in range(count)
+    } - forgotten

@@ -15,7 +15,8 @@ from tests.needs import COMPILED_CORE
 
 from turtlewire import Buffer, msg, wire
 from turtlewire.tf import buffer as core
-from turtlewire.tf import inspection, listener
+from turtlewire.tf import faults, listener
+from turtlewire.tf.links import links
 from turtlewire.tf.listener import QOS, STATIC_QOS, TYPE_NAME, TransformListener
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import History
@@ -70,7 +71,7 @@ class Flow:
         """Send one transform and wait until it is in the buffer."""
         stamp_s = next(self._stamps)
         self.publisher.publish(tf_bytes(stamp_s))
-        buffer.lookup_transform("world", "robot", stamp_s * 1_000_000_000, LONG_NS)
+        buffer.lookup_transform("world", "robot", stamp_s * 1_000_000_000, timeout_ns=LONG_NS)
 
     def send_until_short(self, buffer):
         """Send until a message comes without Python: the publisher is known."""
@@ -120,7 +121,7 @@ def test_messages_during_the_name_lookup_need_no_python(flow, monkeypatch):
             flow.publisher.publish(tf_bytes(stamp_s))
             assert busy.wait(60)
         go.set()
-        buffer.lookup_transform("world", "robot", 50_000_000_000, LONG_NS)
+        buffer.lookup_transform("world", "robot", 50_000_000_000, timeout_ns=LONG_NS)
         [(_, stamps, _)] = buffer.samples("robot")
         assert len(stamps) == 50
     assert (flow.identified, flow.by_python) == (1, 0)
@@ -128,7 +129,7 @@ def test_messages_during_the_name_lookup_need_no_python(flow, monkeypatch):
 
 def test_listeners_hear_of_what_was_stored_with_the_name(flow):
     buffer, heard = Buffer(), threading.Event()
-    buffer.add_change_listener(heard.set)
+    buffer.on_change(heard.set)
     with flow.listen(buffer):
         flow.wait_for_match()
         flow.publisher.publish(tf_bytes(1))  # none follows that could wake them
@@ -189,10 +190,12 @@ def test_nothing_is_lost_or_overtaken_while_publishers_are_introduced(flow):
         for thread in threads:
             thread.join()
         for number in range(3):
-            buffer.lookup_transform("world", f"robot{number}", count * 1_000_000_000, LONG_NS)
+            buffer.lookup_transform(
+                "world", f"robot{number}", count * 1_000_000_000, timeout_ns=LONG_NS
+            )
             [(_, stamps, _)] = buffer.samples(f"robot{number}")
             assert stamps.tolist() == [stamp_s * 1_000_000_000 for stamp_s in range(1, count + 1)]
-    assert not inspection.refusals(buffer)
+    assert not faults.refusals(buffer)
 
 
 def test_change_listeners_are_called_on_the_reader_thread(flow):
@@ -206,7 +209,7 @@ def test_change_listeners_are_called_on_the_reader_thread(flow):
     with flow.listen(buffer):
         flow.wait_for_match()
         flow.send_until_short(buffer)
-        stop = buffer.add_change_listener(on_change)
+        stop = buffer.on_change(on_change)
         seen = flow.by_python
         for _ in range(5):
             called.clear()
@@ -228,9 +231,9 @@ def test_a_malformed_message_between_good_ones_is_counted_with_its_sender(flow):
         flow.send_until_short(buffer)
         flow.publisher.publish(b"\x00\x01\x00\x00\xff\xff\xff\xff")
         flow.send(buffer)
-        assert inspection.malformed(buffer).messages == 1
+        assert faults.malformed(buffer).messages == 1
         flow.send_until_short(buffer)
-        while inspection.malformed(buffer).sender != "/talker":  # it is named a little later
+        while faults.malformed(buffer).sender != "/talker":  # it is named a little later
             flow.send(buffer)
 
 
@@ -240,9 +243,9 @@ def test_stores_of_other_kinds_are_served_beside_buffers(flow):
             super().__init__()
             self.messages = 0
 
-        def ingest(self, cdr, **how):
+        def add_tf_message(self, cdr, **how):
             self.messages += 1
-            return super().ingest(cdr, **how)
+            return super().add_tf_message(cdr, **how)
 
     buffer, store = Buffer(), Store()
     with flow.listen(buffer):
@@ -265,8 +268,8 @@ def test_latched_transforms_take_part(flow):
     for buffer in buffers:  # each begins a new subscription, with what was published before
         with flow.listen(buffer):
             for number in range(10):
-                buffer.lookup_transform("world", f"wall{number}", 0, LONG_NS)
-        assert {link.senders[0].name for link in inspection.links(buffer)} <= {
+                buffer.lookup_transform("world", f"wall{number}", None, timeout_ns=LONG_NS)
+        assert {link.senders[0].name for link in links(buffer)} <= {
             "/walls",
             static.gid.hex(),
         }
@@ -291,13 +294,13 @@ def test_listeners_and_contexts_close_in_the_middle_of_the_stream(flow):
             node = context.create_node("listener")
             listeners = [TransformListener(buffer, node, context=context) for buffer in buffers]
             for buffer in buffers:
-                assert buffer.can_transform("world", "robot", 0, LONG_NS)
+                assert buffer.can_transform("world", "robot", None, timeout_ns=LONG_NS)
             for opened in listeners if number % 2 else ():
                 opened.close()
             context.close()
-            newest = [buffer.latest_common_time("world", "robot") for buffer in buffers]
+            newest = [buffer._latest_common_time("world", "robot") for buffer in buffers]
             flow.publisher.publish(tf_bytes(1))
-            assert newest == [buffer.latest_common_time("world", "robot") for buffer in buffers]
+            assert newest == [buffer._latest_common_time("world", "robot") for buffer in buffers]
     finally:
         stop.set()
         thread.join()
@@ -318,7 +321,7 @@ def test_the_gids_of_publishers_that_left_are_forgotten(flow):
                 lambda guest=guest: guest.subscription_count() == 1, LONG_NS
             )
             guest.publish(tf_bytes(1, f"guest{number}"))
-            assert buffer.can_transform("world", f"guest{number}", 0, LONG_NS)
+            assert buffer.can_transform("world", f"guest{number}", None, timeout_ns=LONG_NS)
             guest.close()
             assert flow.receiver.graph.wait_for(
                 lambda: subscription.publisher_count() == 1, LONG_NS

@@ -55,14 +55,14 @@ def consume(seed):
         def listening():
             buffer = Buffer()
             if chance.random() < 0.5:
-                buffer.add_change_listener(lambda: None)
+                buffer.on_change(lambda: None)
             return buffer, TransformListener(buffer, node, context=context)
 
         pairs = [listening() for _ in range(3)]
         for _ in range(chance.randrange(20)):
             index = chance.randrange(len(pairs))
             try:
-                pairs[index][0].lookup_transform("world", "frame0", 0, 3_000_000)
+                pairs[index][0].lookup_transform("world", "frame0", timeout_ns=3_000_000)
             except TransformException:
                 pass
             if chance.random() < 0.3:

@@ -1,4 +1,4 @@
-"""The C++ tests of the core (native/tests), plain and under the sanitizers."""
+"""The C++ tests (native/tests), plain and under the sanitizers."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from tests.needs import COMPILED_CORE
-from tests.places import ENGINE, ROOT, SCRIPTS
+from tests.places import ENGINE, ROOT, TOOLS
 
 from turtlewire.tf.buffer import CORE
 
@@ -59,15 +59,16 @@ def test_core(sanitizer: str) -> None:
         "TSAN_OPTIONS": "halt_on_error=1",
         "ASAN_OPTIONS": "detect_leaks=1",
     }
-    run = subprocess.run(
-        [str(folder / "tests" / "test_core"), messages],
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert run.returncode == 0, run.stdout + run.stderr
-    assert run.stdout.endswith("all passed\n")
+    for program in ("test_core", "test_identities"):
+        run = subprocess.run(
+            [str(folder / "tests" / program), messages],
+            env=environment,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert run.returncode == 0, run.stdout + run.stderr
+        assert run.stdout.endswith("all passed\n")
 
 
 @pytest.mark.skipif(not (ROOT / ".git").exists(), reason="not a clone")
@@ -108,7 +109,7 @@ STUB = ENGINE / "src" / "turtlewire" / "_native.pyi"
 
 def compared(stub: Path) -> tuple[int, list[str]]:
     done = subprocess.run(
-        [sys.executable, str(SCRIPTS / "native_stub.py"), str(stub)],
+        [sys.executable, str(TOOLS / "native_stub.py"), str(stub)],
         capture_output=True,
         text=True,
         check=False,
@@ -126,13 +127,13 @@ def test_the_stub_agrees_with_the_module() -> None:
 @pytest.mark.parametrize(
     ("old", "new", "fault"),
     [
-        ("def wake(self)", "def awake(self)", "Buffer.awake: declared (), built not at all"),
+        ("def _wake(self)", "def awake(self)", "Buffer.awake: declared (), built not at all"),
         (
             "child_frame: str) -> bool",
             "child: str) -> bool",
             "declared (child), built (child_frame)",
         ),
-        ("stamp_ns: int = 0", "stamp_ns: int = 1", "stamp_ns=1"),
+        ("timeout_ns: Span = 0", "timeout_ns: Span = 1", "timeout_ns=1"),
         ("    @property\n    def messages", "    def messages", "built an attribute"),
         ("def print_on_abort(pipe: int) -> None: ...", "", "declared not at all, built (pipe)"),
     ],

@@ -65,7 +65,7 @@ def test_a_transform_shows_numbers_and_a_picture(filled):
 
 @pytest.mark.parametrize("translation", [(0.0, 0.0, 0.0), (1e-9, 0.0, 0.0), (1e9, -1e9, 1e9)])
 def test_any_distance_fits(buffer, translation):
-    buffer.set_transform("<map>", "a & b", 0, translation, (0.0, 0.0, 0.0, 1.0), static=True)
+    buffer.set_static_transform("<map>", "a & b", translation, (0.0, 0.0, 0.0, 1.0))
     root = ET.fromstring(buffer.lookup_transform("<map>", "a & b")._repr_html_())
     labels = list(root.iter(f"{SVG}text"))
     assert [label.text for label in labels] == ["<map>", "a & b"]
@@ -110,7 +110,7 @@ else:
 @pytest.mark.parametrize("translation", [(math.inf, 0.0, 0.0), (0.0, -math.inf, math.inf)])
 def test_an_endless_distance_is_told_in_numbers(buffer, translation):
     """tf2 takes it, so a cell must show it."""
-    buffer.set_transform("world", "robot", 0, translation, (0.0, 0.0, 0.0, 1.0), static=True)
+    buffer.set_static_transform("world", "robot", translation, (0.0, 0.0, 0.0, 1.0))
     html = buffer.lookup_transform("world", "robot")._repr_html_()
     assert "nan" in html or "inf" in html
     assert "<svg" not in html

@@ -10,7 +10,7 @@ import turtlewire
 
 
 def test_dir_lists_the_public_names() -> None:
-    assert dir(turtlewire) == ["Buffer", "LookupStatus", "Transform", "__version__"]
+    assert dir(turtlewire) == ["Buffer", "Transform", "__version__", "connect", "show"]
     for name in dir(turtlewire):
         assert getattr(turtlewire, name) is not None
 

@@ -19,18 +19,18 @@ def test_a_frame_that_comes_back_stands_last(core: Any) -> None:
     for child in ("a", "b", "c"):
         buffer.set_transform("map", child, SECOND, *POSE)
     assert buffer.remove_frame("a")
-    assert buffer.frame_strings() == ["map", "b", "c"]
+    assert buffer.frames() == ["map", "b", "c"]
     buffer.set_transform("map", "new", SECOND, *POSE)
     buffer.set_transform("map", "a", SECOND, *POSE)
-    assert buffer.frame_strings() == ["map", "b", "c", "new", "a"]
-    assert [line.split()[1] for line in buffer.all_frames_as_string().splitlines()] == [
+    assert buffer.frames() == ["map", "b", "c", "new", "a"]
+    assert [line.split()[1] for line in buffer._frames_as_string().splitlines()] == [
         "b",
         "c",
         "new",
         "a",
     ]
-    assert buffer.lookup_transform("map", "new").frame_id == "map"
-    assert not buffer.frame_exists("nobody")
+    assert buffer.lookup_transform("map", "new").target_frame == "map"
+    assert "nobody" not in buffer.frames()
     assert buffer._fault() == ""
 
 
@@ -40,7 +40,7 @@ def test_all_parents_of_a_removed_frame_go(core: Any) -> None:
         buffer.set_transform(parent, "child", stamp * SECOND, *POSE)
     buffer.set_transform("q", "other", SECOND, *POSE)
     assert buffer.remove_frame("child")
-    assert buffer.frame_strings() == ["q", "other"]
+    assert buffer.frames() == ["q", "other"]
     assert buffer._fault() == ""
 
 
@@ -86,12 +86,12 @@ def test_removing_many_frames_takes_linear_time(core: Any) -> None:
 
 @pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="reads /proc")
 def test_memory_stays_flat(core: Any) -> None:
-    """24 rounds of 3,000 names that never came before."""
+    """50 rounds of 3,000 new names grow by less than a tenth of what the names take."""
     program = f"""
 from {core.__name__} import Buffer
 from pathlib import Path
 buffer, sizes = Buffer(), []
-for round in range(24):
+for round in range(50):
     for i in range(3000):
         name = f"frame {{i}} of round {{round}}, with a name of some length"
         buffer.set_transform("map", name, (round + 1) * 10**9, (0, 0, 0), (0, 0, 0, 1))
@@ -102,4 +102,5 @@ print(sizes[-1] - sizes[4])
     run = subprocess.run(
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )
-    assert int(run.stdout) < 3000  # kB; 20 rounds of links and names are 27,000 kB
+    # 45 rounds of links and names are 60,000 kB. The kernel may add a huge page of 2,048 kB.
+    assert int(run.stdout) < 6000

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import pytest
+
 from turtlewire import Buffer
+from turtlewire.errors import InvalidTransformError
 from turtlewire.tf.restarts import RestartWatch
 
 SECOND = 1_000_000_000
@@ -12,16 +15,17 @@ POSE = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)
 def test_a_world_that_begins_anew_is_forgotten():
     buffer = Buffer()
     restarts = RestartWatch(buffer)
-    assert buffer.set_transform("world", "base", 0, *POSE, static=True) == ""
-    assert buffer.set_transform("world", "robot", 100 * SECOND, *POSE) == ""
+    buffer.set_static_transform("world", "base", *POSE)
+    buffer.set_transform("world", "robot", 100 * SECOND, *POSE)
     assert not restarts.look()
-    late = buffer.set_transform("world", "robot", SECOND, *POSE)
-    assert late.startswith("TF_OLD_DATA")
+    with pytest.raises(InvalidTransformError, match="TF_OLD_DATA"):
+        buffer.set_transform("world", "robot", SECOND, *POSE)
     buffer.set_transform("world", "robot", 101 * SECOND, *POSE)
     assert not restarts.look()  # one late message; it still goes on
-    buffer.set_transform("world", "robot", 2 * SECOND, *POSE)
+    with pytest.raises(InvalidTransformError):
+        buffer.set_transform("world", "robot", 2 * SECOND, *POSE)
     assert restarts.look()
-    assert buffer.set_transform("world", "robot", 3 * SECOND, *POSE) == ""
+    buffer.set_transform("world", "robot", 3 * SECOND, *POSE)
     assert not restarts.look()
     assert buffer.lookup_transform("world", "robot").stamp_ns == 3 * SECOND
     assert buffer.can_transform("world", "base")

@@ -4,8 +4,8 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
-from turtlewire.tf.drawing import Box, Drawing, Line, Text, svg_from_drawing, text_width
-from turtlewire.tf.frame_tree import FrameTree, Link
+from turtlewire.tf.drawing import Drawing, FilledBox, Line, Text, svg_from_drawing, text_width
+from turtlewire.tf.frame_tree import FrameLink, FrameTree
 from turtlewire.tf.tree_drawing import draw_tree
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -13,7 +13,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 def tree_of(*pairs, static=False, newest=2.0, oldest=1.0):
     return FrameTree(
-        Link(child, parent, "someone", static, 62.5, newest, oldest, newest - oldest)
+        FrameLink(child, parent, "someone", static, 62.5, newest, oldest, newest - oldest)
         for parent, child in pairs
     )
 
@@ -23,7 +23,7 @@ def texts(drawing):
 
 
 def boxes(drawing):
-    return [shape for shape in drawing.shapes if isinstance(shape, Box)]
+    return [shape for shape in drawing.shapes if isinstance(shape, FilledBox)]
 
 
 def test_a_card_has_what_view_frames_shows():
@@ -93,7 +93,7 @@ def test_svg_is_xml_whatever_the_frames_are_called():
 
 def test_svg_of_each_shape():
     shapes = (
-        Box(1, 2, 3, 4, "#111111"),
+        FilledBox(1, 2, 3, 4, "#111111"),
         Line(((0, 0), (5, 6)), "#222222", 2.0, dashed=True),
         Text(7, 8, "hi", 9, "#333333", bold=True),
     )

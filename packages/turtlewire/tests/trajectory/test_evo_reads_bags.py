@@ -11,7 +11,7 @@ import pytest
 from tests.bags import write_bag
 
 from turtlewire import Buffer
-from turtlewire.trajectory import read_tum
+from turtlewire.trajectory import Trajectory
 
 EVO = Path(sys.executable).parent / "evo_traj"
 
@@ -31,7 +31,7 @@ def test_evo_samples_our_buffer(tmp_path):
     assert done.returncode == 0, done.stdout + done.stderr
     assert "50 poses" in done.stdout
     (saved,) = tmp_path.glob("*.tum")
-    of_evo = read_tum(saved)
+    of_evo = Trajectory.load(saved)
     ours = Buffer.from_bag(bag).trajectory("odom", "camera", stamps=of_evo.stamps_ns)
     assert len(ours) == len(of_evo) == 50
     assert ours.poses == pytest.approx(of_evo.poses, abs=1e-6)

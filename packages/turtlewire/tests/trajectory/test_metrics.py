@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import functools
 import warnings
 
 import numpy as np
 import pytest
 
-from turtlewire.trajectory import RELATIONS, Trajectory, align, ape, associate, compare, rpe
+from turtlewire.trajectory import Trajectory, compare
+from turtlewire.trajectory.alignment import align, associate
+from turtlewire.trajectory.metrics import RELATIONS, ape, rpe
 
-from .conftest import disturbed, evo_trajectory, random_walk
+from .conftest import START, disturbed, evo_trajectory, random_walk
 
 with warnings.catch_warnings():
     warnings.simplefilter("ignore")
     from evo.core import metrics as evo_metrics
     from evo.core import sync as evo_sync
+    from evo.core.filters import FilterException
     from evo.core.geometry import umeyama_alignment
 
 RELATION_OF_EVO = {
@@ -32,14 +36,58 @@ def test_every_relation_is_compared():
     assert set(RELATION_OF_EVO) == set(RELATIONS)
 
 
-@pytest.mark.parametrize("relation", [name for name in RELATIONS if "ratio" not in name])
-def test_ape(pair, relation):
-    metric = evo_metrics.APE(RELATION_OF_EVO[relation])
-    metric.process_data(tuple(map(evo_trajectory, pair)))
-    errors = ape(*pair, relation)
-    assert errors.values == pytest.approx(metric.error, abs=1e-8)
-    expected = metric.get_all_statistics()
-    assert errors.statistics._asdict() == pytest.approx(expected, abs=1e-8)
+def grid(seed, count=60):
+    """Steps of 0.1 m along x, or none, and turns by 7.3 degrees, so that distances tie."""
+    dice = np.random.default_rng(seed)
+    poses = np.zeros((count, 7))
+    poses[1:, 0] = np.cumsum(0.1 * dice.integers(0, 2, count - 1))
+    poses[1:, 1] = np.cumsum(0.1 * dice.integers(0, 2, count - 1))
+    half = np.radians(7.3) * np.arange(count) / 2
+    poses[:, 5], poses[:, 6] = np.sin(half), np.cos(half)
+    return Trajectory(START + np.arange(count) * 10**8, poses)
+
+
+def flipped(trajectory):
+    """The same rotations with other signs."""
+    poses = trajectory.poses.copy()
+    poses[::3, 3:] *= -1
+    return Trajectory(trajectory.stamps_ns, poses)
+
+
+PAIRS = {
+    "walk": lambda: (random_walk(1, 80), disturbed(random_walk(1, 80), 101)),
+    "grid": lambda: (grid(2), disturbed(grid(2), 102)),
+    "flips": lambda: (random_walk(3, 80), flipped(disturbed(random_walk(3, 80), 103))),
+    "line": lambda: (grid(4), grid(5)),
+}
+
+
+def evo_pair(made, align, count):
+    """The pair as evo associates and aligns it."""
+    reference, estimate = evo_sync.associate_trajectories(*map(evo_trajectory, made), max_diff=0.01)
+    if align == "origin":
+        estimate.align_origin(reference)
+    elif align != "none":
+        estimate.align(reference, correct_scale=align == "sim3", n=count or -1)
+    return reference, estimate
+
+
+@pytest.mark.parametrize("made", PAIRS)
+@pytest.mark.parametrize(
+    ("align", "count"),
+    [("none", None), ("origin", None), ("se3", None), ("se3", 20), ("sim3", None), ("sim3", 20)],
+)
+def test_ape(made, align, count):
+    pair = PAIRS[made]()
+    found = compare(*pair, align, poses_to_align=count)
+    of_evo = evo_pair(pair, align, count)
+    for relation in tuple(RELATIONS)[:-1]:
+        metric = evo_metrics.APE(RELATION_OF_EVO[relation])
+        metric.process_data(of_evo)
+        errors = found.ape(relation)
+        assert errors.values == pytest.approx(metric.error, rel=1e-9, abs=1e-9)
+        expected = metric.get_all_statistics()
+        assert errors.statistics._asdict() == pytest.approx(expected, rel=1e-9, abs=1e-9)
 
 
 UNITS = {
@@ -50,30 +98,56 @@ UNITS = {
 }
 
 
+@pytest.mark.parametrize("made", PAIRS)
+@pytest.mark.parametrize("all_pairs", [False, True])
+@pytest.mark.parametrize("pairs_from_reference", [False, True])
 @pytest.mark.parametrize(
-    ("delta", "unit", "all_pairs"),
-    [
-        (1, "f", False),
-        (7, "f", False),
-        (7, "f", True),
-        (0.8, "m", False),
-        (0.8, "m", True),
-        (40.0, "d", False),
-        (20.0, "d", True),
-        (0.5, "r", False),
-    ],
+    ("delta", "unit"),
+    [(1, "f"), (7, "f"), (0.3, "m"), (0.8, "m"), (1.0, "m"), (40.0, "d"), (20.0, "d"), (0.5, "r")],
 )
-def test_rpe(delta, unit, all_pairs):
-    reference = random_walk(1, 80)
-    estimate = disturbed(reference, 101)
+def test_rpe(made, delta, unit, all_pairs, pairs_from_reference):
+    found = compare(*PAIRS[made](), "sim3")
+    of_evo = evo_pair(PAIRS[made](), "sim3", None)
     for relation, relation_of_evo in RELATION_OF_EVO.items():
         metric = evo_metrics.RPE(
-            relation_of_evo, delta, UNITS[unit], rel_delta_tol=0.1, all_pairs=all_pairs
+            relation_of_evo, delta, UNITS[unit], 0.1, all_pairs, pairs_from_reference
         )
-        metric.process_data((evo_trajectory(reference), evo_trajectory(estimate)))
-        errors = rpe(reference, estimate, relation, delta=delta, unit=unit, all_pairs=all_pairs)
-        assert len(errors.values) > 3
-        assert errors.values == pytest.approx(np.asarray(metric.error), abs=1e-7), relation
+        ours = functools.partial(
+            found.rpe,
+            relation,
+            delta=delta,
+            unit=unit,
+            all_pairs=all_pairs,
+            pairs_from_reference=pairs_from_reference,
+        )
+        try:
+            metric.process_data(of_evo)
+        except FilterException:
+            with pytest.raises(ValueError, match="no two of"):
+                ours()
+            continue
+        errors = ours()
+        assert errors.rows.tolist() == metric.delta_ids
+        assert errors.values == pytest.approx(np.asarray(metric.error), rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.parametrize(("all_pairs", "ends"), [(False, range(3, 60, 3)), (True, range(3, 60))])
+def test_three_turns_by_ten_degrees_make_thirty(all_pairs, ends):
+    """A tie that evo leaves to rounding."""
+    poses = np.zeros((60, 7))
+    half = np.radians(10.0) * np.arange(60) / 2
+    poses[:, 5], poses[:, 6] = np.sin(half), np.cos(half)
+    turning = Trajectory(np.arange(60), poses)
+    errors = rpe(turning, turning, delta=30.0, unit="d", all_pairs=all_pairs, tolerance=0.0)
+    assert sorted(set(errors.rows.tolist())) == list(ends)
+
+
+def test_of_equally_many_poses_those_of_the_estimate_look_for_partners():
+    still = np.tile([0.0, 0, 0, 0, 0, 0, 1], (3, 1))
+    first = Trajectory(np.array([0, 100, 200]), still)
+    second = Trajectory(np.array([0, 10, 200]), still)
+    assert [rows.tolist() for rows in associate(first, second, 20)] == [[0, 0, 2], [0, 1, 2]]
+    assert [rows.tolist() for rows in associate(second, first, 20)] == [[0, 2], [0, 2]]
 
 
 @pytest.mark.parametrize("with_scale", [False, True])
@@ -171,6 +245,14 @@ def test_the_largest_difference_belongs_to_the_bound(distance, pairs):
         assert len(associate(one, other, 5)[0]) == pairs
 
 
+@pytest.mark.parametrize(("stamp", "nearest"), [(49, 0), (50, 0), (51, 1), (150, 1), (151, 2)])
+def test_of_two_poses_as_near_the_earlier_is_taken(stamp, nearest):
+    still = np.tile([0.0, 0, 0, 0, 0, 0, 1], (3, 1))
+    many, one = Trajectory(np.array([0, 100, 200]), still), Trajectory(np.array([stamp]), still[:1])
+    assert [rows.tolist() for rows in associate(many, one, 50)] == [[nearest], [0]]
+    assert [rows.tolist() for rows in associate(one, many, 50)] == [[0], [nearest]]
+
+
 def test_different_clocks_are_reported():
     early = random_walk(1)
     late = Trajectory(early.stamps_ns + 3600 * 10**9, early.poses)
@@ -202,25 +284,39 @@ def test_wrong_words(pair):
         rpe(*pair, unit="x")
     with pytest.raises(ValueError, match="no two of 300 poses are 100000 m apart"):
         rpe(*pair, delta=100_000, unit="m")
+    for delta in (0, -1, float("nan"), float("inf")):
+        with pytest.raises(ValueError, match=f"delta is {delta}; it must be a positive number"):
+            rpe(*pair, delta=delta)
+    with pytest.raises(ValueError, match=r"delta is 0\.5 frames; it must be a whole number"):
+        rpe(*pair, delta=0.5)
     with pytest.raises(ValueError, match="unknown alignment 'SE3'"):
         compare(*pair, "SE3")
     with pytest.raises(ValueError, match="300 and 10 poses; associate them first"):
         ape(pair[0], pair[1][:10])
 
 
-def test_trajectories_without_times_are_paired_by_their_number(tmp_path):
-    from turtlewire.trajectory import read_kitti, read_trajectory, write_kitti
+def test_a_path_is_not_a_trajectory():
+    with pytest.raises(TypeError, match=r"got str; read a file with Trajectory\.load"):
+        compare(random_walk(1), "walk.tum")
 
+
+def test_trajectories_without_times_are_paired_by_their_number(tmp_path):
     from .conftest import random_walk
 
     walk = random_walk(1, 50)
-    write_kitti(walk, tmp_path / "a.txt")
-    write_kitti(walk[:40], tmp_path / "b.txt")
-    untimed = read_kitti(tmp_path / "a.txt")
+    for name, part in (("a", walk), ("b", walk[:40])):
+        part.save(tmp_path / f"{name}.txt", format="kitti")
+        (tmp_path / f"{name}_times.txt").unlink()
+    untimed = Trajectory.load(tmp_path / "a.txt")
     assert compare(untimed, untimed).ape().statistics.max == 0
-    for other in (read_trajectory(tmp_path / "b.txt"), walk):
-        with pytest.raises(ValueError, match="has no times"):
+    for other in (Trajectory.load(tmp_path / "b.txt"), walk[:40]):
+        with pytest.raises(ValueError, match=r"without times .* these have 50 and 40 poses"):
             compare(untimed, other)
+    for which, pair in (("reference", (untimed, walk)), ("estimate", (walk, untimed))):
+        with pytest.warns(UserWarning, match=f"the {which} has no times: its poses are paired"):
+            found = compare(*pair, offset_ns=10**12)
+        assert found.ape().statistics.max < 1e-12
+        assert found.reference.stamps_ns.tolist() == walk.stamps_ns.tolist()
 
 
 def test_uncomputable_values_are_reported():

@@ -15,11 +15,7 @@ import pytest
 from turtlewire.cli.main import main
 from turtlewire.trajectory import (
     compare,
-    plot_box,
-    plot_errors,
-    plot_histogram,
-    plot_path,
-    write_tum,
+    plot,
 )
 from turtlewire.trajectory.pictures import pdf_of
 
@@ -30,12 +26,13 @@ def every_picture():
     """One of each, which use all elements that charts have."""
     truth = random_walk(1)
     estimate = disturbed(truth, 2)
-    errors = compare(truth, estimate, "se3").ape()
-    yield plot_path({"ä (1)": estimate}, truth)
+    comparison = compare(truth, estimate, "se3")
+    errors = comparison.ape()
+    yield plot({"ä (1)": estimate}, reference=truth)
     yield from (truth.plot(kind) for kind in ("path", "positions", "angles", "speeds"))
-    yield plot_errors(errors, truth.stamps_ns)
-    yield plot_histogram({"a": errors})
-    yield plot_box({"a": errors, "b": errors})
+    yield comparison.plot("errors")
+    yield plot({"a": errors}, "histogram")
+    yield plot({"a": errors, "b": errors}, "box")
     yield compare(truth, estimate, "se3").plot()
 
 
@@ -45,17 +42,17 @@ def content(pdf):
 
 
 def test_a_pdf_has_all_texts_and_lines_of_the_svg():
-    for plot in every_picture():
-        drawn = content(pdf_of(plot.svg))
+    for picture in every_picture():
+        drawn = content(pdf_of(picture.svg))
         shown = [
             bytes.fromhex(each).decode("cp1252") for each in re.findall("<([0-9a-f]*)>", drawn)
         ]
         assert shown == [
             text.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&")
-            for text in re.findall(r"<text[^>]*>([^<]*)</text>", plot.svg)
+            for text in re.findall(r"<text[^>]*>([^<]*)</text>", picture.svg)
         ]
-        assert len(re.findall(r" S\b", drawn)) >= plot.svg.count("<polyline")
-        assert drawn.count(" B\n") == plot.svg.count("<circle")
+        assert len(re.findall(r" S\b", drawn)) >= picture.svg.count("<polyline")
+        assert drawn.count(" B\n") == picture.svg.count("<circle")
 
 
 def test_y_is_turned_over():
@@ -108,7 +105,7 @@ def test_a_png_has_the_colours_in_their_places(tmp_path):
 def test_without_the_package_one_line_names_it(tmp_path, monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "pypdfium2", None)
     file = tmp_path / "walk.tum"
-    write_tum(random_walk(1), file)
+    random_walk(1).save(file)
     with pytest.raises(ModuleNotFoundError, match=r"pip install 'turtlewire\[png\]'"):
         random_walk(1).plot().save(tmp_path / "x.png")
     assert main(["trajectory", str(file), "--plot", str(tmp_path / "x.png")]) == 2

@@ -13,14 +13,9 @@ from turtlewire.trajectory import (
     Plot,
     Trajectory,
     compare,
-    plot_angles,
-    plot_box,
-    plot_errors,
-    plot_histogram,
-    plot_path,
-    plot_positions,
-    plot_speeds,
+    plot,
 )
+from turtlewire.trajectory.chart import GREY
 
 from .conftest import disturbed, random_walk
 
@@ -42,35 +37,80 @@ def texts(plot):
 
 
 @pytest.mark.parametrize(
-    ("draw", "rows"), [(plot_path, 1), (plot_positions, 3), (plot_angles, 3), (plot_speeds, 1)]
+    ("kind", "rows"), [("path", 1), ("positions", 3), ("angles", 3), ("speeds", 1)]
 )
-def test_lines_end_at_gaps(draw, rows):
+def test_lines_end_at_gaps(kind, rows):
     whole = random_walk(1)
-    assert [len(line) for line in lines(draw(whole))] == [300] * rows
-    assert [len(line) for line in lines(draw(with_gap(whole)))] == [100, 100] * rows
+    assert [len(line) for line in lines(whole.plot(kind))] == [300] * rows
+    assert [len(line) for line in lines(with_gap(whole).plot(kind))] == [100, 100] * rows
+
+
+def without(trajectory, first, last):
+    """The trajectory without some poses, and without a word about it."""
+    return trajectory[np.r_[0:first, last : len(trajectory)]]
+
+
+@pytest.mark.parametrize("last", [104, 200])
+@pytest.mark.parametrize("of", ["reference", "estimate", "both", "neither"])
+def test_plots_of_errors_end_at_the_gaps_of_either_trajectory(of, last):
+    reference = random_walk(1)
+    estimate = Trajectory(reference.stamps_ns, reference.poses + np.eye(7)[0] * 0.1)
+    first = 100
+    if of in ("reference", "both"):
+        reference = with_gap(reference, first, last)
+    if of in ("estimate", "both"):
+        estimate = with_gap(estimate, first, last)
+    found = compare(reference, estimate)
+    gaps = int(of != "neither")
+    assert len(found.reference.gaps) == gaps
+    assert found.reference.gaps == found.estimate.gaps
+    rows = [100, 200 - (last - 100)] if gaps else [300]
+    assert [len(line) for line in lines(found.plot("errors"), GREY)] == rows
+    drawn = found.plot()
+    assert [len(line) for line in lines(drawn, GREY)] == rows
+    steps = re.findall(r'points="([^"]*)"[^>]* stroke-width="3"', drawn.svg)
+    assert sum(len(points.split()) - 1 for points in steps) == sum(rows) - len(rows)
+
+
+def test_missing_partners_are_a_gap():
+    reference = random_walk(1)
+    late = disturbed(without(reference, 100, 150), 2)
+    found = compare(reference, late)
+    (gap,) = found.estimate.gaps
+    assert gap == (late.stamps_ns[99], late.stamps_ns[100])
+    assert [len(line) for line in lines(found.plot("errors"), GREY)] == [100, 150]
+
+
+def test_a_relative_error_is_drawn_where_its_pair_ends():
+    from turtlewire.trajectory.error_plots import plot_errors
+
+    found = compare(with_gap(random_walk(1)), random_walk(1))
+    errors = found.rpe(delta=10)
+    (before, after) = lines(plot_errors(errors, found.reference), GREY)
+    assert (len(before), len(after)) == (9, 10)
 
 
 def test_no_speed_is_made_of_a_gap():
     still = random_walk(1)
     poses = np.tile(still.poses[:1], (300, 1))
     poses[200:, 0] += 1000.0  # while nobody looked
-    (first, second) = lines(plot_speeds(with_gap(Trajectory(still.stamps_ns, poses))))
+    (first, second) = lines(with_gap(Trajectory(still.stamps_ns, poses)).plot("speeds"))
     assert len({point.split(",")[1] for point in first + second}) == 1
 
 
 def test_names_and_reference_are_in_the_legend():
     walk = random_walk(1)
-    plot = plot_path({"<slam>": walk, "b\x1b[31m": walk}, reference=walk)
-    assert {"reference", "<slam>", "x [m]", "y [m]"} < set(texts(plot))
-    assert "\x1b" not in plot.svg
-    assert "stroke-dasharray" in plot.svg
+    drawn = plot({"<slam>": walk, "b\x1b[31m": walk}, reference=walk)
+    assert {"reference", "<slam>", "x [m]", "y [m]"} < set(texts(drawn))
+    assert "\x1b" not in drawn.svg
+    assert "stroke-dasharray" in drawn.svg
 
 
 def test_a_metre_is_as_long_on_both_axes():
     poses = np.zeros((5, 7))
     poses[:, 6] = 1
     poses[:, :2] = [(0, 0), (10, 0), (10, 2), (0, 2), (0, 0)]
-    (square,) = lines(plot_path(Trajectory(np.arange(5), poses)))
+    (square,) = lines(Trajectory(np.arange(5), poses).plot())
     corners = np.array([point.split(",") for point in square], dtype=float)
     assert np.ptp(corners[:, 0]) == pytest.approx(5 * np.ptp(corners[:, 1]), abs=0.5)
 
@@ -79,35 +119,45 @@ def test_errors_of_a_comparison():
     reference = random_walk(1)
     comparison = compare(reference, disturbed(reference, 2), "se3")
     errors = comparison.ape()
-    said = texts(plot_errors(errors, comparison.reference.stamps_ns))
+    said = texts(comparison.plot("errors"))
     assert f"rmse {errors.statistics.rmse:.4g}" in said
     assert "time [s]" in said
     colours = set(re.findall(r'stroke="(#\w{6})" stroke-width="3"', comparison.plot().svg))
     assert len(colours) > 10
     assert comparison._repr_html_().startswith("<pre>APE trans_part")
     several = {"a": errors, "b": comparison.ape("full")}
-    assert {"a", "b"} <= set(texts(plot_box(several)))
-    assert {"a", "b", "poses"} <= set(texts(plot_histogram(several)))
+    assert {"a", "b"} <= set(texts(plot(several, "box")))
+    assert {"a", "b", "poses"} <= set(texts(plot(several, "histogram")))
 
 
 def test_saving(tmp_path):
-    plot = random_walk(1).plot()
-    assert isinstance(plot, Plot)
-    plot.save(tmp_path / "path.svg")
+    drawn = random_walk(1).plot()
+    assert isinstance(drawn, Plot)
+    drawn.save(tmp_path / "path.svg")
     assert (tmp_path / "path.svg").read_text().startswith("<svg")
     with pytest.raises(ValueError, match=r"does not end in \.svg, \.pdf or \.png"):
-        plot.save(tmp_path / "path.jpg")
+        drawn.save(tmp_path / "path.jpg")
     assert not (tmp_path / "path.jpg").exists()
 
 
 def test_undrawable_plots_raise():
     walk = random_walk(1)
     with pytest.raises(ValueError, match="'xx' is not a plane"):
-        plot_path(walk, plane="xx")
+        walk.plot(plane="xx")
     with pytest.raises(ValueError, match="'paths' is not a kind of plot; choose from path"):
         walk.plot("paths")
     with pytest.raises(ValueError, match="no pose"):
-        plot_path(walk[:0])
+        walk[:0].plot()
+    with pytest.raises(ValueError, match=r"'bar' is not a kind of plot; choose from .*histogram"):
+        plot({"a": walk}, "bar")
+    with pytest.raises(TypeError, match=r"'box' draws errors by name; .* with Trajectory"):
+        plot({"a": walk}, "box")
+    with pytest.raises(TypeError, match=r"'path' draws trajectories by name; .* with PoseErrors"):
+        plot({"a": compare(walk, walk).ape()}, "path")
+    with pytest.raises(TypeError, match=r"draws a dict .* by name, not list: plot\(\{'estimate'"):
+        plot([walk])
+    with pytest.raises(ValueError, match="'box' is not a kind of plot; choose from path, errors"):
+        compare(walk, walk).plot("box")
     assert walk[:0]._repr_svg_() is None
 
 

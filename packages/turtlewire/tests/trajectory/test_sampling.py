@@ -7,7 +7,8 @@ import pytest
 
 import turtlewire
 from turtlewire.errors import LookupException
-from turtlewire.trajectory import sample_trajectory
+from turtlewire.trajectory.sampling import sample_trajectory
+from turtlewire.trajectory.stamps import find_gaps
 
 MS = 1_000_000
 SECOND = 1000 * MS
@@ -22,7 +23,7 @@ def filled(gap=()):
     for i in range(1, 251):
         if i not in gap:
             buffer.set_transform("odom", "base", i * 20 * MS, (0.0, 0.02 * i, 0.0), NO_TURN)
-    buffer.set_transform("base", "camera", 0, (0.0, 0.0, 1.0), NO_TURN, True)
+    buffer.set_static_transform("base", "camera", (0.0, 0.0, 1.0), NO_TURN)
     return buffer
 
 
@@ -31,7 +32,7 @@ def test_the_stamps_of_all_moving_links():
     assert found.stamps_ns.tolist() == [i * 20 * MS for i in range(5, 251)]
     expected = found.stamps_ns[:, None] / 1e9 * (1.0, 1.0, 0.0) + (0.0, 0.0, 1.0)
     assert found.positions == pytest.approx(expected)
-    assert (found.frame_id, found.child_frame_id, found.gaps) == ("map", "camera", ())
+    assert (found.target_frame, found.source_frame, found.gaps) == ("map", "camera", ())
 
 
 def test_only_links_on_the_way_count():
@@ -80,3 +81,12 @@ def test_mistakes_raise_clear_errors():
             sample_trajectory(filled(), "map", "base", rate_hz=rate)
     with pytest.raises(ValueError, match=r"1e\+12 Hz makes more than 20,000,000 poses of 4.\d+ s"):
         sample_trajectory(filled(), "map", "base", rate_hz=1e12)
+
+
+def test_only_a_pause_longer_than_the_limit_is_a_gap():
+    stamps = np.array([0, 100, 200, 301])
+    assert find_gaps(stamps, 100) == [(200, 301)]
+    assert find_gaps(stamps, 101) == []
+    regular = np.arange(5) * 10 * MS
+    assert find_gaps(np.append(regular, regular[-1] + 500 * MS)) == []
+    assert find_gaps(np.append(regular, regular[-1] + 500 * MS + 1)) == [(40 * MS, 540 * MS + 1)]

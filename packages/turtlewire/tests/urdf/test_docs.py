@@ -12,7 +12,7 @@ from tests.places import HOW_TO
 
 PAGE = HOW_TO / "urdf.md"
 BIN = Path(sys.executable).parent
-BLOCKS = 11
+BLOCKS = 13
 
 
 def commands(text):

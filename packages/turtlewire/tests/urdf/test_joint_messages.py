@@ -12,10 +12,10 @@ from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
 from turtlewire.errors import CdrError
 from turtlewire.msg.cdr import deserialize, serialize
-from turtlewire.urdf import Kinematics, frames_writer, parse_urdf
+from turtlewire.urdf import Robot, frames_writer
 from turtlewire.urdf.joint_messages import JointMessages, stamp_of
 
-ROBOT = parse_urdf(
+ROBOT = Robot.from_xml(
     '<robot name="r"><link name="base"/>'
     + "".join(
         f'<link name="{name}_link"/><joint name="{name}" type="{kind}"><parent link="base"/>'
@@ -74,15 +74,13 @@ def pose(transform):
 def pose_at(name, position):
     """Of a joint alone, by the batch."""
     joint = ROBOT.joints[name]
-    kinematics = Kinematics(
-        parse_urdf(
-            f'<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="{joint.type}">'
-            f'<parent link="a"/><child link="b"/><origin xyz="{text(joint.origin.xyz)}"'
-            f' rpy="{text(joint.origin.rpy)}"/><axis xyz="{text(joint.axis)}"/>'
-            '<limit effort="1" velocity="1"/></joint></robot>'
-        )
+    alone = Robot.from_xml(
+        f'<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="{joint.type}">'
+        f'<parent link="a"/><child link="b"/><origin xyz="{text(joint.origin.xyz)}"'
+        f' rpy="{text(joint.origin.rpy)}"/><axis xyz="{text(joint.axis)}"/>'
+        '<limit effort="1" velocity="1"/></joint></robot>'
     )
-    return kinematics.link_poses({"j": position})[0, 1]
+    return alone.link_poses({"j": position})[0, 1]
 
 
 def text(numbers):

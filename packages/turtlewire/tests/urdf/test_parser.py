@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests import places
-from turtlewire.urdf import Mimic, Pose, UrdfError, load_urdf, parse_urdf
+from turtlewire.urdf import Mimic, Pose, Robot, UrdfError
 from turtlewire.urdf.elements import MAX_DEPTH
 from turtlewire.urdf.faults import XACRO_LEFT, log_lines
 from turtlewire.urdf.model import Box, Cylinder, JointLimits, Mesh
@@ -30,7 +30,7 @@ LINES = {
 
 def refusal(text: str | bytes) -> UrdfError:
     with pytest.raises(UrdfError) as caught:
-        parse_urdf(text)
+        Robot.from_xml(text)
     return caught.value
 
 
@@ -71,13 +71,13 @@ def test_golden_invalid_files_are_all_there():
     ],
 )
 def test_golden_robots(name, links, joints, root):
-    found = load_urdf(GOLDEN / "urdf" / f"{name}.urdf")
+    found = Robot.load(GOLDEN / "urdf" / f"{name}.urdf")
     assert (len(found.links), len(found.joints), found.root) == (links, joints, root)
     assert found.warnings == ()
 
 
 def test_contents_of_the_model():
-    sluice = load_urdf(GOLDEN / "urdf" / "sluice.urdf")
+    sluice = Robot.load(GOLDEN / "urdf" / "sluice.urdf")
     base = sluice.links["sluice_base"]
     assert base.visuals[0].geometry == Box((0.1, 0.2, 0.1))
     assert base.visuals[0].origin == Pose((0.0, 0.0, 0.05))
@@ -91,10 +91,10 @@ def test_contents_of_the_model():
     assert (bend.safety.soft_lower_limit, bend.safety.k_velocity) == (0.4, 5.0)
     assert sluice.joints["lift"].axis == (0.0, 0.0, 2.0)  # as the file gives it
     assert sluice.joints["turn"].dynamics.damping == 0.7
-    weaver = load_urdf(GOLDEN / "urdf" / "weaver.urdf")
+    weaver = Robot.load(GOLDEN / "urdf" / "weaver.urdf")
     assert weaver.joints["a_follow"].mimic == Mimic("m_source", -0.5, 0.25)
     assert weaver.joints["plain_mimic"].mimic == Mimic("m_source", 1.0, 0.0)
-    raft = load_urdf(GOLDEN / "urdf" / "raft.urdf")
+    raft = Robot.load(GOLDEN / "urdf" / "raft.urdf")
     assert raft.links["raft_root"].inertial.izz == 0.03
     assert [joint.name for joint in raft.child_joints["raft_root"]] == ["drift", "slide"]
     assert raft.parent_joints["deck"].name == "drift"
@@ -139,15 +139,28 @@ LINK_FAULTS = [
 ]  # fmt: skip
 
 
-def test_a_link_without_a_name_is_refused():
-    error = refusal(robot("<link/>"))
-    assert error.reports == ["No name given for the link.", "link xml is not initialized correctly"]
-    assert error.line == 2
+def test_one_link_without_a_name_is_a_warning():
+    """urdfdom gives it the empty name: no joint can refer to it, and a second one is refused."""
+    found = Robot.from_xml(robot("<link><visual/></link>"))
+    (warning,) = found.warnings
+    assert (warning.errors, warning.line) == (("No name given for the link.",), 2)
+    assert (list(found.links), found.root, found.links[""].visuals) == ([""], "", ())
+    assert str(refusal(robot("<link/>", "<link/>"))) == "link '' is not unique."
+    child = '<joint name="j" type="fixed"><parent link="a"/><child link=""/></joint>'
+    assert "missing a parent and/or child" in str(refusal(robot('<link name="a"/><link/>', child)))
+
+
+def test_one_material_without_a_name_is_a_warning():
+    material = '<material><color rgba="1 0 0 1"/></material>'
+    found = Robot.from_xml(robot(material, '<link name="a"/>'))
+    (warning,) = found.warnings
+    assert (warning.errors, warning.line) == (("Material must contain a name attribute",), 2)
+    assert str(refusal(robot(material * 2, '<link name="a"/>'))) == "material '' is not unique."
 
 
 @pytest.mark.parametrize(("link", "texts"), LINK_FAULTS)
 def test_a_fault_in_a_link_leaves_the_rest_of_it_out(link, texts):
-    found = parse_urdf(robot(link))
+    found = Robot.from_xml(robot(link))
     (warning,) = found.warnings
     assert (warning.text, list(warning.errors), warning.line) == (texts[0], texts, 2)
     first, place, *others = log_lines(warning)
@@ -159,7 +172,7 @@ def test_a_fault_in_a_link_leaves_the_rest_of_it_out(link, texts):
 def test_items_before_a_faulty_mesh_are_kept():
     ball, mesh = "<geometry><sphere radius='1'/></geometry>", "<geometry><mesh/></geometry>"
     parts = f"<visual>{ball}</visual><visual>{mesh}</visual><collision>{ball}</collision>"
-    found = parse_urdf(robot(f'<link name="a">{parts}</link>'))
+    found = Robot.from_xml(robot(f'<link name="a">{parts}</link>'))
     assert len(found.links["a"].visuals) == 1
     assert found.links["a"].collisions == ()
 
@@ -175,14 +188,14 @@ def test_robots_that_urdfdom_refuses():
 
 def test_an_unknown_material_is_a_warning():
     visual = '<visual><geometry><sphere radius="1"/></geometry><material name="m"/></visual>'
-    found = parse_urdf(robot("", f'<link name="l">\n\n{visual}</link>'))
+    found = Robot.from_xml(robot("", f'<link name="l">\n\n{visual}</link>'))
     assert [warning.text for warning in found.warnings] == ["link 'l' material 'm' undefined."]
     assert found.warnings[0].place == 'line 5 in <visual> in <link name="l">'
 
 
 def test_elements_of_xacro_are_one_warning():
     left = '<xacro:macro name="leg"/>\n<xacro:leg/>'
-    found = parse_urdf(robot("", f'<link name="l"/>\n{left}'))
+    found = Robot.from_xml(robot("", f'<link name="l"/>\n{left}'))
     assert [warning.text for warning in found.warnings] == [XACRO_LEFT]
     assert "xacro FILE" in XACRO_LEFT
     assert found.warnings[0].place == 'line 4 in <xacro:macro name="leg">'
@@ -192,26 +205,26 @@ def test_limits_the_wrong_way_round_are_a_warning():
     ends = '<parent link="a"/><child link="b"/><limit lower="2" upper="1" effort="1" velocity="1"/>'
     links = '<link name="a"/><link name="b"/>'
     for kind, number in (("revolute", 1), ("prismatic", 1), ("continuous", 0)):
-        found = parse_urdf(robot("", f'{links}<joint name="j" type="{kind}">{ends}</joint>'))
+        found = Robot.from_xml(robot("", f'{links}<joint name="j" type="{kind}">{ends}</joint>'))
         assert len(found.warnings) == number
         for warning in found.warnings:
             assert "its lower limit, 2, is above its upper limit, 1" in warning.text
 
 
 def test_non_string_description():
-    with pytest.raises(TypeError, match="str or bytes, got NoneType; for a file, use load_urdf"):
-        parse_urdf(None)
+    with pytest.raises(TypeError, match=r"str or bytes, got NoneType; for a file, use Robot\.load"):
+        Robot.from_xml(None)
 
 
 def test_a_material_of_the_robot_colours_its_visuals():
     visual = '<visual><geometry><sphere radius="1"/></geometry><material name="m"/></visual>'
     material = '<material name="m"><color rgba="1 0 0 1"/></material>'
-    found = parse_urdf(robot(f'<link name="l">{visual}</link>', material))
+    found = Robot.from_xml(robot(f'<link name="l">{visual}</link>', material))
     assert found.links["l"].visuals[0].material.rgba == (1.0, 0.0, 0.0, 1.0)
 
 
 def test_unknown_elements_are_ignored():
-    found = parse_urdf(
+    found = Robot.from_xml(
         robot("<gazebo/>", "<ros2_control><joint/></ros2_control>", '<link name="l"/>')
     )
     assert list(found.links) == ["l"]
@@ -223,7 +236,7 @@ def test_a_name_with_braces_and_percent_signs():
 
 
 def test_text_before_the_declaration_counts_as_lines():
-    error = refusal('\n\n<?xml version="1.0"?>\n<robot name="r">\n<link/></robot>')
+    error = refusal('\n\n<?xml version="1.0"?>\n<robot name="r">\n<link name="a"/><joint/></robot>')
     assert error.line == 5
 
 
@@ -285,7 +298,7 @@ def test_broken_xml_is_one_error_with_a_line(text, what, line):
 
 def test_nesting_up_to_the_limit_is_read():
     deep = "<a>" * (MAX_DEPTH - 1) + "</a>" * (MAX_DEPTH - 1)
-    assert parse_urdf(robot(deep, '<link name="l"/>')).root == "l"
+    assert Robot.from_xml(robot(deep, '<link name="l"/>')).root == "l"
 
 
 @pytest.mark.parametrize("number", ["nan", "inf", "1e999", "-1e400"])
@@ -300,7 +313,7 @@ def test_numbers_that_are_none_or_too_large(number):
 @given(st.text(alphabet='<>/="& abcj\n', max_size=60))
 def test_any_text_is_a_robot_or_a_refusal(text):
     with contextlib.suppress(UrdfError):
-        assert parse_urdf(text).links
+        assert Robot.from_xml(text).links
 
 
 @given(st.data())
@@ -310,7 +323,7 @@ def test_a_damaged_robot_is_a_robot_or_a_refusal(data):
     end = data.draw(st.integers(begin, min(len(text), begin + 40)))
     piece = data.draw(st.text(alphabet='<>/" 01.e-nx', max_size=8))
     with contextlib.suppress(UrdfError):
-        assert parse_urdf(text[:begin] + piece + text[end:]).root
+        assert Robot.from_xml(text[:begin] + piece + text[end:]).root
 
 
 def test_a_loop_of_ten_thousand_links_is_one_error():
@@ -340,6 +353,6 @@ def test_log_lines_are_limited_and_escaped():
 def test_an_error_survives_pickling():
     import pickle
 
-    error = refusal(robot("<link/>"))
+    error = refusal(robot('<link name="a"/><joint/>'))
     copy = pickle.loads(pickle.dumps(error))
     assert (str(copy), copy.reports, copy.line) == (str(error), error.reports, error.line)

@@ -9,7 +9,7 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from turtlewire.web import Content, Server
+from turtlewire.web import Server, WebContent
 from turtlewire.web.encoding import takes_gzip
 
 SCRIPT = "export const answer = 42;\n" * 100
@@ -146,7 +146,7 @@ def test_cached_files_are_not_sent_again(server):
 def test_computed_answers_are_never_compressed(root, start):
     """It may stand beside something secret, and its length would tell."""
     body = b"x" * 5000
-    server = start(root, answer=lambda path: Content(body, "text/plain"))
+    server = start(root, answer=lambda path: WebContent(body, "text/plain"))
     response = get(server, "/computed", "gzip")
     assert "Content-Encoding" not in response.headers
     assert response.body == body

@@ -15,7 +15,7 @@ import pytest
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
-from turtlewire.web import Content, Server, lan
+from turtlewire.web import Server, WebContent, lan
 from turtlewire.web.origin import refusal
 
 
@@ -248,11 +248,11 @@ def test_the_addresses_are_those_of_this_computer():
 def test_computed_answers(serve):
     asked = []
 
-    def answer(path: str) -> Content | None:
+    def answer(path: str) -> WebContent | None:
         asked.append(path)
         if path == "/defect":
             raise RuntimeError("a defect")
-        return Content(b"solid", "model/stl") if path == "/mesh/a b.stl" else None
+        return WebContent(b"solid", "model/stl") if path == "/mesh/a b.stl" else None
 
     page = serve(answer=answer, lan=True)
     mesh = get(page.port, f"/{page.token}/mesh/a%20b.stl?v=2")
@@ -265,7 +265,7 @@ def test_computed_answers(serve):
 
 
 def test_a_defect_of_a_computed_answer_is_reported(serve, caplog):
-    def answer(path: str) -> Content | None:
+    def answer(path: str) -> WebContent | None:
         raise RuntimeError("a defect of the page")
 
     page = serve(answer=answer)

@@ -118,10 +118,20 @@ def test_files_are_served_with_their_type_and_strict_headers(server):
     )
 
 
+def test_every_page_has_the_kit(server):
+    style = get(server, "/kit/kit.css")
+    assert (style.status, style.headers["Content-Type"]) == (200, "text/css; charset=utf-8")
+    assert "--paper" in style.text
+    assert get(server, "/kit/connection.js").status == 200
+    assert get(server, "/kit/").status == 404
+
+
 @pytest.mark.parametrize(
     "path",
     [
         "/secret.txt",
+        "/kit/../server.py",
+        "/kit/nothing.js",
         "/../pyproject.toml",
         "/js/../../x.html",
         "/js",
@@ -148,7 +158,12 @@ def test_foreign_names_and_pages_are_refused(server):
 
 
 def test_only_get(server):
-    assert get(server, "/", method="POST").status in (400, 405)
+    try:
+        status = get(server, "/", method="POST").status
+    except http.client.RemoteDisconnected:
+        status = None  # websockets before 17, the last for Python 3.10, closes the connection
+    assert status in (None, 400, 405)
+    assert get(server, "/").status == 200
 
 
 def test_non_http_requests_leave_the_server_alive(server):

@@ -90,6 +90,53 @@ def take_all(node: Node, subscription: Subscription, count: int) -> list[bytes]:
     return taken
 
 
+def test_a_call_when_something_can_be_taken(node: Node, other: Node):
+    subscription = node.create_subscription("/chatter", STRING, QoS())
+    publisher = other.create_publisher("/chatter", STRING, QoS())
+    connect(other, publisher, node, subscription)
+    called = threading.Semaphore(0)
+    node.context.call_when_ready(subscription, called.release)
+    assert not called.acquire(blocking=False)
+    publisher.publish(cdr("1"))
+    publisher.publish(cdr("2"))
+    assert called.acquire(timeout=60)
+    assert take_all(node, subscription, 2) == [cdr("1"), cdr("2")]
+    publisher.publish(cdr("3"))
+    assert take_all(node, subscription, 1) == [cdr("3")]
+    assert not called.acquire(blocking=False)  # once, however much came
+
+    wait_set = node.context.create_wait_set()
+    wait_set.attach(subscription)
+    publisher.publish(cdr("4"))
+    assert wait_set.wait(LONG) == [subscription]
+    node.context.call_when_ready(subscription, called.release)
+    assert called.acquire(timeout=60)  # also for what was there before
+    assert take_all(node, subscription, 1) == [cdr("4")]
+
+    taken_back = threading.Semaphore(0)
+    node.context.call_when_ready(subscription, taken_back.release)()
+    publisher.publish(cdr("5"))
+    assert take_all(node, subscription, 1) == [cdr("5")]
+    assert not taken_back.acquire(blocking=False)
+    subscription.close()
+
+
+def test_a_call_when_a_request_and_a_response_can_be_taken(node: Node, other: Node):
+    service = node.create_service("/switch", SWITCH, QoS())
+    client = other.create_client("/switch", SWITCH, QoS())
+    wait_until(other.context, client.is_ready)
+    called = threading.Semaphore(0)
+    node.context.call_when_ready(service, called.release)
+    number = client.send_request(cdr("on"))
+    assert called.acquire(timeout=60)
+    [(request_id, data)] = service.take()
+    assert data == cdr("on")
+    other.context.call_when_ready(client, called.release)
+    service.send_response(request_id, cdr("done"))
+    assert called.acquire(timeout=60)
+    assert client.take() == [(number, cdr("done"))]
+
+
 def test_a_message_arrives_with_its_origin(node: Node, other: Node):
     subscription = node.create_subscription("/chatter", STRING, QoS())
     publisher = other.create_publisher("/chatter", STRING, QoS())
@@ -481,7 +528,12 @@ def test_close_ends_everything(node: Node, other: Node):
     publisher = node.create_publisher("/chatter", STRING, QoS())
     subscription = node.create_subscription("/chatter", STRING, QoS(), lambda *_: None)
     wait_set = node.context.create_wait_set()
-    waiting = threading.Thread(target=wait_set.wait)
+
+    def wait() -> None:
+        for _ in range(3):  # what waits again, waits no longer
+            wait_set.wait()
+
+    waiting = threading.Thread(target=wait, daemon=True)
     waiting.start()
     node.context.close()
     waiting.join(60)

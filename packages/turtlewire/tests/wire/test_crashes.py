@@ -9,7 +9,7 @@ import sys
 from importlib.util import find_spec
 
 import pytest
-from tests.needs import COMPILED_CORE
+from tests.needs import COMPILED_CORE, needs_cyclone_dds
 
 from turtlewire.tf.buffer import CORE
 
@@ -30,6 +30,7 @@ def run(code: str, **environment: str) -> subprocess.CompletedProcess[str]:
     )
 
 
+@needs_cyclone_dds
 @pytest.mark.parametrize("more", [0, 1, 2, 3, 4, 6, 8, 12, 16, 20])
 def test_few_files_left_is_one_clear_error(more: int):
     """Cyclone 11 crashes in ``dds_create_domain`` when it cannot open its sockets."""
@@ -52,6 +53,7 @@ def test_few_files_left_is_one_clear_error(more: int):
     assert done.stderr == ""
 
 
+@needs_cyclone_dds
 def test_the_files_that_were_tried_are_free_again():
     code = (
         "import os\n"
@@ -80,6 +82,7 @@ def test_an_abort_for_another_reason_ends_as_before():
     assert done.stderr.count("Fatal Python error: Aborted") == 1
 
 
+@needs_cyclone_dds
 def test_threads_that_still_call_survive_the_end_of_the_last_context():
     """Cyclone frees its tables with its last domain, whoever looks into them at that moment."""
     code = (

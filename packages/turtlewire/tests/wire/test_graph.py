@@ -58,6 +58,20 @@ def test_packing_round_trip(participant: bytes, expected: list[NodeEndpoints]):
     )
 
 
+@given(gid, nodes, st.sampled_from([b"", b"\x00", b"\x00\x00\x00"]))
+def test_samples_of_humble_have_longer_gids(participant, expected, padding):
+    """As in the definition of its `rmw_dds_common/msg/Gid`: `char[24] data`."""
+    longer = [
+        node._replace(
+            readers=tuple(each + bytes(8) for each in node.readers),
+            writers=tuple(each + bytes(8) for each in node.writers),
+        )
+        for node in expected
+    ]
+    cdr = pack_discovery_info(participant + bytes(8), longer) + padding
+    assert unpack_discovery_info(cdr) == (participant, expected)
+
+
 @given(st.sampled_from(SAMPLES), st.data())
 def test_broken_samples_are_refused_or_read(sample: dict, data: st.DataObject):
     cdr = bytearray(bytes.fromhex(sample["bytes"]))

@@ -106,6 +106,12 @@ def test_allowed_values():
     assert names.validate_node_name("_turtle1") is None
 
 
+def test_the_longest_names_are_allowed():
+    assert names.validate_full_topic_name("/" + "a" * 246) is None
+    assert names.validate_namespace("/" + "a" * 244) is None
+    assert names.validate_node_name("a" * 255) is None
+
+
 @pytest.mark.parametrize(
     ("name", "namespace", "expanded"),
     [

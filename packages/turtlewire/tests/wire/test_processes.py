@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from tests.needs import needs_cyclone_dds
 
 from turtlewire.wire import open_context
 from turtlewire.wire.base import Context, ServiceTypes, TypeId
@@ -227,13 +228,14 @@ def forked(before: str) -> str:
     return done.stdout
 
 
-def test_a_forked_child_opens_a_context_only_where_the_parent_has_none():
-    """Cyclone would wait for threads that the child does not have, for ever."""
-    assert (
-        forked("context = open_context()")
-        == "open a context: this process was forked from one with an open context\n"
-    )
-    assert forked("open_context().close()") == "['child']\n"
+def test_a_forked_child_opens_a_context_only_where_the_parent_has_none(context: Context):
+    """The middleware would wait forever for threads that the child does not have."""
+    is_zenoh = os.environ["RMW_IMPLEMENTATION"] == "rmw_zenoh_cpp"
+    refused = "open a context: this process was forked from one "
+    opened = refused + ("that had opened a context\n" if is_zenoh else "with an open context\n")
+    assert forked("context = open_context()") == opened
+    # The threads of Zenoh outlive its sessions.
+    assert forked("open_context().close()") == (opened if is_zenoh else "['child']\n")
     assert forked("") == "['child']\n"
 
 
@@ -248,6 +250,7 @@ def test_a_process_with_discovery_off_is_not_seen(context: Context):
         )
 
 
+@needs_cyclone_dds
 def test_domains_do_not_see_each_other(context: Context, other_domain: int):
     other = open_context(other_domain, middleware="rmw_cyclonedds_cpp")
     other.create_node("elsewhere").create_publisher("/elsewhere", STRING, QoS())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from turtlewire.wire import report
+from turtlewire.wire.conflicts import NodeNames
 
 
 def test_each_is_said_once(monkeypatch, capfd):
@@ -23,3 +24,23 @@ def test_names_that_come_and_go_for_ever_do_not_fill_the_memory(monkeypatch, cap
         report.warn_once(f"topic {number}", "a mistake")
     capfd.readouterr()
     assert len(said) <= 1000
+
+
+def test_only_a_node_that_is_there_has_a_twin(monkeypatch, capfd):
+    monkeypatch.setattr(report, "_said", set())
+    nodes = NodeNames(7)
+
+    def warnings():
+        return capfd.readouterr().err.count("another process runs a node named /twin in domain 7")
+
+    nodes.others(b"peer", ["/twin", "/other"], own=["/mine"])
+    nodes.gone(b"peer")
+    nodes.gone(b"never seen")
+    nodes.own("/twin")
+    nodes.others(b"peer", ["/twin"], own=[])
+    nodes.others(b"peer", ["/renamed"], own=["/twin"])
+    nodes.own("/twin")
+    assert warnings() == 0
+    nodes.others(b"peer", ["/twin"], own=[])
+    nodes.own("/twin")
+    assert warnings() == 1

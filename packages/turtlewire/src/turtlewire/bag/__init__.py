@@ -12,26 +12,54 @@
 ==================  ========================================================================
 module              what it holds
 ==================  ========================================================================
-`reader`            `Bag`, `open_bag`: messages in order of time over all files; `reindex`
-`buffers`           `load_transforms`: the TF of a bag in a new buffer
-`transforms`        the TF of a bag read into a buffer
+`reader`            `Bag`, `open_bag`: messages in order of time over all files
+`message_choice`    arguments that choose messages: topics, types and times
+`reindexing`        `reindex`: repairs the folder of a recorder that was cut off
+`transforms`        the TF of a bag read into a buffer, for `Buffer.from_bag`
 `transform_report`  `TransformReport`: its links, and what is wrong with them
-`trajectories`      `load_trajectory`: odometry and poses of a topic
+`trajectories`      odometry and poses of a topic, for `Trajectory.from_bag`
 `progress`          a line that shows how far something is
+`columns`           `Columns`: fields of all messages of a topic as NumPy arrays
+`column_fields`     which fields can be columns, and where they lie
+`sensor_arrays`     images and point clouds as arrays
+`overview`          `describe_bag`: what a bag holds, topic by topic
+`extents`           counts, sizes and times of the messages of a file
+`editing`           `copy_bag`, `merge_bags`, `split_bag`: new bags from others
+`selection`         the topics that go into a new bag, and their new names
+`times`             times, lengths of time and sizes as text
+`copying`           the messages of bags, or their chunks as bytes, in new bags
+`extra_records`     attachments and metadata records of MCAP files
+`output_channels`   the channels of a new bag
+`pieces`            the new bags, one after another
+`latched`           latched messages from before a time
+`frame_renaming`    frames in messages under new names
+`frame_fields`      the fields of messages that name frames
+`new_folder`        a folder that appears when it is complete
 `message`           `BagMessage`
+`channels`          a topic with one definition of its type
+`written_types`     types as a bag defines them, and their messages read as ours
 `encodings`         topics whose messages are not in CDR
-`files`             the files of a bag: names, order, and what they hold together
+`files`             the files of a bag: kinds, names, order, and what they hold together
 `playback`          `PlayClock`, `ReadAhead`: the time of a playback and what is due
 `writer`            `BagWriter`
 `writer_checks`     what it refuses, with a reason
 `recording`         `Recording`: messages of several threads, written on a thread of its own
-`storage`           one file of a bag, MCAP or sqlite3, behind one interface
+`storage`           the interface of a file of a bag, whichever storage it uses
+`mcap_storage`      an MCAP file behind it
+`sqlite_storage`    a sqlite3 file behind it
 `mcap_reader`       the MCAP format: summary, chunks, files without a summary
-`chunk_walk`        its chunks, decompressed one ahead of the reader
+`chunk_walk`        its chunks, prepared one ahead of their reader
+`record_messages`   the messages among the records of a chunk
+`time_order`        messages of chunks in order of time
 `mcap_records`      the records of MCAP as bytes and objects
 `mcap_writer`       writes MCAP files
 `sqlite_reader`     rosbag2's sqlite3 schema, versions 1 to 4
-`ros1_reader`       bags of ROS 1, through `rosbags`
+`ros1_storage`      a bag of ROS 1 behind it
+`ros1_file`         the format of ROS 1's bags: connections, chunks, bags without an end
+`ros1_messages`     their messages, converted to CDR
+`ros1_steps`        the steps of that conversion, for the compiled core
+`ros1_definitions`  their definitions, in the words of ROS 2
+`repair`            a damaged file made whole
 `sqlite_writer`     writes sqlite3 files
 `metadata`          ``metadata.yaml``, versions 1 to 9
 `qos_yaml`          the QoS of recorded topics as YAML
@@ -43,49 +71,49 @@ module              what it holds
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import TYPE_CHECKING
 
+from turtlewire.bag.editing import BagOptions, WrittenBags, copy_bag, merge_bags, split_bag
 from turtlewire.bag.message import BagMessage
-from turtlewire.bag.metadata import BagMetadata, FileInfo, TopicInfo
-from turtlewire.bag.reader import Bag, open_bag, reindex
+from turtlewire.bag.metadata import TopicInfo
+from turtlewire.bag.overview import BagOverview, TopicOverview, describe_bag
+from turtlewire.bag.reader import Bag, open_bag
+from turtlewire.bag.reindexing import reindex
 from turtlewire.bag.writer import BagWriter
 
 if TYPE_CHECKING:
-    from turtlewire.bag.buffers import load_transforms
-    from turtlewire.bag.trajectories import load_trajectory, pose_topics
-    from turtlewire.bag.transform_report import Jump, TransformReport
+    from turtlewire.bag.columns import Columns
+    from turtlewire.bag.transform_report import TransformReport
 
 __all__ = [
     "Bag",
     "BagMessage",
-    "BagMetadata",
+    "BagOptions",
+    "BagOverview",
     "BagWriter",
-    "FileInfo",
-    "Jump",
+    "Columns",
     "TopicInfo",
+    "TopicOverview",
     "TransformReport",
-    "load_trajectory",
-    "load_transforms",
+    "WrittenBags",
+    "copy_bag",
+    "describe_bag",
+    "merge_bags",
     "open_bag",
-    "pose_topics",
     "reindex",
+    "split_bag",
 ]
 
 
-#: What needs NumPy, which `ros2 bag info` does not wait for, and the module that has it.
-_LOADED_WHEN_USED = {
-    "Jump": "transform_report",
-    "TransformReport": "transform_report",
-    "load_trajectory": "trajectories",
-    "load_transforms": "buffers",
-    "pose_topics": "trajectories",
-}
+if not TYPE_CHECKING:  # a type checker would accept any name
 
+    def __getattr__(name: str) -> object:
+        # They need NumPy, which `ros2 bag info` does not wait for.
+        from importlib import import_module
 
-def __getattr__(name: str) -> object:
-    if name not in _LOADED_WHEN_USED:
-        raise AttributeError(f"module 'turtlewire.bag' has no attribute {name!r}")
-    module = import_module(f"turtlewire.bag.{_LOADED_WHEN_USED[name]}")
-    value = globals()[name] = getattr(module, name)
-    return value
+        modules = {"Columns": "columns", "TransformReport": "transform_report"}
+        if name not in modules:
+            raise AttributeError(f"module 'turtlewire.bag' has no attribute {name!r}")
+        found = getattr(import_module(f"turtlewire.bag.{modules[name]}"), name)
+        globals()[name] = found
+        return found

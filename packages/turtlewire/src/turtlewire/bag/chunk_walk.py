@@ -1,20 +1,23 @@
-"""Decompresses the chunks of an MCAP file, one ahead of the one that is read."""
+"""Prepares the chunks of MCAP files on another thread, one ahead of the one that is used."""
 
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
 from itertools import islice
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
     from turtlewire.bag.mcap_reader import McapFile
     from turtlewire.bag.mcap_records import ChunkIndex
 
-__all__ = ["decompressed"]
+__all__ = ["decompressed", "one_ahead"]
+
+_Item = TypeVar("_Item")
+_Result = TypeVar("_Result")
 
 
 def decompressed(
@@ -28,10 +31,17 @@ def decompressed(
         except BagError as error:
             return error
 
+    return one_ahead(chunks, load)
+
+
+def one_ahead(
+    items: Iterable[_Item], prepare: Callable[[_Item], _Result]
+) -> Iterator[tuple[_Item, _Result]]:
+    """Yield each item with the result of ``prepare``, which another thread calls one item ahead."""
     with ThreadPoolExecutor(1, "bag") as thread:
-        following = iter(chunks)
-        ahead = [(chunk, thread.submit(load, chunk)) for chunk in islice(following, 1)]
+        following = iter(items)
+        ahead = [(item, thread.submit(prepare, item)) for item in islice(following, 1)]
         while ahead:
-            chunk, current = ahead.pop()
-            ahead += [(chunk, thread.submit(load, chunk)) for chunk in islice(following, 1)]
-            yield chunk, current.result()
+            item, current = ahead.pop()
+            ahead += [(item, thread.submit(prepare, item)) for item in islice(following, 1)]
+            yield item, current.result()

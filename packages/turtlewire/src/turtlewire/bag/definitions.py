@@ -9,23 +9,64 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from turtlewire.bag.metadata import full_type_name
 from turtlewire.errors import InterfaceError
-from turtlewire.msg.definition import MessageDefinition, ServiceDefinition
-from turtlewire.msg.registry import define, interface_path, load_interface
-from turtlewire.msg.types import AbstractNestedType, NamespacedType
+from turtlewire.msg.definition import MessageDefinition, ServiceDefinition, nested_types
+from turtlewire.msg.parser import parse_message
+from turtlewire.msg.registry import define, interface_path, load_interface, load_message
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from turtlewire.msg.registry import Definition
 
-__all__ = ["ENCODING", "definition_text", "has_interface", "learn_types"]
+__all__ = [
+    "ENCODING",
+    "definition_text",
+    "has_interface",
+    "learn_types",
+    "parse_definition",
+]
 
 ENCODING = "ros2msg"
 
 _SEPARATOR = "=" * 80
 _SPLIT = re.compile(rf"^{_SEPARATOR}\r?\n", re.MULTILINE)
+#: Texts of the types that only bags define.
+_learned: dict[str, str] = {}
+
 _HEADING = re.compile(r"^(?:MSG|SRV): *(\S+)[^\n]*\n?")
+
+
+def parse_definition(type_name: str, text: str) -> dict[str, MessageDefinition]:
+    """Return the messages of a bag's definition by full name, the type's own among them.
+
+    Raises:
+        InterfaceError: The definition cannot be parsed, a type in it is not known, or a message
+            contains itself.
+    """
+    found = {
+        name: parse_message(name, part, strict=False)
+        for name, part in _parts(type_name, text)
+        if "/msg/" in name
+    }
+    if type_name in found:
+        _check(type_name, found, set(), ())
+    return found
+
+
+def _check(
+    name: str, found: dict[str, MessageDefinition], checked: set[str], outer: tuple[str, ...]
+) -> None:
+    """Refuse a message with an unknown type, or one that contains itself."""
+    if name in outer:
+        raise InterfaceError(f"{name} contains itself")
+    if name in checked:
+        return
+    definition = found.get(name) or load_message(name)
+    for inner in nested_types(definition):
+        _check(inner, found, checked, (*outer, name))
+    checked.add(name)
 
 
 def learn_types(type_name: str, text: str) -> None:
@@ -38,16 +79,32 @@ def learn_types(type_name: str, text: str) -> None:
     Raises:
         InterfaceError: The definition cannot be parsed.
     """
+    if "/msg/" in type_name:
+        parse_definition(type_name, text)
+    for name, part in reversed(_parts(type_name, text)):
+        try:
+            load_interface(name)
+        except InterfaceError:  # noqa: PERF203 - few types, once
+            define(_owner(name), part, strict=False)
+            _learned[_owner(name)] = part
+
+
+def _parts(type_name: str, text: str) -> list[tuple[str, str]]:
+    """Return names and texts of the type and of those that it uses."""
     first, *others = _SPLIT.split(text)
     heading = _HEADING.match(first)
     if heading:  # rosbag2 puts `SRV: name` before a service
         first = first[heading.end() :]
+    parts = [(type_name, first)]
     for part in others:
         heading = _HEADING.match(part)
         if heading is None:
             raise InterfaceError(f"the definition of {type_name} has no line 'MSG: name'")
-        _define(_full_name(heading[1]), part[heading.end() :])
-    _define(type_name, first)
+        parts.append((full_type_name(heading[1]), part[heading.end() :]))
+    for name, _ in parts:
+        if name.count("/") != 2:
+            raise InterfaceError(f"'{name}' is not the name of an interface")
+    return parts
 
 
 def has_interface(type_name: str) -> bool:
@@ -57,19 +114,6 @@ def has_interface(type_name: str) -> bool:
     except (InterfaceError, ValueError):  # damaged bags contain invalid type names
         return False
     return True
-
-
-def _define(full_name: str, text: str) -> None:
-    try:
-        load_interface(full_name)
-    except InterfaceError:
-        define(_owner(full_name), text)
-
-
-def _full_name(name: str) -> str:
-    """``geometry_msgs/Point`` and ``geometry_msgs/msg/Point`` name the same type."""
-    package, _, rest = name.partition("/")
-    return name if "/" in rest else f"{package}/msg/{rest}"
 
 
 def _owner(full_name: str) -> str:
@@ -94,6 +138,8 @@ def definition_text(type_name: str) -> str:
 
 
 def _source(full_name: str) -> str:
+    if full_name in _learned:
+        return _learned[full_name]
     with open(interface_path(full_name), encoding="utf-8") as file:
         return file.read()
 
@@ -106,13 +152,8 @@ def _used(definition: Definition, seen: set[str]) -> Iterator[str]:
         messages = [definition]
     else:
         messages = [definition.goal, definition.result, definition.feedback]
-    for field in (field for message in messages for field in message.fields):
-        type_ = field.type
-        if isinstance(type_, AbstractNestedType):
-            type_ = type_.value_type
-        if isinstance(type_, NamespacedType):
-            name = "/".join((*type_.namespaces, type_.name))
-            if name not in seen:
-                seen.add(name)
-                yield name
-                yield from _used(load_interface(name), seen)
+    for name in (name for message in messages for name in nested_types(message)):
+        if name not in seen:
+            seen.add(name)
+            yield name
+            yield from _used(load_interface(name), seen)

@@ -1,29 +1,67 @@
-"""The files that a bag consists of: their names, their order, and what they hold together."""
+"""The files that a bag consists of: their kinds, names and order, and what they hold together."""
 
 from __future__ import annotations
 
 import os
+import re
+import time
 from typing import TYPE_CHECKING
 
+from turtlewire.bag.mcap_records import MAGIC
+from turtlewire.bag.mcap_storage import McapStorage
 from turtlewire.bag.metadata import BagMetadata, FileInfo, TopicInfo
+from turtlewire.bag.ros1_file import MAGIC as ROS1_MAGIC
+from turtlewire.bag.ros1_storage import Ros1Storage
+from turtlewire.bag.sqlite_storage import SqliteStorage
+from turtlewire.distro import LYRICAL
+from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["joined", "overlapping", "storage_files"]
+    from turtlewire.bag.storage import StorageFile
+
+__all__ = ["file_name", "joined", "open_storage", "overlapping", "storage_files"]
+
+_TIME = re.compile(r"_\d{4}(?:_\d\d){2}-\d\d(?:_\d\d){2}$")
+_LYRICAL_NAME = re.compile(r"(\d+)_.*_\d{4}(?:_\d\d){2}-\d\d(?:_\d\d){2}")
+_SQLITE_MAGIC = b"SQLite format 3\0"
+_ZIP_MAGIC = b"PK\x03\x04"
 
 
 def storage_files(folder: str) -> list[str]:
     """Return the storage files of a folder without metadata, in the order of their numbers."""
     endings = (".mcap", ".db3", ".mcap.zstd", ".db3.zstd")
-    names = [name for name in os.listdir(folder) if name.endswith(endings)]
+    names = [entry.name for entry in os.scandir(folder) if entry.is_file()]
+    names = [name for name in names if name.endswith(endings)]
     return sorted(names, key=lambda name: (_number(name), name))
 
 
 def _number(name: str) -> int:
-    """Return the number at the end of ``my_bag_12.mcap``; -1 without one."""
-    number = name.split(".", maxsplit=1)[0].rpartition("_")[2]
+    """Return the number in ``my_bag_12.mcap`` or, as of Lyrical, ``12_my_bag_TIME.mcap``.
+
+    -1 without one.
+    """
+    stem = name.split(".", maxsplit=1)[0]
+    if match := _LYRICAL_NAME.fullmatch(stem):
+        return int(match[1])
+    number = stem.rpartition("_")[2]
     return int(number) if number.isdecimal() else -1
+
+
+def file_name(folder: str, number: int, ros_distro: str) -> str:
+    """Return the name of a new storage file of a bag, without its ending.
+
+    Args:
+        folder: The folder of the bag.
+        number: Its place among the bag's files.
+        ros_distro: The distribution whose names are used.
+    """
+    base = os.path.basename(folder)
+    if ros_distro != str(LYRICAL):
+        return f"{base}_{number}"
+    # A folder that `ros2 bag record` names ends in a time, which the file has by itself.
+    return f"{number}_{_TIME.sub('', base)}_{time.strftime('%Y_%m_%d-%H_%M_%S')}"
 
 
 def overlapping(metadata: BagMetadata) -> Iterator[list[str]]:
@@ -71,4 +109,25 @@ def joined(paths: list[str], parts: list[BagMetadata]) -> BagMetadata:
         compression_mode="FILE" if whole_files else parts[0].compression_mode,
         custom_data=parts[0].custom_data,
         ros_distro=parts[0].ros_distro,
+    )
+
+
+def open_storage(path: str) -> StorageFile:
+    """Open a ``.mcap`` or ``.db3`` file; its first bytes decide which of both it is.
+
+    Raises:
+        FileNotFoundError: The file does not exist.
+        BagError: The file has none of these formats.
+    """
+    with open(path, "rb") as file:
+        start = file.read(len(_SQLITE_MAGIC))
+    if start.startswith(MAGIC):
+        return McapStorage(path)
+    if start == _SQLITE_MAGIC:
+        return SqliteStorage(path)
+    if start.startswith(ROS1_MAGIC):
+        return Ros1Storage(path)
+    is_saved = start.startswith(_ZIP_MAGIC)
+    raise BagError(f"{path} is neither an MCAP nor a sqlite3 file").with_hint(
+        "If Buffer.save wrote it, read it with Buffer.load." if is_saved else ""
     )

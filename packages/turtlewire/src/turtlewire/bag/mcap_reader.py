@@ -19,24 +19,27 @@ from turtlewire.bag.mcap_records import (
     OPCODE_AND_LENGTH,
     Channel,
     ChunkIndex,
+    McapStatistics,
     Op,
+    RawChunk,
     RecordReader,
     Schema,
-    Statistics,
 )
+from turtlewire.bag.record_messages import mcap_messages
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
     from collections.abc import Container, Iterator
 
-__all__ = ["McapFile"]
+    from turtlewire.bag.record_messages import RawMessage
+
+__all__ = ["McapFile", "map_file"]
 
 _MESSAGE = struct.Struct("<HIQQ")  # channel, sequence, log time, publish time
 _PREFIX = OPCODE_AND_LENGTH.size
-_MESSAGE_OPCODE, _MESSAGE_FIELDS = Op.MESSAGE, _MESSAGE.size  # names of a module are found faster
-_DEFINITIONS = (Op.SCHEMA, Op.CHANNEL)
 _FOOTER_SIZE = OPCODE_AND_LENGTH.size + 20
 _NO_TIME = (1 << 64) - 1
+_CHUNK_FIELDS = 8 + 8 + 8 + 4  # times, size and checksum, before the compression
 _CHUNK = bytes([Op.CHUNK])
 
 
@@ -50,6 +53,8 @@ class McapFile:
         metadata: Contents of its Metadata records by name; of several with one name, the last.
         statistics: Counts and times of the whole file.
         chunks: Its chunks and runs of bare records, in the order of the file.
+        extra_positions: Where its Attachment and Metadata records begin, as far as its index lists
+            them.
         closed_properly: Whether the file ends with its summary.
         indexed: Whether its messages lie in chunks with a message index.
         problems: What is damaged, one sentence each with the position; filled while reading.
@@ -64,11 +69,12 @@ class McapFile:
         self.channels: dict[int, Channel] = {}
         self.schemas: dict[int, Schema] = {}
         self.metadata: dict[str, dict[str, str]] = {}
-        self.statistics = Statistics(0, 0, 0, {})
+        self.statistics = McapStatistics(0, 0, 0, {})
         self._has_statistics = False
         self.chunks: list[ChunkIndex] = []
+        self.extra_positions: set[int] = set()
         self.problems: list[str] = []
-        self._map, self._bytes = _map_file(path)
+        self._map, self._bytes = map_file(path, MAGIC, "an MCAP file")
         try:
             self.closed_properly = self._read_summary()
             self.indexed = self.closed_properly and bool(self.chunks)
@@ -106,6 +112,34 @@ class McapFile:
         except BagError as error:
             raise BagError(f"{self.path}: chunk at byte {chunk.offset}: {error}") from None
 
+    @property
+    def compression(self) -> str:
+        """Compression of the first chunk; empty if the file has no chunks."""
+        for chunk in self.chunks:
+            if self._bytes[chunk.offset] == Op.CHUNK:
+                fields = self._bytes[chunk.offset + _PREFIX : chunk.offset + chunk.length]
+                reader = RecordReader(fields)
+                reader.take(_CHUNK_FIELDS)
+                return reader.string()
+        return ""
+
+    def raw_chunk(self, chunk: ChunkIndex) -> RawChunk | None:
+        """Return a chunk with its message indexes as they are in the file.
+
+        Returns:
+            None if the chunk has no message indexes, or if they do not fit the summary: only
+            reading its messages shows what it holds.
+        """
+        end = chunk.offset + chunk.length + chunk.index_bytes
+        if not chunk.index_bytes or end > len(self._bytes):
+            return None
+        record = self._bytes[chunk.offset : chunk.offset + chunk.length]
+        indexes = self._bytes[chunk.offset + chunk.length : end]
+        try:
+            return _raw_chunk(chunk, record, indexes)
+        except (BagError, struct.error):  # it ends in the middle of a field
+            return None
+
     def messages(
         self, chunk: ChunkIndex, wanted: Container[int] | None = None
     ) -> Iterator[tuple[int, int, int, bytes]]:
@@ -118,36 +152,34 @@ class McapFile:
         Raises:
             BagError: The chunk is damaged; the messages before the damage were yielded.
         """
-        return self.messages_in(bytes(self.records(chunk)), chunk, wanted)
+        return self.messages_in(self.records(chunk), chunk, wanted)
 
     def messages_in(
-        self, records: bytes, chunk: ChunkIndex, wanted: Container[int] | None = None
+        self, records: bytes | memoryview, chunk: ChunkIndex, wanted: Container[int] | None = None
     ) -> Iterator[tuple[int, int, int, bytes]]:
         """Yield the same of a chunk's records, as `records` returns them."""
-        unpack, unpack_message = OPCODE_AND_LENGTH.unpack_from, _MESSAGE.unpack_from
         position, end = 0, len(records)
         while position < end:
-            body = position + _PREFIX
-            if body > end:
-                raise self.cut(chunk, position)
-            opcode, length = unpack(records, position)
-            position = body + length
-            if position > end or (opcode == _MESSAGE_OPCODE and length < _MESSAGE_FIELDS):
-                raise self.cut(chunk, body - _PREFIX)
-            if opcode == _MESSAGE_OPCODE:
-                channel, _, log_time, publish_time = unpack_message(records, body)
-                if wanted is None or channel in wanted:
-                    yield (
-                        log_time,
-                        channel,
-                        publish_time,
-                        records[body + _MESSAGE_FIELDS : position],
-                    )
-            elif opcode in _DEFINITIONS:
-                try:
-                    self._read_definition(opcode, memoryview(records)[body:position])
-                except BagError as error:
-                    raise BagError(f"{self.cut(chunk, body - _PREFIX)}: {error}") from None
+            found: list[RawMessage] = []
+            position = mcap_messages(records, position, wanted, found)
+            yield from found
+            if position < end:
+                position = self._other_record(records, position, chunk)
+
+    def _other_record(self, records: bytes | memoryview, position: int, chunk: ChunkIndex) -> int:
+        """Read a record other than a message, and return where the next one begins."""
+        body = position + _PREFIX
+        if body > len(records):
+            raise self.cut(chunk, position)
+        opcode, length = OPCODE_AND_LENGTH.unpack_from(records, position)
+        end: int = body + length
+        if end > len(records) or opcode == Op.MESSAGE:  # a message too short for its fields
+            raise self.cut(chunk, position)
+        try:
+            self._read_definition(opcode, memoryview(records)[body:end])
+        except BagError as error:
+            raise BagError(f"{self.cut(chunk, position)}: {error}") from None
+        return end
 
     def cut(self, chunk: ChunkIndex, position: int) -> BagError:
         """Return the error of a chunk whose records end at a position in the middle of one."""
@@ -198,6 +230,7 @@ class McapFile:
         return (
             self._has_statistics
             and used <= self.channels.keys()
+            and {each.schema_id for each in self.channels.values()} <= {0, *self.schemas}
             and (bool(self.chunks) or not self.statistics.message_count)
         )
 
@@ -212,8 +245,11 @@ class McapFile:
         elif opcode == Op.STATISTICS:
             self.statistics = RecordReader(content).statistics()
             self._has_statistics = True
+        elif opcode == Op.ATTACHMENT_INDEX:
+            self.extra_positions.add(RecordReader(content).u64())
         elif opcode == Op.METADATA_INDEX:
             offset = RecordReader(content).u64()
+            self.extra_positions.add(offset)
             for found, record, _ in self._top_records(offset, len(self._bytes)):
                 if found == Op.METADATA:
                     self._read_metadata(record)
@@ -226,6 +262,24 @@ class McapFile:
             self.metadata[name] = reader.text_map()
         except BagError as error:  # no message needs it
             self.problems.append(f"{self.path}: its metadata cannot be read: {error}")
+
+    def top_records(self) -> Iterator[tuple[int, memoryview, int]]:
+        """Yield opcode, content and position of the records that lie in no chunk.
+
+        Raises:
+            BagError: The file is damaged; the records before the damage were yielded.
+        """
+        return self._top_records(len(MAGIC), len(self._bytes))
+
+    def record_at(self, position: int) -> tuple[int, memoryview]:
+        """Return opcode and bytes of a whole record, its opcode and length included.
+
+        Raises:
+            BagError: The file has no whole record at this position.
+        """
+        for opcode, content, _ in self._top_records(position, len(self._bytes)):
+            return opcode, self._bytes[position : position + _PREFIX + len(content)]
+        raise BagError(f"{self.path}: there is no record at byte {position}")
 
     def _top_records(self, position: int, end: int) -> Iterator[tuple[int, memoryview, int]]:
         """Opcode, content and position of the records between two positions of the file."""
@@ -253,7 +307,10 @@ class McapFile:
                 if opcode in (Op.SCHEMA, Op.CHANNEL):
                     self._read_definition(opcode, content)
                 elif opcode == Op.METADATA:
+                    self.extra_positions.add(position)
                     self._read_metadata(content)
+                elif opcode == Op.ATTACHMENT:
+                    self.extra_positions.add(position)
                 elif opcode == Op.CHUNK:
                     size = len(content) + OPCODE_AND_LENGTH.size
                     self._add_chunk(position, size, totals, is_cut=False)
@@ -262,7 +319,11 @@ class McapFile:
                 elif opcode == Op.DATA_END:
                     break
         except BagError as error:
-            self.problems.append(f"{self.path}: {error}; what lies before it is read")
+            lost = len(self._bytes) - reached
+            self.problems.append(
+                f"{self.path}: {error}; what lies before it is read, the last {lost:,} bytes only "
+                "as far as whole messages lie in them"
+            )
             if self._bytes[reached : reached + 1] == _CHUNK:  # whole messages may lie in it
                 rest = len(self._bytes) - reached
                 self._add_chunk(reached, rest, totals, is_cut=True)
@@ -329,23 +390,34 @@ class _Totals:
         self.start_ns = min(self.start_ns, other.start_ns)
         self.end_ns = max(self.end_ns, other.end_ns)
 
-    def statistics(self) -> Statistics:
+    def statistics(self) -> McapStatistics:
         start = self.start_ns if self.counts else 0
-        return Statistics(sum(self.counts.values()), start, self.end_ns, self.counts)
+        return McapStatistics(sum(self.counts.values()), start, self.end_ns, self.counts)
 
 
 #: Bare messages are grouped into blocks of about this size, so that they can be put in order.
 _BARE_BLOCK_BYTES = 1 << 20
 
 
-def _map_file(path: str) -> tuple[mmap.mmap, memoryview]:
+def map_file(path: str, magic: bytes, kind: str) -> tuple[mmap.mmap, memoryview]:
+    """Map a file into memory, and return its bytes.
+
+    Args:
+        path: The file.
+        magic: The bytes that begin such a file.
+        kind: ``"an MCAP file"``, for errors.
+
+    Raises:
+        BagError: The file does not begin so.
+        OSError: The file cannot be opened.
+    """
     with open(path, "rb") as file:
-        if os.fstat(file.fileno()).st_size < len(MAGIC):
-            raise BagError(f"{path} is not an MCAP file: it has fewer than {len(MAGIC)} bytes")
+        if os.fstat(file.fileno()).st_size < len(magic):
+            raise BagError(f"{path} is not {kind}: it has fewer than {len(magic)} bytes")
         mapped = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
-    if mapped[: len(MAGIC)] != MAGIC:
+    if mapped[: len(magic)] != magic:
         mapped.close()
-        raise BagError(f"{path} is not an MCAP file: it does not begin with its magic bytes")
+        raise BagError(f"{path} is not {kind}: it does not begin with its magic bytes")
     return mapped, memoryview(mapped)
 
 
@@ -360,8 +432,37 @@ def _chunk_records(content: memoryview) -> bytes | memoryview:
     if cut:  # the file ends in it
         return records[: _end_of_the_whole(records)]
     if crc and zlib.crc32(records) != crc:
-        raise BagError("the checksum does not fit")
+        raise BagError("the checksum does not match: the chunk is damaged")
     return records
+
+
+def _raw_chunk(chunk: ChunkIndex, record: memoryview, indexes: memoryview) -> RawChunk | None:
+    """Return a chunk whose parts fit together; None if they do not."""
+    opcode, length = OPCODE_AND_LENGTH.unpack_from(record)
+    reader = RecordReader(record[_PREFIX:])
+    start, end, plain_bytes = reader.u64(), reader.u64(), reader.u64()
+    crc, compression, packed_bytes = reader.u32(), reader.string(), reader.u64()
+    whole = opcode == Op.CHUNK and _PREFIX + length == len(record)
+    fits = (start, end) == (chunk.start_ns, chunk.end_ns)
+    if not whole or not fits or reader.position + packed_bytes != length:
+        return None
+    offsets: dict[int, int] = {}
+    counts: dict[int, int] = {}
+    position = 0
+    while position < len(indexes):
+        opcode, length = OPCODE_AND_LENGTH.unpack_from(indexes, position)
+        reader = RecordReader(indexes[position + _PREFIX : position + _PREFIX + length])
+        channel, size = reader.u16(), reader.u32()
+        if opcode != Op.MESSAGE_INDEX or size % 16 or size + 6 != length:
+            return None
+        if size:
+            offsets[channel], counts[channel] = position, size // 16
+        position += _PREFIX + length
+    if position != len(indexes) or counts.keys() != chunk.channels:
+        return None
+    return RawChunk(
+        record, indexes, start, end, compression, packed_bytes, plain_bytes, offsets, counts, crc
+    )
 
 
 def _end_of_the_whole(records: bytes | memoryview) -> int:

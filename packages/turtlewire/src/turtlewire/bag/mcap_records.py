@@ -7,6 +7,7 @@ and UTF-8 bytes; maps and arrays are their length in bytes (u32) and their entri
 from __future__ import annotations
 
 import struct
+import zlib
 from dataclasses import dataclass, field
 
 from turtlewire.errors import BagError
@@ -16,10 +17,11 @@ __all__ = [
     "OPCODE_AND_LENGTH",
     "Channel",
     "ChunkIndex",
+    "McapStatistics",
     "Op",
+    "RawChunk",
     "RecordReader",
     "Schema",
-    "Statistics",
     "pack_map",
     "pack_string",
     "record",
@@ -44,6 +46,8 @@ class Op:
     CHUNK = 0x06
     MESSAGE_INDEX = 0x07
     CHUNK_INDEX = 0x08
+    ATTACHMENT = 0x09
+    ATTACHMENT_INDEX = 0x0A
     STATISTICS = 0x0B
     METADATA = 0x0C
     METADATA_INDEX = 0x0D
@@ -97,6 +101,7 @@ class ChunkIndex:
         offset: Position of the chunk's record in the file.
         length: Length of that record, opcode and length included.
         channels: The channels with messages in it; None if the file does not tell.
+        index_bytes: Length of the MessageIndex records behind the chunk; 0 if it has none.
     """
 
     start_ns: int
@@ -104,10 +109,46 @@ class ChunkIndex:
     offset: int
     length: int
     channels: frozenset[int] | None
+    index_bytes: int = 0
 
 
 @dataclass(frozen=True)
-class Statistics:
+class RawChunk:
+    """A chunk as its file holds it, which can be copied without decompressing it.
+
+    Attributes:
+        record: The Chunk record.
+        indexes: The MessageIndex records behind it.
+        start_ns: Smallest log time of its messages.
+        end_ns: Largest log time.
+        compression: ``""``, ``"zstd"`` or ``"lz4"``.
+        packed_bytes: Size of its records as they are in the file.
+        plain_bytes: Size of its records when decompressed.
+        index_offsets: Position of each channel's MessageIndex record in `indexes`.
+        counts: Number of messages of each channel.
+        crc: CRC-32 of its decompressed records; 0 for none.
+    """
+
+    record: memoryview
+    indexes: memoryview
+    start_ns: int
+    end_ns: int
+    compression: str
+    packed_bytes: int
+    plain_bytes: int
+    index_offsets: dict[int, int]
+    counts: dict[int, int]
+    crc: int
+
+    def is_damaged(self) -> bool:
+        """Return True if its checksum shows damage; that of a compressed chunk is not checked."""
+        if self.compression or not self.crc:
+            return False
+        return zlib.crc32(self.record[len(self.record) - self.plain_bytes :]) != self.crc
+
+
+@dataclass(frozen=True)
+class McapStatistics:
     """Topics, times and counts of a whole file.
 
     Attributes:
@@ -115,12 +156,14 @@ class Statistics:
         start_ns: Smallest log time.
         end_ns: Largest log time.
         channel_counts: Number of messages of each channel.
+        extra_records: Number of Attachment and Metadata records.
     """
 
     message_count: int
     start_ns: int
     end_ns: int
     channel_counts: dict[int, int]
+    extra_records: int = 0
 
 
 class RecordReader:
@@ -202,13 +245,16 @@ class RecordReader:
         start, end, offset, length = self.u64(), self.u64(), self.u64(), self.u64()
         indexes = self.number_map()
         # Without message indexes the map is empty although the chunk has messages.
-        return ChunkIndex(start, end, offset, length, frozenset(indexes) if indexes else None)
+        channels = frozenset(indexes) if indexes else None
+        return ChunkIndex(start, end, offset, length, channels, self.u64())
 
-    def statistics(self) -> Statistics:
+    def statistics(self) -> McapStatistics:
         """Return the content of a Statistics record."""
         count = self.u64()
-        self.take(2 + 4 * 4)  # numbers of schemas, channels, attachments, metadata and chunks
-        return Statistics(count, self.u64(), self.u64(), self.number_map())
+        self.take(2 + 4)  # numbers of schemas and channels
+        extra_records = self.u32() + self.u32()  # attachments and metadata
+        self.take(4)  # number of chunks
+        return McapStatistics(count, self.u64(), self.u64(), self.number_map(), extra_records)
 
 
 def pack_string(text: str) -> bytes:

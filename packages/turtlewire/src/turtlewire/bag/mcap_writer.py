@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import struct
 import zlib
-from itertools import accumulate
+from itertools import accumulate, count
 
 from turtlewire.bag.compression import compress, most_bytes
 from turtlewire.bag.mcap_records import (
@@ -16,11 +16,14 @@ from turtlewire.bag.mcap_records import (
     OPCODE_AND_LENGTH,
     Channel,
     Op,
+    RawChunk,
+    RecordReader,
     Schema,
     pack_map,
     pack_string,
     record,
 )
+from turtlewire.errors import BagError
 
 __all__ = ["CHUNK_BYTES", "McapWriter"]
 
@@ -29,6 +32,7 @@ CHUNK_BYTES = 768 * 1024
 
 _MESSAGE = struct.Struct("<BQHIQQ")
 _LIBRARY = "turtlewire"
+_MOST_NUMBERS = (1 << 16) - 1
 
 
 class McapWriter:
@@ -64,12 +68,15 @@ class McapWriter:
         #: Channel, log time, publish time and bytes of the messages of the chunk to come.
         self._pending: list[tuple[int, int, int, bytes]] = []
         self._pending_bytes = 0
+        #: Bytes of the records that the summary repeats or adds.
+        self.summary_bytes = 0
         self._new_definitions: list[bytes] = []
         self._definitions: list[bytes] = []
-        self._schemas = 0
-        self._channels = 0
+        self._schemas: set[int] = set()
+        self._channels: set[int] = set()
         self._chunk_indexes: list[bytes] = []
         self._metadata_indexes: list[bytes] = []
+        self._attachment_indexes: list[bytes] = []
         self._file = open(path, "xb", buffering=0)  # noqa: SIM115 - closed by close()
         self.file_bytes = 0
         self.message_count = 0
@@ -83,18 +90,24 @@ class McapWriter:
         """Bytes in the file and waiting for it."""
         return self.file_bytes + self._pending_bytes
 
-    def add_schema(self, name: str, encoding: str, data: bytes) -> int:
-        """Add a type; returns its id."""
-        self._schemas += 1
-        schema = Schema(self._schemas, name, encoding, data)
+    def add_schema(self, name: str, encoding: str, data: bytes, number: int | None = None) -> int:
+        """Add a type; returns its id, which is ``number`` if no other type has it."""
+        schema = Schema(_free(self._schemas, number, 1), name, encoding, data)
         content = struct.pack("<H", schema.id) + pack_string(name) + pack_string(encoding)
         self._define(record(Op.SCHEMA, content + struct.pack("<I", len(data)) + data))
         return schema.id
 
-    def add_channel(self, schema_id: int, topic: str, metadata: dict[str, str]) -> int:
-        """Add a topic with CDR messages; returns its id."""
-        channel = Channel(self._channels, schema_id, topic, "cdr", metadata)
-        self._channels += 1
+    def add_channel(
+        self,
+        schema_id: int,
+        topic: str,
+        metadata: dict[str, str],
+        encoding: str = "cdr",
+        number: int | None = None,
+    ) -> int:
+        """Add a topic; returns its id, which is ``number`` if no other topic has it."""
+        number = _free(self._channels, number, 0)
+        channel = Channel(number, schema_id, topic, encoding, metadata)
         self._define(
             record(
                 Op.CHANNEL,
@@ -108,6 +121,7 @@ class McapWriter:
 
     def _define(self, definition: bytes) -> None:
         self._definitions.append(definition)
+        self.summary_bytes += len(definition)
         self._new_definitions.append(definition)
 
     def write(self, channel_id: int, log_time_ns: int, publish_time_ns: int, data: bytes) -> None:
@@ -121,10 +135,22 @@ class McapWriter:
     def write_metadata(self, name: str, entries: dict[str, str]) -> None:
         """Add a Metadata record between chunks."""
         self.flush()
-        content = record(Op.METADATA, pack_string(name) + pack_map(entries))
-        index = struct.pack("<QQ", self.file_bytes, len(content)) + pack_string(name)
-        self._metadata_indexes.append(record(Op.METADATA_INDEX, index))
+        self.copy_extra(memoryview(record(Op.METADATA, pack_string(name) + pack_map(entries))))
+
+    def copy_extra(self, content: memoryview) -> None:
+        """Append an Attachment or Metadata record as it is."""
+        reader = RecordReader(content[OPCODE_AND_LENGTH.size :])
+        index = struct.pack("<QQ", self.file_bytes, len(content))
         self._put(content)
+        if content[0] == Op.METADATA:
+            index += pack_string(reader.string())
+            self._metadata_indexes.append(record(Op.METADATA_INDEX, index))
+        else:
+            log_time, create_time = reader.u64(), reader.u64()
+            name, media_type, size = reader.string(), reader.string(), reader.u64()
+            index += struct.pack("<QQQ", log_time, create_time, size)
+            index += pack_string(name) + pack_string(media_type)
+            self._attachment_indexes.append(record(Op.ATTACHMENT_INDEX, index))
 
     def flush(self) -> None:
         """Write the pending messages as a chunk and hand it to the operating system.
@@ -176,23 +202,63 @@ class McapWriter:
             + struct.pack("<Q", len(packed))
         )
         head = OPCODE_AND_LENGTH.pack(Op.CHUNK, len(fields) + len(packed)) + fields
-        chunk_bytes = len(head) + len(packed)
-        indexes, offsets = _message_indexes(index, self.file_bytes + chunk_bytes)
+        indexes, offsets = _message_indexes(index)
+        counts = {channel: len(entries) // 2 for channel, entries in index.items()}
+        chunk = (start, end, compression, len(packed), len(records), offsets, counts)
+        self._append_chunk((head, packed), indexes, *chunk)
+
+    def copy_chunk(self, chunk: RawChunk) -> None:
+        """Append a chunk of another file as it is.
+
+        The channels and schemas of its messages must have the same numbers in this file.
+        """
+        self.flush()
+        self._append_chunk(
+            (chunk.record,),
+            chunk.indexes,
+            chunk.start_ns,
+            chunk.end_ns,
+            chunk.compression,
+            chunk.packed_bytes,
+            chunk.plain_bytes,
+            chunk.index_offsets,
+            chunk.counts,
+        )
+
+    def _append_chunk(
+        self,
+        chunk: tuple[bytes | memoryview, ...],
+        indexes: bytes | memoryview,
+        start: int,
+        end: int,
+        compression: str,
+        packed_bytes: int,
+        plain_bytes: int,
+        index_offsets: dict[int, int],
+        counts: dict[int, int],
+    ) -> None:
+        """Append a chunk and its message indexes, and note them for the summary."""
+        offset, chunk_bytes = self.file_bytes, sum(map(len, chunk))
+        self._put(*chunk, indexes)
+        first = offset + chunk_bytes
+        offsets = b"".join(
+            struct.pack("<HQ", channel, first + place) for channel, place in index_offsets.items()
+        )
         chunk_index = (
-            struct.pack("<QQQQI", start, end, self.file_bytes, chunk_bytes, len(offsets))
+            struct.pack("<QQQQI", start, end, offset, chunk_bytes, len(offsets))
             + offsets
             + struct.pack("<Q", len(indexes))
             + pack_string(compression)
-            + struct.pack("<QQ", len(packed), len(records))
+            + struct.pack("<QQ", packed_bytes, plain_bytes)
         )
-        self._put(head, packed, indexes)
         self._chunk_indexes.append(record(Op.CHUNK_INDEX, chunk_index))
-        for channel, entries in index.items():
-            self.channel_counts[channel] = self.channel_counts.get(channel, 0) + len(entries) // 2
-        if times:
+        self.summary_bytes += len(self._chunk_indexes[-1])
+        for channel, number in counts.items():
+            self.channel_counts[channel] = self.channel_counts.get(channel, 0) + number
+        if counts:
             self.start_ns = min(self.start_ns, start)
             self.end_ns = max(self.end_ns, end)
-        self.message_count += len(times)
+        self.message_count += sum(counts.values())
 
     def _packed(self, records: bytes) -> tuple[str, bytes]:
         """Compress a chunk; return the compression and the bytes.
@@ -204,7 +270,7 @@ class McapWriter:
             return "", records
         return self._compression, packed
 
-    def _put(self, *parts: bytes) -> None:
+    def _put(self, *parts: bytes | memoryview) -> None:
         """Append to the file, or leave it as it was."""
         try:
             for part in parts:
@@ -231,6 +297,10 @@ class McapWriter:
         finally:
             self._file.close()
 
+    def abandon(self) -> None:
+        """Close the file as it is: nobody will read it."""
+        self._file.close()
+
     def _end(self) -> None:
         self._put(record(Op.DATA_END, bytes(4)) + self._summary() + MAGIC)
 
@@ -244,6 +314,7 @@ class McapWriter:
             (Op.CHANNEL, channels),
             (Op.STATISTICS, [self._statistics()]),
             (Op.CHUNK_INDEX, self._chunk_indexes),
+            (Op.ATTACHMENT_INDEX, self._attachment_indexes),
             (Op.METADATA_INDEX, self._metadata_indexes),
         ]
         summary = b""
@@ -261,16 +332,16 @@ class McapWriter:
 
     def _statistics(self) -> bytes:
         counts = b"".join(
-            struct.pack("<HQ", channel, count) for channel, count in self.channel_counts.items()
+            struct.pack("<HQ", channel, number) for channel, number in self.channel_counts.items()
         )
         return record(
             Op.STATISTICS,
             struct.pack(
                 "<QHIIIIQQ",
                 self.message_count,
-                self._schemas,
-                self._channels,
-                0,
+                len(self._schemas),
+                len(self._channels),
+                len(self._attachment_indexes),
                 len(self._metadata_indexes),
                 len(self._chunk_indexes),
                 self.start_ns if self.message_count else 0,
@@ -281,12 +352,24 @@ class McapWriter:
         )
 
 
-def _message_indexes(index: dict[int, list[int]], offset: int) -> tuple[bytes, bytes]:
-    """Return the MessageIndex records that follow a chunk, and the map of where each lies."""
-    records, offsets = [], []
+def _message_indexes(index: dict[int, list[int]]) -> tuple[bytes, dict[int, int]]:
+    """Return the MessageIndex records that follow a chunk, and where in them each channel's is."""
+    records: list[bytes] = []
+    offsets: dict[int, int] = {}
+    position = 0
     for channel, entries in index.items():
         data = struct.pack(f"<{len(entries)}Q", *entries)
         records.append(record(Op.MESSAGE_INDEX, struct.pack("<HI", channel, len(data)) + data))
-        offsets.append(struct.pack("<HQ", channel, offset))
-        offset += len(records[-1])
-    return b"".join(records), b"".join(offsets)
+        offsets[channel] = position
+        position += len(records[-1])
+    return b"".join(records), offsets
+
+
+def _free(used: set[int], number: int | None, first: int) -> int:
+    """Return ``number`` if it is free, else the first free one, and note that it is used."""
+    if number is None or number in used:
+        number = next(each for each in count(first) if each not in used)
+    if number > _MOST_NUMBERS:
+        raise BagError(f"an MCAP file has at most {_MOST_NUMBERS:,} topics and definitions")
+    used.add(number)
+    return number

@@ -32,6 +32,7 @@ __all__ = [
     "FileInfo",
     "TopicInfo",
     "dump_metadata",
+    "full_type_name",
     "parse_metadata",
     "read_metadata",
     "write_metadata",
@@ -66,7 +67,7 @@ class TopicInfo:
 
     Attributes:
         name: ``/tf``.
-        type: ``tf2_msgs/msg/TFMessage``.
+        type: ``tf2_msgs/msg/TFMessage``; ``tf2_msgs/TFMessage`` of other tools becomes the same.
         serialization_format: ``cdr``; may be empty.
         qos: What each publisher offered while recording; empty if the bag does not tell.
         type_hash: ``RIHS01_…``; may be empty.
@@ -79,6 +80,10 @@ class TopicInfo:
     qos: list[QoS] = field(default_factory=list)
     type_hash: str = ""
     message_count: int = 0
+
+    def __post_init__(self) -> None:
+        if self.serialization_format in ("cdr", ""):
+            self.type = full_type_name(self.type)
 
 
 @dataclass
@@ -123,6 +128,11 @@ class BagMetadata:
     compression_mode: str = ""
     custom_data: dict[str, str] = field(default_factory=dict)
     ros_distro: str = ""
+
+
+def full_type_name(name: str) -> str:
+    """Return the full name of a message: ``geometry_msgs/Point`` is ``geometry_msgs/msg/Point``."""
+    return name.replace("/", "/msg/") if name.count("/") == 1 else name
 
 
 def read_metadata(folder: str) -> BagMetadata | None:

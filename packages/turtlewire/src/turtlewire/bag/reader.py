@@ -9,13 +9,22 @@ import tempfile
 import weakref
 from typing import TYPE_CHECKING
 
+from turtlewire.attribute_hints import hint_at
 from turtlewire.bag.definitions import has_interface, learn_types
-from turtlewire.bag.files import joined, overlapping, storage_files
-from turtlewire.bag.metadata import BagMetadata, TopicInfo, read_metadata, write_metadata
-from turtlewire.bag.storage import StorageFile, open_storage
+from turtlewire.bag.files import joined, open_storage, overlapping, storage_files
+from turtlewire.bag.message_choice import (
+    check_unit,
+    full_type_names,
+    nearest_names,
+    one_or_several,
+    window,
+)
+from turtlewire.bag.metadata import BagMetadata, TopicInfo, read_metadata
+from turtlewire.bag.storage import messages_of_blocks
 from turtlewire.bag.unpacking import unpack_file, unpacked
+from turtlewire.call_errors import explain_call, explain_calls
 from turtlewire.errors import BagError, InterfaceError
-from turtlewire.tf.datetimes import as_nanoseconds
+from turtlewire.path_arguments import near_path, path_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -23,13 +32,30 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
+    from turtlewire.bag.columns import Columns
     from turtlewire.bag.message import BagMessage
+    from turtlewire.bag.storage import StorageFile
+    from turtlewire.tf.datetimes import Stamp
 
-__all__ = ["Bag", "open_bag", "reindex", "window"]
+__all__ = ["Bag", "open_bag"]
 
-_FOREVER = (1 << 64) - 1
+_MOST_NAMES = 10
 
 
+@hint_at(
+    {
+        "read_messages read read_next iter_messages": "messages(topics)",
+        "connections channels get_all_topics_and_types": "topics",
+        "get_message_count message_count": "len(bag), or bag.topics[name].message_count",
+        "start_time": "start_ns",
+        "end_time": "end_ns",
+        "duration": "end_ns - start_ns",
+        "transforms tf": "turtlewire.Buffer.from_bag(path)",
+        "info": "turtlewire.bag.describe_bag(path)",
+        "show": "turtlewire.show(path)",
+    }
+)
+@explain_calls
 class Bag:
     """A bag that is open for reading; use it in a ``with`` statement or call `close`.
 
@@ -55,24 +81,21 @@ class Bag:
     """
 
     def __init__(self, path: str | os.PathLike[str], *, trust_metadata: bool = True) -> None:
-        self.path = os.fspath(path)
+        self.path = path_text(path, what="path of a bag")
         self.problems: list[str] = []
         self._files: dict[str, StorageFile] = {}
         self._scratch: str | None = None
         self._types_seen: set[str] = set()
         self._expected_counts: dict[str, int] = {}
         if not os.path.exists(self.path):
-            raise FileNotFoundError(f"there is no bag at {self.path}")
-        if os.path.isdir(self.path):
-            self._folder = self.path
-            written = read_metadata(self.path) if trust_metadata else None
-            if written:
-                counts = (file.message_count for file in written.files)
-                self._expected_counts = dict(zip(written.paths, counts, strict=False))
-            self.metadata = written or self._metadata_of(storage_files(self.path))
-        else:
-            self._folder = os.path.dirname(self.path)
-            self.metadata = self._metadata_of([os.path.basename(self.path)])
+            raise FileNotFoundError(f"there is no bag at {self.path}{near_path(self.path)}")
+        is_folder = os.path.isdir(self.path)
+        self._folder = self.path if is_folder else os.path.dirname(self.path)
+        try:
+            self.metadata = self._read_metadata(is_folder=is_folder, trusted=trust_metadata)
+        except BaseException:
+            self.close()
+            raise
 
     def __enter__(self) -> Self:
         return self
@@ -170,36 +193,91 @@ class Bag:
         topics: str | Iterable[str] | None = None,
         *,
         types: str | Iterable[str] | None = None,
-        start_ns: int = 0,
-        end_ns: int = _FOREVER,
+        start_ns: Stamp | None = None,
+        end_ns: Stamp | None = None,
     ) -> Iterator[BagMessage]:
         """Yield the messages in order of their log time.
 
         Args:
             topics: A topic or several; None takes all.
             types: A message type or several; None takes all.
-            start_ns: The log time from which on messages are taken.
-            end_ns: The last log time that is taken.
+            start_ns: The log time from which on messages are taken; None: from the beginning.
+            end_ns: The last log time that is taken; None: to the end.
 
         Yields:
             The messages; at equal times in the order of the file.
 
         Raises:
-            BagError: A topic does not exist; or, after all messages that can be read, a part of the
-                bag is damaged or missing.
-            ValueError: ``end_ns`` lies before ``start_ns``.
+            BagError: A topic or type does not exist; or, after all messages that can be read, a
+                part of the bag is damaged or missing.
+            TypeError: A topic or type is not a str.
+            ValueError: ``end_ns`` lies before ``start_ns``, or the window is not in nanoseconds
+                since 1970, as the times of the bag are.
         """
-        start_ns, end_ns = window(start_ns, end_ns)
-        wanted = self._wanted(_names(topics), _names(types))
+        start, end = window(start_ns, end_ns)
+        check_unit(self.metadata, start_ns=start, end_ns=end)
+        wanted = self._wanted(one_or_several(topics, "topics"), full_type_names(types))
         damage: list[BagError] = []
         for group in overlapping(self.metadata):
-            files = self._present(group, damage)
-            streams = [self._messages_of(file, wanted, start_ns, end_ns, damage) for file in files]
+            files = self.readable_files(group, damage)
+            streams = [self._messages_of(file, wanted, start, end, damage) for file in files]
             yield from heapq.merge(*streams, key=_log_time) if len(streams) != 1 else streams[0]
         if damage:
             raise damage[0]
 
-    def _present(self, paths: list[str], damage: list[BagError]) -> list[StorageFile]:
+    def columns(
+        self,
+        topic: str,
+        *fields: str,
+        start_ns: Stamp | None = None,
+        end_ns: Stamp | None = None,
+    ) -> Columns:
+        """Return fields of all messages of a topic as NumPy arrays.
+
+        ::
+
+            imu = bag.columns("/imu", "linear_acceleration.x", "orientation")
+            plt.plot(imu.stamps_ns / 1e9, imu["linear_acceleration.x"])
+
+        The array of a field has one row for each message, in order of their log times:
+
+        ========================  =============================================================
+        field                     its array
+        ========================  =============================================================
+        number, bool              ``(N,)``, of the field's own dtype
+        array of k numbers        ``(N, k)``, such as a covariance
+        message of k numbers      ``(N, k)``: a Vector3, a Quaternion (xyzw), a Pose
+        time, duration            ``(N,)`` nanoseconds, ``int64``
+        text                      ``(N,)`` of ``str``
+        sequence of numbers       ``(N,)`` objects: arrays ``(n,)``, read-only views of the bag's
+                                  bytes; ``np.stack`` makes one array if their lengths are equal
+        sequence of messages      the same with arrays ``(n, k)``, if they consist of k numbers
+        ``data`` of an Image      the same with its pixels, ``(height, width[, channels])``
+        ``data`` of PointCloud2   the same with its points, a structured array
+        ========================  =============================================================
+
+        Args:
+            topic: The topic.
+            fields: Names of fields; dots lead into nested messages.
+            start_ns: The first log time, as in `messages`.
+            end_ns: The last log time.
+
+        Raises:
+            BagError: The topic or a field does not exist, a field cannot be a column, or a part of
+                the bag is damaged.
+            CdrError: A message is malformed.
+            InterfaceError: The type is not known and the bag does not define it.
+            ValueError: No field was named, or ``end_ns`` lies before ``start_ns``.
+        """
+        from turtlewire.bag.columns import read_columns  # it needs NumPy
+
+        start, end = window(start_ns, end_ns)
+        wanted = self._wanted({topic}, None)
+        for path in self.metadata.paths:
+            self._learn_unknown_types(self.file(path), wanted)
+        return read_columns(self, topic, fields, start, end)
+
+    def readable_files(self, paths: list[str], damage: list[BagError]) -> list[StorageFile]:
         """Return the files that can be opened; the others go to the problems and the damage."""
         files = []
         for path in paths:
@@ -224,7 +302,8 @@ class Bag:
         damage: list[BagError],
     ) -> Iterator[BagMessage]:
         self._learn_unknown_types(file, wanted)
-        messages = file.messages(wanted, start_ns, end_ns, damage.append)
+        blocks = file.blocks(wanted, start_ns, end_ns, damage.append)
+        messages = messages_of_blocks(file, blocks)
         if self.metadata.compression_mode != "MESSAGE":
             return messages
         return unpacked(messages, self.metadata.compression_format, file.path, damage)
@@ -249,7 +328,14 @@ class Bag:
         known = self.topics
         for name in topics or ():
             if name not in known:
-                raise BagError(f"the bag has no topic '{name}'").with_hint(_nearest(name, known))
+                raise BagError(f"the bag has no topic '{name}'").with_hint(
+                    nearest_names(name, known)
+                )
+        known_types = {topic.type for topic in self.metadata.topics}
+        for name in types or ():
+            if name not in known_types:
+                hint = nearest_names(name, known_types, "types")
+                raise BagError(f"the bag has no messages of the type '{name}'").with_hint(hint)
         return lambda topic: (
             (topics is None or topic.name in topics) and (types is None or topic.type in types)
         )
@@ -301,10 +387,24 @@ class Bag:
             weakref.finalize(self, shutil.rmtree, self._scratch, ignore_errors=True)
         return unpack_file(full, self._scratch, self.problems.append)
 
+    def _read_metadata(self, *, is_folder: bool, trusted: bool) -> BagMetadata:
+        if not is_folder:
+            return self._metadata_of([os.path.basename(self.path)])
+        written = read_metadata(self.path) if trusted else None
+        if written is None:
+            return self._metadata_of(storage_files(self.path))
+        counts = (file.message_count for file in written.files)
+        self._expected_counts = dict(zip(written.paths, counts, strict=False))
+        return written
+
     def _metadata_of(self, paths: list[str]) -> BagMetadata:
         """Metadata from the files themselves."""
         if not paths:
-            raise BagError(f"{self.path} is not a bag: it contains no .mcap or .db3 file")
+            folders = [entry for entry in os.scandir(self.path) if entry.is_dir()]
+            bags = sorted(entry.path for entry in folders if storage_files(entry.path))
+            raise BagError(
+                f"{self.path} is not a bag: it contains no .mcap or .db3 file"
+            ).with_hint(f"Bags in it: {', '.join(bags[:_MOST_NAMES])}." if bags else "")
         parts: dict[str, BagMetadata] = {}
         for path in paths:
             try:
@@ -321,52 +421,20 @@ class Bag:
         return joined(list(parts), list(parts.values()))
 
 
-def window(start_ns: int, end_ns: int) -> tuple[int, int]:
-    """Return the two times of a window in nanoseconds; ``datetime64`` is taken, too.
-
-    Raises:
-        ValueError: ``end_ns`` is before ``start_ns``.
-    """
-    start, end = as_nanoseconds(start_ns, "start_ns"), as_nanoseconds(end_ns, "end_ns")
-    if end < start:
-        raise ValueError(f"the window ends before it begins: start_ns={start}, end_ns={end}")
-    return start, end
-
-
+@explain_call
 def open_bag(path: str | os.PathLike[str]) -> Bag:
     """Open a bag for reading.
 
     Args:
         path: A folder of rosbag2 (with or without ``metadata.yaml``), a ``.mcap`` or a ``.db3``
             file; compressed or not, finished or left behind by a recorder that was killed. A
-            ``.bag`` of ROS 1 with the extra ``ros1``.
+            ``.bag`` of ROS 1.
 
     Raises:
         FileNotFoundError: ``path`` does not exist.
         BagError: ``path`` is not a bag.
     """
     return Bag(path)
-
-
-def reindex(
-    path: str | os.PathLike[str], damaged: Callable[[str], None] | None = None
-) -> BagMetadata:
-    """Rebuild ``metadata.yaml`` of a folder from the files in it.
-
-    Args:
-        path: The folder.
-        damaged: Called with a sentence for each part that cannot be read.
-
-    Raises:
-        FileNotFoundError: The folder does not exist.
-        BagError: The folder contains no file of a bag, or an invalid one.
-    """
-    with Bag(path, trust_metadata=False) as bag:
-        write_metadata(bag.path, bag.metadata)
-        if damaged is not None:
-            for problem in bag.problems:
-                damaged(problem)
-        return bag.metadata
 
 
 def _without(error: BagError | OSError, bag: str) -> BagError:
@@ -376,19 +444,6 @@ def _without(error: BagError | OSError, bag: str) -> BagError:
     left_out = BagError(f"{error}; the other files were read")
     left_out.with_hint(f"Put the file back, or let `ros2 bag reindex {bag}` forget it.")
     return left_out
-
-
-def _names(names: str | Iterable[str] | None) -> set[str] | None:
-    return None if names is None else {names} if isinstance(names, str) else set(names)
-
-
-def _nearest(name: str, known: Iterable[str]) -> str:
-    import difflib
-
-    near = difflib.get_close_matches(name, list(known), 3, 0.5)
-    if near:
-        return f"Did you mean {' or '.join(near)}?"
-    return f"Its topics are {', '.join(sorted(known))}." if known else "It has no topics."
 
 
 def _log_time(message: BagMessage) -> int:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import sqlite3
 import threading
-from collections import deque
+from collections import Counter, deque
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from turtlewire.bag.writer import BagWriter
 
@@ -80,6 +80,9 @@ class Recording:
         self._waiting: deque[_Message] = deque()
         self._waiting_bytes = 0
         self._changed = threading.Condition()
+        self._repeated: dict[str, deque[_Message]] = {}
+        self._last_ns = 0
+        writer.on_begin = self._write_again
         self._closing = self._is_closed = False
         self._disk = threading.Lock()  # the writer is not thread-safe; guards nothing else
         self._thread = threading.Thread(target=self._run, name="bag-writer", daemon=True)
@@ -110,7 +113,9 @@ class Recording:
             full = self._cache_bytes and self._waiting_bytes + size > self._cache_bytes
             if full and self._snapshot:
                 while self._waiting and self._waiting_bytes + size > self._cache_bytes:
-                    self._waiting_bytes -= len(self._waiting.popleft()[1])
+                    dropped = self._waiting.popleft()
+                    self._waiting_bytes -= len(dropped[1])
+                    self._remember(dropped)
             elif (full and self._waiting) or self.failure or self._closing:
                 self.lost[topic] = self.lost.get(topic, 0) + 1
                 return
@@ -126,6 +131,16 @@ class Recording:
                 self._writer.add_topic(*args, **options)
             except (OSError, sqlite3.Error) as error:
                 self._fail(error)
+
+    def repeat(self, topic: str, depth: int) -> None:
+        """Write the newest messages of a topic again into each further file and snapshot.
+
+        Args:
+            topic: Name of a topic that was added, for example of transforms that are latched.
+            depth: How many messages.
+        """
+        with self._changed:
+            self._repeated.setdefault(topic, deque(maxlen=depth))
 
     def take_snapshot(self) -> bool:
         """Write what is kept now; returns whether it is in the file."""
@@ -145,10 +160,12 @@ class Recording:
             if self._is_closed:
                 raise BagError("the recording has ended")
             try:
-                return self._writer.split()
+                paths = self._writer.split()
+                self._write_again(self._last_ns)
             except (OSError, sqlite3.Error) as error:
                 self._fail(error)
                 raise
+            return paths
 
     def close(self) -> None:
         """Write what waits and finish the bag; closing twice does nothing.
@@ -194,15 +211,48 @@ class Recording:
             if self._is_closed:
                 return False
             try:
-                for message in self._take():
+                messages = self._take()
+                if self._snapshot:
+                    self._write_again(messages[0][2] if messages else self._last_ns, messages)
+                for message in messages:
                     self._writer.write(*message)
+                    self._last_ns = message[2]
+                    self._remember(message)
                 self._writer.flush()
             except (OSError, sqlite3.Error) as error:
                 self._fail(error)
         return True
+
+    def _write_again(self, time_ns: int, following: Sequence[_Message] = ()) -> None:
+        """Write the newest messages of the topics to repeat. The caller holds ``_disk``.
+
+        Args:
+            time_ns: Their log time: files begin with it.
+            following: Messages that are written next; they need no repetition.
+        """
+        counts = Counter(topic for topic, *_ in following)
+        with self._changed:
+            again = [
+                message
+                for topic, newest in self._repeated.items()
+                for message in _all_but(newest, counts[topic])
+            ]
+        for topic, data, _, publish_time_ns in again:
+            self._writer.append(topic, data, time_ns, publish_time_ns)  # begins no file
+
+    def _remember(self, message: _Message) -> None:
+        newest = self._repeated.get(message[0])
+        if newest is not None:
+            newest.append(message)
 
     def _fail(self, error: Exception) -> None:
         if self.failure is None:
             self.failure = error
             if self._on_failure is not None:
                 self._on_failure(error)
+
+
+def _all_but(newest: deque[_Message], count: int) -> list[_Message]:
+    """Return the messages that still belong to the newest ones when ``count`` others follow."""
+    assert newest.maxlen is not None
+    return list(newest)[max(0, len(newest) + count - newest.maxlen) :]

@@ -13,10 +13,11 @@ import os
 import sqlite3
 from collections import Counter
 from contextlib import suppress
+from itertools import islice
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
-from turtlewire.bag.metadata import TopicInfo, parse_metadata
+from turtlewire.bag.metadata import TopicInfo, full_type_name, parse_metadata
 from turtlewire.bag.qos_yaml import load_yaml, profiles_from_yaml
 from turtlewire.errors import BagError
 
@@ -24,11 +25,16 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
 
     from turtlewire.bag.metadata import BagMetadata
+    from turtlewire.bag.record_messages import RawMessage
 
 __all__ = ["SqliteFile"]
 
 #: What the sqlite3 module raises for damaged files: broken table names are not UTF-8.
 _DAMAGE = (sqlite3.Error, UnicodeDecodeError)
+
+#: Messages in a block; after a large message a block has only one.
+_BLOCK = 64
+_LARGE_BYTES = 1 << 16
 
 
 class SqliteFile:
@@ -36,7 +42,7 @@ class SqliteFile:
 
     Attributes:
         path: Where it is.
-        topics: Its topics by id.
+        topics: Its topics by id, without their counts, which `counts` returns.
         problems: What is damaged, one sentence each.
 
     Raises:
@@ -58,35 +64,44 @@ class SqliteFile:
         self._database.text_factory = _text
         #: Log time and id of the rows that can be read, in order; None if the file is whole.
         self._whole_rows: list[tuple[int, int, int]] | None = None
-        self._page_bytes = 0
-        missing = self._missing_bytes()
-        if missing:  # sqlite3 opens such a file only for repair
-            self._database.execute("PRAGMA writable_schema = ON")
+        self._counts: dict[int, int] | None = None
+        self._page_bytes = missing = 0
         try:
-            self.topics = self._read_topics(missing)
+            missing = self._missing_bytes()
+            if missing:  # sqlite3 opens such a file only for repair
+                self._database.execute("PRAGMA writable_schema = ON")
+            self.topics = self._read_topics()
+            if missing:
+                self._read_to_the_damage(f"its last {missing:,} bytes are missing")
         except (*_DAMAGE, KeyError, TypeError, BagError) as error:
             self._database.close()
             lacks = f" (its last {missing:,} bytes are missing)" if missing else ""
             raise BagError(f"{path} is not a sqlite3 file of a bag: {error}{lacks}") from None
+        except BaseException:
+            self._database.close()
+            raise
+
+    @property
+    def is_whole(self) -> bool:
+        """Return whether the rows of all of its messages can be read."""
+        self.counts()
+        return self._whole_rows is None
 
     def close(self) -> None:
         """Release the file."""
         self._database.close()
 
-    def _read_topics(self, missing: int) -> dict[int, TopicInfo]:
-        rows = self._rows("SELECT * FROM topics ORDER BY id")
-        counts = self._counts(missing)
-        topics = {}
-        for row in rows:
-            topics[row["id"]] = TopicInfo(
+    def _read_topics(self) -> dict[int, TopicInfo]:
+        return {
+            row["id"]: TopicInfo(
                 str(row["name"]),
                 str(row["type"]),
                 str(row["serialization_format"]),
                 profiles_from_yaml(row.get("offered_qos_profiles"), self.path),
                 str(row.get("type_description_hash") or ""),
-                counts.get(row["id"], 0),
             )
-        return topics
+            for row in self._rows("SELECT * FROM topics ORDER BY id")
+        }
 
     def _missing_bytes(self) -> int:
         """Return the number of bytes missing by the header; 0 while a log file is present."""
@@ -99,16 +114,22 @@ class SqliteFile:
             return 0
         return max(0, told - os.path.getsize(self.path))
 
-    def _counts(self, missing: int) -> dict[int, int]:
-        """Return the number of readable messages of each topic."""
-        if not missing:
-            with suppress(sqlite3.DatabaseError):
+    def counts(self) -> dict[int, int]:
+        """Return the number of readable messages by topic id, for which all rows are read once."""
+        if self._counts is None:
+            try:
                 query = "SELECT topic_id, COUNT(*) FROM messages GROUP BY topic_id"
-                return dict(self._tuples(query))
+                self._counts = dict(self._tuples(query))
+            except sqlite3.DatabaseError:
+                return self._read_to_the_damage("it is damaged")
+        return self._counts
+
+    def _read_to_the_damage(self, what: str) -> dict[int, int]:
+        """Find the messages before the damage, and return their number by topic id."""
         rows = self._whole_rows = self._rows_before_the_damage()
-        what = f"its last {missing:,} bytes are missing" if missing else "it is damaged"
         self.problems.append(f"{self.path}: {what}; the first {len(rows):,} messages are read")
-        return Counter(topic for _, _, topic in rows)
+        self._counts = Counter(topic for _, _, topic in rows)
+        return self._counts
 
     def _rows_before_the_damage(self) -> list[tuple[int, int, int]]:
         """Log time, id and topic of the messages up to the first that is lost, in order of time."""
@@ -150,8 +171,9 @@ class SqliteFile:
         if self._whole_rows is not None:
             rows = self._whole_rows
             return (rows[0][0], rows[-1][0]) if rows else (0, 0)
-        query = (
-            "SELECT MIN(CAST(timestamp AS INTEGER)), MAX(CAST(timestamp AS INTEGER)) FROM messages"
+        query = (  # two queries, because each reads a single entry of the index
+            "SELECT CAST((SELECT MIN(timestamp) FROM messages) AS INTEGER), "
+            "CAST((SELECT MAX(timestamp) FROM messages) AS INTEGER)"
         )
         try:
             oldest, newest = next(self._tuples(query))
@@ -181,40 +203,62 @@ class SqliteFile:
             self.problems.append(f"{self.path}: its definitions cannot be read: {error}")
             return {}
         return {
-            str(row["topic_type"]): (str(row["encoding"]), str(row["encoded_message_definition"]))
+            full_type_name(str(row["topic_type"])): (
+                str(row["encoding"]),
+                str(row["encoded_message_definition"]),
+            )
             for row in rows
         }
 
-    def messages(
+    def blocks(
         self, topic_ids: Collection[int], start_ns: int, end_ns: int
-    ) -> Iterator[tuple[int, int, bytes]]:
-        """Log time, topic id and bytes of the messages in order of time.
+    ) -> Iterator[list[RawMessage]]:
+        """Yield the messages of topics in order of time, some at a time.
 
         Raises:
             BagError: The file is damaged; the messages before the damage were yielded.
         """
         if self._whole_rows is not None:
-            yield from self._messages_before_the_damage(topic_ids, start_ns, end_ns)
+            yield from self._blocks_before_the_damage(topic_ids, start_ns, end_ns)
             return
-        topics = ", ".join(map(str, topic_ids))
-        where = f"timestamp BETWEEN ? AND ? AND topic_id IN ({topics})"
-        limit = (1 << 63) - 1
-        try:
-            rows = self._database.execute(
-                "SELECT CAST(timestamp AS INTEGER), topic_id, CAST(data AS BLOB) "  # noqa: S608
-                f"FROM messages WHERE {where} "  # of the arguments only numbers are in the text
-                "ORDER BY timestamp, id",
-                (min(start_ns, limit), min(end_ns, limit)),
-            )
-            # `yield from` would close the cursor at its end, which fails after close().
-            for row in rows:  # noqa: UP028
-                yield row
-        except _DAMAGE as error:
-            raise BagError(f"{self.path}: {error}; the messages before it were read") from None
+        if not topic_ids:
+            return
+        rows = self._query(topic_ids, start_ns, end_ns)
+        size = _BLOCK
+        block: list[RawMessage] = [(0, 0, 0, b"")]
+        while block:
+            block = []
+            try:
+                # extend() keeps what came before an error.
+                block.extend(islice(rows, size))
+            except _DAMAGE as error:
+                yield block
+                raise BagError(f"{self.path}: {error}; the messages before it were read") from None
+            yield block
+            size = 1 if block and len(block[-1][3]) > _LARGE_BYTES else _BLOCK
 
-    def _messages_before_the_damage(
+    def _query(
         self, topic_ids: Collection[int], start_ns: int, end_ns: int
-    ) -> Iterator[tuple[int, int, bytes]]:
+    ) -> Iterator[RawMessage]:
+        """Yield messages; at damage there is an exception of sqlite3."""
+        limit = (1 << 63) - 1
+        window = (min(start_ns, limit), min(end_ns, limit))
+        topics = ", ".join(map(str, topic_ids))
+        where = f"timestamp BETWEEN ? AND ? AND topic_id IN ({topics}) ORDER BY timestamp, id"
+        time, data = "CAST(timestamp AS INTEGER)", "CAST(data AS BLOB)"
+        if len(topic_ids) == 1:  # each column takes time
+            (topic,) = topic_ids
+            query = f"SELECT {time}, {data} FROM messages WHERE {where}"  # noqa: S608 - numbers
+            for log_time, content in self._database.execute(query, window):
+                yield log_time, topic, log_time, content
+        else:
+            query = f"SELECT {time}, topic_id, {data} FROM messages WHERE {where}"  # noqa: S608
+            for log_time, number, content in self._database.execute(query, window):
+                yield log_time, number, log_time, content
+
+    def _blocks_before_the_damage(
+        self, topic_ids: Collection[int], start_ns: int, end_ns: int
+    ) -> Iterator[list[RawMessage]]:
         query = "SELECT CAST(data AS BLOB) FROM messages WHERE id = ?"
         lost = 0
         for log_time, number, topic in self._whole_rows or ():
@@ -225,8 +269,7 @@ class SqliteFile:
             except _DAMAGE:
                 lost += 1
                 continue
-            for (data,) in rows:
-                yield log_time, topic, data
+            yield [(log_time, topic, log_time, data) for (data,) in rows]
         if lost:
             raise BagError(f"{self.path}: {lost:,} of these messages cannot be read after all")
 

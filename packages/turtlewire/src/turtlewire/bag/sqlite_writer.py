@@ -31,8 +31,8 @@ _BATCH_BYTES = 768 * 1024
 class SqliteWriter:
     """A sqlite3 file that is being written.
 
-    While it is open a write-ahead log lies beside it, so that a killed process loses only what was
-    not flushed; closing merges the log into the file, or leaves that to who is reading it.
+    While it is open, a write-ahead log lies next to it, so a killed process loses only what was
+    not flushed. Closing merges the log into the file, or leaves that to a process that reads it.
 
     Args:
         path: The file; it must not exist.
@@ -48,9 +48,14 @@ class SqliteWriter:
             raise FileExistsError(f"{path} exists already")
         self.path = path
         self._database = sqlite3.connect(path, isolation_level=None, check_same_thread=False)
-        self._database.executescript("PRAGMA journal_mode = WAL; PRAGMA synchronous = OFF;")
-        self._database.executescript(_SCHEMA)
-        self._database.execute("INSERT INTO schema VALUES (?, ?)", (_SCHEMA_VERSION, ros_distro))
+        try:
+            self._database.executescript("PRAGMA journal_mode = WAL; PRAGMA synchronous = OFF;")
+            self._database.executescript(_SCHEMA)
+            version = (_SCHEMA_VERSION, ros_distro)
+            self._database.execute("INSERT INTO schema VALUES (?, ?)", version)
+        except BaseException:
+            self._database.close()
+            raise
         self._pending: list[tuple[int, int, bytes]] = []
         self._pending_bytes = 0
         self._file_bytes = 0
@@ -74,10 +79,13 @@ class SqliteWriter:
                 (type_name, encoding, text, type_hash),
             )
 
-    def add_topic(self, name: str, type_name: str, qos: str, type_hash: str) -> int:
-        """Add a topic with CDR messages; returns its id."""
+    def add_topic(
+        self, name: str, type_name: str, qos: str, type_hash: str, encoding: str = "cdr"
+    ) -> int:
+        """Add a topic; returns its id."""
         cursor = self._database.execute(
-            "INSERT INTO topics VALUES (NULL, ?, ?, 'cdr', ?, ?)", (name, type_name, qos, type_hash)
+            "INSERT INTO topics VALUES (NULL, ?, ?, ?, ?, ?)",
+            (name, type_name, encoding, qos, type_hash),
         )
         topic_id = cursor.lastrowid or 0
         self.topic_counts[topic_id] = 0
@@ -123,6 +131,10 @@ class SqliteWriter:
             self._merge_log()
         finally:
             self._database.close()
+
+    def abandon(self) -> None:
+        """Close the file as it is: nobody will read it."""
+        self._database.close()
 
     def _merge_log(self) -> None:
         try:

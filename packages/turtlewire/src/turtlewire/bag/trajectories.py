@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from turtlewire.bag.message_choice import window
 from turtlewire.bag.progress import progress_line
-from turtlewire.bag.reader import Bag, window
+from turtlewire.bag.reader import Bag
 from turtlewire.errors import BagError
 from turtlewire.terminal.suggestion import did_you_mean
-from turtlewire.trajectory import Trajectory, find_gaps
+from turtlewire.trajectory.stamps import find_gaps
 
 if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Iterator
 
-__all__ = ["POSE_TYPES", "load_trajectory", "pose_topics"]
+    from numpy.typing import NDArray
+
+    from turtlewire.tf.datetimes import Span, Stamp
+    from turtlewire.trajectory.stamps import Gap
+
+__all__ = ["POSE_TYPES", "pose_topics", "read_topic"]
 
 #: The part of a message that is the pose, and whether it names the frame that moves.
 POSE_TYPES: dict[str, tuple[str, bool]] = {
@@ -27,34 +34,15 @@ POSE_TYPES: dict[str, tuple[str, bool]] = {
 }
 
 
-def load_trajectory(
+def read_topic(
     path: str | os.PathLike[str],
     topic: str,
-    *,
-    start_ns: int = 0,
-    end_ns: int = (1 << 64) - 1,
-    max_gap_ns: int | None = None,
-    progress: Callable[[float], None] | None = None,
-) -> Trajectory:
-    """Read the poses of a topic, with the stamps of their headers.
-
-    Poses come in order of their stamps; of those with one stamp the first is taken.
-
-    Args:
-        path: The bag; see `turtlewire.bag.open_bag`.
-        topic: A topic with one of `POSE_TYPES`.
-        start_ns: Log time of the first message to take.
-        end_ns: Log time of the last message to take.
-        max_gap_ns: Longer pauses are gaps; None takes ten times the median pause, and at least
-            half a second.
-        progress: Called with the share that was read; by default a line is drawn on a terminal.
-
-    Raises:
-        FileNotFoundError: ``path`` does not exist.
-        BagError: ``path`` is not a bag, or the topic is missing or has another type.
-        ValueError: A quaternion is none, or the window ends before it begins.
-    """
-    start_ns, end_ns = window(start_ns, end_ns)
+    times: tuple[Stamp | None, Stamp | None],
+    max_gap_ns: Span | None,
+    progress: Callable[[float], None] | None,
+) -> tuple[NDArray[np.int64], NDArray[np.float64], str, str, tuple[Gap, ...]]:
+    """Return stamps, poses, frames and gaps of a topic; see `Trajectory.from_bag`."""
+    start_ns, end_ns = window(*times)
     with Bag(path) as bag:
         kind = _type_of(bag, topic)
         count = bag.topics[topic].message_count or 1
@@ -68,11 +56,17 @@ def load_trajectory(
     _, frame, child, _ = rows[0]
     stamps, first = np.unique(np.array([row[0] for row in rows], np.int64), return_index=True)
     poses = np.array([row[3] for row in rows], np.float64)[first]
-    return Trajectory(stamps, poses, frame, child, tuple(find_gaps(stamps, max_gap_ns)))
+    if len(first) < len(rows):
+        warnings.warn(
+            f"{bag.path}: {len(rows) - len(first):,} of {len(rows):,} messages of {topic} have the "
+            "stamp of another; the first pose of each stamp is taken",
+            stacklevel=4,
+        )
+    return stamps, poses, frame, child, tuple(find_gaps(stamps, max_gap_ns))
 
 
 def pose_topics(bag: Bag) -> list[str]:
-    """Return the topics of a bag that `load_trajectory` reads."""
+    """Return the topics of a bag that `read_topic` reads."""
     return sorted(name for name, topic in bag.topics.items() if topic.type in POSE_TYPES)
 
 
@@ -83,6 +77,8 @@ def _type_of(bag: Bag, topic: str) -> str:
     has = f"Topics with poses: {', '.join(fitting)}." if fitting else "It has no topic with poses."
     if topic in bag.topics:
         wrong = bag.topics[topic].type
+        if wrong == "tf2_msgs/msg/TFMessage":
+            has = f"Buffer.from_bag({bag.path!r}).trajectory(target, source) reads transforms."
         raise BagError(f"{topic} is of type {wrong}, which has no poses").with_hint(has)
     hint = did_you_mean(topic, fitting)
     raise BagError(f"{bag.path} has no topic {topic}").with_hint(f"{hint}. {has}" if hint else has)

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, NamedTuple
 from turtlewire.terminal.printable import printable
 from turtlewire.tf.faults import Conflict, conflicts, malformed, refusals
 from turtlewire.tf.links import links
-from turtlewire.trajectory import find_gaps
+from turtlewire.trajectory.stamps import find_gaps
 
 if TYPE_CHECKING:
     from turtlewire.tf.faults import Malformed, Refused
     from turtlewire.tf.implementation import BaseBuffer
-    from turtlewire.tf.links import LinkInfo
+    from turtlewire.tf.links import Link
     from turtlewire.trajectory import Gap
 
 __all__ = ["Jump", "NewParent", "StepsBack", "TransformReport", "describe", "group_jumps"]
@@ -89,7 +89,7 @@ class TransformReport:
     name: str = ""
     messages: int = 0
     publishers: dict[str, int] = field(default_factory=dict)
-    links: list[LinkInfo] = field(default_factory=list)
+    links: list[Link] = field(default_factory=list)
     gaps: dict[str, list[Gap]] = field(default_factory=dict)
     jumps: list[Jump] = field(default_factory=list)
     steps_back: dict[str, StepsBack] = field(default_factory=dict)
@@ -150,11 +150,11 @@ def describe(buffer: BaseBuffer, report: TransformReport) -> None:
             _note_parents(buffer, report, link)
         if link.static or link.samples < 3:
             continue
-        if found := find_gaps(buffer.stamps(link.child_frame)):
+        if found := find_gaps(buffer._stamps(link.child_frame)):
             report.gaps[link.child_frame] = found
 
 
-def _note_parents(buffer: BaseBuffer, report: TransformReport, link: LinkInfo) -> None:
+def _note_parents(buffer: BaseBuffer, report: TransformReport, link: Link) -> None:
     """Add the changes of a frame's parent, or that it is static in one and moves in another."""
     child = link.child_frame
     if link.parent_changes:
@@ -190,7 +190,7 @@ def _publishers(count: int) -> str:
     return "1 publisher" if count == 1 else f"{count} publishers"
 
 
-def _table(links: list[LinkInfo]) -> list[str]:
+def _table(links: list[Link]) -> list[str]:
     rows = [("child", "parent", "rate", "samples", "from", "to")]
     for link in links:
         times = ("", "") if link.static else (_seconds(link.oldest_ns), _seconds(link.newest_ns))

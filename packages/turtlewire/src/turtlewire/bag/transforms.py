@@ -12,8 +12,10 @@ from itertools import islice
 from typing import TYPE_CHECKING
 
 from turtlewire.bag.encodings import is_cdr, not_in_cdr
+from turtlewire.bag.message_choice import check_unit, window
 from turtlewire.bag.progress import progress_line
-from turtlewire.bag.reader import Bag, window
+from turtlewire.bag.reader import Bag
+from turtlewire.bag.trajectories import pose_topics
 from turtlewire.bag.transform_report import StepsBack, TransformReport, describe, group_jumps
 from turtlewire.errors import BagError
 from turtlewire.tf.implementation import RecordWalk
@@ -21,6 +23,7 @@ from turtlewire.tf.implementation import RecordWalk
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
+    from turtlewire.tf.datetimes import Stamp
     from turtlewire.tf.implementation import BaseBuffer
 
 __all__ = ["fill_buffer"]
@@ -32,6 +35,7 @@ _MESSAGE = struct.Struct("<BQHIQQ")
 _MESSAGE_OPCODE = 5
 _MESSAGE_FIELDS = 22
 _ROWS_AT_A_TIME = 1000
+_TOPICS_SHOWN = 8
 
 
 def fill_buffer(
@@ -40,16 +44,17 @@ def fill_buffer(
     *,
     topics: str | Iterable[str] = "/tf",
     static_topics: str | Iterable[str] = "/tf_static",
-    start_ns: int = 0,
-    end_ns: int = _FOREVER,
+    start_ns: Stamp | None = None,
+    end_ns: Stamp | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> TransformReport:
-    """Read the transforms of a bag into a buffer; see `turtlewire.bag.load_transforms`."""
-    start_ns, end_ns = window(start_ns, end_ns)
+    """Read the transforms of a bag into a buffer; see `Buffer.from_bag`."""
+    start, end = window(start_ns, end_ns)
     moving, fixed = _names(topics), _names(static_topics)
-    name = os.path.basename(os.path.abspath(path))
-    report = TransformReport(name)
     with Bag(path) as bag:
+        check_unit(bag.metadata, start_ns=start, end_ns=end)
+        name = os.path.basename(os.path.abspath(bag.path))
+        report = TransformReport(name)
         # The names that stand there by default need not be in the bag.
         chosen = (set() if topics == "/tf" else moving) | (
             set() if static_topics == "/tf_static" else fixed
@@ -61,15 +66,15 @@ def fill_buffer(
         }
         tell = progress or progress_line(f"reading {name}")
         for static, names in ((True, fixed), (False, moving)):
-            walk = RecordWalk(0, _FOREVER) if static else RecordWalk(start_ns, end_ns)
+            walk = RecordWalk(0, _FOREVER) if static else RecordWalk(start, end)
             reader = _Reader(bag, walk, buffer, (lambda _: None) if static else tell)
-            reader.read(names & known.keys(), start_ns, end_ns, static=static)
+            reader.read(names & known.keys(), start, end, static=static)
             report.messages += walk.messages
             report.jumps += group_jumps(walk.jumps)
             for child, steps in walk.steps_back.items():
                 report.steps_back[child] = StepsBack(*steps)
         tell(1.0)
-        report.problems = bag.problems + _empty_window(bag, start_ns, end_ns)
+        report.problems = bag.problems + _empty_window(bag, start, end)
         report.part_of = bag.part_of
     describe(buffer, report)
     return report
@@ -94,20 +99,36 @@ def _check_topics(bag: Bag, wanted: set[str], chosen: set[str]) -> None:
     for name in sorted(chosen & bag.topics.keys()):
         topic = bag.topics[name]
         if topic.type not in (_TF_TYPE, "") and is_cdr(topic):  # a damaged file may not tell
-            raise BagError(f"{name} is of type {bag.topics[name].type}, not {_TF_TYPE}")
-    if foreign := not_in_cdr(bag.topics[name] for name in wanted & bag.topics.keys()):
+            text = f"{name} is of type {topic.type}, not {_TF_TYPE}"
+            raise BagError(text).with_hint(_what_it_has(bag))
+    present = [bag.topics[name] for name in wanted & bag.topics.keys()]
+    if foreign := not_in_cdr(topic for topic in present if not is_cdr(topic)):
         raise BagError(f"{bag.path} has no transforms that can be read").with_hint(foreign)
     if wanted & bag.topics.keys() and not missing:
         return
-    similar = [name for name, topic in bag.topics.items() if topic.type == _TF_TYPE]
-    hint = f"Topics of type {_TF_TYPE} in it: {', '.join(similar)}." if similar else "It has no TF."
     damage = [f"Damaged: {text}." for text in bag.problems]
     if wanted & bag.topics.keys():
         text = f"{bag.path} has no topic {' and no topic '.join(missing)}"
     else:
         text = f"{bag.path} has none of the topics {', '.join(sorted(wanted))}"
     foreign = not_in_cdr(bag.topics.values())
-    raise BagError(text).with_hint(" ".join(filter(None, (hint, foreign, *damage))))
+    raise BagError(text).with_hint(" ".join(filter(None, (_what_it_has(bag), foreign, *damage))))
+
+
+def _what_it_has(bag: Bag) -> str:
+    """Return the topics with transforms; without any, what else there is."""
+    topics = bag.topics.values()
+    if similar := [topic.name for topic in topics if topic.type == _TF_TYPE]:
+        return f"Topics of type {_TF_TYPE} in it: {', '.join(similar)}."
+    if not topics:
+        return "It has no TF."
+    shown = [f"{topic.name} ({topic.type})" for topic in islice(topics, _TOPICS_SHOWN)]
+    more = len(bag.topics) - len(shown)
+    text = f"It has no TF (messages of type {_TF_TYPE}), only {', '.join(shown)}"
+    text += f" and {more} more." if more else "."
+    if poses := pose_topics(bag):
+        text += f" Trajectory.from_bag reads the poses of {', '.join(poses)}."
+    return text
 
 
 class _Reader:

@@ -8,7 +8,7 @@ from typing import Any
 
 from turtlewire.bag.compression import compress, most_bytes
 from turtlewire.bag.definitions import ENCODING, definition_text
-from turtlewire.bag.metadata import NEWEST_VERSION
+from turtlewire.bag.metadata import NEWEST_VERSION, full_type_name
 from turtlewire.errors import BagError, InterfaceError
 from turtlewire.msg import Message, serialize
 
@@ -17,7 +17,9 @@ __all__ = [
     "as_cdr",
     "check_options",
     "check_sizes",
+    "checked_type_name",
     "compressed_message",
+    "given",
     "known_definition",
 ]
 
@@ -57,8 +59,8 @@ def check_options(
         )
 
 
-def check_sizes(chunk_bytes: int, max_file_bytes: int, max_file_ns: int) -> None:
-    """Refuse sizes and times that none can have.
+def check_sizes(chunk_bytes: int, max_file_bytes: int, max_file_ns: int, max_files: int) -> None:
+    """Refuse sizes, times and numbers that none can have.
 
     Raises:
         BagError: With the least that can be given.
@@ -67,9 +69,22 @@ def check_sizes(chunk_bytes: int, max_file_bytes: int, max_file_ns: int) -> None
         ("chunk_bytes", chunk_bytes, 1),
         ("max_file_bytes", max_file_bytes, 0),
         ("max_file_ns", max_file_ns, 0),
+        ("max_files", max_files, 0),
     ):
         if value < least:
             raise BagError(f"{name} is {value}, and must be at least {least}")
+
+
+def checked_type_name(name: str) -> str:
+    """Return the full name of a type, which may have two parts.
+
+    Raises:
+        TypeError: ``name`` is not a str.
+    """
+    if not isinstance(name, str):
+        advice = f"; write {name._TYPE_NAME!r}" if hasattr(name, "_TYPE_NAME") else ""
+        raise TypeError(f"the name of a type must be str, not {type(name).__name__}{advice}")
+    return full_type_name(name)
 
 
 def known_definition(type_name: str) -> tuple[str, str]:
@@ -104,16 +119,35 @@ def as_cdr(topic: str, type_name: str, data: Any) -> bytes:
             raise TypeError(f"{topic} holds {type_name}, not {data._TYPE_NAME}")
         return serialize(data)
     try:
-        packed = bytes(memoryview(data))
+        packed = bytes(_byte_view(data))
     except TypeError:
         raise TypeError(
-            f"{topic} accepts a {type_name} or its CDR bytes, not {type(data).__name__}"
+            f"{topic} accepts a {type_name} or its CDR bytes, not {given(data, topic)}"
         ) from None
     if not packed:
         raise BagError(f"{topic} accepts a {type_name} or its CDR bytes, not 0 bytes").with_hint(
             "turtlewire.msg.serialize() makes the bytes of a message."
         )
     return packed
+
+
+def _byte_view(data: Any) -> memoryview:
+    view = memoryview(data)
+    if view.format not in ("B", "b", "c"):
+        raise TypeError("numbers are not the bytes of a message")
+    return view
+
+
+def given(data: Any, topic: str) -> str:
+    """Return what was passed in place of a message, and what to write for it."""
+    if isinstance(data, type):
+        return f"the class {data.__name__}; write {data.__name__}() for a message"
+    name, advice = type(data).__name__, ""
+    if topic in ("/tf", "/tf_static"):
+        advice = "; put TransformStamped messages into TFMessage(transforms=[...])"
+    elif isinstance(data, dict):
+        advice = "; fields are given to the class of the message: msg.get_message(type)(**fields)"
+    return name + advice
 
 
 def compressed_message(topic: str, data: bytes) -> bytes:

@@ -1,17 +1,21 @@
 """The ``turtlewire`` command: what one looks at and checks without any ROS.
 
-====================  ============================================================
+====================  ========================================================================
 module                what it holds
-====================  ============================================================
+====================  ========================================================================
 `main`                the command and its verbs
 `frames`              the verb ``frames``: ages, rates and publishers
 `frame_picture`       that tree at one moment, as text and as JSON
 `bag_commands`        the parsers of ``bag``, ``trajectory`` and ``compare``
+`bag_edit_parsers`    the parsers of ``bag info``, ``cut``, ``filter``, ``merge`` and ``split``
+`bag_edits`           ``bag cut``, ``filter``, ``merge`` and ``split``
+`bag_info`            ``bag info``: times, topics, rates, sizes, damage
 `bag_tf`              ``bag tf``: the tree of a bag with rates and gaps
 `bag_findings`        faults of a bag and of its transforms
 `trajectory_command`  the verb ``trajectory``
 `compare_command`     the verb ``compare``
+`relay_command`       the verb ``relay``
 `trajectory_sources`  trajectories of bags and files, for these verbs
 `scroll_keys`         keys with which ``frames`` is scrolled
-====================  ============================================================
+====================  ========================================================================
 """

@@ -11,6 +11,7 @@ import shlex
 from pathlib import Path
 from typing import Any
 
+from turtlewire.cli.bag_edit_parsers import add_bag_edits
 from turtlewire.terminal.file_arguments import complete_bags, complete_files, reporting_errors
 from turtlewire.terminal.parser import add_tf_topics, seconds, tf_topics
 
@@ -41,8 +42,8 @@ def add_bag_commands(commands: Any) -> None:
 
 
 def _add_bag(commands: Any) -> None:
-    summary = "Examine bags"
-    parser = commands.add_parser("bag", help=summary, description=summary, allow_abbrev=False)
+    summary = "Examine, cut, filter, merge and split bags"
+    parser = commands.add_parser("bag", help=summary, description=summary)
     parser.set_defaults(run=lambda _: parser.print_help() or 0, parser=parser)
     parser.meant = what_to_do_with_bag
     verbs = parser.add_subparsers(
@@ -50,8 +51,9 @@ def _add_bag(commands: Any) -> None:
         description="Call `turtlewire bag COMMAND -h` for more detailed usage.",
         metavar="COMMAND",
     )
+    add_bag_edits(verbs)
     summary = "Show the frame tree of a bag: rates, times, gaps and problems"
-    tf = verbs.add_parser("tf", help=summary, description=summary, allow_abbrev=False)
+    tf = verbs.add_parser("tf", help=summary, description=summary)
     _add_file(tf, "file", "BAG", "A folder, a .mcap or a .db3 file")
     add_tf_topics(tf)
     tf.add_argument("--json", action="store_true", help="Print one JSON object")
@@ -188,7 +190,7 @@ def what_to_do_with_bag(path: str) -> str:
     bag = shlex.quote(path)
     return (
         f"{path} is a bag. Its transforms: turtlewire bag tf {bag}; what is in it: "
-        f"ros2 bag info {bag}; in 3D: turtlewire view {bag}"
+        f"turtlewire bag info {bag}; in 3D: turtlewire view {bag}"
     )
 
 

@@ -7,22 +7,26 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from turtlewire.bag import load_transforms, open_bag
+from turtlewire.bag import open_bag
 from turtlewire.bag.encodings import not_in_cdr
+from turtlewire.bag.transforms import fill_buffer
 from turtlewire.doctor.finding import Finding, note, problem
 from turtlewire.doctor.tf_findings import recorded_findings
 from turtlewire.doctor.tf_traffic import FASTEST_M_S, JITTER_NS, LEAP_M, TfTraffic
 from turtlewire.errors import BagError
+from turtlewire.tf.buffer import Buffer
 from turtlewire.wire.qos import Durability
 
 if TYPE_CHECKING:
     from turtlewire.bag import Bag, TransformReport
-    from turtlewire.tf.buffer import Buffer
 
 __all__ = ["examine_bag"]
 
 _REINDEX = "`ros2 bag reindex {}` writes metadata.yaml; the intact files are read without it."
-_DAMAGED = "The intact part was read. Copy the file again, or record again."
+_DAMAGED = (
+    "The intact part was read. Copy the file again; or `ros2 bag reindex FOLDER` makes a file that "
+    "was cut off whole."
+)
 _NOT_CDR = "turtlewire.bag reads their bytes; to decode them, use the program that wrote the file."
 _NO_TF = "Record /tf and /tf_static."
 _OTHER_TF = "To examine them: turtlewire doctor {} {}"
@@ -31,8 +35,12 @@ _LATCH = (
     "Its publisher is not transient_local, so late listeners, and the recorder, may miss "
     "transforms: use a StaticTransformBroadcaster."
 )
-_ONE_TOPIC = "A frame must have one publisher: stop the others."
-_ONE_PARENT = "A frame has one parent at a time; lookups fail or jump. Rename one of the frames."
+_REMEDIES = {
+    "two publishers": "A frame must have one publisher: stop the others.",
+    "two parents": "A frame has one parent at a time; lookups fail or jump. Rename one of the "
+    "frames.",
+    "loop": "Lookups to frames outside of the loop fail.",
+}
 _REFUSED = "Fix the node that publishes them; listeners ignore such transforms."
 _NEW_PARENT = (
     "This is fine if a part changes hands (picked up by a gripper); otherwise rename one of the "
@@ -74,7 +82,8 @@ def examine_bag(
                 found.append(note("The bag has no transforms.", _NO_TF))
             return found
     try:
-        buffer, report = load_transforms(path, topics=topics, static_topics=static_topics)
+        buffer = Buffer(cache_time_ns=None)
+        report = fill_buffer(buffer, path, topics=topics, static_topics=static_topics)
     except BagError as error:
         return [*found, problem(str(error), error.hint)]
     found += [problem(text, _DAMAGED) for text in report.problems]
@@ -133,9 +142,7 @@ def _report_findings(report: TransformReport) -> list[Finding]:
     if report.malformed is not None and report.malformed.messages:
         count, last, topic = report.malformed
         found.append(problem(f"{count} messages of {topic} are not a TFMessage: {last}.", _FOREIGN))
-    for conflict in report.conflicts:
-        remedy = _ONE_PARENT if conflict.kind == "two parents" else _ONE_TOPIC
-        found.append(problem(conflict.text, remedy))
+    found += [problem(each.text, _REMEDIES[each.kind]) for each in report.conflicts]
     for child, before, after, stamp_ns in report.new_parents:
         text = f"'{child}' leaves its parent '{before}' for '{after}' at {stamp_ns / 1e9:.3f} s."
         found.append(note(text, _NEW_PARENT))

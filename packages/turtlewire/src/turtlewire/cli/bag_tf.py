@@ -5,14 +5,15 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.bag import load_transforms
+from turtlewire.bag.transforms import fill_buffer
 from turtlewire.cli.frame_picture import take_picture
 from turtlewire.terminal.printable import printable
+from turtlewire.tf.buffer import Buffer
 
 if TYPE_CHECKING:
     from turtlewire.bag import TransformReport
     from turtlewire.cli.frame_picture import Picture
-    from turtlewire.tf.inspection import LinkInfo
+    from turtlewire.tf.links import Link
 
 __all__ = ["show_transforms"]
 
@@ -32,7 +33,8 @@ def show_transforms(
         BagError: ``path`` is not a bag, or has no transforms.
         OSError: The bag cannot be read.
     """
-    buffer, report = load_transforms(path, topics=topics, static_topics=static_topics)
+    buffer = Buffer(cache_time_ns=None)
+    report = fill_buffer(buffer, path, topics=topics, static_topics=static_topics)
     now_ns = max((link.newest_ns for link in report.links), default=0)
     picture = take_picture(buffer, now_ns)
     fixed = {static_topics} if isinstance(static_topics, str) else set(static_topics)
@@ -60,8 +62,8 @@ def _lines(picture: Picture, report: TransformReport, fixed: set[str]) -> list[s
     return [report.headline(), *table, *loops, *report.complaints()]
 
 
-def _rate(link: LinkInfo, fixed: set[str]) -> str:
-    """Return the rate of a moving link, and whether it is sent on a static topic, too."""
+def _rate(link: Link, fixed: set[str]) -> str:
+    """Return the rate of a moving link, and whether it is also sent on a static topic."""
     rate = f"{link.rate_hz:.1f} Hz" if link.rate_hz else "one stamp"
     both = any(sender.name in fixed for sender in link.senders)
     return f"static and {rate}" if both else rate

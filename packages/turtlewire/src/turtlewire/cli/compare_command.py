@@ -6,28 +6,22 @@ import json
 import os
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.cli.trajectory_sources import TrajectoryReader, parse_source
+from turtlewire.cli.trajectory_sources import TrajectoryReader, parse_source, printed_remarks
 from turtlewire.terminal.parser import tf_topics
 from turtlewire.terminal.printable import printable
-from turtlewire.trajectory import (
-    compare,
-    plot_box,
-    plot_error_path,
-    plot_errors,
-    plot_histogram,
-    plot_path,
-)
+from turtlewire.trajectory import compare, plot
 from turtlewire.trajectory.metrics import UNITS
 from turtlewire.trajectory.plots import columns_of
 
 if TYPE_CHECKING:
     import argparse
 
-    from turtlewire.trajectory import Comparison, Errors, Plot
+    from turtlewire.trajectory import Comparison, Plot, PoseErrors
 
 __all__ = ["run_compare"]
 
 
+@printed_remarks()
 def run_compare(args: argparse.Namespace) -> int:
     """Compare, draw what was asked for, and print the statistics.
 
@@ -75,13 +69,13 @@ def run_compare(args: argparse.Namespace) -> int:
     return 0
 
 
-def _ape(args: argparse.Namespace, comparison: Comparison) -> Errors:
+def _ape(args: argparse.Namespace, comparison: Comparison) -> PoseErrors:
     # What only pairs have is, for poses, the distance that it is made of.
     ratio = args.relation == "point_distance_error_ratio"
     return comparison.ape("point_distance" if ratio else args.relation)
 
 
-def _rpe(args: argparse.Namespace, comparison: Comparison) -> tuple[Errors | None, str]:
+def _rpe(args: argparse.Namespace, comparison: Comparison) -> tuple[PoseErrors | None, str]:
     """Return the relative error; or None and the reason."""
     try:
         found = comparison.rpe(
@@ -141,27 +135,25 @@ def _text(
     return f"{text}{_title(rpe)} over {args.delta:g} {UNITS[args.delta_unit]}\n{rpe.table()}"
 
 
-def _title(errors: Errors) -> str:
+def _title(errors: PoseErrors) -> str:
     return f"{errors.name} {errors.relation}" + (f" ({errors.unit})" if errors.unit else "")
 
 
 def _draw(args: argparse.Namespace, compared: dict[str, Comparison]) -> Plot:
-    kind = args.kind or ("error-path" if len(compared) == 1 else "path")
+    kind: Any = args.kind or ("error-path" if len(compared) == 1 else "path")
     first = next(iter(compared.values()))
     if kind == "path":
         named = {_short(name): each.estimate for name, each in compared.items()}
-        return plot_path(named, first.reference, args.plane)
+        return plot(named, reference=first.reference, plane=args.plane)
     errors = {_short(name): _ape(args, each) for name, each in compared.items()}
-    if kind == "box":
-        return plot_box(errors)
-    if kind == "histogram":
-        return plot_histogram(errors)
+    if kind in ("box", "histogram"):
+        return plot(errors, kind)
     if len(compared) > 1:
         raise ValueError(f"'{kind}' shows one estimate; for several there are path, box, histogram")
     (only,) = errors.values()
     if kind == "errors":
-        return plot_errors(only, first.reference.stamps_ns)
-    return plot_error_path(first.reference, first.estimate, only, args.plane)
+        return first.plot("errors", relation=only.relation)
+    return first.plot(relation=only.relation, plane=args.plane)
 
 
 def _short(name: str) -> str:

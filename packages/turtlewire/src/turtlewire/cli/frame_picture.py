@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.terminal.printable import printable
 from turtlewire.terminal.suggestion import did_you_mean
-from turtlewire.tf import inspection
 from turtlewire.tf.frame_tree import read_frame_tree
 
 if TYPE_CHECKING:
@@ -18,6 +17,7 @@ if TYPE_CHECKING:
 
     from turtlewire.tf.buffer import Buffer
     from turtlewire.tf.frame_tree import FrameTree
+    from turtlewire.tf.links import Link
 
 __all__ = ["Picture", "Row", "take_picture"]
 
@@ -128,7 +128,7 @@ def take_picture(buffer: Buffer, wall_ns: int, top: str | None = None) -> Pictur
         top: Take only this frame and those below it; None takes all.
     """
     tree = read_frame_tree(buffer)
-    links = {link.child_frame: link for link in inspection.links(buffer) if link.samples}
+    links = {link.child_frame: link for link in buffer.links() if link.samples}
     newest_ns = max((link.newest_ns for link in links.values() if not link.static), default=wall_ns)
     now_ns = wall_ns if newest_ns >= _WALL_TIME_FROM_NS else newest_ns
     if not tree.children:
@@ -172,7 +172,7 @@ def _natural(name: str) -> list[tuple[int, str]]:
     ]
 
 
-def _row(frame: str, branch: str, links: dict[str, inspection.LinkInfo], now_ns: int) -> Row:
+def _row(frame: str, branch: str, links: dict[str, Link], now_ns: int) -> Row:
     link = links.get(frame)
     if link is None:
         return Row(frame, "", branch)

@@ -64,7 +64,7 @@ def show_frames(top: str | None, *, once: bool, as_json: bool, period_s: float) 
 
 def _with_hint(picture: Picture, buffer: Buffer) -> Picture:
     """Add the other domains with nodes if no transform has arrived."""
-    if buffer.all_frames_as_string():
+    if buffer.frames():
         return picture
     hint = other_domains_hint(domain_id())
     return picture._replace(missing=f"{picture.missing}\n{hint}".rstrip())

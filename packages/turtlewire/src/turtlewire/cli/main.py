@@ -10,10 +10,11 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.cli.bag_commands import add_bag_commands, what_to_do_with_bag
+from turtlewire.cli.relay_command import add_relay
 from turtlewire.plugins import declared
 from turtlewire.program import program
 from turtlewire.terminal.file_arguments import complete_bags, reporting_errors
-from turtlewire.terminal.parser import Parser, add_tf_topics, seconds, tf_topics
+from turtlewire.terminal.parser import SuggestingParser, add_tf_topics, seconds, tf_topics
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -79,11 +80,10 @@ def _run(argv: list[str] | None) -> int:
     return status
 
 
-def _parser() -> Parser:
-    parser = Parser(
+def _parser() -> SuggestingParser:
+    parser = SuggestingParser(
         prog="turtlewire",
         description="Examine ROS 2 transforms, networks and bags, without ROS.",
-        allow_abbrev=False,
     )
     parser.add_argument("--version", action=_Version, help="Print the version and exit")
     parser.set_defaults(run=None)
@@ -95,6 +95,7 @@ def _parser() -> Parser:
     )
     _add_doctor(commands)
     _add_frames(commands)
+    add_relay(commands)
     add_bag_commands(commands)
     for _, entry in sorted(declared(_COMMANDS).items()):
         entry.load()(commands)
@@ -107,7 +108,7 @@ def _meant(word: str) -> str:
 
 def _add_doctor(commands: Any) -> None:
     summary = "Find problems of the installation, the graph and the transforms, or of a bag"
-    parser = commands.add_parser("doctor", help=summary, description=summary, allow_abbrev=False)
+    parser = commands.add_parser("doctor", help=summary, description=summary)
     bag = parser.add_argument(
         "bag", nargs="?", metavar="BAG", help="Check this bag instead of the network"
     )
@@ -125,7 +126,7 @@ def _add_doctor(commands: Any) -> None:
 
 def _add_frames(commands: Any) -> None:
     summary = "Show the frame tree: age, rate and publisher of each frame"
-    parser = commands.add_parser("frames", help=summary, description=summary, allow_abbrev=False)
+    parser = commands.add_parser("frames", help=summary, description=summary)
     frame = parser.add_argument(
         "frame", nargs="?", metavar="FRAME", help="Show only this frame and its descendants"
     )
@@ -157,7 +158,7 @@ class _Version(argparse.Action):
         parser.exit()
 
 
-def _complete(parser: Parser) -> None:
+def _complete(parser: SuggestingParser) -> None:
     """Print completions for the shell, and exit."""
     import argcomplete
     from argcomplete.completers import SuppressCompleter

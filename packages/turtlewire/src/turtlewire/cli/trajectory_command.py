@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from turtlewire.cli.trajectory_sources import Source, TrajectoryReader
+from turtlewire.cli.trajectory_sources import TrajectoryReader, TrajectorySource, printed_remarks
 from turtlewire.terminal.parser import tf_topics
 from turtlewire.terminal.printable import printable
-from turtlewire.trajectory import write_trajectory
-from turtlewire.trajectory.files import kitti_times
+from turtlewire.trajectory.files import kitti_times, write_file
 
 if TYPE_CHECKING:
     import argparse
@@ -23,6 +22,7 @@ __all__ = ["run_trajectory"]
 _MOST_GAPS = 10
 
 
+@printed_remarks()
 def run_trajectory(args: argparse.Namespace) -> int:
     """Read a trajectory, write what was asked for, and print what it is like.
 
@@ -32,13 +32,13 @@ def run_trajectory(args: argparse.Namespace) -> int:
         TransformException: The frames are unknown or not connected.
         ValueError: The file is not a trajectory, or nothing moves.
     """
-    source = Source(args.file, tuple(args.names))
+    source = TrajectorySource(args.file, tuple(args.names))
     max_gap_ns = None if args.max_gap is None else round(args.max_gap * 1e9)
     reader = TrajectoryReader(*tf_topics(args), max_gap_ns)
     trajectory = reader.read(source, rate_hz=args.rate)
     written = []
     if args.output:
-        kind = write_trajectory(trajectory, args.output, args.format)
+        kind = write_file(trajectory.stamps_ns, trajectory.poses, args.output, args.format)
         written.append(f"{args.output} ({kind})")
         if kind == "kitti":
             written.append(f"{kitti_times(args.output)} (the times)")
@@ -52,12 +52,12 @@ def run_trajectory(args: argparse.Namespace) -> int:
     return 0
 
 
-def _figures(source: Source, trajectory: Trajectory) -> dict[str, object]:
+def _figures(source: TrajectorySource, trajectory: Trajectory) -> dict[str, object]:
     stamps, speeds = trajectory.stamps_ns, trajectory.speeds
     return {
         "source": str(source),
-        "frame": trajectory.frame_id,
-        "child_frame": trajectory.child_frame_id,
+        "frame": trajectory.target_frame,
+        "child_frame": trajectory.source_frame,
         "poses": len(trajectory),
         "path_length": trajectory.path_length,
         "duration": trajectory.duration_ns / 1e9,
@@ -70,10 +70,10 @@ def _figures(source: Source, trajectory: Trajectory) -> dict[str, object]:
     }
 
 
-def _lines(source: Source, trajectory: Trajectory, written: list[str]) -> list[str]:
+def _lines(source: TrajectorySource, trajectory: Trajectory, written: list[str]) -> list[str]:
     what = printable(str(source))
-    if trajectory.child_frame_id:
-        what = printable(f"'{trajectory.child_frame_id}' in '{trajectory.frame_id}' ({source})")
+    if trajectory.source_frame:
+        what = printable(f"'{trajectory.source_frame}' in '{trajectory.target_frame}' ({source})")
     if not len(trajectory):
         return [f"{what}: no poses"]
     figures = _figures(source, trajectory)

@@ -3,21 +3,33 @@
 from __future__ import annotations
 
 import os
-from contextlib import suppress
+import sys
+import warnings
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
+from turtlewire.terminal.printable import printable
+
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from turtlewire.tf.buffer import Buffer
     from turtlewire.trajectory import Trajectory
 
-__all__ = ["Source", "TrajectoryReader", "complete_names", "parse_source"]
+__all__ = [
+    "TrajectoryReader",
+    "TrajectorySource",
+    "complete_names",
+    "parse_source",
+    "printed_remarks",
+]
 
 #: How much of a bag completion looks at.
 _COMPLETION_NS = 10_000_000_000
 
 
-class Source(NamedTuple):
+class TrajectorySource(NamedTuple):
     """A file with a trajectory, or a bag with the names of what moves.
 
     Attributes:
@@ -37,14 +49,27 @@ class Source(NamedTuple):
         return len(self.names) == 2
 
 
-def parse_source(text: str) -> Source:
+def parse_source(text: str) -> TrajectorySource:
     """``FILE``, ``BAG:/topic`` or ``BAG:target:source``; a path may hold colons itself."""
     parts = text.split(":")
     for count in (0, 1, 2):
         path = ":".join(parts[: len(parts) - count])
         if path and os.path.exists(path):
-            return Source(path, tuple(parts[len(parts) - count :]))
-    return Source(text)
+            return TrajectorySource(path, tuple(parts[len(parts) - count :]))
+    return TrajectorySource(text)
+
+
+@contextmanager
+def printed_remarks() -> Iterator[None]:
+    """Print warnings about trajectories as lines on standard error."""
+
+    def show(message: Warning | str, *_: object, **__: object) -> None:
+        print(f"note: {printable(str(message))}", file=sys.stderr)
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("always", UserWarning)
+        warnings.showwarning = show
+        yield
 
 
 class TrajectoryReader:
@@ -53,7 +78,7 @@ class TrajectoryReader:
     Args:
         topics: Where the transforms of a bag are.
         static_topics: Where its static transforms are.
-        max_gap_ns: Longer pauses are gaps; None: see `turtlewire.trajectory.sample_trajectory`.
+        max_gap_ns: Longer pauses are gaps; None: see `Buffer.trajectory`.
     """
 
     def __init__(
@@ -68,7 +93,7 @@ class TrajectoryReader:
         self._buffers: dict[str, Buffer] = {}
 
     def read(
-        self, source: Source, like: Trajectory | None = None, rate_hz: float | None = None
+        self, source: TrajectorySource, like: Trajectory | None = None, rate_hz: float | None = None
     ) -> Trajectory:
         """Return the trajectory.
 
@@ -83,19 +108,19 @@ class TrajectoryReader:
             TransformException: The frames are unknown or not connected.
             ValueError: The file is not a trajectory, or nothing moves.
         """
-        from turtlewire.bag import load_trajectory
-        from turtlewire.trajectory import find_gaps, read_trajectory
+        from turtlewire.trajectory import Trajectory
         from turtlewire.trajectory.sampling import moving_links
+        from turtlewire.trajectory.stamps import find_gaps
 
         if not source.names:
             if _is_bag(source.path):
                 raise ValueError(_names_are_missing(source.path))
-            found = read_trajectory(source.path)
+            found = Trajectory.load(source.path)
             if self._max_gap_ns is None or not found.timed:
                 return found
             return replace(found, gaps=tuple(find_gaps(found.stamps_ns, self._max_gap_ns)))
         if not source.is_transform:
-            return load_trajectory(source.path, source.names[0], max_gap_ns=self._max_gap_ns)
+            return Trajectory.from_bag(source.path, source.names[0], max_gap_ns=self._max_gap_ns)
         buffer = self._buffer(source.path)
         if like is None and not moving_links(buffer, *source.names):
             raise ValueError(_nothing_moves(source))
@@ -117,10 +142,10 @@ class TrajectoryReader:
 
 
 def _is_bag(path: str) -> bool:
-    return os.path.isdir(path) or path.removesuffix(".zstd").endswith((".mcap", ".db3"))
+    return os.path.isdir(path) or path.removesuffix(".zstd").endswith((".mcap", ".db3", ".bag"))
 
 
-def _nothing_moves(source: Source) -> str:
+def _nothing_moves(source: TrajectorySource) -> str:
     target, moved = source.names
     return (
         f"nothing moves between '{target}' and '{moved}', so there is no path to follow: "
@@ -130,7 +155,8 @@ def _nothing_moves(source: Source) -> str:
 
 
 def _names_are_missing(path: str) -> str:
-    from turtlewire.bag import open_bag, pose_topics
+    from turtlewire.bag import open_bag
+    from turtlewire.bag.trajectories import pose_topics
 
     with open_bag(path) as bag:
         topics = pose_topics(bag)
@@ -146,12 +172,14 @@ def complete_names(path: str) -> list[str]:
 
     A name with control characters is left out: the shell would act on them.
     """
-    from turtlewire.bag import load_transforms, open_bag, pose_topics
+    from turtlewire.bag import open_bag
+    from turtlewire.bag.trajectories import pose_topics
     from turtlewire.errors import BagError
+    from turtlewire.tf.buffer import Buffer
 
     with open_bag(path) as bag:
         names = pose_topics(bag)
         end_ns = bag.start_ns + _COMPLETION_NS
     with suppress(BagError):  # there may be no transforms
-        names += load_transforms(path, end_ns=end_ns, progress=lambda _: None)[0]
+        names += Buffer.from_bag(path, end_ns=end_ns, progress=lambda _: None).frames()
     return sorted(name for name in names if name.isprintable())

@@ -6,18 +6,24 @@ import json
 import os
 import sys
 import time
+from contextlib import nullcontext
 from typing import TYPE_CHECKING
 
+from turtlewire.doctor.fast_dds_findings import fast_dds_environment, out_of_reach
+from turtlewire.doctor.fast_dds_search import FastDdsSearch
 from turtlewire.doctor.finding import Finding, problem
 from turtlewire.doctor.graph_findings import graph_findings
 from turtlewire.doctor.setup_findings import looks_for_others, network_findings, setup_findings
+from turtlewire.doctor.shared_memory import sharing_processes
 from turtlewire.doctor.tf_findings import tf_findings
 from turtlewire.doctor.tf_traffic import TfListener, tf_publishers
 from turtlewire.errors import WireError
 from turtlewire.terminal.printable import printable
-from turtlewire.wire.environment import discovery, is_installed, middleware_name
+from turtlewire.wire.environment import Range, discovery, is_installed, middleware_name
 
 if TYPE_CHECKING:
+    from contextlib import AbstractContextManager
+
     from turtlewire.wire.base import Graph
 
 __all__ = ["as_json", "examine", "full_report", "report"]
@@ -37,6 +43,7 @@ def examine(listen_s: float | None = None) -> list[Finding]:
     from turtlewire.wire import open_context
 
     found = setup_findings(os.environ, sys.path) + network_findings()
+    found += fast_dds_environment(os.environ, middleware_name())
     try:
         context = open_context()
     except WireError as error:
@@ -45,18 +52,35 @@ def examine(listen_s: float | None = None) -> list[Finding]:
         graph = context.graph
         context.create_node("_turtlewire_doctor")
         listener = TfListener(context)
-        graph.hurry()
-        if looks_for_others():
-            graph.wait_for(lambda: False, _OTHER_HOSTS_NS)
-        graph.wait_for(graph.is_complete, _DISCOVERY_LIMIT_NS)
-        if listen_s is None:
-            _listen(listener, graph)
-        elif tf_publishers(graph):
-            listener.wait(listen_s)
+        with _fast_dds_search(context.domain_id) as search:
+            graph.hurry()
+            if looks_for_others():
+                graph.wait_for(lambda: False, _OTHER_HOSTS_NS)
+            graph.wait_for(graph.is_complete, _DISCOVERY_LIMIT_NS)
+            if listen_s is None:
+                _listen(listener, graph)
+            elif tf_publishers(graph):
+                listener.wait(listen_s)
+            silent = _silent_findings(graph, search, context.domain_id)
         traffic = listener.close()
-        return [*found, *graph_findings(graph), *tf_findings(graph, traffic)]
+        seen = graph_findings(graph, explained=bool(silent))
+        return [*found, *silent, *seen, *tf_findings(graph, traffic)]
     finally:
         context.close()
+
+
+def _fast_dds_search(domain_id: int) -> AbstractContextManager[FastDdsSearch | None]:
+    """Ask the participants on Fast DDS, if Cyclone DDS is to reach them."""
+    range_ = discovery().range
+    if middleware_name() != "rmw_cyclonedds_cpp" or range_ == Range.OFF:
+        return nullcontext()
+    return FastDdsSearch(domain_id, wide=range_ != Range.LOCALHOST)
+
+
+def _silent_findings(graph: Graph, search: FastDdsSearch | None, domain_id: int) -> list[Finding]:
+    if search is None:
+        return []
+    return out_of_reach(graph, search.answers(), sharing_processes(domain_id))
 
 
 def _listen(listener: TfListener, graph: Graph) -> None:

@@ -6,15 +6,18 @@ import os
 from collections import Counter
 from typing import TYPE_CHECKING
 
+from turtlewire.doctor.fast_dds_findings import fast_dds_findings
 from turtlewire.doctor.finding import Finding, note, problem
 from turtlewire.doctor.network import other_domains
 from turtlewire.doctor.setup_findings import looks_for_others, only_this_host
 from turtlewire.wire.environment import compares_qos, discovery, domain_id
 from turtlewire.wire.names import fully_qualified_node_name, is_hidden
 from turtlewire.wire.qos import Durability, Reliability
-from turtlewire.wire.services import advice
+from turtlewire.wire.services import ONE_MIDDLEWARE, advice
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from turtlewire.wire.base import EndpointInfo, ForeignServer, Graph
     from turtlewire.wire.qos import QoS
 
@@ -25,12 +28,17 @@ _ONE_TYPE = "Messages pass only between endpoints of one type: remap one of the 
 _ONE_QOS = "Give both the same QoS profile, or the subscription the weaker one."
 
 
-def graph_findings(graph: Graph) -> list[Finding]:
-    """Return the problems of the nodes and topics of a graph."""
+def graph_findings(graph: Graph, *, explained: bool = False) -> list[Finding]:
+    """Return the problems of the nodes and topics of a graph.
+
+    Args:
+        graph: The graph.
+        explained: Whether another finding says why there may be no nodes.
+    """
     names = [fully_qualified_node_name(node.name, node.namespace) for node in graph.nodes()]
     visible = [name for name in names if not is_hidden(name)]
     if not visible:
-        return [_no_nodes()]
+        return [] if explained else [_no_nodes()]
     found = [
         problem(f"{count} nodes have the same name {name}.", _RENAME)
         for name, count in sorted(Counter(visible).items())
@@ -42,23 +50,37 @@ def graph_findings(graph: Graph) -> list[Finding]:
             topics.setdefault(endpoint.topic, []).append(endpoint)
     for topic, endpoints in sorted(topics.items()):
         found += _topic_findings(topic, endpoints)
-    return found + _foreign_findings(graph)
+    return found + _foreign_findings(graph) + fast_dds_findings(graph, topics)
 
 
 def _foreign_findings(graph: Graph) -> list[Finding]:
-    """Return one note for each middleware whose services cannot be called."""
+    """Return one note for each middleware, and for each service of two, that cannot be called."""
     servers: dict[str, list[ForeignServer]] = {}
+    rivals: dict[str, list[ForeignServer]] = {}
     for server in graph.foreign_servers():
-        servers.setdefault(server.middleware, []).append(server)
+        if server.is_rival:
+            rivals.setdefault(server.service, []).append(server)
+        else:
+            servers.setdefault(server.middleware, []).append(server)
     found = []
     for middleware, theirs in sorted(servers.items()):
-        nodes = ", ".join(sorted({owner_of(server) for server in theirs}))
         text = (
             f"The {len(theirs)} services of nodes on {middleware} cannot be called from here, "
-            f"including parameters and actions; topics work. Nodes: {nodes}."
+            f"including parameters and actions; topics work. Nodes: {_owners_of(theirs)}."
         )
         found.append(note(text, advice("nodes")))
+    for service, theirs in sorted(rivals.items()):
+        middlewares = " and ".join(sorted({server.middleware for server in theirs}))
+        text = (
+            f"Service {service} cannot be called from here: it has servers on {middlewares}. "
+            f"Nodes: {_owners_of(theirs)}."
+        )
+        found.append(note(text, ONE_MIDDLEWARE))
     return found
+
+
+def _owners_of(servers: Iterable[ForeignServer]) -> str:
+    return ", ".join(sorted({owner_of(server) for server in servers}))
 
 
 def owner_of(endpoint: EndpointInfo | ForeignServer) -> str:

@@ -10,14 +10,22 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["domains_of", "multicast_works", "other_domains", "other_domains_hint", "udp_ports"]
+__all__ = [
+    "GROUP",
+    "domains_of",
+    "multicast_works",
+    "other_domains",
+    "other_domains_hint",
+    "udp_ports",
+]
 
 # How DDS computes its ports: a domain has 250, of which participants take those from the tenth on.
 _FIRST_PORT, _PORTS_OF_DOMAIN, _FIRST_OF_PARTICIPANTS = 7400, 250, 10
 #: The ports of the domains above it are among those that systems assign to any program.
 _LAST_SURE_DOMAIN = 101
 
-_GROUP = "239.255.0.1"  # the one that DDS announces itself to
+#: The multicast group that DDS participants announce themselves to.
+GROUP = "239.255.0.1"
 
 
 def udp_ports() -> set[int]:
@@ -70,10 +78,10 @@ def multicast_works(limit_s: float = 1.0) -> bool:
         try:
             receiver.bind(("", 0))
             receiver.setsockopt(
-                socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, socket.inet_aton(_GROUP) + bytes(4)
+                socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, socket.inet_aton(GROUP) + bytes(4)
             )
             receiver.settimeout(limit_s)
-            sender.sendto(b"turtlewire doctor", (_GROUP, receiver.getsockname()[1]))
+            sender.sendto(b"turtlewire doctor", (GROUP, receiver.getsockname()[1]))
             return receiver.recv(64) == b"turtlewire doctor"
         except OSError:  # no route, not permitted, or nothing came
             return False

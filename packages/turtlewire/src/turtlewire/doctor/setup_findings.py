@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
+from turtlewire.distro import Distro, current_distro
 from turtlewire.doctor.finding import Finding, note, problem
 from turtlewire.doctor.network import multicast_works
-from turtlewire.wire.environment import Range, discovery
+from turtlewire.wire.environment import NO_CYCLONE, Range, discovery, is_installed
 from turtlewire.wire.libddsc import find_libddsc
 from turtlewire.wire.security import (
     IN_THE_CLEAR,
@@ -28,14 +29,18 @@ _INSTALL_COMPILER = (
 )
 _OTHER_LIBRARY = "Let CYCLONEDDS_HOME name the prefix of another one, or unset it."
 _NO_WHEEL = "You need not do anything: it reaches the same robots."
+_INSTALL_LIBDDSC = (
+    "For robots that run rmw_cyclonedds_cpp or rmw_fastrtps_cpp, install a libddsc (Debian 13: apt "
+    "install libddsc0t64)."
+)
 _BLIND = "Nodes of this computer that run on Fast DDS (rmw_fastrtps_cpp) are not found."
 _OWN_ADDRESS = (
     "Cyclone DDS 0.10 finds them only by an address that is not the loopback one. To let it, and "
     "the network in: export ROS_STATIC_PEERS=ADDRESS, an address of this computer."
 )
 _OTHER_DISTRO = (
-    "Use a shell in which no other ROS is sourced. From kilted on, turtlesim uses the interfaces "
-    "of turtlesim_msgs."
+    "Use a shell in which no other ROS is sourced, or choose one with ROS_DISTRO=jazzy, kilted or "
+    "lyrical."
 )
 _MIXED = "Leave out one of them: do not source a real ROS in a shell that uses turtlewire-ros."
 _NO_MULTICAST = "A multicast datagram does not come back: nodes on other hosts will not be found."
@@ -55,11 +60,12 @@ def setup_findings(environment: Mapping[str, str], path: Iterable[str]) -> list[
     from turtlewire.tf.buffer import CORE
 
     found = [note(_PLAIN_CORE, _INSTALL_COMPILER)] if CORE == "python" else []
-    distro = environment.get("ROS_DISTRO", "jazzy")
-    if distro != "jazzy":
-        text = f"ROS_DISTRO is '{distro}', but turtlewire uses the names and texts of jazzy."
+    distro = environment.get("ROS_DISTRO", "")
+    if distro not in {"", *map(str, Distro)}:
+        used = current_distro(environment)
+        text = f"ROS_DISTRO is '{distro}', but turtlewire uses the names and texts of {used}."
         found.append(note(text, _OTHER_DISTRO))
-    found += _library_findings()
+    found += _library_findings(asked=environment.get("RMW_IMPLEMENTATION", "").strip())
     found += _security_findings(environment)
     homes = {
         os.path.realpath(folder)
@@ -82,10 +88,12 @@ def _security_findings(environment: Mapping[str, str]) -> list[Finding]:
     return []
 
 
-def _library_findings() -> list[Finding]:
-    """Return a finding if an unusual libddsc is used."""
+def _library_findings(asked: str) -> list[Finding]:
+    """Return findings if an unusual libddsc is used, or none and no middleware was asked for."""
     library, refused = find_libddsc()
     found = [note(f"{sentence}.", _OTHER_LIBRARY) for sentence in refused]
+    if library is None and not refused and not asked and is_installed("rmw_zenoh_cpp"):
+        found.append(note(f"{NO_CYCLONE}.", _INSTALL_LIBDDSC))
     if library is not None and library.origin != "the cyclonedds wheel":
         found.append(note(f"{library} is in use: {library.reason}.", _NO_WHEEL))
     finds_fast_dds = library is None or library.abi is None or library.abi.finds_fast_dds

@@ -1,6 +1,6 @@
 """The arithmetic of many quaternions, in arrays of the shape ``(..., 4)``.
 
-`turtlewire.tf.conversions` has functions for callers that check their arguments.
+`turtlewire.geometry.conversions` has functions for callers that check their arguments.
 """
 
 from __future__ import annotations
@@ -21,9 +21,13 @@ __all__ = [
     "lengths",
     "matrices",
     "multiply",
+    "normalised",
     "rotate",
     "upper",
 ]
+
+#: Quaternions have the length 1 if they differ by less: by some roundings of a double.
+_UNIT = 1e-14
 
 
 def multiply(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -66,6 +70,17 @@ def lengths(v: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the lengths (N,) of vectors (N, K): `numpy.linalg.norm` takes four times as long."""
     squares: NDArray[np.float64] = np.einsum("ij,ij->i", v, v)
     return np.sqrt(squares, out=squares)
+
+
+def normalised(q: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return quaternions (N, 4) of the length 1; those that have it already stay as they are."""
+    norms = lengths(q)
+    off = np.abs(norms - 1.0) > _UNIT
+    if not off.any():
+        return q
+    unit: NDArray[np.float64] = q.copy()
+    unit[off] /= norms[off, None]
+    return unit
 
 
 def distances(p: NDArray[np.float64], q: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -18,7 +18,9 @@ __all__ = [
     "matrix",
     "multiply",
     "rotate",
+    "rotate_scaling",
     "through_matrix",
+    "to_rpy",
 ]
 
 Vector: TypeAlias = tuple[float, float, float]
@@ -29,10 +31,11 @@ Matrix: TypeAlias = tuple[float, float, float, float, float, float, float, float
 _NO_NUMBERS: Quaternion = (math.nan, math.nan, math.nan, math.nan)
 
 
-def multiply(a: Sequence[float], b: Sequence[float]) -> Quaternion:
-    """Return the rotation that does ``b`` first, then ``a``."""
-    ax, ay, az, aw = a
-    bx, by, bz, bw = b
+def multiply(quaternion1: Sequence[float], quaternion0: Sequence[float]) -> Quaternion:
+    """Return the Hamilton product: the rotation ``quaternion0``, followed by ``quaternion1``."""
+    # ROS 2's names of the parameters: the function is also tf_transformations.quaternion_multiply.
+    ax, ay, az, aw = quaternion1
+    bx, by, bz, bw = quaternion0
     return (
         aw * bx + ax * bw + ay * bz - az * by,
         aw * by + ay * bw + az * bx - ax * bz,
@@ -58,6 +61,13 @@ def rotate(q: Quaternion, v: Vector) -> Vector:
     )
 
 
+def rotate_scaling(q: Quaternion, v: Vector) -> Vector:
+    """Return ``q v q*``, for a quaternion of any length: it scales by the length's square."""
+    longer = sum(number * number for number in q) - 1.0
+    x, y, z = rotate(q, v)
+    return (x + longer * v[0], y + longer * v[1], z + longer * v[2])
+
+
 def from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
     """Return the rotation by ``roll``, ``pitch`` and ``yaw`` [rad] about fixed axes x, y and z."""
     sr, cr = math.sin(roll / 2.0), math.cos(roll / 2.0)
@@ -69,6 +79,15 @@ def from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
         cr * cp * sy - sr * sp * cy,
         cr * cp * cy + sr * sp * sy,
     )
+
+
+def to_rpy(q: Quaternion) -> Vector:
+    """Return roll, pitch and yaw [rad] about fixed axes of a unit quaternion."""
+    x, y, z, w = q
+    pitch = math.asin(max(-1.0, min(1.0, 2 * (w * y - z * x))))
+    roll = math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
+    yaw = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+    return roll, pitch, yaw
 
 
 def matrix(q: Sequence[float]) -> Matrix:

@@ -19,14 +19,19 @@ module                what it holds
 `types`               types of fields, named as in ROS 2's ``rosidl_parser.definition``
 `parser`              texts of ``.msg``, ``.srv`` and ``.action`` files to definitions
 `registry`            definitions by name, parsed at first use
+`bundled`             the definitions that each distribution of ROS 2 has
 `message`             `Message`, the base of all message classes
 `classes`             the classes of messages, services and actions, made at first use
 `constructor`         their constructors, compiled for each
 `values`              defaults of fields, and bulk numbers as arrays
 `checks`              ROS 2's checks at every assignment (``check_fields``)
-`cdr`                 `serialize`, `deserialize` and `deserialize_rows`
+`cdr`                 `serialize` and `deserialize`
 `encoder`, `decoder`  generated code from messages to CDR bytes and back
+`ros1_decoder`        the same from the bytes of ROS 1
+`evolution`           messages of another definition than ours, such as an older one
+`written_records`     messages by the definitions of their writer
 `wide_text`           ``wstring`` on the wire
+`json_values`         messages as JSON can hold them
 `diagnosis`           which field of a message or of its bytes is wrong
 `type_hash`           type hashes (RIHS01)
 `shell`               lazy classes of modules such as ``geometry_msgs.msg``
@@ -40,37 +45,43 @@ module                what it holds
 
 from __future__ import annotations
 
-from turtlewire.msg.cdr import deserialize, deserialize_rows, encode, serialize
+from typing import TYPE_CHECKING
+
+from turtlewire.msg.cdr import deserialize, serialize
 from turtlewire.msg.classes import (
     Action,
+    ActionImpl,
     Service,
     get_action,
-    get_interface_class,
     get_message,
     get_service,
     type_name,
 )
-from turtlewire.msg.message import Message
-from turtlewire.msg.registry import interface_names, interface_path, register_package
-from turtlewire.msg.shell import lazy_classes
+from turtlewire.msg.message import Message, missing_fields
+from turtlewire.msg.registry import add_package, interfaces
 from turtlewire.msg.type_hash import type_hash
 
 __all__ = [
     "Action",
+    "ActionImpl",
     "Message",
     "Service",
+    "add_package",
     "deserialize",
-    "deserialize_rows",
-    "encode",
     "get_action",
-    "get_interface_class",
     "get_message",
     "get_service",
-    "interface_names",
-    "interface_path",
-    "lazy_classes",
-    "register_package",
+    "interfaces",
+    "missing_fields",
     "serialize",
     "type_hash",
     "type_name",
 ]
+
+if not TYPE_CHECKING:  # type checkers would accept every name
+
+    def __getattr__(name: str) -> object:
+        """Raise AttributeError that says how to get the class of a message."""
+        from turtlewire.msg.registry import class_advice
+
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}{class_advice(name)}")

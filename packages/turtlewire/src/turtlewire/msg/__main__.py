@@ -5,22 +5,21 @@ Makes a Python package of a folder with interface definitions.
 
 from __future__ import annotations
 
-import argparse
 import sys
 from pathlib import Path
 
 from turtlewire.errors import InterfaceError
 from turtlewire.msg.generate import generate_package
 from turtlewire.program import program
+from turtlewire.terminal.parser import SuggestingParser
 
 
 def main(argv: list[str] | None = None) -> int:
     """Run the command line; returns the exit status."""
-    parser = argparse.ArgumentParser(
+    parser = SuggestingParser(
         prog="python -m turtlewire.msg",
         description="Turn the msg, srv and action folders of an interface package into a Python "
-        "package: "
-        "no compiler needed.",
+        "package: no compiler needed.",
     )
     parser.add_argument(
         "directory", type=Path, help="the interface package, with msg, srv or action folders in it"

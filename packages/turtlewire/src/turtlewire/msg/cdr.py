@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import struct
+from contextlib import suppress
 from functools import cache
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 from turtlewire.errors import CdrError
 from turtlewire.msg.classes import get_message, type_name
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 
     from turtlewire.msg.values import Cdr
 
-__all__ = ["deserialize", "deserialize_rows", "encode", "serialize"]
+__all__ = ["deserialize", "encode", "serialize"]
 
 _MessageT = TypeVar("_MessageT", bound=Message)
 
@@ -47,67 +48,116 @@ def encode(message: Message) -> Cdr:
     """
     try:
         return message._to_cdr()
-    except Exception as fault:
-        from turtlewire.msg.diagnosis import check_message
+    except Exception as error:  # noqa: BLE001 - any; what is wrong is found out below
+        fault = str(error)
+    # Outside of the handler: the fault of the generated code explains nothing to users.
+    from turtlewire.msg.diagnosis import check_message
 
-        if not isinstance(message, Message):
-            raise TypeError(f"expected a message, got {type(message).__name__}") from None
-        check_message(message._DEFINITION, message)
-        raise CdrError(f"{type_name(type(message))}: {fault}") from fault
+    if not isinstance(message, Message):
+        raise TypeError(f"expected a message, got {_shown(message)}")
+    check_message(message._DEFINITION, message)
+    raise CdrError(f"{type_name(type(message))}: {fault}")
 
 
-def deserialize(cls: type[_MessageT], data: bytes | bytearray | memoryview) -> _MessageT:
+def _shown(value: object) -> str:
+    """Return what was passed in place of a message, and what to write."""
+    if isinstance(value, type):
+        return f"the class {value.__name__}; write {value.__name__}()"
+    if isinstance(value, dict):
+        return "dict; its fields are given to the class: get_message(type)(**fields)"
+    return type(value).__name__
+
+
+@overload
+def deserialize(
+    interface: type[_MessageT], data: bytes | bytearray | memoryview, *, arrays: bool = False
+) -> _MessageT: ...
+@overload
+def deserialize(
+    interface: str, data: bytes | bytearray | memoryview, *, arrays: bool = False
+) -> Message: ...
+def deserialize(
+    interface: type[Message] | str, data: bytes | bytearray | memoryview, *, arrays: bool = False
+) -> Message:
     """Decode a message.
 
     Args:
-        cls: Its class.
+        interface: Its class, or its name such as ``"geometry_msgs/msg/Twist"``.
         data: The encoded bytes, header included. Bytes after the content (padding) are ignored.
+        arrays: True to get sequences of messages that hold nothing but ``float`` or nothing but
+            ``double`` numbers (Point, ColorRGBA, Pose …) as read-only NumPy arrays of shape
+            ``(n, numbers of each)``. They share the memory of ``data``, so a million points take no
+            longer than one. Such a message is for reading: it cannot be compared or encoded.
+
+    Bytes of an older ROS 2, whose message had fewer fields, are read too: the fields that they lack
+    have their defaults, and `missing_fields` names them.
 
     Returns:
-        A new message that shares no memory with ``data``.
+        A new message. Without ``arrays`` it shares no memory with ``data``.
 
     Raises:
         CdrError: The bytes are malformed; the text names the field and the offset. Never reads
             beyond ``data``.
-        InterfaceError: ``cls`` is not a message class.
+        InterfaceError: ``interface`` is not a message class or the name of a message.
     """
     if type(data) is not bytes:
-        data = bytes(data)
+        data = _bytes_of(interface, data)
+    if arrays:
+        return _with_arrays(
+            get_message(interface) if isinstance(interface, str) else interface, data
+        )
     encapsulation = data[:2]
     try:
         if encapsulation == _LITTLE_ENDIAN:
-            return cls._from_cdr(data)  # type: ignore[return-value]
+            return interface._from_cdr(data)  # type: ignore[union-attr] # a str raises
         if encapsulation == _BIG_ENDIAN:
-            return cls._from_cdr_big_endian(data)  # type: ignore[return-value]
-    except Exception as fault:
-        from turtlewire.msg.diagnosis import check_bytes
+            return interface._from_cdr_big_endian(data)  # type: ignore[union-attr]
+    except Exception as error:  # noqa: BLE001 - any; what is wrong is found out below
+        fault = str(error)
+    else:
+        name = interface if isinstance(interface, str) else type_name(interface)
+        raise CdrError(
+            f"{name}: unknown encapsulation {encapsulation.hex(' ') or '(no bytes)'} at offset 0"
+        ).with_hint("Plain CDR is read: 00 01 (little endian) and 00 00 (big endian).")
+    # Outside of the handler: the fault of the generated code explains nothing to users.
+    if isinstance(interface, str):
+        return deserialize(get_message(interface), data)
+    from turtlewire.msg.diagnosis import check_bytes
+    from turtlewire.msg.evolution import older_evolution
 
-        name = type_name(cls)
-        check_bytes(cls._DEFINITION, data, "<" if encapsulation == _LITTLE_ENDIAN else ">")
-        raise CdrError(f"{name}: {fault}") from fault
-    raise CdrError(
-        f"{type_name(cls)}: unknown encapsulation {encapsulation.hex(' ') or '(no bytes)'} at "
-        "offset 0"
-    ).with_hint("Plain CDR is read: 00 01 (little endian) and 00 00 (big endian).")
+    name = type_name(interface)
+    if older := older_evolution(name):
+        with suppress(CdrError):
+            return older.decode(data)
+    check_bytes(interface._DEFINITION, data, "<" if encapsulation == _LITTLE_ENDIAN else ">")
+    raise CdrError(f"{name}: {fault}")
 
 
-def deserialize_rows(cls: type[_MessageT], data: bytes) -> _MessageT:
-    """Decode a message whose long sequences are only looked at as a whole.
-
-    Sequences of messages that hold nothing but ``float`` or nothing but ``double`` numbers (Point,
-    ColorRGBA, Pose …) become read-only arrays of NumPy, ``(n, numbers of each)``, which share the
-    memory of ``data``. A million points take no longer than one. Such a message is for reading:
-    it cannot be compared or encoded.
+def _bytes_of(interface: object, data: object) -> bytes:
+    """Return the bytes of a message.
 
     Raises:
-        CdrError: As :func:`deserialize`.
+        TypeError: ``data`` is something else, or the arguments are swapped.
     """
+    with suppress(TypeError):
+        return bytes(memoryview(data))  # type: ignore[arg-type] # tried
+    if isinstance(interface, (bytes, bytearray, memoryview)):
+        raise TypeError("deserialize() takes the class or its name first, and then the bytes")
+    advice = ""
+    if hasattr(data, "decode") and isinstance(getattr(data, "data", None), bytes):
+        advice = "; call its decode(), or pass its data"
+    elif isinstance(data, Message):
+        advice = ", which is decoded already"
+    raise TypeError(f"data must be bytes, not {type(data).__name__}{advice}")
+
+
+def _with_arrays(interface: type[Message] | str, data: bytes) -> Message:
+    cls = get_message(interface) if isinstance(interface, str) else interface
     order = {_LITTLE_ENDIAN: "<", _BIG_ENDIAN: ">"}.get(data[:2], "")
     if not order:
         return deserialize(cls, data)
     try:
-        decode = _row_decoder(cls, order)  # type: ignore[arg-type] # classes have hashes
-        message: _MessageT = decode(data)
+        message: Message = _row_decoder(cls, order)(data)  # type: ignore[arg-type] # classes have hashes
     except (ValueError, IndexError, struct.error):
         return deserialize(cls, data)  # which says what is wrong
     return message

@@ -13,6 +13,7 @@ import math
 from array import array
 from typing import TYPE_CHECKING, Any
 
+from turtlewire.distro import LYRICAL, since
 from turtlewire.msg.types import (
     FLOATING_POINT_TYPES,
     INTEGER_RANGES,
@@ -59,7 +60,9 @@ def _make_checked(plain: type[Message]) -> type[Message]:
     }
     for field in plain._DEFINITION.fields:
         namespace[field.name] = _checking_property(field, getattr(plain, field.name))
-    return type(plain.__name__, (plain,), namespace)
+    checked: type[Message] = type(plain.__name__, (plain,), namespace)
+    checked.__slots__ = plain.__slots__
+    return checked
 
 
 def _checking_property(field: Field, stored: Any) -> property:
@@ -97,7 +100,7 @@ def _check_values(name: str, type_: AbstractNestedType, value: Any) -> None:
     if element_code(type_) and _is_native_storage(name, type_, value):
         return
     limit: int | None = getattr(type_, "maximum_size", getattr(type_, "size", None))
-    wanted = "a set or sequence"
+    wanted = "a sequence" if since(LYRICAL) else "a set or sequence"
     if limit is not None:
         wanted += (
             f" with length {limit}" if isinstance(type_, Array) else f" with length <= {limit}"

@@ -1,21 +1,23 @@
 """Makes the Python classes of messages, services and actions.
 
 A message class has plain slots named as its fields, a keyword constructor and the methods of
-`Message`. Only fields that hold numbers in bulk are properties over their slot, because assigning a
-list to them converts it.
+`Message`. Only fields whose assignment converts the value are properties over their slot: those
+that hold numbers in bulk, and in Lyrical all that hold lists.
 """
 
 from __future__ import annotations
 
+import warnings
 from threading import RLock
 from typing import TYPE_CHECKING, Any, Generic, cast
 
+from turtlewire.distro import LYRICAL, since
 from turtlewire.errors import InterfaceError
 from turtlewire.msg.constructor import make_constructor
 from turtlewire.msg.definition import split_name
 from turtlewire.msg.message import Message
 from turtlewire.msg.registry import load_action, load_message, load_service
-from turtlewire.msg.types import Array
+from turtlewire.msg.types import AbstractNestedType, Array
 from turtlewire.msg.values import (
     array_of_bytes,
     converter,
@@ -43,6 +45,7 @@ else:  # the defaults came with Python 3.13
 
 __all__ = [
     "Action",
+    "ActionImpl",
     "Service",
     "get_action",
     "get_interface_class",
@@ -84,6 +87,14 @@ class Service(Generic[_RequestT, _ResponseT], metaclass=_PartsOnDemand):
         raise NotImplementedError("Service classes can not be instantiated")
 
 
+class ActionImpl(metaclass=_PartsOnDemand):
+    """Base of the ``Impl`` of all action classes: the services and messages that carry an action.
+
+    They are ``SendGoalService``, ``GetResultService``, ``CancelGoalService``, ``FeedbackMessage``
+    and ``GoalStatusMessage``.
+    """
+
+
 class Action(Generic[_GoalT, _ResultT, _FeedbackT], metaclass=_PartsOnDemand):
     """Base of all action classes.
 
@@ -108,15 +119,32 @@ def get_message(name: str) -> type[Message]:
 
     Raises:
         InterfaceError: The message does not exist.
+        TypeError: ``name`` is not a str.
     """
-    found = _messages.get(name)
+    full_name = _full_name(name, "msg")
+    found = _messages.get(full_name)
     if found is not None:
         return found
-    full_name = name if name.count("/") != 1 else name.replace("/", "/msg/")
     with _lock:
         if full_name not in _messages:
             _messages[full_name] = _make_message(load_message(full_name))
         return _messages[full_name]
+
+
+_EXAMPLES = {
+    "msg": "get_message accepts the name of a message, for example 'geometry_msgs/msg/Twist'",
+    "srv": "get_service accepts the name of a service, for example 'turtlesim/srv/Spawn'",
+    "action": "get_action accepts the name of an action, for example "
+    "'turtlesim/action/RotateAbsolute'",
+}
+
+
+def _full_name(name: str, kind: str) -> str:
+    """Return the name with the kind of its interface between package and type."""
+    if not isinstance(name, str):
+        given = f"the class {name.__name__}" if isinstance(name, type) else type(name).__name__
+        raise TypeError(f"{_EXAMPLES[kind]}, not {given}")
+    return name if name.count("/") != 1 else name.replace("/", f"/{kind}/")
 
 
 def get_service(name: str) -> type[Service]:
@@ -124,7 +152,7 @@ def get_service(name: str) -> type[Service]:
 
     Raises as `get_message` does.
     """
-    full_name = name if name.count("/") != 1 else name.replace("/", "/srv/")
+    full_name = _full_name(name, "srv")
     with _lock:
         if full_name not in _services:
             load_service(full_name)
@@ -137,7 +165,7 @@ def get_action(name: str) -> type[Action]:
 
     Raises as `get_message` does.
     """
-    full_name = name if name.count("/") != 1 else name.replace("/", "/action/")
+    full_name = _full_name(name, "action")
     with _lock:
         if full_name not in _actions:
             load_action(full_name)
@@ -159,7 +187,7 @@ def get_interface_class(full_name: str) -> type:
 
 
 def type_name(cls: type) -> str:
-    """Full name of an interface class: ``"geometry_msgs/msg/Twist"``.
+    """Return the full name of an interface class: ``"geometry_msgs/msg/Twist"``.
 
     Raises:
         InterfaceError: ``cls`` is not an interface class.
@@ -212,25 +240,77 @@ def _make_message(definition: MessageDefinition) -> type[Message]:
     )
     cls = type(name, (Message,), namespace)
     for field in definition.fields:
-        convert = converter(field.type)
-        if convert is None:
+        if not isinstance(field.type, AbstractNestedType):
             continue
         slot = getattr(cls, field.name)
-        if isinstance(field.type, Array):
-            setattr(cls, raw_name(field.name), slot)
+        setattr(cls, raw_name(field.name), slot)
+        convert = converter(field.type)
+        if convert is None:
+            if since(LYRICAL):
+                setattr(cls, field.name, _list_property(slot))
+        elif isinstance(field.type, Array):
             setattr(cls, field.name, _array_property(slot, field.type, convert))
         else:
             setattr(cls, field.name, _converting_property(slot, convert))
+    _show_private_slots(cls)
     return cls
+
+
+def _show_private_slots(cls: type[Message]) -> None:
+    """Let the class look as if its fields were properties over private slots, as in ROS 2.
+
+    Programs read ``__slots__`` and remove the underscores, or read the attributes that it names.
+    Real properties would make each access slower; these are further names of the same slots.
+    """
+    names = [field.name for field in cls._DEFINITION.fields]
+    for name in names:
+        setattr(cls, f"_{name}", getattr(cls, name))
+    cls.__slots__ = tuple(f"_{name}" for name in names)
 
 
 def _converting_property(slot: Any, convert: Any) -> property:
     store = slot.__set__
 
     def assign(message: Message, value: Any) -> None:
-        store(message, convert(value))
+        if isinstance(value, set):
+            _warn_of_set()
+        try:
+            store(message, convert(value))
+        except (TypeError, OverflowError) as error:
+            place = f"{type(message)._TYPE_NAME}: field '{slot.__name__}'"
+            raise type(error)(f"{place} holds a sequence of numbers: {error}") from None
 
     return property(slot.__get__, assign, slot.__delete__)
+
+
+def _list_property(slot: Any) -> property:
+    """Return a property that makes a list of other iterables, as in Lyrical."""
+    store = slot.__set__
+
+    def assign(message: Message, value: Any) -> None:
+        if isinstance(value, list):
+            store(message, value)
+            return
+        if isinstance(value, set):
+            _warn_of_set()
+        try:
+            store(message, list(value))
+        except TypeError as error:
+            place = f"{type(message)._TYPE_NAME}: field '{slot.__name__}'"
+            raise TypeError(f"{place} holds a list: {error}") from None
+
+    return property(slot.__get__, assign, slot.__delete__)
+
+
+def _warn_of_set() -> None:
+    """Warn of a set as the value of a field, in Lyrical."""
+    if since(LYRICAL):
+        warnings.warn(
+            "Using set or subclass of set is deprecated, please use a subclass of "
+            "collections.abc.Sequence like list",
+            DeprecationWarning,
+            stacklevel=3,
+        )
 
 
 def _array_property(slot: Any, type_: Array, convert: Any) -> property:
@@ -246,6 +326,8 @@ def _array_property(slot: Any, type_: Array, convert: Any) -> property:
         return value
 
     def assign(message: Message, value: Any) -> None:
+        if isinstance(value, set):
+            _warn_of_set()
         store(message, value if type(value) is bytes and len(value) == size else convert(value))
 
     return property(read, assign, slot.__delete__)
@@ -278,7 +360,7 @@ def _make_action(full_name: str) -> type[Action]:
         "_PARTS": {part: f"{full_name}_{part}" for part in ("Goal", "Result", "Feedback")},
         "Impl": _PartsOnDemand(
             "Impl",
-            (),
+            (ActionImpl,),
             {"__module__": module, "__qualname__": f"{name}.Impl", "_PARTS": implementation},
         ),
     }

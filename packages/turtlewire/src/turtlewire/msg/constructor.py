@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Any
 
+from turtlewire.distro import LYRICAL, since
 from turtlewire.msg.types import AbstractNestedType, Array, NamespacedType
 from turtlewire.msg.values import array_values, element_code, raw_name, scalar_default
 
@@ -21,6 +22,9 @@ def make_constructor(
     definition: MessageDefinition, class_of: Callable[[str], type[Message]]
 ) -> Callable[..., None]:
     """Compile ``__init__``: one assignment for each field, defaults as in ROS 2.
+
+    In Lyrical, None stands for the default of every field, and Python itself refuses unknown
+    keywords.
 
     Args:
         definition: The message.
@@ -45,16 +49,30 @@ def make_constructor(
                 scalar_default(field.type) if field.default is None else field.default
             )
             parameters.append(f"{field.name}=_default{index}")
-            body.append(f" _self.{field.name} = {field.name}")
-    condition = "" if _checks_are_on() else "if _unknown: "
-    source = f"def __init__({', '.join(parameters)}, **_unknown):\n" + "\n".join(
-        [*body, f" {condition}_finish(_self, _unknown)"]
-    )
+            none = f"_default{index} if {field.name} is None else " if since(LYRICAL) else ""
+            body.append(f" _self.{field.name} = {none}{field.name}")
+    last_parameters, last_line = _ending(definition)
+    source = f"def __init__({', '.join(parameters)}, {last_parameters}):\n"
+    source += "\n".join([*body, f" {last_line}"])
     # Not exec(source): CPython ends with -2 after a Ctrl-C in there, even one that the program
     # caught.
     exec(compile(source, f"<constructor of {definition.full_name}>", "exec"), environment)  # noqa: S102 - our own source, checked names
     constructor: Callable[..., None] = environment["__init__"]
+    constructor.__qualname__ = f"{definition.full_name.rpartition('/')[2]}.__init__"
     return constructor
+
+
+def _ending(definition: MessageDefinition) -> tuple[str, str]:
+    """Return the parameters that follow the fields, and the statement that looks at them."""
+    always = _checks_are_on()
+    if not since(LYRICAL):
+        return "**_unknown", f"{'' if always else 'if _unknown: '}_finish(_self, _unknown)"
+    star = "" if definition.fields else "*, "
+    given = "{'check_fields': check_fields} if check_fields is not None else {}"
+    return (
+        f"{star}check_fields=None",
+        f"{'' if always else 'if check_fields: '}_finish(_self, {given})",
+    )
 
 
 def _fresh_default(
@@ -105,9 +123,13 @@ def _finish(message: Message, unknown: dict[str, Any]) -> None:
     """Look at what the constructor's keywords did not cover: ``check_fields``, and mistakes."""
     check = unknown.pop("check_fields", _checks_are_on())
     if unknown:
-        raise AssertionError(
+        error: Any = AssertionError(
             f"Invalid arguments passed to constructor: {', '.join(sorted(unknown))}"
         )
+        error.hint = f"The fields are {', '.join(message.get_fields_and_field_types()) or 'none'}."
+        if hasattr(error, "add_note"):
+            error.add_note(error.hint)
+        raise error
     if check:
         from turtlewire.msg.checks import turn_on_checks
 

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from turtlewire.msg.message import Message
     from turtlewire.msg.types import AbstractType
 
-__all__ = ["make_decoder", "numbers"]
+__all__ = ["Decoder", "make_decoder", "numbers"]
 
 
 def make_decoder(
@@ -42,6 +42,7 @@ def make_decoder(
     class_of: Callable[[str], type[Message]],
     *,
     rows: bool = False,
+    exact: bool = False,
 ) -> Callable[[bytes], Message]:
     """Generate ``decode(data) -> message`` for a message class.
 
@@ -50,9 +51,10 @@ def make_decoder(
         order: ``"<"`` for little endian data, ``">"`` for big endian.
         class_of: Finds the class of a nested message by its full name.
         rows: Whether sequences of plain messages become arrays of NumPy, which share the memory
-            of ``data`` (see :func:`turtlewire.msg.deserialize_rows`).
+            of ``data`` (see :func:`turtlewire.msg.deserialize`).
+        exact: Whether more bytes after the message than padding are an error.
     """
-    return _Decoder(order, class_of, rows=rows).compile(cls)
+    return Decoder(order, class_of, rows=rows, exact=exact).compile(cls)
 
 
 def numbers(code: str, data: memoryview, swap: bool) -> array[Any]:
@@ -64,14 +66,25 @@ def numbers(code: str, data: memoryview, swap: bool) -> array[Any]:
     return values
 
 
-class _Decoder:
+class Decoder:
     """Writes the source of one decoding function.
 
     ``self.base + self.offset`` is the position in ``data``.
     """
 
-    def __init__(self, order: str, class_of: Callable[[str], type[Message]], *, rows: bool) -> None:
+    #: What a message without fields consists of.
+    no_fields_code = "B"
+
+    def __init__(
+        self,
+        order: str,
+        class_of: Callable[[str], type[Message]],
+        *,
+        rows: bool = False,
+        exact: bool = False,
+    ) -> None:
         self.class_of = class_of
+        self.exact = exact
         self.rows = rows
         self.order = order
         self.lines: list[str] = []
@@ -93,11 +106,18 @@ class _Decoder:
         """Generate and compile the function."""
         self.message(cls, "m")
         self.flush()
+        self.finish()
         self.line("return m")
         source = "def decode(data):\n" + "\n".join(self.lines)
         exec(compile(source, f"<decoder of {cls._TYPE_NAME}>", "exec"), self.environment)  # noqa: S102 - our own source
         decode: Callable[[bytes], Message] = self.environment["decode"]
         return decode
+
+    def finish(self) -> None:
+        """Refuse bytes after the last field."""
+        if self.exact:
+            self.line(f"rest = len(data) - ({self.position()})")
+            self.line("if rest and (rest > 3 or len(data) % 4): raise ValueError('it is longer')")
 
     # -- fields
 
@@ -106,8 +126,8 @@ class _Decoder:
         self.environment[class_name] = cls
         self.line(f"{target} = new({class_name})")
         definition: MessageDefinition = cls._DEFINITION
-        if not definition.fields:
-            self.number("B", "_")
+        if not definition.fields and self.no_fields_code:
+            self.number(self.no_fields_code, "_")
         for field in definition.fields:
             self.value(field.type, f"{target}.{field.name}")
 
@@ -175,7 +195,8 @@ class _Decoder:
         self.line(f"begin = {position} + 3 & -8 | 4 if {count} and {size} == 8 else {position}")
         self.line(f"end = begin + {count} * {size * width}")
         self.line("if end > len(data): raise ValueError")
-        self.line(f"{target} = ndarray(({count}, {width}), {dtype}, data, begin)")
+        owner, _, name = target.rpartition(".")
+        self.line(f"{owner}.{raw_name(name)} = ndarray(({count}, {width}), {dtype}, data, begin)")
         self.jump("end", min(size, 4))
 
     def number_sequence(self, code: str, count: str, target: str) -> None:

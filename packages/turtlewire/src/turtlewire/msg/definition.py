@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.msg.types import BasicType, BoundedSequence, NamespacedType
+from turtlewire.msg.types import AbstractNestedType, BasicType, BoundedSequence, NamespacedType
 
 if TYPE_CHECKING:
     from turtlewire.msg.types import AbstractType
@@ -18,6 +18,7 @@ __all__ = [
     "Field",
     "MessageDefinition",
     "ServiceDefinition",
+    "nested_types",
     "split_name",
 ]
 
@@ -80,6 +81,15 @@ class MessageDefinition:
         self.full_name = full_name
         self.fields = fields
         self.constants = constants
+
+
+def nested_types(definition: MessageDefinition) -> list[str]:
+    """Return the names of the messages that are fields of a message, in order."""
+    types = (
+        field.type.value_type if isinstance(field.type, AbstractNestedType) else field.type
+        for field in definition.fields
+    )
+    return [type_.full_name for type_ in types if isinstance(type_, NamespacedType)]
 
 
 class ServiceDefinition:

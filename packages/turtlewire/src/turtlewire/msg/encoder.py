@@ -79,10 +79,17 @@ _PADS = {n: tuple(bytes((4 - length) % n) for length in range(n)) for n in (2, 4
 _NUL_PADS = {n: tuple(bytes(1 + (3 - length) % n) for length in range(n)) for n in (2, 4, 8)}
 
 
-def make_encoder(cls: type) -> Callable[[Any], Cdr]:
-    """Generate ``encode(message) -> Cdr`` for a message class."""
+def make_encoder(
+    cls: type, definition_of: Callable[[str], MessageDefinition] = load_message
+) -> Callable[[Any], Cdr]:
+    """Generate ``encode(message) -> Cdr`` for a message class.
+
+    Args:
+        cls: The class; its ``_DEFINITION`` has the fields in the order of the bytes.
+        definition_of: Finds the definition of a nested message by its full name.
+    """
     definition: MessageDefinition = cls._DEFINITION  # type: ignore[attr-defined]
-    return _Encoder().compile(definition)
+    return _Encoder(definition_of).compile(definition)
 
 
 def as_bool(value: Any) -> bool:
@@ -125,14 +132,18 @@ def swapped(values: Any) -> Any:
     return values
 
 
-def _has_numbers(definition: MessageDefinition) -> bool:
+def _has_numbers(
+    definition: MessageDefinition, definition_of: Callable[[str], MessageDefinition]
+) -> bool:
     """Return True if there is a sequence of numbers in it at any depth."""
     for field in definition.fields:
         type_ = field.type
         if isinstance(type_, AbstractSequence) and element_code(type_):
             return True
         nested = type_.value_type if isinstance(type_, AbstractNestedType) else type_
-        if isinstance(nested, NamespacedType) and _has_numbers(load_message(nested.full_name)):
+        if isinstance(nested, NamespacedType) and _has_numbers(
+            definition_of(nested.full_name), definition_of
+        ):
             return True
     return False
 
@@ -140,7 +151,8 @@ def _has_numbers(definition: MessageDefinition) -> bool:
 class _Encoder:
     """Writes the source of one encoding function."""
 
-    def __init__(self) -> None:
+    def __init__(self, definition_of: Callable[[str], MessageDefinition]) -> None:
+        self.definition_of = definition_of
         self.lines: list[str] = []
         self.indent = " "
         self.environment: dict[str, Any] = {
@@ -162,7 +174,7 @@ class _Encoder:
 
     def compile(self, definition: MessageDefinition) -> Callable[[Any], Cdr]:
         """Generate and compile the function."""
-        self.has_numbers = _has_numbers(definition)
+        self.has_numbers = _has_numbers(definition, self.definition_of)
         if self.has_numbers:
             self.line("done = []; shift = 0")
         self.message(definition, "m")
@@ -189,7 +201,7 @@ class _Encoder:
         if isinstance(type_, BasicType):
             self.basic(type_, value)
         elif isinstance(type_, NamespacedType):
-            self.message(load_message(type_.full_name), self.local(value))
+            self.message(self.definition_of(type_.full_name), self.local(value))
         elif isinstance(type_, (AbstractString, AbstractWString)):
             self.text(type_, value)
         elif isinstance(type_, AbstractSequence):

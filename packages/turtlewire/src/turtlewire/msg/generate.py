@@ -14,24 +14,25 @@ from typing import TYPE_CHECKING
 
 from turtlewire.errors import InterfaceError
 from turtlewire.msg.idl import idl_to_text
-from turtlewire.msg.registry import KINDS, interfaces_in, register_package
+from turtlewire.msg.registry import KINDS, add_package, interfaces_in
 from turtlewire.msg.stubs import module_stub
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-__all__ = ["generate_package", "package_name", "write_modules"]
+__all__ = ["generate_package", "import_lines", "package_name", "write_modules"]
 
 _PACKAGE = '''"""Interfaces of {package}."""
 
-from turtlewire.msg import register_package
+from turtlewire.msg import add_package
 
-register_package(__name__, __path__[0])
-'''
+add_package(__name__, __path__[0])
+
+{imports}'''
 
 _MODULE = '''"""The {kind} interfaces of {package}: classes made at first access."""
 
-from turtlewire.msg import lazy_classes
+from turtlewire.msg.shell import lazy_classes
 
 __all__ = [
 {names}]
@@ -76,9 +77,10 @@ def generate_package(source: Path, output: Path, package: str = "") -> Path:
         path.unlink()
     for path in files:
         _put_definition(package, path, folder)
-    register_package(package, str(folder))
-    write_modules(package, folder, folder)
-    (folder / "__init__.py").write_text(_PACKAGE.format(package=package), encoding="utf-8")
+    add_package(package, str(folder))
+    imports = import_lines(write_modules(package, folder, folder))
+    text = _PACKAGE.format(package=package, imports=imports)
+    (folder / "__init__.py").write_text(text, encoding="utf-8")
     (folder / "py.typed").touch()
     return folder
 
@@ -107,12 +109,26 @@ def _put_definition(package: str, path: Path, folder: Path) -> None:
         copyfile(path, target)
 
 
-def write_modules(package: str, source: Path, folder: Path) -> None:
-    """Write modules and stubs for the definitions in ``source`` into ``folder``."""
+def import_lines(kinds: list[str]) -> str:
+    """Return the imports of a package's modules, with which ``import std_msgs`` is enough.
+
+    In ROS 2 it is enough as soon as any module has imported ``std_msgs.msg``.
+    """
+    return "".join(f"from . import {kind} as {kind}\n" for kind in kinds)
+
+
+def write_modules(package: str, source: Path, folder: Path) -> list[str]:
+    """Write modules and stubs for the definitions in ``source`` into ``folder``.
+
+    Returns:
+        The modules with definitions, among ``msg``, ``srv`` and ``action``.
+    """
+    kinds = []
     for kind in KINDS:
         names = sorted(interfaces_in(str(source))[kind], key=_natural_order)
         if not names:
             continue
+        kinds.append(kind)
         module = folder / kind
         module.mkdir(parents=True, exist_ok=True)
         listed = "".join(f'    "{name}",\n' for name in names)
@@ -120,6 +136,7 @@ def write_modules(package: str, source: Path, folder: Path) -> None:
             _MODULE.format(package=package, kind=kind, names=listed), encoding="utf-8"
         )
         (module / "__init__.pyi").write_text(module_stub(package, kind, names), encoding="utf-8")
+    return kinds
 
 
 def _natural_order(name: str) -> list[tuple[int, str]]:

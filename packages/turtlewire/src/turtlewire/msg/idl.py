@@ -9,22 +9,13 @@ from typing import TYPE_CHECKING
 
 from turtlewire.errors import InterfaceError
 from turtlewire.msg.idl_reader import BASIC_TYPES, IdlReader, IdlStructure
-from turtlewire.msg.types import (
-    AbstractNestedType,
-    AbstractType,
-    Array,
-    BoundedSequence,
-    BoundedString,
-    BoundedWString,
-    NamespacedType,
-)
+from turtlewire.msg.types import AbstractNestedType, AbstractType, type_in_msg_file
 
 if TYPE_CHECKING:
     from turtlewire.msg.idl_reader import Notes
 
 __all__ = ["idl_to_text"]
 
-_IN_MSG = {"boolean": "bool", "octet": "byte", "float": "float32", "double": "float64"}
 _PARTS = {
     "msg": ("",),
     "srv": ("_Request", "_Response"),
@@ -56,7 +47,7 @@ def idl_to_text(full_name: str, text: str) -> str:
         if part not in structures:
             raise InterfaceError(f"{full_name}.idl has no struct {part}")
         constants = [
-            f"{_text(each.type)} {each.name} = {each.value}\n"
+            f"{type_in_msg_file(each.type)} {each.name} = {each.value}\n"
             for each in reader.constants
             if each.modules[-1:] in ((f"{part}_Constants",), (part,))
         ]
@@ -104,19 +95,6 @@ class _Reader(IdlReader):
         return text
 
 
-def _text(type_: AbstractType) -> str:
-    """Return a type as .msg files have it."""
-    if isinstance(type_, AbstractNestedType):
-        bound = f"<={type_.maximum_size}" if isinstance(type_, BoundedSequence) else ""
-        size = type_.size if isinstance(type_, Array) else bound
-        return f"{_text(type_.value_type)}[{size}]"
-    if isinstance(type_, (BoundedString, BoundedWString)):
-        kind = "string" if isinstance(type_, BoundedString) else "wstring"
-        return f"{kind}<={type_.maximum_size}"
-    name = str(type_)
-    return name if isinstance(type_, NamespacedType) else _IN_MSG.get(name, name)
-
-
 def _comments(notes: Notes) -> list[str]:
     texts = [value["text"] for name, value in notes if name == "verbatim" and "text" in value]
     return [f"# {line}\n" for text in texts[-1:] for line in _unquoted(text).splitlines()]
@@ -130,7 +108,7 @@ def _fields(structure: IdlStructure) -> list[str]:
         if isinstance(type_, AbstractNestedType) and default.startswith('"'):
             default = _unquoted(default)  # IDL has lists in quotes
         if name != _DUMMY:
-            lines.append(f"{_text(type_)} {name} {default}".rstrip() + "\n")
+            lines.append(f"{type_in_msg_file(type_)} {name} {default}".rstrip() + "\n")
     return lines
 
 

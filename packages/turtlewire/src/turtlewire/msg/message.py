@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from turtlewire.msg.types import AbstractType
     from turtlewire.msg.values import Cdr
 
-__all__ = ["Message"]
+__all__ = ["Message", "missing_fields"]
 
 
 class _FieldTypes:
@@ -30,10 +30,11 @@ class Message:
         SLOT_TYPES: The types of the fields, in order.
     """
 
-    __slots__ = ()
+    __slots__: tuple[str, ...] = ()
     SLOT_TYPES: tuple[AbstractType, ...] = ()
     _TYPE_NAME: str
     _DEFINITION: MessageDefinition
+    _MISSING_FIELDS: tuple[str, ...] = ()
     _fields_and_field_types = _FieldTypes()
 
     if TYPE_CHECKING:  # each class gets methods of its own when it is made
@@ -74,6 +75,15 @@ class Message:
         return True
 
     __hash__ = None  # type: ignore[assignment]
+
+
+def missing_fields(message: Message) -> tuple[str, ...]:
+    """Return the fields that the writer of a received or recorded message does not know.
+
+    They have their defaults, because its definition differs from ours: ``("variance",)`` for a
+    Range of an old bag. Fields of fields are named ``markers.texture``.
+    """
+    return message._MISSING_FIELDS
 
 
 def _repr_value(type_: AbstractType, value: Any) -> str:

@@ -61,15 +61,20 @@ _BASIC_TYPES = {
     **{name: BasicType(name) for name in INTEGER_RANGES},
 }
 
+#: Attributes that all message classes have.
+_TAKEN_NAMES = ("SLOT_TYPES", "get_fields_and_field_types")
+
 _ESCAPES = {"n": "\n", "t": "\t", "r": "\r", "0": "\0", "a": "\a", "b": "\b", "f": "\f", "v": "\v"}
 
 
-def parse_message(full_name: str, text: str) -> MessageDefinition:
+def parse_message(full_name: str, text: str, *, strict: bool = True) -> MessageDefinition:
     """Parse one message.
 
     Args:
         full_name: ``"geometry_msgs/msg/Vector3"``; the package resolves types named without one.
         text: The text of the file.
+        strict: Whether names must follow ROS 2's rules. Definitions in bags come from any tool and
+            from ROS 1: there, a field may be called ``D`` or ``class`` (read as ``class_``).
 
     Returns:
         The definition.
@@ -78,7 +83,7 @@ def parse_message(full_name: str, text: str) -> MessageDefinition:
         InterfaceError: The text is not a message; says which line and why.
     """
     package, _, name = split_name(full_name)
-    if not _is_type_name(name.partition("_")[0]):
+    if strict and not _is_type_name(name.partition("_")[0]):
         raise InterfaceError(f"'{name}' is not a valid interface name").with_hint(
             "Interface names are CamelCase: a capital letter, then letters and digits."
         )
@@ -88,11 +93,14 @@ def parse_message(full_name: str, text: str) -> MessageDefinition:
         statement = without_comment(line).strip()
         if statement:
             try:
-                _parse_statement(package, statement, fields, constants)
+                _parse_statement(package, statement, fields, constants, strict)
             except ValueError as error:
                 raise InterfaceError(
                     f"{full_name}, line {number}: {error} in '{statement}'"
                 ) from None
+    if not strict:
+        names = {field.name for field in fields}
+        constants = list({each.name: each for each in constants if each.name not in names}.values())
     _refuse_duplicates(
         full_name, [*(field.name for field in fields), *(constant.name for constant in constants)]
     )
@@ -156,7 +164,7 @@ def without_comment(line: str) -> str:
 
 
 def _parse_statement(
-    package: str, statement: str, fields: list[Field], constants: list[Constant]
+    package: str, statement: str, fields: list[Field], constants: list[Constant], strict: bool
 ) -> None:
     type_text, _, rest = (
         statement.partition(" ")
@@ -164,17 +172,37 @@ def _parse_statement(
         else statement.replace("\t", " ", 1).partition(" ")
     )
     rest = rest.strip()
-    type_ = parse_type(package, type_text)
+    type_ = parse_type(package, type_text, strict=strict)
     name = _leading_identifier(rest)
     value_text = rest[len(name) :].strip()
     if value_text.startswith("="):
-        if not name.isupper() or not _is_identifier(name.lower()):
-            raise ValueError(
-                f"'{name}' is not a valid constant name (capital letters, digits, single "
-                "underscores)"
-            )
-        constants.append(Constant(name, type_, parse_value(type_, value_text[1:].strip())))
+        if strict:
+            _check_constant_name(name)
+        value = parse_value(type_, value_text[1:].strip())
+        constants.append(Constant(name if strict else _usable_name(name), type_, value))
         return
+    if strict:
+        _check_field_name(name)
+    else:
+        name = _usable_name(name)
+    fields.append(Field(name, type_, parse_value(type_, value_text) if value_text else None))
+
+
+def _usable_name(name: str) -> str:
+    """Return the attribute for a name that need not follow ROS 2's rules."""
+    if not name.isascii() or not name.isidentifier() or name[0] == "_":
+        raise ValueError(f"'{name}' is not a name")
+    return f"{name}_" if iskeyword(name) or name in _TAKEN_NAMES else name
+
+
+def _check_constant_name(name: str) -> None:
+    if not name.isupper() or not _is_identifier(name.lower()):
+        raise ValueError(
+            f"'{name}' is not a valid constant name (capital letters, digits, single underscores)"
+        )
+
+
+def _check_field_name(name: str) -> None:
     if not _is_identifier(name):
         raise ValueError(
             f"'{name}' is not a valid field name (lower case, digits, single underscores, a "
@@ -182,7 +210,6 @@ def _parse_statement(
         )
     if iskeyword(name):
         raise ValueError(f"'{name}' is a keyword of Python, and so cannot be a field name")
-    fields.append(Field(name, type_, parse_value(type_, value_text) if value_text else None))
 
 
 def _leading_identifier(text: str) -> str:
@@ -207,20 +234,21 @@ def _is_type_name(name: str) -> bool:
     return name.isascii() and name[:1].isupper() and name.isalnum()
 
 
-def parse_type(package: str, text: str) -> AbstractType:
+def parse_type(package: str, text: str, *, strict: bool = True) -> AbstractType:
     """Return the type that a text names, for example ``string<=3[]``.
 
     Args:
         package: Where messages are that are named without a package.
         text: The text.
+        strict: Whether names of messages must follow ROS 2's rules.
 
     Raises:
         ValueError: ``text`` is not a type.
     """
     if not text.endswith("]"):
-        return _parse_value_type(package, text)
+        return _parse_value_type(package, text, strict)
     base, _, size = text[:-1].rpartition("[")
-    value_type = _parse_value_type(package, base)
+    value_type = _parse_value_type(package, base, strict)
     if not size:
         return UnboundedSequence(value_type)
     if size.startswith("<="):
@@ -228,7 +256,7 @@ def parse_type(package: str, text: str) -> AbstractType:
     return Array(value_type, _parse_size(size))
 
 
-def _parse_value_type(package: str, text: str) -> AbstractType:
+def _parse_value_type(package: str, text: str, strict: bool) -> AbstractType:
     basic = _BASIC_TYPES.get(text)
     if basic is not None:
         return basic
@@ -243,7 +271,8 @@ def _parse_value_type(package: str, text: str) -> AbstractType:
         return BoundedWString(_parse_size(size))
     owner, slash, name = text.rpartition("/")
     owner = owner.removesuffix("/msg") if slash else package
-    if not _is_type_name(name) or not _is_identifier(owner or "_"):
+    is_valid = _is_type_name(name) and _is_identifier(owner or "_")
+    if not (is_valid if strict else name.isidentifier() and owner.isidentifier()):
         raise ValueError(f"'{text}' is not a type")
     return NamespacedType((owner, "msg"), name)
 

@@ -10,9 +10,11 @@ from __future__ import annotations
 
 import os
 import sys
+import time
 from typing import TYPE_CHECKING
 
 from turtlewire.errors import InterfaceError
+from turtlewire.msg.bundled import bundled_folders, is_listed
 from turtlewire.msg.definition import (
     ActionDefinition,
     MessageDefinition,
@@ -20,6 +22,8 @@ from turtlewire.msg.definition import (
     split_name,
 )
 from turtlewire.msg.parser import parse_action, parse_message, parse_service
+from turtlewire.package_sources import source_hint
+from turtlewire.path_arguments import near_path, path_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -27,20 +31,19 @@ if TYPE_CHECKING:
 __all__ = [
     "KINDS",
     "Definition",
+    "add_package",
+    "class_advice",
     "define",
-    "interface_names",
     "interface_path",
+    "interfaces",
     "interfaces_in",
     "load_action",
     "load_interface",
     "load_message",
     "load_service",
-    "register_package",
 ]
 
 KINDS = ("msg", "srv", "action")
-
-_BUNDLED = os.path.join(os.path.dirname(__file__), "interfaces")
 
 Definition = MessageDefinition | ServiceDefinition | ActionDefinition
 
@@ -49,16 +52,36 @@ _INDEX = os.path.join("share", "ament_index", "resource_index", "rosidl_interfac
 
 _registered: dict[str, str] = {}
 _loaded: dict[str, Definition] = {}
+#: Where an interface was not found, until when that counts, and the hint: to look for it and for
+#: similar names takes 35 ms, and a bag may ask for each of its messages.
+_not_found: dict[str, tuple[tuple[str, ...], float, str]] = {}
+_NOT_FOUND_S = 5.0
 
 
-def register_package(package: str, directory: str) -> None:
+def add_package(package: str, directory: str) -> None:
     """Register the folder with the definitions of a package.
 
     Args:
         package: Name of the package.
         directory: The folder that contains its ``msg``, ``srv`` and ``action`` folders.
+
+    Raises:
+        InterfaceError: ``package`` cannot be the name of a package, or the folder has none of
+            these.
+        NotADirectoryError: ``directory`` is not a folder.
     """
+    if not (isinstance(package, str) and package.isascii() and package.isidentifier()):
+        raise InterfaceError(f"{package!r} is not the name of a package").with_hint(
+            "Names look like my_msgs; the folder comes second: add_package('my_msgs', 'folder')."
+        )
+    directory = path_text(directory, "directory", "folder of the package")
+    if not os.path.isdir(directory):
+        advice = "" if os.path.exists(directory) else near_path(directory)
+        raise NotADirectoryError(f"{directory} is not a folder{advice}")
+    if not any(os.path.isdir(os.path.join(directory, kind)) for kind in KINDS):
+        raise InterfaceError(f"{directory} contains none of the folders msg, srv and action")
     _registered[package] = directory
+    _not_found.clear()
 
 
 def load_message(full_name: str) -> MessageDefinition:
@@ -69,7 +92,9 @@ def load_message(full_name: str) -> MessageDefinition:
     """
     definition = load_interface(full_name)
     if not isinstance(definition, MessageDefinition):
-        raise InterfaceError(f"'{full_name}' is not a message")
+        error = InterfaceError(f"'{full_name}' is not a message")
+        kind = full_name.split("/")[1]
+        raise error.with_hint(f"msg.get_{'service' if kind == 'srv' else 'action'} returns it.")
     return definition
 
 
@@ -102,39 +127,96 @@ def interface_path(full_name: str) -> str:
         or not all(part.isascii() and part.isidentifier() for part in parts)
     ):
         raise InterfaceError(f"'{full_name}' is not the name of an interface").with_hint(
-            "Names look like geometry_msgs/msg/Twist, turtlesim/srv/Spawn or "
+            _with_package(full_name)
+            or _with_slashes(full_name)
+            or "Names look like geometry_msgs/msg/Twist, turtlesim/srv/Spawn or "
             "turtlesim/action/RotateAbsolute."
         )
     package, kind, name = parts
+    places = (os.environ.get("AMENT_PREFIX_PATH", ""), *sys.path)
+    failed = _not_found.get(full_name)
+    if failed and failed[0] == places and time.monotonic() < failed[1]:
+        raise InterfaceError(f"unknown interface '{full_name}'").with_hint(failed[2])
     for directory in _directories(package):
         path = os.path.join(directory, kind, f"{name}.{kind}")
         if os.path.isfile(path):
             return path
-    raise InterfaceError(f"unknown interface '{full_name}'").with_hint(_nearest(full_name))
+    hint = _nearest(full_name)
+    _not_found[full_name] = places, time.monotonic() + _NOT_FOUND_S, hint
+    raise InterfaceError(f"unknown interface '{full_name}'").with_hint(hint)
 
 
-def interface_names() -> dict[str, dict[str, list[str]]]:
+def interfaces() -> dict[str, dict[str, list[str]]]:
     """Return all interfaces that can be found without importing anything.
 
-    ``{package: {"msg": [...], "srv": [...], "action": [...]}}``, sorted.
+    Of those that come with turtlewire, these are the ones of the process's distribution.
+
+    Returns:
+        ``{package: {"msg": [...], "srv": [...], "action": [...]}}``, sorted.
     """
     directories = _installed()
     for parent in reversed(_parents()):
-        if os.path.isdir(parent):
-            directories.update(
-                (entry.name, entry.path) for entry in os.scandir(parent) if entry.is_dir()
-            )
-    directories.update(_registered)
-    packages = {package: interfaces_in(directories[package]) for package in sorted(directories)}
-    return {package: kinds for package, kinds in packages.items() if any(kinds.values())}
+        directories.update(_packages_in(parent))
+    # What a distribution changed is in its own folder; the others are complete.
+    directories.update(_packages_in(bundled_folders()[-1]))
+    listed = {
+        package: {
+            kind: [name for name in names if is_listed(f"{package}/{kind}/{name}")]
+            for kind, names in interfaces_in(directory).items()
+        }
+        for package, directory in directories.items()
+    }
+    listed |= {package: interfaces_in(directory) for package, directory in _registered.items()}
+    return {package: listed[package] for package in sorted(listed) if any(listed[package].values())}
+
+
+def _packages_in(parent: str) -> dict[str, str]:
+    if not os.path.isdir(parent):
+        return {}
+    return {entry.name: entry.path for entry in os.scandir(parent) if entry.is_dir()}
+
+
+def _with_package(name: str) -> str:
+    """Return a hint at the interfaces with this name in all packages; empty without any."""
+    found = [
+        f"{package}/{kind}/{name}"
+        for package, kinds in interfaces().items()
+        for kind, names in kinds.items()
+        if name in names
+    ]
+    return f"Did you mean {' or '.join(found)}?" if found else ""
+
+
+def class_advice(name: str) -> str:
+    """Return how to get the messages of a name or package; empty for others."""
+    if not name[:1].isalpha():
+        return ""
+    known = interfaces()
+    if name in known and known[name]["msg"]:
+        return f"; write msg.get_message('{name}/msg/{known[name]['msg'][0]}')"
+    packages = sorted(known, key=lambda package: (package.startswith("example"), package))
+    found = [f"{package}/msg/{name}" for package in packages if name in known[package]["msg"]]
+    return f"; write msg.get_message('{found[0]}')" if found else ""
+
+
+def _with_slashes(name: str) -> str:
+    """Return a hint for a name with dots, blanks or too many slashes; empty for others."""
+    meant = name.strip().replace(".", "/").strip("/")
+    parts = meant.split("/")
+    if len(parts) != 3 or parts[1] not in KINDS or meant == name:
+        return ""
+    return f"Write '{meant}'."
 
 
 def load_interface(full_name: str) -> Definition:
     """Definition of any interface or part of one; raises as `load_message` does."""
     definition = _loaded.get(full_name)
     if definition is None:
-        package, kind, name = [*full_name.split("/"), "", ""][:3]
-        _parse_file(f"{package}/{kind}/{name.partition('_')[0]}")
+        package, *rest = full_name.split("/")
+        kind, name = rest[:2] if len(rest) > 1 else ("", "")
+        is_whole = not (package and name)
+        whole = full_name if is_whole else f"{package}/{kind}/{name.partition('_')[0]}"
+        _parse_file(whole)
         definition = _loaded.get(full_name)
         if definition is None:
             raise InterfaceError(f"unknown interface '{full_name}'")
@@ -146,19 +228,20 @@ def _parse_file(full_name: str) -> None:
         define(full_name, file.read())
 
 
-def define(full_name: str, text: str) -> None:
+def define(full_name: str, text: str, *, strict: bool = True) -> None:
     """Make an interface known by its text, as if it had been read from a file.
 
     Args:
         full_name: ``"pkg/msg/X"``, ``"pkg/srv/X"`` or ``"pkg/action/X"``.
         text: What the file would hold.
+        strict: See `parse_message`; services and actions are always parsed strictly.
 
     Raises:
         InterfaceError: The text cannot be parsed; says which line and why.
     """
     _, kind, _ = split_name(full_name)
     if kind == "msg":
-        _loaded[full_name] = parse_message(full_name, text)
+        _loaded[full_name] = parse_message(full_name, text, strict=strict)
     elif kind == "srv":
         _store_service(parse_service(full_name, text))
     else:
@@ -176,7 +259,7 @@ def _store_service(service: ServiceDefinition) -> None:
 
 def _parents() -> list[str]:
     prefixes = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
-    return [_BUNDLED, *(os.path.join(prefix, "share") for prefix in prefixes if prefix)]
+    return [*bundled_folders(), *(os.path.join(prefix, "share") for prefix in prefixes if prefix)]
 
 
 def _installed() -> dict[str, str]:
@@ -230,9 +313,16 @@ def interfaces_in(directory: str) -> dict[str, list[str]]:
 def _nearest(full_name: str) -> str:
     import difflib
 
+    if hint := source_hint(full_name):
+        return hint
+    package = full_name.partition("/")[0]
+    if not difflib.get_close_matches(package, interfaces(), n=1, cutoff=0.85):
+        same = _with_package(full_name.rpartition("/")[2])
+        own = f"msg.add_package('{package}', folder) adds your own definitions."
+        return f"{same or '`ros2 interface list` shows what there is.'} {own}"
     known = [
         f"{package}/{kind}/{name}"
-        for package, kinds in interface_names().items()
+        for package, kinds in interfaces().items()
         for kind, names in kinds.items()
         for name in names
     ]

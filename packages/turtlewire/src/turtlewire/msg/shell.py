@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from turtlewire.errors import InterfaceError
 from turtlewire.msg.classes import get_interface_class, module_name
+from turtlewire.package_sources import explain_missing_modules
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -29,6 +30,7 @@ def lazy_classes(home: str) -> Callable[[str], type]:
         A function that makes a class and puts it into the module, so that it is called once for
         each.
     """
+    explain_missing_modules()  # the next import may be of a package that is not installed
     module = sys.modules[home]
     folder = home.replace(".", "/")
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from turtlewire.msg.classes import type_name
 from turtlewire.msg.definition import ActionDefinition, ServiceDefinition
 from turtlewire.msg.registry import load_interface
 from turtlewire.msg.types import (
@@ -46,12 +47,12 @@ _descriptions: dict[str, str] = {}
 _hashes: dict[str, str] = {}
 
 
-def type_hash(full_name: str) -> str:
-    """Hash of an interface.
+def type_hash(interface: str | type) -> str:
+    """Return the hash of an interface.
 
     Args:
-        full_name: ``"pkg/msg/X"``, ``"pkg/srv/X"``, ``"pkg/srv/X_Request"``, ``"pkg/action/X"`` and
-            so on.
+        interface: Its class or its name: ``"pkg/msg/X"``, ``"pkg/srv/X"``, ``"pkg/srv/X_Request"``,
+            ``"pkg/action/X"`` and so on.
 
     Returns:
         ``"RIHS01_"`` and 64 hexadecimal digits.
@@ -59,6 +60,7 @@ def type_hash(full_name: str) -> str:
     Raises:
         InterfaceError: The interface does not exist.
     """
+    full_name = interface if isinstance(interface, str) else type_name(interface)
     found = _hashes.get(full_name)
     if found is None:
         import hashlib

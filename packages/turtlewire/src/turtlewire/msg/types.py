@@ -27,6 +27,7 @@ __all__ = [
     "UnboundedSequence",
     "UnboundedString",
     "UnboundedWString",
+    "type_in_msg_file",
 ]
 
 INTEGER_RANGES = {
@@ -55,6 +56,8 @@ TYPE_CODES = {
     "double": "d",
 }
 """The letter of each numeric type, the same in ``struct`` formats and in ``array.array``."""
+
+_IN_MSG_FILE = {"boolean": "bool", "octet": "byte", "float": "float32", "double": "float64"}
 
 
 class AbstractType:
@@ -282,3 +285,16 @@ class UnboundedSequence(AbstractSequence):
 
     def __str__(self) -> str:
         return f"sequence<{self.value_type}>"
+
+
+def type_in_msg_file(type_: AbstractType) -> str:
+    """Return a type as .msg files spell it, for example ``float64[<=3]``."""
+    if isinstance(type_, AbstractNestedType):
+        bound = f"<={type_.maximum_size}" if isinstance(type_, BoundedSequence) else ""
+        size = type_.size if isinstance(type_, Array) else bound
+        return f"{type_in_msg_file(type_.value_type)}[{size}]"
+    if isinstance(type_, (BoundedString, BoundedWString)):
+        kind = "string" if isinstance(type_, BoundedString) else "wstring"
+        return f"{kind}<={type_.maximum_size}"
+    name = str(type_)
+    return name if isinstance(type_, NamespacedType) else _IN_MSG_FILE.get(name, name)

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import sys
 from array import array
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Union
 
 from turtlewire.msg.types import (
@@ -68,7 +69,7 @@ def numpy_name(typename: str) -> str:
 
 
 def raw_name(name: str) -> str:
-    """Attribute that holds what is in the slot of a fixed array: ``bytes`` or a NumPy array."""
+    """Attribute that is the slot itself of a field whose assignment converts the value."""
     return f"_raw_{name}"
 
 
@@ -111,9 +112,10 @@ def to_array(code: str, value: Iterable[Any]) -> array[Any]:
         return value  # not copied, as in ROS 2
     if isinstance(value, (list, tuple)):
         return array(code, value)
-    try:
+    view = None
+    with suppress(TypeError):
         view = memoryview(value)  # type: ignore[arg-type]
-    except TypeError:
+    if view is None:
         return array(code, value)
     result = array(code)
     same_kind = any(code in letters and view.format in letters for letters in _LETTERS)

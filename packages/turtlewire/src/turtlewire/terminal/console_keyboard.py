@@ -33,7 +33,7 @@ class ConsoleKeyboard:
     ends with the process, or with the first key after :meth:`stop`.
 
     Args:
-        fd: Standard input; only for the likeness with the keyboard of a terminal.
+        fd: Ignored; for the same signature as `PosixKeyboard`.
         read_character: Waits for a character; None takes the console's.
 
     Raises:
@@ -105,7 +105,7 @@ def foreground_terminal() -> int:
         OSError: The process has no console.
     """
     if not os.isatty(0):
-        raise OSError("standard input is no console")
+        raise OSError("standard input is not a console")
     return 0
 
 

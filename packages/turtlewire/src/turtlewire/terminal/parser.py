@@ -11,24 +11,26 @@ from turtlewire.terminal.suggestion import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
-    from typing import NoReturn
+    from typing import Any, NoReturn
 
-__all__ = ["INVALID_CHOICE", "Parser", "add_tf_topics", "seconds", "tf_topics"]
+__all__ = ["INVALID_CHOICE", "SuggestingParser", "add_tf_topics", "seconds", "tf_topics"]
 
 #: argparse's message about a word that is none of the known ones.
 INVALID_CHOICE = re.compile(r"invalid choice: '([^']*)' \(choose from")
 _UNRECOGNIZED = re.compile(r"unrecognized arguments: (\S+)")
-_OPTION = re.compile(r"(?<![\w-])--?[a-z][\w-]*")
 
 
-class Parser(argparse.ArgumentParser):
-    """A parser that adds the nearest known words to its error.
+class SuggestingParser(argparse.ArgumentParser):
+    """A parser that adds the nearest known words to its error; no option may be shortened.
 
     Attributes:
         meant: Returns what a word means that is not a command, or an empty string.
     """
 
     meant: Callable[[str], str] = staticmethod(lambda _word: "")
+
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(allow_abbrev=False, **settings)
 
     def parse_args(  # type: ignore[override]  # a namespace class of the caller's own is not needed
         self, args: Sequence[str] | None = None, namespace: None = None
@@ -48,7 +50,7 @@ class Parser(argparse.ArgumentParser):
             known = re.findall(r"[\w-]+", message[choice.end() :])
             suggestion = self.meant(choice[1]) or did_you_mean(choice[1], known)
         elif unknown:
-            suggestion = did_you_mean(unknown[1], _OPTION.findall(self.format_usage()))
+            suggestion = did_you_mean(unknown[1].partition("=")[0], self._option_string_actions)
         super().error(f"{message}\n{suggestion}".rstrip())
 
 

@@ -23,17 +23,21 @@ module                     what it holds
 `implementation`           chooses the compiled core or its plain twin
 `products`                 products of transforms, and interpolation
 `archive`                  a buffer as a file
+`file_names`               refuses names of files that promise another format
 `datetimes`                stamps given as ``datetime64``
 `plain`                    the plain-Python twin of the compiled core
-`status`                   `LookupStatus`: one answer of a batch lookup
+`answers`                  answers of a buffer that have several parts
+`array_arguments`          stamps and points given as arrays
+`pose_rows`                poses given as an array of rows or of matrices
+`number_errors`            errors for vectors and quaternions of another kind
+`text_tree`                the tree as text
 `listener`                 `TransformListener`: puts the bytes of TF messages into buffers
 `full_buffers`             warnings of buffers that take no more frames
+`tf_topics`                the topics of transforms, and their type
 `publisher_names`          the node that published a message
 `links`                    the links of a buffer with rates and ages
 `faults`                   refused transforms, malformed messages, and conflicts of senders
-`inspection`               links and faults together, and buffers saved to files
 `restarts`                 notices that a simulation has started again
-`conversions`              quaternions, Euler angles, matrices and poses as arrays
 `arrays`                   a transform as an array
 `frame_tree`               the frames with the figures of their links, for pictures
 `tidy_tree`                positions of the nodes of a drawn tree

@@ -13,9 +13,12 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from turtlewire.errors import LookupException
+from turtlewire.terminal.printable import printable
+from turtlewire.tf.file_names import BAGS, PICTURES, TRAJECTORIES, refuse_other_formats
 from turtlewire.tf.links import links
 
 if TYPE_CHECKING:
+    import os
     from typing import BinaryIO
 
     from numpy.typing import NDArray
@@ -24,12 +27,29 @@ if TYPE_CHECKING:
 
     AnyBuffer = TypeVar("AnyBuffer", bound=BaseBuffer)
 
-__all__ = ["read", "write"]
+__all__ = ["check_name", "read", "write"]
 
 _FORMAT = "turtlewire buffer 1"
 #: Equal poses shrink to a thousandth, but stamps only to a third: no buffer reaches this ratio.
 _MOST_UNPACKED = 200
 _ALWAYS_UNPACKED = 1_000_000  # bytes; files with a few static transforms
+#: The first bytes of every ``.npz``.
+_START = b"PK\3\4"
+_FOREIGN = (
+    "it has the arrays {}, and no header of Buffer.save; read it with numpy.load, and fill a "
+    "buffer with set_transforms"
+)
+_INSTEAD = {
+    TRAJECTORIES: "buffer.trajectory(target, source).save(path) writes the path of one frame",
+    PICTURES: "buffer.trajectory(target, source).plot().save(path) draws the path of one frame",
+    BAGS: "turtlewire.bag.BagWriter writes bags, whose transforms are messages of /tf",
+    (".txt",): "print(buffer) shows the tree as text",
+}
+
+
+def check_name(path: str | os.PathLike[str]) -> None:
+    """Raise ValueError for a name that ends in the suffix of another format."""
+    refuse_other_formats(path, (".npz",), "a buffer is saved as .npz", _INSTEAD)
 
 
 def write(buffer: BaseBuffer, file: BinaryIO) -> None:
@@ -57,16 +77,31 @@ def read(file: BinaryIO, name: str, buffer_type: type[AnyBuffer]) -> AnyBuffer:
     Raises:
         ValueError: The file is something else, or damaged; the text begins with ``name``.
     """
+    start = file.read(4)
+    if not start:
+        raise ValueError(
+            f"{name} is not a saved buffer, because it is empty; save the buffer again"
+        )
+    file.seek(0)
     try:
         with zipfile.ZipFile(file) as archive:
-            _check_size(archive)
+            _check_members(archive)
             header = json.loads(bytes(_array(archive, "header", "|u1")))
             return _filled(buffer_type, header, archive)
+    except zipfile.BadZipFile as error:
+        remedy = "to read a bag, call Buffer.from_bag"
+        if start == _START:
+            remedy = "it was cut off or damaged; save the buffer again"
+        raise ValueError(f"{name} is not a saved buffer: {error}; {remedy}") from error
     except Exception as error:  # a damaged archive raises errors of many kinds
         raise ValueError(f"{name} is not a saved buffer: {error}") from error
 
 
-def _check_size(file: zipfile.ZipFile) -> None:
+def _check_members(file: zipfile.ZipFile) -> None:
+    """Raise ValueError for files of others, and for ones that unpack to too much."""
+    names = [printable(name.removesuffix(".npy")) for name in file.namelist()[:5]]
+    if "header.npy" not in file.namelist():
+        raise ValueError(_FOREIGN.format(", ".join(names)))
     packed = sum(member.compress_size for member in file.infolist())
     unpacked = sum(member.file_size for member in file.infolist())
     if unpacked > _MOST_UNPACKED * packed + _ALWAYS_UNPACKED:
@@ -93,7 +128,9 @@ def _filled(buffer_type: type[AnyBuffer], header: Any, file: zipfile.ZipFile) ->
         stamps, poses = _array(file, f"stamps{i}", "<i8"), _array(file, f"poses{i}", "<f8")
         if static:
             x, y, z, qx, qy, qz, qw = poses[0].tolist()
-            buffer.set_transform(parent, child, 0, (x, y, z), (qx, qy, qz, qw), True, sender)
+            buffer.set_static_transform(parent, child, (x, y, z), (qx, qy, qz, qw), sender=sender)
         else:
-            buffer.set_transforms(parent, child, stamps, poses, sender)
+            # tf2 drops old samples only when the next one comes, so a history may be a little
+            # longer than the cache time.
+            buffer.set_transforms(parent, child, stamps, poses, errors="skip", sender=sender)
     return buffer

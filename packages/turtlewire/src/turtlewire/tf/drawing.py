@@ -6,7 +6,7 @@ from typing import NamedTuple, TypeAlias
 
 from turtlewire.tf import svg
 
-__all__ = ["Box", "Drawing", "Line", "Shape", "Text", "svg_from_drawing", "text_width"]
+__all__ = ["Drawing", "FilledBox", "Line", "Shape", "Text", "svg_from_drawing", "text_width"]
 
 _ASCII_WIDTHS = (
     "278 278 355 556 556 889 667 191 333 333 389 584 278 333 278 278 "
@@ -22,7 +22,7 @@ _WIDE = 1000
 _BOLD = 1.08
 
 
-class Box(NamedTuple):
+class FilledBox(NamedTuple):
     """A rectangle with a coloured border, filled with white."""
 
     x: float
@@ -52,7 +52,7 @@ class Text(NamedTuple):
     bold: bool = False
 
 
-Shape: TypeAlias = "Box | Line | Text"
+Shape: TypeAlias = "FilledBox | Line | Text"
 
 
 class Drawing(NamedTuple):
@@ -77,7 +77,7 @@ def svg_from_drawing(drawing: Drawing) -> str:
 
 
 def _element(shape: Shape) -> str:
-    if isinstance(shape, Box):
+    if isinstance(shape, FilledBox):
         style = f' rx="4" fill="#ffffff" stroke="{shape.colour}"'
         return svg.rectangle(shape.x, shape.y, shape.width, shape.height, style)
     if isinstance(shape, Line):

@@ -10,16 +10,17 @@ from turtlewire.tf.links import links
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from turtlewire.tf.links import HasLinks, LinkInfo
+    from turtlewire.tf import links as contents
+    from turtlewire.tf.links import HasLinks
 
 
-__all__ = ["FrameTree", "Link", "find_loops", "read_frame_tree"]
+__all__ = ["FrameLink", "FrameTree", "find_loops", "read_frame_tree"]
 
 #: tf2 divides by at least this [s] for a rate.
 _SHORTEST = 1e-4
 
 
-class Link(NamedTuple):
+class FrameLink(NamedTuple):
     """A frame, its parent, and the samples between them; times in seconds.
 
     Attributes:
@@ -56,7 +57,7 @@ class FrameTree:
         loops: For each loop its frames, from child to parent.
     """
 
-    def __init__(self, links: Iterable[Link]) -> None:
+    def __init__(self, links: Iterable[FrameLink]) -> None:
         self.links = {link.child: link for link in links}
         frames = dict.fromkeys(
             name for link in self.links.values() for name in (link.parent, link.child)
@@ -77,12 +78,12 @@ def read_frame_tree(buffer: HasLinks, most: int = sys.maxsize) -> FrameTree:
     return FrameTree(_link(info) for info in links(buffer, most) if info.samples)
 
 
-def _link(info: LinkInfo) -> Link:
+def _link(info: contents.Link) -> FrameLink:
     length = (info.newest_ns - info.oldest_ns) / 1e9
     rate_hz = info.samples / max(length, _SHORTEST)
     broadcaster = info.senders[-1].name if info.senders else "no recorded authority"
     newest, oldest = info.newest_ns / 1e9, info.oldest_ns / 1e9
-    return Link(
+    return FrameLink(
         info.child_frame,
         info.parent_frame,
         broadcaster,

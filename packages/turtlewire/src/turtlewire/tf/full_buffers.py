@@ -6,7 +6,7 @@ import time
 from weakref import WeakKeyDictionary
 
 from turtlewire.tf.buffer import Buffer
-from turtlewire.tf.inspection import refusals
+from turtlewire.tf.faults import refusals
 from turtlewire.wire.report import warn
 
 __all__ = ["FullBuffers"]

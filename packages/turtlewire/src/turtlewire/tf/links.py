@@ -9,7 +9,7 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
-__all__ = ["HasLinks", "LinkInfo", "Sender", "links"]
+__all__ = ["HasLinks", "Link", "Sender", "links"]
 
 if TYPE_CHECKING:
     from typing import TypeAlias
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 class HasLinks(Protocol):
     """A Buffer of either core, as far as its links are concerned."""
 
-    def frame_strings(self) -> list[str]:
+    def frames(self) -> list[str]:
         """Return the names of all frames."""
         ...
 
@@ -37,7 +37,7 @@ class Sender(NamedTuple):
     newest_ns: int
 
 
-class LinkInfo(NamedTuple):
+class Link(NamedTuple):
     """One link of the tree: how a child frame lies in its parent."""
 
     child_frame: str
@@ -64,9 +64,9 @@ class LinkInfo(NamedTuple):
         return 0 if self.static else now_ns - self.newest_ns
 
 
-def links(buffer: HasLinks, most: int = sys.maxsize) -> list[LinkInfo]:
+def links(buffer: HasLinks, most: int = sys.maxsize) -> list[Link]:
     """Return the first ``most`` links, in the order in which their frames first arrived."""
-    return [LinkInfo(*row[:8], _senders(row[8])) for row in buffer._describe_links(most)]
+    return [Link(*row[:8], _senders(row[8])) for row in buffer._describe_links(most)]
 
 
 def _senders(rows: list[tuple[str, str, int, int]]) -> tuple[Sender, ...]:

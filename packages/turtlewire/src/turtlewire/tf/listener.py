@@ -38,18 +38,19 @@ if TYPE_CHECKING:
     class Store(Protocol):
         """The part of :class:`turtlewire.Buffer` that a listener feeds."""
 
-        def ingest(
-            self, cdr: bytes, *, static: bool = False, authority: str = "default_authority"
+        def add_tf_message(
+            self, cdr: bytes, *, static: bool = False, sender: str = "default_authority"
         ) -> int:
             """Store the transforms of a serialized ``TFMessage``."""
             ...
 
         def _rename_sender(self, name: str, shown: str) -> None:
-            """Show another name for an authority."""
+            """Show another name for a sender."""
             ...
 
 
 __all__ = [
+    "NOTHING_RECEIVED",
     "QOS",
     "STATIC_QOS",
     "STATIC_TOPIC",
@@ -66,6 +67,10 @@ STATIC_TOPIC = "/tf_static"
 TYPE_NAME = "tf2_msgs/msg/TFMessage"
 QOS = QoS(depth=100)
 STATIC_QOS = QoS(depth=100, durability=Durability.TRANSIENT_LOCAL)
+#: The hint of lookups in a buffer that a network fills, before the first transform.
+NOTHING_RECEIVED = (
+    "No transform has arrived yet. Is a program that sends transforms running in the same domain?"
+)
 
 
 class _Member(NamedTuple):
@@ -175,7 +180,7 @@ class _Feed:
 
     def _store(self, store: Store, cdr: bytes, publisher: str) -> None:
         try:
-            store.ingest(cdr, static=self._static, authority=publisher)
+            store.add_tf_message(cdr, static=self._static, sender=publisher)
             self._full_buffers.look(store)
         except CdrError as error:  # the store has counted it
             warn_once(
@@ -322,7 +327,7 @@ class TransformListener:
 
     The authority in the buffer is the publishing node (``/namespace/name``), or the
     publisher's gid in hex while the graph knows none. Messages that are no ``TFMessage`` are
-    counted in the buffer (:func:`turtlewire.tf.inspection.malformed`); the first is warned of.
+    counted in the buffer (:meth:`turtlewire.Buffer.problems`); the first is warned of.
     """
 
     def __init__(

@@ -6,7 +6,7 @@ import math
 from html import escape
 from typing import TYPE_CHECKING
 
-from turtlewire.tf import conversions
+from turtlewire.geometry import conversions
 from turtlewire.tf.drawing import Drawing, Line, Shape, Text, svg_from_drawing, text_width
 from turtlewire.tf.frame_tree import read_frame_tree
 from turtlewire.tf.tree_drawing import draw_tree
@@ -24,17 +24,17 @@ if TYPE_CHECKING:
         """A Transform of either core."""
 
         @property
-        def frame_id(self) -> str:
+        def target_frame(self) -> str:
             """The target."""
             ...
 
         @property
-        def child_frame_id(self) -> str:
+        def source_frame(self) -> str:
             """The source."""
             ...
 
         @property
-        def stamp_ns(self) -> int:
+        def stamp_ns(self) -> int | None:
             """Stamp of the pose."""
             ...
 
@@ -53,7 +53,7 @@ _AZIMUTH, _ELEVATION = math.radians(-125.0), math.radians(28.0)
 def buffer_svg(buffer: HasLinks) -> str:
     """The tree of a buffer as an SVG document; of a large tree only the links that came first."""
     tree = read_frame_tree(buffer, _MOST_LINKS)
-    frames = len(buffer.frame_strings())
+    frames = len(buffer.frames())
     cut = frames > len(tree.children) and len(tree.links) == _MOST_LINKS
     title = [f"{frames:,} frames, the first {len(tree.children):,} of them shown"] if cut else []
     return svg_from_drawing(draw_tree(tree, title))
@@ -61,7 +61,7 @@ def buffer_svg(buffer: HasLinks) -> str:
 
 def transform_html(transform: Stamped) -> str:
     """A transform in numbers, and a picture of the axes of its two frames if they fit on a page."""
-    target, source = escape(transform.frame_id), escape(transform.child_frame_id)
+    target, source = escape(transform.target_frame), escape(transform.source_frame)
     roll, pitch, yaw = (
         f"{math.degrees(angle):.2f}"
         for angle in conversions.euler_from_quaternion(transform.rotation)
@@ -71,7 +71,7 @@ def transform_html(transform: Stamped) -> str:
         "distance": f"{math.hypot(*transform.translation):.4f} m",
         "roll, pitch, yaw": f"{roll}, {pitch}, {yaw} °",
         "quaternion x, y, z, w": ", ".join(f"{value:.5f}" for value in transform.rotation),
-        "stamp": f"{transform.stamp_ns} ns" if transform.stamp_ns else "0 (static)",
+        "stamp": "none (static)" if transform.stamp_ns is None else f"{transform.stamp_ns} ns",
     }
     cells = "".join(f"<tr><th>{name}</th><td>{value}</td></tr>" for name, value in rows.items())
     picture = (
@@ -91,9 +91,9 @@ def _axes_of_both(transform: Stamped) -> Drawing:
     target_from_source = conversions.matrix_from_pose((*transform.translation, *transform.rotation))
     length = 0.4 * math.hypot(*transform.translation) or 1.0
     frames = {
-        transform.frame_id: _ends(conversions.matrix_from_pose((0, 0, 0, 0, 0, 0, 1)), length)
+        transform.target_frame: _ends(conversions.matrix_from_pose((0, 0, 0, 0, 0, 0, 1)), length)
     }
-    frames[transform.child_frame_id] = _ends(target_from_source, length)
+    frames[transform.source_frame] = _ends(target_from_source, length)
     points = [point for ends in frames.values() for point in ends]
     left, top = (min(point[i] for point in points) for i in (0, 1))
     extent = max(max(point[i] for point in points) - start for i, start in ((0, left), (1, top)))

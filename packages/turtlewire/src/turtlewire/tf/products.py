@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from turtlewire.geometry.poses import canonical, compose, interpolate
+from turtlewire.tf.datetimes import as_nanoseconds
 
 if TYPE_CHECKING:
     from typing import Any, Protocol, TypeVar
@@ -15,9 +16,20 @@ if TYPE_CHECKING:
     class AnyTransform(Protocol):
         """A Transform of either core."""
 
-        frame_id: str
-        child_frame_id: str
-        stamp_ns: int
+        @property
+        def target_frame(self) -> str:
+            """The frame in which the pose is."""
+            ...
+
+        @property
+        def source_frame(self) -> str:
+            """The frame whose pose it is."""
+            ...
+
+        @property
+        def stamp_ns(self) -> int | None:
+            """The time of the pose; None if it holds at all times."""
+            ...
 
         @property
         def translation(self) -> Vector:
@@ -35,7 +47,7 @@ __all__ = ["interpolated", "product"]
 
 
 def product(self: Transform, other: Transform) -> Transform:
-    """Return ``a_from_c`` for ``a_from_b @ b_from_c``, with the older stamp; 0 means no stamp.
+    """Return ``a_from_c`` for ``a_from_b @ b_from_c``, with the older stamp.
 
     Raises:
         ValueError: The frames do not meet.
@@ -44,18 +56,18 @@ def product(self: Transform, other: Transform) -> Transform:
         if hasattr(other, "__array_ufunc__"):  # NumPy would take the transform for seven numbers
             raise TypeError(
                 f"a Transform times {type(other).__name__} is not defined; for points in an array "
-                "use as_matrix(), or Buffer.transform_points"
+                "use apply(), or Buffer.transform_points"
             )
         return NotImplemented  # type: ignore[no-any-return] # Python then asks the other operand
-    if self.child_frame_id != other.frame_id:
+    if self.source_frame != other.target_frame:
         raise ValueError(
-            f"'{self.frame_id}' from '{self.child_frame_id}' and '{other.frame_id}' from "
-            f"'{other.child_frame_id}' do not meet: '{self.child_frame_id}' is not "
-            f"'{other.frame_id}'; inverse() turns a transform round"
+            f"'{self.target_frame}' from '{self.source_frame}' and '{other.target_frame}' from "
+            f"'{other.source_frame}' do not meet: '{self.source_frame}' is not "
+            f"'{other.target_frame}'; inverse() turns a transform round"
         )
-    stamps = [stamp for stamp in (self.stamp_ns, other.stamp_ns) if stamp]
+    stamps = [stamp for stamp in (self.stamp_ns, other.stamp_ns) if stamp is not None]
     pose = canonical(compose(_pose(self), _pose(other)))
-    return _made(self, other.child_frame_id, min(stamps, default=0), pose)
+    return _made(self, other.source_frame, min(stamps, default=None), pose)
 
 
 def interpolated(self: Transform, other: Transform, stamp_ns: int) -> Transform:
@@ -69,23 +81,27 @@ def interpolated(self: Transform, other: Transform, stamp_ns: int) -> Transform:
     Raises:
         ValueError: The frames differ, or the time lies outside.
     """
-    names = (self.frame_id, self.child_frame_id), (other.frame_id, other.child_frame_id)
+    names = (self.target_frame, self.source_frame), (other.target_frame, other.source_frame)
     if names[0] != names[1]:
         raise ValueError(f"transforms of different frames cannot be interpolated: {names}")
-    first, last = sorted((self, other), key=lambda each: each.stamp_ns)
-    if not first.stamp_ns <= stamp_ns <= last.stamp_ns:
-        raise ValueError(f"{stamp_ns} is not between {first.stamp_ns} and {last.stamp_ns}")
-    span = last.stamp_ns - first.stamp_ns
-    ratio = (stamp_ns - first.stamp_ns) / span if span else 0.0
+    stamp_ns = as_nanoseconds(stamp_ns, "stamp_ns")
+    if self.stamp_ns is None or other.stamp_ns is None:
+        raise ValueError("a transform without a stamp holds at all times: nothing to interpolate")
+    (begin, first), (end, last) = sorted(
+        ((self.stamp_ns, self), (other.stamp_ns, other)), key=lambda each: each[0]
+    )
+    if not begin <= stamp_ns <= end:
+        raise ValueError(f"{stamp_ns} is not between {begin} and {end}")
+    ratio = (stamp_ns - begin) / (end - begin) if end > begin else 0.0
     pose = canonical(interpolate(_pose(first), _pose(last), ratio))
-    return _made(self, self.child_frame_id, stamp_ns, pose)
+    return _made(self, self.source_frame, stamp_ns, pose)
 
 
 def _pose(transform: AnyTransform) -> Pose:
     return (*transform.translation, *transform.rotation)
 
 
-def _made(like: Transform, child: str, stamp_ns: int, pose: Pose) -> Transform:
+def _made(like: Transform, source: str, stamp_ns: int | None, pose: Pose) -> Transform:
     make: Any = type(like)
-    made: Transform = make(like.frame_id, child, stamp_ns, pose[:3], pose[3:])
+    made: Transform = make(like.target_frame, source, pose[:3], pose[3:], stamp_ns=stamp_ns)
     return made

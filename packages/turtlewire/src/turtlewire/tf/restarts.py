@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from turtlewire.tf import inspection
+from turtlewire.tf.faults import refusals
 
 if TYPE_CHECKING:
     from turtlewire.tf.buffer import Buffer
@@ -25,10 +25,9 @@ class RestartWatch:
 
     def look(self) -> bool:
         """Compare with the last look; whether the buffer was cleared."""
-        newest = {link.child_frame: link.newest_ns for link in inspection.links(self._buffer)}
+        newest = {link.child_frame: link.newest_ns for link in self._buffer.links()}
         refused = {
-            frame: each.counts.get("old_data", 0)
-            for frame, each in inspection.refusals(self._buffer).items()
+            frame: each.counts.get("old_data", 0) for frame, each in refusals(self._buffer).items()
         }
         before, now = self._before, {f: (refused.get(f, 0), stamp) for f, stamp in newest.items()}
         self._before = now

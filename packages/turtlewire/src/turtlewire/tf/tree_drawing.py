@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from turtlewire.tf.drawing import Box, Drawing, Line, Shape, Text, text_width
+from turtlewire.tf.drawing import Drawing, FilledBox, Line, Shape, Text, text_width
 from turtlewire.tf.tidy_tree import tidy_positions
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from turtlewire.tf.frame_tree import FrameTree, Link
+    from turtlewire.tf.frame_tree import FrameLink, FrameTree
 
 __all__ = ["draw_tree"]
 
@@ -105,10 +105,10 @@ class _Card:
             for line, note in enumerate(self.notes, 1)
         ]
         name = Text(self.x + _PADDING, baseline, self.name, _NAME_SIZE, _INK, bold=True)
-        return [Box(self.x, self.y, self.width, self.height, _BORDER), name, *notes]
+        return [FilledBox(self.x, self.y, self.width, self.height, _BORDER), name, *notes]
 
 
-def _notes(link: Link) -> list[str]:
+def _notes(link: FrameLink) -> list[str]:
     if link.is_static:
         return [f"Broadcaster: {link.broadcaster}", "Static transform"]
     rate = f"{link.rate_hz:.3f} Hz" if link.length else "unknown, one time only"

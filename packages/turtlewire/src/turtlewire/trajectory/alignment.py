@@ -6,7 +6,7 @@ IEEE PAMI 13 (1991).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
@@ -16,9 +16,14 @@ from turtlewire.trajectory.trajectory import Trajectory
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["ALIGNMENTS", "Alignment", "align", "associate"]
+__all__ = ["ALIGNMENTS", "Alignment", "AlignmentName", "align", "associate"]
+
+AlignmentName = Literal["none", "origin", "yaw", "se3", "sim3"]
 
 #: The ways to align, by the parts of the estimate that may be moved.
+#: No sensor returns poses so fast; its square is a pause of a millisecond.
+_SHORTEST_PAUSE_NS = 1000
+
 ALIGNMENTS = ("none", "origin", "yaw", "se3", "sim3")
 
 
@@ -44,8 +49,8 @@ class Alignment(NamedTuple):
         return Trajectory(
             trajectory.stamps_ns,
             np.hstack((positions, rotations)),
-            trajectory.frame_id,
-            trajectory.child_frame_id,
+            trajectory.target_frame,
+            trajectory.source_frame,
             trajectory.gaps,
         )
 
@@ -54,6 +59,10 @@ def associate(
     reference: Trajectory, estimate: Trajectory, max_diff_ns: int, offset_ns: int = 0
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Pairs of rows: for each pose of the shorter trajectory the nearest one of the other.
+
+    If both have as many poses, the estimate counts as the shorter. Of two poses as near the earlier
+    is taken. (evo has the same rules, but compares stamps as doubles: a difference of exactly
+    ``max_diff_ns`` is kept here, and may be dropped there.)
 
     Args:
         reference: The reference.
@@ -65,10 +74,14 @@ def associate(
         Rows of the reference and of the estimate, of equal length.
 
     Raises:
-        ValueError: No poses can be paired; the message names both time ranges.
+        ValueError: No poses can be paired (the message names both time ranges), or the stamps have
+            different units.
     """
+    if max_diff_ns < 0:
+        raise ValueError(f"max_diff_ns is {max_diff_ns}; it must not be negative")
     first, second = reference.stamps_ns, estimate.stamps_ns + offset_ns
-    if len(first) <= len(second):
+    _check_units(first, second)
+    if len(first) < len(second):
         rows = _nearest(first, second)
         kept = np.abs(second[rows] - first) <= max_diff_ns
         pairs = np.flatnonzero(kept), rows[kept]
@@ -79,6 +92,20 @@ def associate(
     if not len(pairs[0]):
         raise ValueError(_no_pairs(first, second, max_diff_ns, offset_ns))
     return pairs
+
+
+def _check_units(first: NDArray[np.int64], second: NDArray[np.int64]) -> None:
+    """Refuse the stamps of one trajectory in seconds, and of the other in nanoseconds."""
+    if len(first) < 2 or len(second) < 2:
+        return
+    pauses = float(np.median(np.diff(first))), float(np.median(np.diff(second)))
+    if min(pauses) < _SHORTEST_PAUSE_NS and max(pauses) > _SHORTEST_PAUSE_NS**2:
+        which = "reference" if pauses[0] < pauses[1] else "estimate"
+        raise ValueError(
+            f"the poses of the {which} are {min(pauses):g} ns apart, those of the other "
+            f"{max(pauses):g} ns: stamps are nanoseconds; for integer seconds, write "
+            "seconds * 10**9"
+        )
 
 
 def _nearest(few: NDArray[np.int64], many: NDArray[np.int64]) -> NDArray[np.intp]:
@@ -107,7 +134,7 @@ def _no_pairs(
     return text
 
 
-def align(reference: Trajectory, estimate: Trajectory, how: str) -> Alignment:
+def align(reference: Trajectory, estimate: Trajectory, how: AlignmentName) -> Alignment:
     """Return the transform that brings the estimate onto the reference.
 
     Args:

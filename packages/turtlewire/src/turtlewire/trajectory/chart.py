@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from turtlewire.attribute_hints import hint_at
 from turtlewire.terminal.printable import printable
 from turtlewire.tf import svg
 from turtlewire.tf.drawing import text_width
@@ -36,6 +37,7 @@ _LEFT, _RIGHT, _TOP, _BOTTOM = 62.0, 14.0, 26.0, 40.0
 _MOST_POINTS = 4000
 
 
+@hint_at({"show savefig write to_file": "save(path); notebooks show it by themselves"})
 @dataclass(frozen=True)
 class Plot:
     """A picture; notebooks show it, `save` writes it.

@@ -1,4 +1,4 @@
-"""Pictures of errors: over time, along the path, and of several estimates side by side, as SVG."""
+"""Plots of errors: over time, along the path, and of several estimates side by side, as SVG."""
 
 from __future__ import annotations
 
@@ -20,9 +20,7 @@ from turtlewire.trajectory.plots import (
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from numpy.typing import NDArray
-
-    from turtlewire.trajectory.metrics import Errors
+    from turtlewire.trajectory.metrics import PoseErrors
     from turtlewire.trajectory.trajectory import Trajectory
 
 __all__ = ["plot_box", "plot_error_path", "plot_errors", "plot_histogram"]
@@ -31,25 +29,26 @@ _COLOUR_STEPS = 24
 _BAR = 104.0
 
 
-def plot_errors(errors: Errors, stamps_ns: NDArray[np.int64] | None = None) -> Plot:
-    """Errors over time, with lines for rmse, median and mean and a band of the deviation.
+def plot_errors(errors: PoseErrors, reference: Trajectory) -> Plot:
+    """PoseErrors over time, with lines for rmse, median and mean and a band of the deviation.
 
     Args:
         errors: What `ape` or `rpe` returned.
-        stamps_ns: (N,) times of the compared poses; without them errors are drawn over their row.
+        reference: The compared poses, for their times and gaps.
     """
-    rows, values = errors.rows.astype(np.float64), errors.values
-    label = "pose"
-    if stamps_ns is not None and len(values):
-        rows, label = (stamps_ns[errors.rows] - stamps_ns[0]) / 1e9, "time [s]"
+    values = errors.values
+    seconds = (reference.stamps_ns[errors.rows] - reference.stamps_ns[0]) / 1e9
     statistics = errors.statistics
     low, high = statistics.mean - statistics.std, statistics.mean + statistics.std
     place = (0.0, 0.0, WIDTH, 300.0)
-    x_range = float(rows[0]), float(rows[-1])
+    x_range = float(seconds[0]), float(seconds[-1])
     y_range = min(0.0, low), max(statistics.max, high)
-    panel = Panel(place, x_range, y_range, (label, _title(errors)), title=_title(errors))
+    labels = "time [s]", _title(errors)
+    panel = Panel(place, x_range, y_range, labels, title=_title(errors))
     panel.rectangle(x_range, (low, high), COLOURS[4], 0.25)
-    panel.line(rows, values, GREY)
+    for run in runs_of(reference):
+        shown = (errors.rows >= run.start) & (errors.rows < run.stop)
+        panel.line(seconds[shown], values[shown], GREY)
     legend = [("error", GREY), ("mean ± std", COLOURS[4])]
     for name, colour in (("rmse", COLOURS[1]), ("median", COLOURS[2]), ("mean", COLOURS[0])):
         value = getattr(statistics, name)
@@ -61,7 +60,7 @@ def plot_errors(errors: Errors, stamps_ns: NDArray[np.int64] | None = None) -> P
 def plot_error_path(
     reference: Trajectory,
     estimate: Trajectory,
-    errors: Errors,
+    errors: PoseErrors,
     plane: str = "xy",
     *,
     percentile: float = 100.0,
@@ -72,12 +71,14 @@ def plot_error_path(
         reference: Associated with the estimate.
         estimate: Likewise, aligned.
         errors: Of the two.
-        plane: See `plot_path`.
-        percentile: Errors above this percentile have the last colour.
+        plane: Two of the axes x, y and z, such as ``xy``.
+        percentile: PoseErrors above this percentile have the last colour.
     """
     across, up = columns_of(plane)
     panel = path_panel([reference, estimate], plane, WIDTH - _BAR)
-    panel.line(reference.positions[:, across], reference.positions[:, up], GREY, dashed=True)
+    for rows in runs_of(reference):
+        at = reference.positions[rows]
+        panel.line(at[:, across], at[:, up], GREY, dashed=True)
     values = np.interp(np.arange(len(estimate)), errors.rows, errors.values)
     low, high = float(values.min()), float(np.percentile(values, percentile))
     shares = np.clip((values - low) / ((high - low) or 1.0), 0.0, 1.0)
@@ -92,7 +93,7 @@ def plot_error_path(
     return page([panel, _colour_bar(low, high, _title(errors))], WIDTH)
 
 
-def plot_box(errors: Mapping[str, Errors]) -> Plot:
+def plot_box(errors: Mapping[str, PoseErrors]) -> Plot:
     """Box plots of several: quartiles, median, and whiskers to 1.5 times their distance."""
     labels, top = _labels(errors)
     place = (0.0, 0.0, WIDTH, 320.0)
@@ -112,7 +113,7 @@ def plot_box(errors: Mapping[str, Errors]) -> Plot:
     return page([panel], WIDTH)
 
 
-def plot_histogram(errors: Mapping[str, Errors], bins: int = 40) -> Plot:
+def plot_histogram(errors: Mapping[str, PoseErrors], bins: int = 40) -> Plot:
     """Plot histograms of several errors on top of one another."""
     labels, top = _labels(errors)
     edges = np.linspace(0.0, top or 1.0, bins + 1)
@@ -128,13 +129,13 @@ def plot_histogram(errors: Mapping[str, Errors], bins: int = 40) -> Plot:
     return page([panel], WIDTH, legend)
 
 
-def _labels(errors: Mapping[str, Errors]) -> tuple[str, float]:
+def _labels(errors: Mapping[str, PoseErrors]) -> tuple[str, float]:
     if not errors:
         raise ValueError("there are no errors to draw")
     return _title(next(iter(errors.values()))), max(float(e.values.max()) for e in errors.values())
 
 
-def _title(errors: Errors) -> str:
+def _title(errors: PoseErrors) -> str:
     return f"{errors.name} {errors.relation}" + (f" [{errors.unit}]" if errors.unit else "")
 
 

@@ -2,83 +2,102 @@
 
 Stamps are written and read as integers (``seconds.nanoseconds``), so that no nanosecond is lost:
 a double holds the seconds since 1970 only to 0.24 microseconds. Numbers are written so that they
-read back as the same doubles. The formats do not store gaps: `find_gaps` derives them from pauses.
+read back as the same doubles. The formats do not store gaps: `Trajectory.load`
+derives them from pauses. Repeated stamps and quaternions of another length than 1 are accepted, and
+a remark says what was done about them.
 """
 
 from __future__ import annotations
 
+import errno
 import os
 from decimal import Decimal, InvalidOperation
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
 from turtlewire.geometry import arrays
-from turtlewire.trajectory.sampling import find_gaps
-from turtlewire.trajectory.trajectory import Trajectory, as_stamps
+from turtlewire.path_arguments import missing_file, path_text
+from turtlewire.tf.file_names import BAGS, PICTURES, refuse_other_formats
+from turtlewire.trajectory.stamps import Gap, find_gaps
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from numpy.typing import NDArray
 
-__all__ = [
-    "FORMATS",
-    "kitti_times",
-    "read_csv",
-    "read_euroc",
-    "read_kitti",
-    "read_trajectory",
-    "read_tum",
-    "write_csv",
-    "write_euroc",
-    "write_kitti",
-    "write_trajectory",
-    "write_tum",
-]
+    Stamps = NDArray[np.int64]
+    Poses = NDArray[np.float64]
+
+__all__ = ["FORMATS", "FileContents", "Format", "kitti_times", "read_file", "write_file"]
+
+Format = Literal["tum", "kitti", "euroc", "csv"]
 
 #: Formats of files, and the usual ending of their names.
-FORMATS = {"tum": ".tum", "kitti": ".kitti", "euroc": ".euroc", "csv": ".csv"}
+FORMATS: dict[str, str] = {"tum": ".tum", "kitti": ".kitti", "euroc": ".euroc", "csv": ".csv"}
+_INSTEAD = {
+    PICTURES: "trajectory.plot().save(path) draws it as .svg, .pdf or .png",
+    BAGS: "turtlewire.bag.BagWriter writes bags",
+    (".npz", ".npy"): "np.savez(path, stamps_ns=trajectory.stamps_ns, poses=trajectory.poses) does",
+}
 
 _SECOND = 1_000_000_000
+#: Quaternions that are written with four digits or more differ by less from the length 1.
+_ROUNDING = 1e-3
+#: Clock times in seconds, from 2001 to 2286.
+_SECONDS_SINCE_1970 = (10**9, 10**10)
 #: Stamps are int64.
 _LATEST_NS = (1 << 63) - 1
 
 
-def read_tum(path: str | os.PathLike[str]) -> Trajectory:
+class FileContents(NamedTuple):
+    """The contents of a file; see `Trajectory` for the first four.
+
+    ``remarks`` say what differs from the file.
+    """
+
+    stamps_ns: NDArray[np.int64]
+    poses: NDArray[np.float64]
+    gaps: tuple[Gap, ...] = ()
+    timed: bool = True
+    remarks: tuple[str, ...] = ()
+
+
+def _read_tum(path: str | os.PathLike[str]) -> FileContents:
     """Read ``timestamp tx ty tz qx qy qz qw``, seconds, separated by blanks.
 
     Raises:
         ValueError: A line is not like that; the text names it.
     """
-    stamps, rows = _read_table(path, None, 8, "8 numbers: timestamp tx ty tz qx qy qz qw")
-    return _with_gaps(_in_order(stamps, path), rows)
+    wanted = "8 numbers, separated by blanks: timestamp tx ty tz qx qy qz qw"
+    stamps, rows = _read_table(path, None, 8, wanted)
+    return _contents(stamps, rows, path)
 
 
-def write_tum(trajectory: Trajectory, path: str | os.PathLike[str]) -> None:
-    """Write a TUM file; see `read_tum`."""
-    times = map(_seconds, trajectory.stamps_ns.tolist())
-    _write_lines(path, zip(times, trajectory.poses.tolist(), strict=True), " ")
+def _write_tum(stamps: Stamps, poses: Poses, path: str | os.PathLike[str]) -> None:
+    """Write a TUM file; see `_read_tum`."""
+    times = map(_seconds, stamps.tolist())
+    _write_lines(path, zip(times, poses.tolist(), strict=True), " ")
 
 
-def read_csv(path: str | os.PathLike[str]) -> Trajectory:
+def _read_csv(path: str | os.PathLike[str]) -> FileContents:
     """Read ``t_ns,x,y,z,qx,qy,qz,qw`` with integer nanoseconds; a heading begins with ``#`` or t.
 
     Raises:
         ValueError: A line is not like that; the text names it.
     """
     stamps, rows = _read_table(path, ",", 8, "8 numbers: t_ns,x,y,z,qx,qy,qz,qw", unit=1)
-    return _with_gaps(_in_order(stamps, path), rows)
+    return _contents(stamps, rows, path, unit=1)
 
 
-def write_csv(trajectory: Trajectory, path: str | os.PathLike[str]) -> None:
-    """Write a CSV file with a heading; see `read_csv`."""
-    times = map(str, trajectory.stamps_ns.tolist())
+def _write_csv(stamps: Stamps, poses: Poses, path: str | os.PathLike[str]) -> None:
+    """Write a CSV file with a heading; see `_read_csv`."""
+    times = map(str, stamps.tolist())
     heading = "t_ns,x,y,z,qx,qy,qz,qw\n"
-    _write_lines(path, zip(times, trajectory.poses.tolist(), strict=True), ",", heading)
+    _write_lines(path, zip(times, poses.tolist(), strict=True), ",", heading)
 
 
-def read_euroc(path: str | os.PathLike[str]) -> Trajectory:
+def _read_euroc(path: str | os.PathLike[str]) -> FileContents:
     """Read EuRoC's ground truth: ``t_ns,x,y,z,qw,qx,qy,qz`` and further columns, which are ignored.
 
     Raises:
@@ -86,20 +105,20 @@ def read_euroc(path: str | os.PathLike[str]) -> Trajectory:
     """
     wanted = "at least 8 numbers: t_ns,x,y,z,qw,qx,qy,qz"
     stamps, rows = _read_table(path, ",", 8, wanted, unit=1, exact=False)
-    return _with_gaps(_in_order(stamps, path), rows[:, [0, 1, 2, 4, 5, 6, 3]])
+    return _contents(stamps, rows[:, [0, 1, 2, 4, 5, 6, 3]], path, unit=1)
 
 
-def write_euroc(trajectory: Trajectory, path: str | os.PathLike[str]) -> None:
-    """Write EuRoC's ground truth with a heading; see `read_euroc`."""
-    times = map(str, trajectory.stamps_ns.tolist())
-    poses = trajectory.poses[:, [0, 1, 2, 6, 3, 4, 5]].tolist()
+def _write_euroc(stamps: Stamps, poses: Poses, path: str | os.PathLike[str]) -> None:
+    """Write EuRoC's ground truth with a heading; see `_read_euroc`."""
+    times = map(str, stamps.tolist())
+    rows = poses[:, [0, 1, 2, 6, 3, 4, 5]].tolist()
     heading = "#timestamp [ns],p_x [m],p_y [m],p_z [m],q_w [],q_x [],q_y [],q_z []\n"
-    _write_lines(path, zip(times, poses, strict=True), ",", heading)
+    _write_lines(path, zip(times, rows, strict=True), ",", heading)
 
 
-def read_kitti(
+def _read_kitti(
     path: str | os.PathLike[str], times: str | os.PathLike[str] | None = None
-) -> Trajectory:
+) -> FileContents:
     """Read KITTI's poses: the upper three rows of a matrix, row by row, 12 numbers a line.
 
     Args:
@@ -113,24 +132,35 @@ def read_kitti(
     matrices = rows.reshape(-1, 3, 4)
     poses = np.hstack((matrices[:, :, 3], arrays.from_matrices(matrices[:, :, :3])))
     if times is None:
-        return Trajectory(np.arange(len(poses), dtype=np.int64) * _SECOND, poses, timed=False)
+        return FileContents(np.arange(len(poses), dtype=np.int64) * _SECOND, poses, timed=False)
     stamps, _ = _read_table(times, None, 1, "one number: the time in seconds")
     if len(stamps) != len(poses):
         raise ValueError(f"{path} has {len(poses)} poses, {times} has {len(stamps)} times")
-    return _with_gaps(_in_order(stamps, times), poses)
+    return _contents(stamps, poses, times)
 
 
-def write_kitti(
-    trajectory: Trajectory,
-    path: str | os.PathLike[str],
-    times: str | os.PathLike[str] | None = None,
-) -> None:
-    """Write KITTI's poses and, into a second file if one is given, the times in seconds."""
-    rows = trajectory.as_matrices()[:, :3].reshape(-1, 12).tolist()
-    _write_lines(path, ((None, row) for row in rows), " ")
-    if times is not None:
-        stamps = trajectory.stamps_ns.tolist()
-        _write_lines(times, ((_seconds(stamp), ()) for stamp in stamps), " ")
+def _read_kitti_alone(path: str | os.PathLike[str]) -> FileContents:
+    """Read KITTI's poses with the times of a file beside them, if there is one."""
+    if os.path.exists(kitti_times(path)):
+        return _read_kitti(path, kitti_times(path))
+    of_sequence = os.path.join(os.path.dirname(os.fspath(path)), "times.txt")
+    if not os.path.exists(of_sequence):
+        return _read_kitti(path)
+    try:
+        found = _read_kitti(path, of_sequence)
+    except ValueError as error:  # they may belong to another sequence
+        found, remark = _read_kitti(path), f"times.txt is not used: {error}"
+    else:
+        remark = f"{os.fspath(path)}: the times are taken from times.txt in the same folder"
+    return found._replace(remarks=(*found.remarks, remark))
+
+
+def _write_kitti(stamps: Stamps, poses: Poses, path: str | os.PathLike[str]) -> None:
+    """Write KITTI's poses and, into a second file, the times in seconds."""
+    matrices = np.dstack((arrays.matrices(poses[:, 3:]), poses[:, :3]))
+    _write_lines(path, ((None, row) for row in matrices.reshape(-1, 12).tolist()), " ")
+    times = ((_seconds(stamp), ()) for stamp in stamps.tolist())
+    _write_lines(kitti_times(path), times, " ")
 
 
 def kitti_times(path: str | os.PathLike[str]) -> str:
@@ -138,42 +168,69 @@ def kitti_times(path: str | os.PathLike[str]) -> str:
     return os.path.splitext(os.fspath(path))[0] + "_times.txt"
 
 
-def write_trajectory(
-    trajectory: Trajectory, path: str | os.PathLike[str], kind: str | None = None
+def write_file(
+    stamps: Stamps, poses: Poses, path: str | os.PathLike[str], kind: Format | None = None
 ) -> str:
-    """Write a file of one of `FORMATS`; of KITTI's, the times go into ``<name>_times.txt``.
+    """Write a file and return its format; see `Trajectory.save`."""
+    path = path_text(path, what="name of the file")
+    if kind is None:
+        written = "a trajectory is saved as .tum, .kitti, .euroc or .csv"
+        refuse_other_formats(path, tuple(FORMATS.values()), written, _INSTEAD)
+    ending = os.path.splitext(os.fspath(path))[1].lower()
+    chosen: str = kind or next((each for each, usual in FORMATS.items() if usual == ending), "tum")
+    writers = {"tum": _write_tum, "kitti": _write_kitti, "euroc": _write_euroc, "csv": _write_csv}
+    writers[_known(chosen)](stamps, poses, path)
+    return chosen
 
-    Args:
-        trajectory: What is written.
-        path: Where to.
-        kind: The format; None takes it from the ending of the name, TUM if that says nothing.
 
-    Returns:
-        The format.
+def read_file(
+    path: str | os.PathLike[str],
+    kind: Format | None = None,
+    times: str | os.PathLike[str] | None = None,
+) -> FileContents:
+    """Read a file; see `Trajectory.load`."""
+    path = path_text(path, what="path of a trajectory")
+    if os.path.isdir(path):
+        text = "a trajectory is a file; to read a bag, call Trajectory.from_bag"
+        raise IsADirectoryError(errno.EISDIR, text, path)
+    if not os.path.exists(path):
+        raise missing_file(path)
+    try:
+        return _read_file(path, kind, times)
+    except UnicodeDecodeError:
+        raise ValueError(
+            f"{path} is not a trajectory, because it is not text; to read a bag, call "
+            "Trajectory.from_bag"
+        ) from None
 
-    Raises:
-        ValueError: The format does not exist.
-    """
-    _, ending = os.path.splitext(os.fspath(path))
-    kind = kind or next((each for each, usual in FORMATS.items() if usual == ending), "tum")
-    if kind == "kitti":
-        write_kitti(trajectory, path, kitti_times(path))
-        return kind
-    writers = {"tum": write_tum, "euroc": write_euroc, "csv": write_csv}
-    if kind not in writers:
+
+def _read_file(
+    path: str | os.PathLike[str], kind: Format | None, times: str | os.PathLike[str] | None
+) -> FileContents:
+    chosen = _format_of(path) if kind is None else _known(kind)
+    if chosen == "kitti":
+        return _read_kitti(path, times) if times is not None else _read_kitti_alone(path)
+    if times is not None:
+        raise ValueError(
+            f"{os.fspath(path)} has the format '{chosen}', whose lines begin with the time; leave "
+            "out `times`, which is for the format 'kitti'"
+        )
+    return {"tum": _read_tum, "euroc": _read_euroc, "csv": _read_csv}[chosen](path)
+
+
+def _known(kind: str) -> str:
+    if kind not in FORMATS:
         raise ValueError(f"unknown format '{kind}'; choose from {', '.join(FORMATS)}")
-    writers[kind](trajectory, path)
     return kind
 
 
-def read_trajectory(path: str | os.PathLike[str]) -> Trajectory:
-    """Read a file of any of these formats: the separator and the columns determine the format.
+def _format_of(path: str | os.PathLike[str]) -> str:
+    """Return the format of a file's suffix; without one, what separator and columns show.
 
-    KITTI's times are read from ``<name>_times.txt``, if there is such a file.
-
-    Raises:
-        ValueError: The file has none of these formats, or no data.
+    ``.csv`` is also the usual suffix of EuRoC's files, and says less than the columns.
     """
+    suffix = os.path.splitext(path)[1].lower()
+    named = next((each for each, usual in FORMATS.items() if usual == suffix != ".csv"), None)
     with open(path, encoding="utf-8-sig") as file:
         lines = [line for line in (line.strip() for line in file) if line]
     data = next((line for line in lines if not _is_comment(line)), "")
@@ -182,14 +239,36 @@ def read_trajectory(path: str | os.PathLike[str]) -> Trajectory:
         raise ValueError(
             f"{os.fspath(path)} is not a trajectory: it contains {what}, but no lines of numbers"
         )
+    if named is not None:
+        _check_separator(path, named, data)
+        return named
     columns = len(data.split("," if "," in data else None))
     if "," not in data:
-        if columns == 12:
-            times = kitti_times(path)
-            return read_kitti(path, times if os.path.exists(times) else None)
-        return read_tum(path)
-    euroc = columns > 8 or any(line.startswith("#") and "q_w" in line for line in lines[:1])
-    return read_euroc(path) if euroc else read_csv(path)
+        return "kitti" if columns == 12 else "tum"
+    return "euroc" if columns > 8 or _begins_with_w(lines[0]) else "csv"
+
+
+def _begins_with_w(heading: str) -> bool:
+    """Return whether the columns of a heading have w of the quaternion before x, as EuRoC's."""
+    names = [name.split()[0] for name in heading.lower().lstrip("#").split(",") if name.strip()]
+    places = {
+        axis: [n for n, name in enumerate(names) if name in (f"q{axis}", f"q_{axis}")]
+        for axis in "wx"
+    }
+    return bool(places["w"]) and places["w"] < (places["x"] or [len(names)])
+
+
+def _check_separator(path: str | os.PathLike[str], named: str, data: str) -> None:
+    """Raise ValueError if a line of numbers has the separator of other formats than the named."""
+    if ("," in data) == (named == "euroc"):
+        return
+    found, right = ("commas", "blanks") if "," in data else ("blanks", "commas")
+    others = "'csv' or 'euroc'" if found == "commas" else "'tum' or 'kitti'"
+    raise ValueError(
+        f"{os.fspath(path)} has numbers separated by {found}, but the format of its name, "
+        f"'{named}', has {right}; pass the format that it has, {others}, as `format`, or replace "
+        f"the {found} by {right}"
+    )
 
 
 def _read_table(
@@ -242,24 +321,56 @@ def _seconds(stamp_ns: int) -> str:
 def _nanoseconds(text: str, unit: int) -> int:
     """Return a time in nanoseconds, ``unit`` of which make 1; without going through float."""
     try:
-        stamp_ns = int(Decimal(text) * unit)
+        exact = Decimal(text) * unit
+        stamp_ns = int(exact)
     except (InvalidOperation, ValueError, OverflowError):
         raise ValueError(f"'{text}' is not a time") from None
+    if unit == 1 and stamp_ns != exact:
+        raise ValueError(f"the time '{text}' is not a whole number of nanoseconds")
     if abs(stamp_ns) > _LATEST_NS:
         said = "seconds are expected here: is it in nanoseconds?" if unit == _SECOND else ""
         raise ValueError(f"the time '{text}' is beyond the year 2262; {said}".rstrip("; "))
     return stamp_ns
 
 
-def _in_order(stamps: list[int], path: str | os.PathLike[str]) -> NDArray[np.int64]:
-    try:
-        return as_stamps(np.array(stamps, dtype=np.int64))
-    except (ValueError, OverflowError) as error:
-        raise ValueError(f"{os.fspath(path)}: {error}") from None
-
-
-def _with_gaps(stamps: NDArray[np.int64], poses: NDArray[np.float64]) -> Trajectory:
-    return Trajectory(stamps, poses, gaps=tuple(find_gaps(stamps)))
+def _contents(
+    stamps: list[int],
+    poses: NDArray[np.float64],
+    path: str | os.PathLike[str],
+    *,
+    unit: int = _SECOND,
+) -> FileContents:
+    """Keep the first pose of each stamp, and bring the quaternions to the length 1."""
+    array = np.array(stamps, dtype=np.int64)
+    back = np.flatnonzero(array[1:] < array[:-1])
+    if len(back):
+        row = int(back[0])
+        raise ValueError(
+            f"{os.fspath(path)}: stamps must increase; stamp {row + 1} does not follow stamp "
+            f"{row}; sort the lines of the file"
+        )
+    lengths = arrays.lengths(poses[:, 3:])
+    if not lengths.all():
+        row = int(np.flatnonzero(lengths == 0)[0])
+        raise ValueError(f"{os.fspath(path)}: the quaternion of pose {row} has the length 0")
+    first = np.concatenate(([True], array[1:] != array[:-1]))
+    remarks = [
+        f"{os.fspath(path)}: {count:,} of {len(array):,} {what}"
+        for count, what in (
+            (np.count_nonzero(~first), "stamps repeat the one before; the first pose is taken"),
+            (np.count_nonzero(np.abs(lengths - 1.0) > _ROUNDING), "quaternions are normalised"),
+        )
+        if count
+    ]
+    poses = np.hstack((poses[:, :3], arrays.normalised(poses[:, 3:])))
+    kept = array[first]
+    least, most = _SECONDS_SINCE_1970
+    if unit == 1 and len(kept) > 1 and least <= kept[0] and kept[-1] < most:
+        remarks.append(
+            f"{os.fspath(path)}: stamps such as {kept[0]} are read as nanoseconds: are they "
+            "seconds? The format with seconds is 'tum', separated by blanks"
+        )
+    return FileContents(kept, poses[first], tuple(find_gaps(kept)), remarks=tuple(remarks))
 
 
 def _write_lines(

@@ -1,4 +1,4 @@
-"""Errors of an estimated trajectory against a reference: APE, RPE and their statistics.
+"""PoseErrors of an estimated trajectory against a reference: APE, RPE and their statistics.
 
 Source: Sturm et al., "A Benchmark for the Evaluation of RGB-D SLAM Systems", IROS 2012; names and
 definitions of the variants are the program evo's, so that figures can be compared.
@@ -6,10 +6,11 @@ definitions of the variants are the program evo's, so that figures can be compar
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
+from turtlewire.attribute_hints import hint_at
 from turtlewire.geometry import arrays
 
 if TYPE_CHECKING:
@@ -17,10 +18,31 @@ if TYPE_CHECKING:
 
     from turtlewire.trajectory.trajectory import Trajectory
 
-__all__ = ["RELATIONS", "UNITS", "Errors", "Statistics", "ape", "pairs", "rpe"]
+__all__ = [
+    "RELATIONS",
+    "UNITS",
+    "PoseErrors",
+    "Relation",
+    "Statistics",
+    "Unit",
+    "ape",
+    "pairs",
+    "rpe",
+]
+
+Relation = Literal[
+    "trans_part",
+    "rot_part",
+    "full",
+    "angle_rad",
+    "angle_deg",
+    "point_distance",
+    "point_distance_error_ratio",
+]
+Unit = Literal["f", "m", "d", "r"]
 
 #: What is measured, and its unit.
-RELATIONS = {
+RELATIONS: dict[Relation, str] = {
     "trans_part": "m",
     "rot_part": "",
     "full": "",
@@ -31,7 +53,11 @@ RELATIONS = {
 }
 
 #: Of `rpe`'s ``delta``, in words.
-UNITS = {"f": "frames", "m": "m", "d": "deg", "r": "rad"}
+UNITS: dict[Unit, str] = {"f": "frames", "m": "m", "d": "deg", "r": "rad"}
+
+#: An angle reaches a bound if it is short of it by this share. Three turns by 10 degrees make 30,
+#: however the doubles are rounded; in evo, rounding decides.
+_ROUNDING = 1e-9
 
 
 class Statistics(NamedTuple):
@@ -46,18 +72,27 @@ class Statistics(NamedTuple):
     std: float
 
 
-class Errors(NamedTuple):
-    """Errors of poses or of pairs of poses.
+@hint_at(
+    {
+        "rmse mean median std sse max min stats": "statistics, which has max, mean, median, min, "
+        "rmse, sse and std",
+        "errors error data": "values, (N,)",
+        "plot": "the comparison's plot(), or turtlewire.trajectory.plot({name: errors})",
+        "to_pandas dataframe df": "values, (N,), and rows, (N,)",
+    }
+)
+class PoseErrors(NamedTuple):
+    """PoseErrors of poses or of pairs of poses.
 
     Attributes:
         name: ``APE`` or ``RPE``.
-        relation: A key of `RELATIONS`.
+        relation: What is measured; see `Comparison.ape`.
         values: (N,) the errors.
         rows: (N,) the row of the associated trajectories that each belongs to; of a pair the later.
     """
 
     name: str
-    relation: str
+    relation: Relation
     values: NDArray[np.float64]
     rows: NDArray[np.intp]
 
@@ -94,7 +129,9 @@ def _median(values: NDArray[np.float64]) -> float:
     return upper if len(values) % 2 else (float(parted[:middle].max()) + upper) / 2
 
 
-def ape(reference: Trajectory, estimate: Trajectory, relation: str = "trans_part") -> Errors:
+def ape(
+    reference: Trajectory, estimate: Trajectory, relation: Relation = "trans_part"
+) -> PoseErrors:
     """Absolute pose error: ``inverse(reference) * estimate`` of each pose.
 
     Args:
@@ -110,29 +147,29 @@ def ape(reference: Trajectory, estimate: Trajectory, relation: str = "trans_part
     rows = np.arange(len(reference))
     distance = arrays.distances(reference.positions, estimate.positions)
     if relation in ("trans_part", "point_distance"):
-        return Errors("APE", relation, distance, rows)
+        return PoseErrors("APE", relation, distance, rows)
     turn = arrays.multiply(arrays.conjugate(reference.rotations), estimate.rotations)
-    return Errors("APE", relation, _value(relation, distance, turn), rows)
+    return PoseErrors("APE", relation, _value(relation, distance, turn), rows)
 
 
 def rpe(
     reference: Trajectory,
     estimate: Trajectory,
-    relation: str = "trans_part",
+    relation: Relation = "trans_part",
     *,
     delta: float = 1,
-    unit: str = "f",
+    unit: Unit = "f",
     all_pairs: bool = False,
     tolerance: float = 0.1,
     pairs_from_reference: bool = False,
-) -> Errors:
+) -> PoseErrors:
     """Relative pose error: how the motion between two poses differs.
 
     Args:
         reference: The reference.
         estimate: The estimate; row i belongs to row i of the reference.
         relation: A key of `RELATIONS`.
-        delta: How far the poses of a pair are apart.
+        delta: How far the poses of a pair are apart; a pair ends at the first pose that is as far.
         unit: Of ``delta``: ``f`` frames, ``m`` metres of path, ``d`` degrees, ``r`` radians.
         all_pairs: Whether a pair begins at each pose, not only where the last one ended. For
             angles these are all pairs of poses whose rotations differ by ``delta``.
@@ -152,19 +189,19 @@ def rpe(
         return _rpe_of_distances(reference, estimate, relation, i, j)
     distance = arrays.lengths(_move(estimate, i, j) - _move(reference, i, j))
     if relation == "trans_part":
-        return Errors("RPE", relation, distance, j)
+        return PoseErrors("RPE", relation, distance, j)
     back = arrays.conjugate(_turn(reference, i, j))
     turn = arrays.multiply(back, _turn(estimate, i, j))
-    return Errors("RPE", relation, _value(relation, distance, turn), j)
+    return PoseErrors("RPE", relation, _value(relation, distance, turn), j)
 
 
 def _rpe_of_distances(
     reference: Trajectory,
     estimate: Trajectory,
-    relation: str,
+    relation: Relation,
     i: NDArray[np.intp],
     j: NDArray[np.intp],
-) -> Errors:
+) -> PoseErrors:
     q = arrays.lengths(reference.positions[i] - reference.positions[j])
     p = arrays.lengths(estimate.positions[i] - estimate.positions[j])
     errors = np.abs(q - p)
@@ -173,7 +210,7 @@ def _rpe_of_distances(
         if not moved.any():
             raise ValueError("the reference does not move, and the ratio is one of its distances")
         errors, j = errors[moved] / q[moved] * 100, j[moved]
-    return Errors("RPE", relation, errors, j)
+    return PoseErrors("RPE", relation, errors, j)
 
 
 def _move(trajectory: Trajectory, i: NDArray[np.intp], j: NDArray[np.intp]) -> NDArray[np.float64]:
@@ -205,6 +242,8 @@ def _check(
     reference: Trajectory, estimate: Trajectory, relation: str, known: tuple[str, ...]
 ) -> None:
     if relation not in known:
+        if relation in RELATIONS:
+            raise ValueError(f"'{relation}' is measured by rpe(), not by ape()")
         raise ValueError(f"unknown relation '{relation}'; choose from {', '.join(known)}")
     if len(reference) != len(estimate):
         raise ValueError(
@@ -214,28 +253,32 @@ def _check(
 
 
 def pairs(
-    trajectory: Trajectory, delta: float, unit: str, *, all_pairs: bool, tolerance: float
+    trajectory: Trajectory, delta: float, unit: Unit, *, all_pairs: bool, tolerance: float
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Rows of the pairs of poses that are ``delta`` apart; see `rpe`."""
-    if delta <= 0:
-        raise ValueError(f"delta is {delta}; it must be positive")
+    if unit not in UNITS:
+        raise ValueError(f"unknown unit '{unit}'; choose from f, m, d and r")
+    if not isinstance(delta, (int, float, np.number)):
+        raise TypeError(
+            f"delta must be a number, not {type(delta).__name__}; its unit is given apart: "
+            "delta=10, unit='m'"
+        )
+    if not 0 < delta < np.inf:
+        raise ValueError(f"delta is {delta}; it must be a positive number")
     if unit == "f":
+        if delta != int(delta):
+            raise ValueError(f"delta is {delta} frames; it must be a whole number")
         return _frame_pairs(len(trajectory), int(delta), all_pairs=all_pairs)
     if unit == "m":
-        along = trajectory.distances
-    elif unit in ("d", "r"):
-        delta = np.radians(delta) if unit == "d" else delta
         if all_pairs:
-            return _angle_pairs(trajectory.rotations, delta, delta * tolerance)
-        turns = arrays.multiply(
-            arrays.conjugate(trajectory.rotations[:-1]), trajectory.rotations[1:]
-        )
-        along = np.concatenate(([0.0], np.cumsum(arrays.angle(turns))))
-    else:
-        raise ValueError(f"unknown unit '{unit}'; choose from f, m, d and r")
+            return _distance_pairs(trajectory.distances, delta, delta * tolerance)
+        return _consecutive_pairs(arrays.lengths(np.diff(trajectory.positions, axis=0)), delta)
+    q = trajectory.rotations
+    angle = float(np.radians(delta)) if unit == "d" else delta
     if all_pairs:
-        return _all_pairs(along, delta, delta * tolerance)
-    return _consecutive_pairs(along, delta)
+        return _angle_pairs(q, angle, angle * (tolerance + _ROUNDING))
+    turns = arrays.multiply(arrays.conjugate(q[:-1]), q[1:])
+    return _consecutive_pairs(arrays.angle(turns), angle * (1.0 - _ROUNDING))
 
 
 def _frame_pairs(
@@ -246,13 +289,19 @@ def _frame_pairs(
 
 
 def _consecutive_pairs(
-    along: NDArray[np.float64], delta: float
+    steps: NDArray[np.float64], delta: float
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Pairs that follow each other: each ends where ``delta`` is reached since the last."""
-    row = 0
-    rows = [row]
-    while (row := int(np.searchsorted(along, along[row] + delta))) < len(along):
-        rows.append(row)
+    """Pairs that follow each other: each ends where ``delta`` is reached since the last.
+
+    The steps are summed from zero in each pair, as evo does. Sums of all steps before would round
+    differently, and where steps divide ``delta`` evenly, pairs would end one pose off.
+    """
+    rows, walked = [0], 0.0
+    for row, step in enumerate(steps.tolist(), start=1):
+        walked += step
+        if walked >= delta:
+            rows.append(row)
+            walked = 0.0
     ends = np.array(rows, dtype=np.intp)
     return ends[:-1], ends[1:]
 
@@ -275,14 +324,19 @@ def _turned(first: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray[
     return arrays.angle(arrays.multiply(arrays.conjugate(first), others))
 
 
-def _all_pairs(
+def _distance_pairs(
     along: NDArray[np.float64], delta: float, tolerance: float
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """For each row the later one whose distance is nearest to ``delta``, if it is near enough."""
+    """For each row the later one whose distance is nearest to ``delta``, if it is near enough.
+
+    Of several as near the first is taken.
+    """
     starts = np.arange(len(along) - 1, dtype=np.intp)
-    goal = along[:-1] + delta
-    after = np.clip(np.searchsorted(along, goal), starts + 1, len(along) - 1)
-    before = np.maximum(after - 1, starts + 1)
-    ends = np.where(np.abs(along[before] - goal) <= np.abs(along[after] - goal), before, after)
-    near = np.abs(along[ends] - goal) <= tolerance
+    after = np.clip(np.searchsorted(along, along[:-1] + delta), starts + 1, len(along) - 1)
+    # While the robot stands, several poses are at one distance.
+    before = np.searchsorted(along, along[np.maximum(after - 1, starts + 1)])
+    before = np.maximum(before, starts + 1)
+    short, long = (np.abs(along[ends] - along[:-1] - delta) for ends in (before, after))
+    ends = np.where(short <= long, before, after)
+    near = np.minimum(short, long) <= tolerance
     return starts[near], ends[near]

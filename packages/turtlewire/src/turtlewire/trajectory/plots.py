@@ -5,16 +5,15 @@ Lines end where data are missing: nothing is drawn across a gap.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from itertools import pairwise
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Literal, Protocol
 
 import numpy as np
 
 from turtlewire.trajectory.chart import COLOURS, GREY, Panel, Plot, page
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -22,18 +21,20 @@ if TYPE_CHECKING:
     Named = Mapping[str, "Drawable"]
 
 __all__ = [
+    "KINDS",
     "PATH_HEIGHT",
     "WIDTH",
     "Drawable",
+    "Kind",
     "colours",
     "columns_of",
     "path_panel",
-    "plot_angles",
-    "plot_path",
-    "plot_positions",
-    "plot_speeds",
+    "plot_trajectories",
     "runs_of",
 ]
+
+Kind = Literal["path", "positions", "angles", "speeds"]
+KINDS = ("path", "positions", "angles", "speeds")
 
 
 class Drawable(Protocol):
@@ -42,10 +43,6 @@ class Drawable(Protocol):
     @property
     def stamps_ns(self) -> NDArray[np.int64]:
         """(N,) in nanoseconds."""
-
-    @property
-    def child_frame_id(self) -> str:
-        """The frame that moves."""
 
     def __len__(self) -> int: ...
     @property
@@ -71,20 +68,25 @@ PATH_HEIGHT = 480.0
 _AXES = "xyz"
 
 
-def plot_path(
-    trajectories: Drawable | Named, reference: Drawable | None = None, plane: str = "xy"
+def plot_trajectories(
+    named: Named, kind: str = "path", reference: Drawable | None = None, plane: str = "xy"
 ) -> Plot:
-    """Return the paths, with a ring at the start and a cross at the end.
+    """Draw trajectories by name; see `turtlewire.trajectory.plot`."""
+    if kind not in KINDS:
+        raise ValueError(f"'{kind}' is not a kind of plot; choose from {', '.join(KINDS)}")
+    if reference is not None and not hasattr(reference, "positions"):
+        raise TypeError(f"reference must be a Trajectory, not {type(reference).__name__}")
+    named = {name: each for name, each in named.items() if len(each)}
+    if not named:
+        raise ValueError("there is no pose to draw")
+    if kind == "path":
+        return _plot_path(named, reference, plane)
+    labels, values_of = _OVER_TIME[kind]
+    return _over_time(named, reference, labels, values_of)
 
-    Args:
-        trajectories: One, or several by name.
-        reference: Drawn dashed and grey.
-        plane: The two axes that are seen: ``xy``, ``xz``, ``yz`` or the other way round.
 
-    Raises:
-        ValueError: The plane does not exist, or there is nothing to draw.
-    """
-    named = _named(trajectories)
+def _plot_path(named: Named, reference: Drawable | None, plane: str) -> Plot:
+    """Return the paths, with a ring at the start and a cross at the end."""
     across, up = columns_of(plane)
     everything = [*named.values(), *([] if reference is None else [reference])]
     panel = path_panel(everything, plane, WIDTH)
@@ -103,37 +105,28 @@ def plot_path(
     return page([panel], WIDTH, legend)
 
 
-def plot_positions(trajectories: Drawable | Named, reference: Drawable | None = None) -> Plot:
-    """X, y and z over time, three rows."""
-    labels = [f"{axis} [m]" for axis in _AXES]
-    return _over_time(_named(trajectories), reference, labels, lambda each: each.positions)
+def _positions(trajectory: Drawable) -> Numbers:
+    return trajectory.positions
 
 
-def plot_angles(trajectories: Drawable | Named, reference: Drawable | None = None) -> Plot:
-    """Roll, pitch and yaw over time in degrees, three rows, without jumps by full turns."""
-    labels = ["roll [deg]", "pitch [deg]", "yaw [deg]"]
-    return _over_time(_named(trajectories), reference, labels, lambda each: np.degrees(each.euler))
+def _angles(trajectory: Drawable) -> Numbers:
+    return np.degrees(trajectory.euler)
 
 
-def plot_speeds(trajectories: Drawable | Named, reference: Drawable | None = None) -> Plot:
-    """Return the speed over time; at each pose that of the way to the next."""
-
-    def speeds(trajectory: Drawable) -> Numbers:
-        values = np.append(trajectory.speeds, 0.0)
-        for run in runs_of(trajectory):  # the last one's way leads into a gap
-            values[run.stop - 1] = values[run.stop - 2] if run.stop - run.start > 1 else 0.0
-        return values[:, None]
-
-    return _over_time(_named(trajectories), reference, ["speed [m/s]"], speeds)
+def _speeds(trajectory: Drawable) -> Numbers:
+    """(N, 1) the speed at each pose: the mean speed of the way to the next one."""
+    values = np.append(trajectory.speeds, 0.0)
+    for run in runs_of(trajectory):  # the last one's way leads into a gap
+        values[run.stop - 1] = values[run.stop - 2] if run.stop - run.start > 1 else 0.0
+    return values[:, None]
 
 
-def _named(trajectories: Drawable | Named) -> dict[str, Drawable]:
-    if not isinstance(trajectories, Mapping):
-        trajectories = {trajectories.child_frame_id or "trajectory": trajectories}
-    named = {name: each for name, each in trajectories.items() if len(each)}
-    if not named:
-        raise ValueError("there is no pose to draw")
-    return named
+#: Of each kind over time: the labels of its rows and the values that they show.
+_OVER_TIME: dict[str, tuple[list[str], Callable[[Drawable], Numbers]]] = {
+    "positions": ([f"{axis} [m]" for axis in _AXES], _positions),
+    "angles": (["roll [deg]", "pitch [deg]", "yaw [deg]"], _angles),
+    "speeds": (["speed [m/s]"], _speeds),
+}
 
 
 def colours() -> Iterator[str]:
@@ -177,7 +170,7 @@ def _mark_ends(panel: Panel, trajectory: Drawable, columns: tuple[int, int], col
 
 
 def _over_time(
-    named: dict[str, Drawable],
+    named: Named,
     reference: Drawable | None,
     labels: list[str],
     values_of: Callable[[Drawable], Numbers],

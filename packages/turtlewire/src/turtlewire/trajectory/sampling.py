@@ -8,19 +8,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from turtlewire.tf.links import links
-from turtlewire.trajectory.trajectory import Gap, Trajectory, as_stamps
+from turtlewire.trajectory.stamps import as_stamps, find_gaps
+from turtlewire.trajectory.trajectory import Trajectory
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
+    from turtlewire.tf.datetimes import Span
     from turtlewire.tf.implementation import BaseBuffer
 
-__all__ = ["find_gaps", "moving_links", "sample_trajectory"]
+__all__ = ["moving_links", "sample_trajectory"]
 
-#: A pause this many times as long as the median between two samples counts as a gap.
-_GAP_FACTOR = 10
-#: Pauses shorter than this do not count as gaps, even if the other samples are regular.
-_SHORTEST_GAP_NS = 500_000_000
 #: This many poses take a gigabyte: 1 kHz for five and a half hours.
 _MOST_POSES = 20_000_000
 
@@ -32,7 +30,7 @@ def sample_trajectory(
     *,
     stamps: ArrayLike | None = None,
     rate_hz: float | None = None,
-    max_gap_ns: int | None = None,
+    max_gap_ns: Span | None = None,
 ) -> Trajectory:
     """Return the poses of a frame in another over time.
 
@@ -41,7 +39,7 @@ def sample_trajectory(
         target_frame: The frame in which the poses are given.
         source_frame: The frame that moves.
         stamps: The times wanted, integer nanoseconds or ``datetime64``; those without an answer are
-            left out, and so is 0, which means "the latest" in tf2.
+            left out.
         rate_hz: Poses at this rate through the time that all links cover. Without ``stamps`` and
             ``rate_hz``: at each time at which a link on the way has a sample.
         max_gap_ns: Pauses between samples that are longer are gaps: no pose lies within one. None
@@ -67,30 +65,13 @@ def sample_trajectory(
                 "the chain has stamps to use: pass `stamps`"
             )
         wanted = _times(histories, rate_hz)
-    wanted = wanted[wanted != 0]  # tf2 takes the time 0 for "the latest"
     for gap in gaps:
         wanted = wanted[(wanted <= gap.start_ns) | (wanted >= gap.end_ns)]
-    status = np.zeros(len(wanted), dtype=np.uint8)
-    poses = buffer.lookup_batch(target_frame, source_frame, wanted, status=status)
-    if len(wanted) and status.all():  # nothing was found: the first lookup says why
+    poses = buffer.lookup_transforms(target_frame, source_frame, wanted, errors="nan")
+    found = ~np.isnan(poses[:, 0])
+    if len(wanted) and not found.any():  # the first lookup says why
         buffer.lookup_transform(target_frame, source_frame, int(wanted[0]))
-    found = status == 0
     return Trajectory(wanted[found], poses[found], target_frame, source_frame, tuple(gaps))
-
-
-def find_gaps(stamps_ns: NDArray[np.int64], max_gap_ns: int | None = None) -> list[Gap]:
-    """Pauses in increasing stamps (N,) that are longer than ``max_gap_ns``.
-
-    None takes ten times the median pause, and at least half a second.
-    """
-    pauses = np.diff(stamps_ns)
-    if not len(pauses):
-        return []
-    if max_gap_ns is None:
-        max_gap_ns = max(_SHORTEST_GAP_NS, int(_GAP_FACTOR * np.median(pauses)))
-    return [
-        Gap(int(stamps_ns[i]), int(stamps_ns[i + 1])) for i in np.flatnonzero(pauses > max_gap_ns)
-    ]
 
 
 def moving_links(buffer: BaseBuffer, target: str, source: str) -> list[str]:
@@ -119,7 +100,7 @@ def moving_links(buffer: BaseBuffer, target: str, source: str) -> list[str]:
 
 
 def _stamps_of(buffer: BaseBuffer, child: str) -> NDArray[np.int64]:
-    return np.unique(buffer.stamps(child))
+    return np.unique(buffer._stamps(child))
 
 
 def _times(histories: list[NDArray[np.int64]], rate_hz: float | None) -> NDArray[np.int64]:

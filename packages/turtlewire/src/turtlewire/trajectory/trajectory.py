@@ -2,37 +2,59 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from turtlewire.attribute_hints import hint_at
+from turtlewire.call_errors import explain_calls
 from turtlewire.geometry import arrays
+from turtlewire.tf.array_arguments import number_array
+from turtlewire.trajectory.stamps import Gap, as_stamps
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    import os
+    from collections.abc import Callable
 
+    from numpy.typing import NDArray
+
+    from turtlewire.tf.datetimes import Span, Stamp
     from turtlewire.trajectory.chart import Plot
+    from turtlewire.trajectory.files import Format
+    from turtlewire.trajectory.plots import Kind
 
-__all__ = ["Gap", "Trajectory", "as_stamps"]
-
-
-class Gap(NamedTuple):
-    """A time without data, in nanoseconds: from the last sample before it to the first after it."""
-
-    start_ns: int
-    end_ns: int
+__all__ = ["Trajectory"]
 
 
+@hint_at(
+    {
+        "positions_xyz xyz translations": "positions, (N, 3)",
+        "orientations_quat_wxyz orientations quaternions": "rotations, (N, 4): x, y, z, w",
+        "orientations_euler": "euler, (N, 3): roll, pitch, yaw",
+        "timestamps times stamps t": "stamps_ns",
+        "poses_se3 matrices": "as_matrices()",
+        "length": "path_length",
+        "duration": "duration_ns",
+        "velocities": "speeds",
+        "ape rpe ate rmse align": "turtlewire.trajectory.compare(reference, trajectory)",
+        "from_tum from_file read": "Trajectory.load(path)",
+        "to_tum to_csv write": "save(path), whose ending chooses the format",
+        "dataframe df": "to_pandas()",
+    }
+)
+@explain_calls
 @dataclass(frozen=True, eq=False)
 class Trajectory:
     """Poses over time.
 
     Attributes:
         stamps_ns: (N,) int64, nanoseconds since 1970, increasing.
-        poses: (N, 7) float64: x, y, z in metres and the unit quaternion x, y, z, w.
-        frame_id: The frame in which the poses are given; empty if it is not known.
-        child_frame_id: The frame that moves; empty if it is not known.
+        poses: (N, 7) float64: x, y, z in metres and the unit quaternion x, y, z, w. Lengths
+            between 0.999 and 1.001 are accepted, and corrected to 1.
+        target_frame: The frame in which the poses are given; empty if it is not known.
+        source_frame: The frame that moves; empty if it is not known.
         gaps: Times without data; there are no poses within them.
         timed: False if the stamps only count the poses, as in a KITTI file without times.
 
@@ -42,24 +64,116 @@ class Trajectory:
 
     stamps_ns: NDArray[np.int64]
     poses: NDArray[np.float64]
-    frame_id: str = ""
-    child_frame_id: str = ""
+    target_frame: str = ""
+    source_frame: str = ""
     gaps: tuple[Gap, ...] = field(default=())
     timed: bool = True
 
     def __post_init__(self) -> None:
         stamps = as_stamps(self.stamps_ns)
-        poses = np.ascontiguousarray(self.poses, dtype=np.float64)
-        if poses.shape != (len(stamps), 7):
-            raise ValueError(
-                f"expected poses of shape ({len(stamps)}, 7), one for each stamp; got {poses.shape}"
-            )
-        lengths = np.linalg.norm(poses[:, 3:], axis=1)
-        if not np.all(np.abs(lengths - 1.0) < 1e-3):  # also false for NaN
-            row = int(np.flatnonzero(~(np.abs(lengths - 1.0) < 1e-3))[0])
-            raise ValueError(f"the quaternion of pose {row} has the length {lengths[row]}, not 1")
+        poses = _checked_poses(self.poses, len(stamps))
+        rotations = poses[:, 3:]
+        unit = arrays.normalised(rotations)
+        if unit is not rotations:
+            poses = np.hstack((poses[:, :3], unit))
         object.__setattr__(self, "stamps_ns", stamps)
         object.__setattr__(self, "poses", poses)
+
+    @classmethod
+    def load(
+        cls,
+        path: str | os.PathLike[str],
+        *,
+        format: Format | None = None,  # noqa: A002 - the word of users
+        times: str | os.PathLike[str] | None = None,
+    ) -> Trajectory:
+        """Read a file.
+
+        The formats are TUM (``timestamp tx ty tz qx qy qz qw`` in seconds), KITTI (12 numbers of a
+        3x4 matrix a line), EuRoC (``t_ns,x,y,z,qw,qx,qy,qz`` and further columns, which are
+        ignored) and CSV (``t_ns,x,y,z,qx,qy,qz,qw``).
+
+        Of poses with the same stamp the first is taken, and quaternions are normalised. A
+        ``UserWarning`` says how many there were; lengths between 0.999 and 1.001 are rounding and
+        are not counted.
+
+        Args:
+            path: The file.
+            format: Its format; None takes it from the ending ``.tum``, ``.kitti`` or ``.euroc``,
+                and otherwise from the separator and the columns.
+            times: A file with the times of a KITTI file, one time in seconds a line. None reads
+                ``<name>_times.txt``, or ``times.txt`` with as many times as there are poses, in
+                the same folder. If there is neither, the stamps are 0, 1, 2 … s.
+
+        Raises:
+            FileNotFoundError: ``path`` does not exist.
+            IsADirectoryError: ``path`` is a folder, for example a bag.
+            ValueError: The file has another format, or no data. The text names the line.
+        """
+        from turtlewire.trajectory.files import read_file
+
+        found = read_file(path, format, times)
+        for remark in found.remarks:
+            warnings.warn(remark, stacklevel=2)
+        return cls(found.stamps_ns, found.poses, gaps=found.gaps, timed=found.timed)
+
+    @classmethod
+    def from_bag(
+        cls,
+        path: str | os.PathLike[str],
+        topic: str,
+        *,
+        start_ns: Stamp | None = None,
+        end_ns: Stamp | None = None,
+        max_gap_ns: Span | None = None,
+        progress: Callable[[float], None] | None = None,
+    ) -> Trajectory:
+        """Read the poses of a topic of a bag, with the stamps of their headers.
+
+        Poses come in order of their stamps. Of poses with the same stamp the first is taken.
+
+        Args:
+            path: The bag; see `turtlewire.bag.open_bag`.
+            topic: A topic with odometry, or with poses or transforms that have a header.
+            start_ns: When the first message to take was received.
+            end_ns: When the last message to take was received.
+            max_gap_ns: Longer pauses are gaps; None takes ten times the median pause, and at least
+                half a second.
+            progress: Called with the share that was read; by default a line is drawn on a terminal.
+
+        Raises:
+            FileNotFoundError: ``path`` does not exist.
+            BagError: ``path`` is not a bag, or the topic is missing or has another type. The hint
+                lists the topics with poses.
+            ValueError: A quaternion is invalid, or ``end_ns`` is before ``start_ns``.
+        """
+        from turtlewire.bag.trajectories import read_topic  # bags are above trajectories
+
+        return cls(*read_topic(path, topic, (start_ns, end_ns), max_gap_ns, progress))
+
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        format: Format | None = None,  # noqa: A002 - the word of users
+    ) -> None:
+        """Write a file; see `load` for the formats.
+
+        Stamps are written as integers and numbers so that they read back as the same doubles. The
+        times of a KITTI file go into ``<name>_times.txt``.
+
+        Args:
+            path: The file.
+            format: Its format; None takes it from the ending ``.tum``, ``.kitti``, ``.euroc`` or
+                ``.csv``, and TUM for names without an ending or with an unknown one.
+
+        Raises:
+            ValueError: The format does not exist, or the name ends in the suffix of a format that
+                is not written, for example ``.png``.
+        """
+        from turtlewire.trajectory.files import write_file
+
+        write_file(self.stamps_ns, self.poses, path, format)
 
     def __len__(self) -> int:
         return len(self.stamps_ns)
@@ -75,7 +189,7 @@ class Trajectory:
         return replace(self, stamps_ns=self.stamps_ns[rows], poses=self.poses[rows])
 
     def __repr__(self) -> str:
-        what = f"'{self.child_frame_id}' in '{self.frame_id}', " if self.child_frame_id else ""
+        what = f"'{self.source_frame}' in '{self.target_frame}', " if self.source_frame else ""
         gaps = "1 gap" if len(self.gaps) == 1 else f"{len(self.gaps)} gaps"
         return (
             f"<Trajectory: {what}{len(self)} poses, {self.duration_ns / 1e9:.3f} s, "
@@ -128,27 +242,24 @@ class Trajectory:
         matrices[:, :3, 3] = self.positions
         return matrices
 
-    def plot(self, kind: str = "path", reference: Trajectory | None = None) -> Plot:
-        """Return a picture: ``path`` (x and y), ``positions``, ``angles`` or ``speeds`` over time.
+    def plot(
+        self, kind: Kind = "path", *, reference: Trajectory | None = None, plane: str = "xy"
+    ) -> Plot:
+        """Return a plot of this trajectory; `turtlewire.trajectory.plot` draws several.
 
         Args:
-            kind: What is drawn.
-            reference: Drawn dashed and grey.
+            kind: ``path`` (two axes of the positions), or ``positions``, ``angles`` or ``speeds``
+                over time.
+            reference: A trajectory drawn dashed and grey.
+            plane: The axes of ``path``: ``xy``, ``xz``, ``yz`` or the other way round.
 
         Raises:
-            ValueError: The kind of plot does not exist, or the trajectory is empty.
+            ValueError: The kind of plot or the plane does not exist, or there is no pose.
         """
-        from turtlewire.trajectory import plots
+        from turtlewire.trajectory.plots import plot_trajectories
 
-        drawn = {
-            "path": plots.plot_path,
-            "positions": plots.plot_positions,
-            "angles": plots.plot_angles,
-            "speeds": plots.plot_speeds,
-        }
-        if kind not in drawn:
-            raise ValueError(f"'{kind}' is not a kind of plot; choose from {', '.join(drawn)}")
-        return drawn[kind](self, reference)
+        named = {self.source_frame or "trajectory": self}
+        return plot_trajectories(named, kind, reference, plane)
 
     def _repr_svg_(self) -> str | None:
         return self.plot().svg if len(self) else None
@@ -159,37 +270,46 @@ class Trajectory:
         Raises:
             ImportError: pandas is not installed.
         """
-        import pandas as pd
-
+        try:
+            import pandas as pd
+        except ModuleNotFoundError as error:
+            raise ModuleNotFoundError(
+                "to_pandas needs the package pandas: pip install pandas", name=error.name
+            ) from None
         columns = ["x", "y", "z", "qx", "qy", "qz", "qw", "roll", "pitch", "yaw"]
         index = pd.to_datetime(self.stamps_ns, unit="ns", utc=True)
         return pd.DataFrame(np.hstack((self.poses, self.euler)), index=index, columns=columns)
 
 
-def as_stamps(stamps: ArrayLike) -> NDArray[np.int64]:
-    """Times as nanoseconds since 1970.
-
-    Args:
-        stamps: Integers (nanoseconds) or ``datetime64``, shape (N,).
-
-    Returns:
-        (N,) int64.
+def _checked_poses(given: Any, count: int) -> NDArray[np.float64]:
+    """Return poses as an array (count, 7).
 
     Raises:
-        TypeError: The array holds something else. Floats are refused: a double holds the seconds
-            since 1970 only to 0.24 microseconds.
-        ValueError: The array has not one dimension, or does not increase.
+        TypeError: An element is not a number.
+        ValueError: The shape is another, a number is not finite or a quaternion has another length.
     """
-    array = np.asarray(stamps)
-    if array.dtype.kind == "M":
-        array = array.astype("datetime64[ns]").astype(np.int64)
-    if array.dtype.kind not in "iu" and array.size:
-        raise TypeError(f"expected stamps in integer nanoseconds or datetime64, got {array.dtype}")
-    if array.ndim != 1:
-        raise ValueError(f"expected stamps of shape (N,), got {array.shape}")
-    array = np.ascontiguousarray(array, dtype=np.int64)
-    back = np.flatnonzero(array[1:] <= array[:-1])
-    if len(back):
-        row = int(back[0])
-        raise ValueError(f"stamps must increase; stamp {row + 1} does not follow stamp {row}")
-    return array
+    poses = np.ascontiguousarray(number_array(given, "poses"), dtype=np.float64)
+    if poses.shape != (count, 7):
+        remedies = {
+            (3,): "; add rotations: np.hstack((positions, quaternions)), each x, y, z, w",
+            (8,): "; leave out the column of the stamps: poses[:, 1:]",
+            (4, 4): "; write geometry.pose_from_matrix(matrices)",
+        }
+        raise ValueError(
+            f"expected poses of shape ({count}, 7), one for each stamp; got {poses.shape}"
+            f"{remedies.get(poses.shape[1:], '')}"
+        )
+    strange = np.flatnonzero(~np.isfinite(poses).all(axis=1))
+    if len(strange):
+        raise ValueError(
+            f"pose {strange[0]} has a number that is not finite; leave out such rows: "
+            "known = np.isfinite(poses).all(axis=1)"
+        )
+    lengths = arrays.lengths(poses[:, 3:])
+    strange = np.flatnonzero(np.abs(lengths - 1.0) >= 1e-3)
+    if len(strange):
+        raise ValueError(
+            f"the quaternion of pose {strange[0]} has the length {lengths[strange[0]]}, not 1; the "
+            "columns are x, y, z and the unit quaternion x, y, z, w"
+        )
+    return poses

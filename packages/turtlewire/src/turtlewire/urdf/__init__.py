@@ -2,25 +2,27 @@
 
 ::
 
-    from turtlewire.urdf import Kinematics, load_urdf
+    from turtlewire.urdf import Robot
 
-    robot = load_urdf("arm.urdf")
-    kinematics = Kinematics(robot)
-    poses = kinematics.link_poses({"shoulder": [0.0, 0.1], "elbow": 0.5})   # (2, links, 7)
+    robot = Robot.load("arm.urdf")
+    poses = robot.link_poses({"shoulder": [0.0, 0.1], "elbow": 0.5})   # (2, links, 7)
 
 ==================  ==============================================================
 module              what it holds
 ==================  ==============================================================
+`robot`             `Robot`: a description with forward kinematics
 `model`             links, joints and their properties: metres, radians, kilograms
-`parser`            `parse_urdf`: urdfdom's rules and error texts
+`parser`            urdfdom's rules and error texts
 `elements`          XML as a tree of elements with their lines
 `bodies`, `joints`  ``link`` and ``material`` elements; ``joint`` elements
 `values`            numbers and vectors in attributes
+`versions`          what versions 1.1 and 1.2 add
 `tree`              checks that links and joints are one tree
-`faults`            errors of a URDF
+`faults`            what is logged about errors and warnings of a URDF
 `joint_model`       transforms of joints at given positions, as arrays
 `mimic`             joints that follow other joints
 `kinematics`        forward kinematics for many joint states at once
+`robot_buffer`      the transforms of all links in a buffer
 `frames_writer`     TFMessages in CDR, with other stamps and poses
 `joint_messages`    bytes of a JointState to bytes of a TFMessage
 ==================  ==============================================================
@@ -28,21 +30,13 @@ module              what it holds
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from turtlewire.urdf.faults import UrdfError
-from turtlewire.urdf.mimic import Follower, followers_of
-from turtlewire.urdf.model import Joint, JointLimits, Link, Material, Mesh, Mimic, Pose, Robot
-from turtlewire.urdf.parser import load_urdf, parse_urdf
-
-if TYPE_CHECKING:
-    from turtlewire.urdf.kinematics import Kinematics as Kinematics
+from turtlewire.errors import UrdfError
+from turtlewire.urdf.model import Joint, JointLimits, Link, Material, Mesh, Mimic, Pose
+from turtlewire.urdf.robot import Robot
 
 __all__ = [
-    "Follower",
     "Joint",
     "JointLimits",
-    "Kinematics",
     "Link",
     "Material",
     "Mesh",
@@ -50,17 +44,4 @@ __all__ = [
     "Pose",
     "Robot",
     "UrdfError",
-    "followers_of",
-    "load_urdf",
-    "parse_urdf",
 ]
-
-
-def __getattr__(name: str) -> object:
-    # NumPy is loaded only where poses are asked for.
-    if name != "Kinematics":
-        raise AttributeError(f"module 'turtlewire.urdf' has no attribute {name!r}")
-    from turtlewire.urdf.kinematics import Kinematics
-
-    globals()[name] = Kinematics
-    return Kinematics

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from turtlewire.urdf.faults import UrdfError, UrdfWarning, reported
+from turtlewire.distro import LYRICAL, since
+from turtlewire.errors import UrdfError
+from turtlewire.urdf.faults import UrdfWarning, left_out, reported
 from turtlewire.urdf.model import (
     Box,
+    Capsule,
     Collision,
     Cylinder,
     Inertial,
@@ -17,8 +20,11 @@ from turtlewire.urdf.model import (
     Visual,
 )
 from turtlewire.urdf.values import color_of, number_of, pose_of, vector_of
+from turtlewire.urdf.versions import is_of_version, minor_version
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from turtlewire.urdf.elements import Element
     from turtlewire.urdf.model import Geometry
 
@@ -30,30 +36,30 @@ _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 def read_link(element: Element, warnings: list[UrdfWarning]) -> Link:
     """Read a ``link`` element; as in urdfdom, what follows a faulty part of it is left out.
 
+    A link without a name has the empty name and no parts.
+
     Args:
         element: The element.
         warnings: Gets what urdfdom complains of and accepts.
 
-    Raises:
-        UrdfError: The link has no name.
     """
     name = element.get("name")
     if name is None:
-        raise element.error("No name given for the link.")
+        warnings.append(left_out(element.error("No name given for the link.")))
+        return Link("", line=element.line)
     inertial: Inertial | None = None
     visuals: list[Visual] = []
     collisions: list[Collision] = []
     try:
         if (part := element.first("inertial")) is not None:
             with reported(f"Could not parse inertial element for Link [{name}]"):
-                inertial = _inertial(part)
+                inertial = _inertial(part, warnings)
         with reported(f"Could not parse visual element for Link [{name}]"):
             visuals.extend(_visual(part, warnings) for part in element.all("visual"))
         with reported(f"Could not parse collision element for Link [{name}]"):
-            collisions.extend(_collision(part) for part in element.all("collision"))
+            collisions.extend(_collision(part, warnings) for part in element.all("collision"))
     except UrdfError as error:
-        reports = tuple(error.reports)
-        warnings.append(UrdfWarning(str(error), error.line, error.element, reports))
+        warnings.append(left_out(error))
     return Link(name, inertial, tuple(visuals), tuple(collisions), element.line)
 
 
@@ -81,8 +87,8 @@ def read_material(element: Element, warnings: list[UrdfWarning]) -> Material:
     return Material(name, rgba, None if texture is None else texture.get("filename"))
 
 
-def _inertial(element: Element) -> Inertial:
-    origin = pose_of(element.first("origin"))
+def _inertial(element: Element, warnings: list[UrdfWarning]) -> Inertial:
+    origin = pose_of(element.first("origin"), warnings)
     mass_element = element.first("mass")
     if mass_element is None:
         raise element.error("Inertial element must have a mass element")
@@ -105,8 +111,8 @@ def _moment(inertia: Element, name: str) -> float:
 
 
 def _visual(element: Element, warnings: list[UrdfWarning]) -> Visual:
-    origin = pose_of(element.first("origin"))
-    geometry = _geometry(element.first("geometry"))
+    origin = pose_of(element.first("origin"), warnings)
+    geometry = _geometry(element.first("geometry"), warnings)
     material = None
     if (part := element.first("material")) is not None:
         if part.get("name") is None:
@@ -115,17 +121,21 @@ def _visual(element: Element, warnings: list[UrdfWarning]) -> Visual:
     return Visual(geometry, origin, element.get("name") or "", material)
 
 
-def _collision(element: Element) -> Collision:
-    origin = pose_of(element.first("origin"))
-    return Collision(_geometry(element.first("geometry")), origin, element.get("name") or "")
+def _collision(element: Element, warnings: list[UrdfWarning]) -> Collision:
+    origin = pose_of(element.first("origin"), warnings)
+    geometry = _geometry(element.first("geometry"), warnings)
+    return Collision(geometry, origin, element.get("name") or "")
 
 
-def _geometry(element: Element | None) -> Geometry | None:
+def _geometry(element: Element | None, warnings: list[UrdfWarning]) -> Geometry | None:
     if element is None:
         return None
     if not element.children:
         raise element.error("Geometry tag contains no child element.")
     shape = element.children[0]
+    if shape.tag == "capsule" and since(LYRICAL):
+        needs = "capsule attribute minimum required version"
+        return _capsule(shape) if is_of_version(shape, 1, needs, warnings) else None
     reader = _SHAPES.get(shape.tag)
     if reader is None:
         raise shape.error(f"Unknown geometry type '{shape.tag}'")
@@ -136,6 +146,7 @@ def _sphere(element: Element) -> Geometry:
     radius = number_of(element, "radius", "radius [{}] is not a valid float")
     if radius is None:
         raise element.error("Sphere shape must have a radius attribute")
+    _check_sizes(element, (radius,), "Sphere radius must be a positive finite value")
     return Sphere(radius)
 
 
@@ -143,16 +154,33 @@ def _box(element: Element) -> Geometry:
     size = vector_of(element, "size")
     if size is None:
         raise element.error("Box shape has no size attribute")
+    _check_sizes(element, size, "Box size must be positive finite values")
     return Box(size)
 
 
 def _cylinder(element: Element) -> Geometry:
+    return Cylinder(*_radius_and_length(element, "Cylinder"))
+
+
+def _capsule(element: Element) -> Geometry:
+    return Capsule(*_radius_and_length(element, "Capsule"))
+
+
+def _radius_and_length(element: Element, shape: str) -> tuple[float, float]:
     if element.get("length") is not None and element.get("radius") is not None:
         length = number_of(element, "length", "length [{}] is not a valid float")
         radius = number_of(element, "radius", "radius [{}] is not a valid float")
         if length is not None and radius is not None:
-            return Cylinder(radius, length)
-    raise element.error("Cylinder shape must have both length and radius attributes")
+            refusal = f"{shape} length and radius must be positive finite values"
+            _check_sizes(element, (radius, length), refusal)
+            return radius, length
+    raise element.error(f"{shape} shape must have both length and radius attributes")
+
+
+def _check_sizes(element: Element, sizes: Iterable[float], refusal: str) -> None:
+    """Reject sizes that are not positive, from version 1.2 on; numbers are always finite."""
+    if minor_version(element) >= 2 and not all(size > 0 for size in sizes):
+        raise element.error(refusal)
 
 
 def _mesh(element: Element) -> Geometry:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 from xml.parsers import expat
 
-from turtlewire.urdf.faults import UrdfError
+from turtlewire.errors import UrdfError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

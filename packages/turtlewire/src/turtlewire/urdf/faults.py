@@ -6,13 +6,13 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from turtlewire.errors import TurtlewireError
+from turtlewire.errors import UrdfError
 from turtlewire.terminal.printable import printable
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["XACRO_LEFT", "UrdfError", "UrdfWarning", "log_lines", "reported"]
+__all__ = ["XACRO_LEFT", "UrdfWarning", "left_out", "log_lines", "reported"]
 
 #: The warning of a description in which elements of xacro are left.
 XACRO_LEFT = (
@@ -21,33 +21,6 @@ XACRO_LEFT = (
 )
 
 _LONGEST = 1000
-
-
-class UrdfError(TurtlewireError, ValueError):
-    """A robot description that urdfdom refuses, or that has no kinematics.
-
-    ``str(error)`` is the first text that urdfdom logs; ``hint`` names the place.
-
-    Attributes:
-        reports: All texts that urdfdom logs, in its order.
-        line: The line of the element, from 1; 0 if the description is empty.
-        element: The element, for example ``<origin> in <joint name="elbow">``; may be empty.
-    """
-
-    def __init__(self, text: str, line: int = 0, element: str = "") -> None:
-        super().__init__(text)
-        self.reports: list[str] = [text]
-        self.line = line
-        self.element = element
-        self.with_hint(self.place)
-
-    @property
-    def place(self) -> str:
-        """Line and element, for example ``line 7 in <origin> in <joint name="elbow">``."""
-        return f"line {self.line} in {self.element}" if self.element else f"line {self.line}"
-
-    def __reduce__(self) -> tuple[object, ...]:
-        return (type(self), (str(self), self.line, self.element), {"reports": self.reports})
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,6 +43,11 @@ class UrdfWarning:
     def place(self) -> str:
         """Line and element, for example ``line 7 in <link name="arm">``."""
         return f"line {self.line} in {self.element}"
+
+
+def left_out(error: UrdfError) -> UrdfWarning:
+    """Return the warning for an element that urdfdom logs as an error and goes on without."""
+    return UrdfWarning(str(error), error.line, error.element, tuple(error.reports))
 
 
 def log_lines(fault: UrdfError | UrdfWarning) -> Iterator[str]:

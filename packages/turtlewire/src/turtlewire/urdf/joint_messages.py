@@ -15,7 +15,7 @@ from turtlewire.urdf.frames_writer import FramesWriter, Moving
 
 if TYPE_CHECKING:
     from turtlewire._native import JointRelay
-    from turtlewire.urdf.model import Joint, Robot
+    from turtlewire.urdf.model import Description, Joint
 
 __all__ = ["JointMessages", "Layout", "stamp_of"]
 
@@ -43,7 +43,7 @@ class Layout:
         knows_a_joint: Whether a moving joint of the robot is among the names.
     """
 
-    def __init__(self, robot: Robot, prefix: str, cdr: bytes) -> None:
+    def __init__(self, robot: Description, prefix: str, cdr: bytes) -> None:
         names, after_names = _names_of(cdr)
         self.names = names
         self.number_of_positions = _COUNT.unpack_from(cdr, after_names)[0]
@@ -87,7 +87,7 @@ class JointMessages:
         prefix: Is put before the names of all frames.
     """
 
-    def __init__(self, robot: Robot, prefix: str = "") -> None:
+    def __init__(self, robot: Description, prefix: str = "") -> None:
         self._robot = robot
         self._prefix = prefix
         self._layouts: list[Layout] = []  # the latest one first
@@ -145,7 +145,7 @@ def _string(cdr: bytes, at: int) -> tuple[str, int]:
     return cdr[begin:end].rstrip(b"\0").decode(), end
 
 
-def _moved_joints(robot: Robot, names: tuple[str, ...]) -> list[tuple[Joint, _Drive]]:
+def _moved_joints(robot: Description, names: tuple[str, ...]) -> list[tuple[Joint, _Drive]]:
     """Return the moving joints that follow from these names, sorted, and what drives them."""
     drives: dict[str, _Drive | None] = {}
     for source, name in enumerate(names):
@@ -158,7 +158,7 @@ def _moved_joints(robot: Robot, names: tuple[str, ...]) -> list[tuple[Joint, _Dr
     return found
 
 
-def _drive(robot: Robot, joint: Joint, drives: dict[str, _Drive | None]) -> _Drive | None:
+def _drive(robot: Description, joint: Joint, drives: dict[str, _Drive | None]) -> _Drive | None:
     """Return a joint's drive through all joints that it mimics; ``drives`` collects them."""
     chain = []
     name = joint.name

@@ -35,7 +35,7 @@ def joint_constants(joint: Joint) -> tuple[float, ...]:
     one that sin(q/2) multiplies; 1 if the joint turns, else 0. Joints that are neither revolute nor
     continuous nor prismatic do not move.
     """
-    rotation = quaternions.from_rpy(*joint.origin.rpy)
+    rotation = joint.origin.quaternion
     change, turned, turns = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0), 0.0
     if joint.type == "prismatic":
         change = quaternions.rotate(rotation, unit_axis(joint.axis))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import TYPE_CHECKING, cast
 
 from turtlewire.urdf.faults import reported
@@ -15,12 +16,14 @@ from turtlewire.urdf.model import (
     Safety,
 )
 from turtlewire.urdf.values import number_of, pose_of, vector_of
+from turtlewire.urdf.versions import is_of_version, minor_version
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import TypeVar
 
     from turtlewire.urdf.elements import Element
+    from turtlewire.urdf.faults import UrdfWarning
     from turtlewire.urdf.model import JointType, Vector
 
     T = TypeVar("T")
@@ -28,14 +31,19 @@ if TYPE_CHECKING:
 __all__ = ["read_joint"]
 
 _TYPES = MOVING_TYPES | {"fixed", "floating", "planar"}
+_RATES = ("acceleration", "deceleration", "jerk")
 _NO_LIMITS = {
     "revolute": "Joint [{}] is of type REVOLUTE but it does not specify limits",
     "prismatic": "Joint [{}] is of type PRISMATIC without limits",
 }
 
 
-def read_joint(element: Element) -> Joint:
+def read_joint(element: Element, warnings: list[UrdfWarning]) -> Joint:
     """Return a ``joint`` element.
+
+    Args:
+        element: The element.
+        warnings: Gets what is ignored, as it came with a later version.
 
     Raises:
         UrdfError: urdfdom refuses the joint, or it moves along an axis of no direction.
@@ -44,11 +52,16 @@ def read_joint(element: Element) -> Joint:
     if name is None:
         raise element.error("unnamed joint found")
     with reported(f"Malformed parent origin element for joint [{name}]"):
-        origin = pose_of(element.first("origin"))
+        origin = pose_of(element.first("origin"), warnings)
     parent, child = _end(element, "parent"), _end(element, "child")
     kind = _type(element, name)
     axis = _axis(element, name, kind)
-    limits = _part(element, "limit", _limits, f"Could not parse limit element for joint [{name}]")
+    limits = _part(
+        element,
+        "limit",
+        lambda part: _limits(part, kind, warnings),
+        f"Could not parse limit element for joint [{name}]",
+    )
     if limits is None and kind in _NO_LIMITS:
         raise element.error(_NO_LIMITS[kind].replace("{}", name))
     could_not = "Could not parse {} element for joint "
@@ -109,9 +122,14 @@ def _axis(element: Element, name: str, kind: str) -> Vector:
     return axis
 
 
-def _limits(element: Element) -> JointLimits:
+def _limits(element: Element, kind: str, warnings: list[UrdfWarning]) -> JointLimits:
     lower = number_of(element, "lower", "lower value ({}) is not a valid float")
     upper = number_of(element, "upper", "upper value ({}) is not a valid float")
+    if minor_version(element) >= 2:
+        return _limits_of_version_1_2(element, kind, lower, upper)
+    for attribute in _RATES:
+        if element.get(attribute) is not None:
+            is_of_version(element, 2, f"{attribute} attribute requiring", warnings)
     effort = number_of(element, "effort", "effort value ({}) is not a valid float")
     if effort is None:
         raise element.error("joint limit: no effort")
@@ -119,6 +137,26 @@ def _limits(element: Element) -> JointLimits:
     if velocity is None:
         raise element.error("joint limit: no velocity")
     return JointLimits(lower or 0.0, upper or 0.0, effort, velocity)
+
+
+def _limits_of_version_1_2(
+    element: Element, kind: str, lower: float | None, upper: float | None
+) -> JointLimits:
+    """Return limits of which most may be missing: then they are infinite."""
+    if kind in _NO_LIMITS and (lower is None or upper is None):
+        raise element.error(f"joint limit: no {'lower' if lower is None else 'upper'}")
+    lowest, highest = -inf if lower is None else lower, inf if upper is None else upper
+    if highest < lowest:
+        raise element.error(f"joint limit: upper ({highest:g}) is less than lower ({lowest:g})")
+    values = {}
+    for attribute in ("effort", "velocity", *_RATES):
+        value = number_of(element, attribute, attribute + " value ({}) is not a valid float")
+        if value is not None and value < 0:
+            raise element.error(f"joint limit: {attribute} ({value:g}) is negative")
+        values[attribute] = inf if value is None else value
+    if element.get("deceleration") is None:
+        values["deceleration"] = values["acceleration"]
+    return JointLimits(lowest, highest, **values)
 
 
 def _safety(element: Element) -> Safety:

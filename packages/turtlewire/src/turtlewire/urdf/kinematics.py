@@ -8,6 +8,7 @@ import numpy as np
 
 from turtlewire.geometry import arrays
 from turtlewire.terminal.suggestion import did_you_mean
+from turtlewire.tf.array_arguments import number_array
 from turtlewire.urdf.joint_model import NUMBER_OF_CONSTANTS, joint_constants
 from turtlewire.urdf.mimic import followers_of
 
@@ -16,11 +17,14 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from turtlewire.urdf.model import Robot
+    from turtlewire.urdf.model import Description
 
     Array: TypeAlias = NDArray[np.float64]
 
 __all__ = ["Kinematics", "transforms_at"]
+
+
+_FULL_TURN = 2 * np.pi
 
 
 class Kinematics:
@@ -30,7 +34,7 @@ class Kinematics:
     cannot say where they are.
 
     Attributes:
-        robot: The robot.
+        robot: The links and joints.
         joints: Names of the free joints, in the order of the file: revolute, continuous and
             prismatic ones that follow no other. Their positions are the columns of joint states.
         links: Names of the links, parents before children; the second axis of the poses.
@@ -39,11 +43,11 @@ class Kinematics:
         upper: Upper limits of ``joints``; inf for continuous joints.
     """
 
-    def __init__(self, robot: Robot) -> None:
+    def __init__(self, robot: Description) -> None:
         """Prepare the arrays.
 
         Args:
-            robot: The robot.
+            robot: The links and joints.
 
         Raises:
             UrdfError: Joints mimic each other in a loop.
@@ -83,24 +87,49 @@ class Kinematics:
             ValueError: The shapes do not fit.
         """
         if not hasattr(positions, "items"):
-            states = np.atleast_2d(np.asarray(positions, dtype=np.float64))
-            if states.ndim != 2 or states.shape[1] != len(self.joints):
-                raise ValueError(
-                    f"expected joint states of shape (N, {len(self.joints)}), one column for each"
-                    f" free joint, got {np.shape(positions)}"
-                )
-            return states
-        named = {name: np.asarray(value, np.float64) for name, value in positions.items()}
-        unknown = [name for name in named if name not in self._column]
-        if unknown:
-            raise KeyError(self._unknown(unknown[0]))
-        number = np.broadcast_shapes((1,), *(value.shape for value in named.values()))
-        states = np.zeros((*number, len(self.joints)))
+            return self._rows(positions)
+        named = {name: self._column_of(name, value) for name, value in positions.items()}
+        lengths = {name: len(value) for name, value in named.items() if value.shape != (1,)}
+        if len(set(lengths.values())) > 1:
+            counts = ", ".join(f"{name!r} has {length}" for name, length in lengths.items())
+            raise ValueError(f"all joints need the same number of positions, or one: {counts}")
+        states = np.zeros((next(iter(lengths.values()), 1), len(self.joints)))
         for name, value in named.items():
             states[:, self._column[name]] = value
         return states
 
-    def clipped(self, positions: Mapping[str, ArrayLike] | ArrayLike) -> Array:
+    def _rows(self, positions: ArrayLike) -> Array:
+        wanted = (
+            f"positions must be a dict by name of the joint, or have the shape (N, "
+            f"{len(self.joints)}), with a column for each of the joints {', '.join(self.joints)}"
+        )
+        try:
+            rows = number_array(positions, "positions").astype(np.float64, copy=False)
+        except TypeError:
+            kind, advice = type(positions).__name__, ""
+            if hasattr(positions, "name") and hasattr(positions, "position"):
+                advice = "; write dict(zip(message.name, message.position))"
+            elif isinstance(positions, list) and hasattr((positions or [0])[0], "items"):
+                kind, advice = "a list of dicts", "; write {'joint': [1.0, 2.0]} for several"
+            raise TypeError(f"{wanted}, not {kind}{advice}") from None
+        states = np.atleast_2d(rows)
+        if states.ndim != 2 or states.shape[1] != len(self.joints):
+            raise ValueError(f"{wanted}, not {rows.shape if rows.ndim else 'a number'}")
+        return states
+
+    def _column_of(self, name: str, positions: ArrayLike) -> Array:
+        """Return the positions of one joint, (N,); N is 1 for a number."""
+        if name not in self._column:
+            raise KeyError(self._unknown(name))
+        column = number_array(positions, f"positions of the joint {name!r}")
+        if column.ndim > 1:
+            raise ValueError(
+                f"the positions of the joint {name!r} must be a number or have the shape (N,), not "
+                f"{column.shape}"
+            )
+        return np.atleast_1d(column).astype(np.float64, copy=False)
+
+    def clip(self, positions: Mapping[str, ArrayLike] | ArrayLike) -> Array:
         """Joint positions (N, joints) moved into the limits; continuous joints have none."""
         return np.clip(self.joint_states(positions), self.lower, self.upper)
 
@@ -108,6 +137,26 @@ class Kinematics:
         """Return which positions of (N, joints) are within their joint's limits; False for NaN."""
         states = self.joint_states(positions)
         return (states >= self.lower) & (states <= self.upper)
+
+    def in_degrees(self, states: Array) -> str:
+        """Return a sentence about positions that look like degrees; empty if none do.
+
+        Args:
+            states: (N, joints); see `joint_states`.
+        """
+        for column, name in enumerate(self.joints):
+            lower, upper, values = self.lower[column], self.upper[column], states[:, column]
+            if self.robot.joints[name].type != "revolute" or lower >= upper:
+                continue  # without limits, both are 0
+            beyond = values[(values < lower) | (values > upper)]
+            if (np.abs(beyond) > _FULL_TURN).any():
+                farthest = beyond[np.argmax(np.abs(beyond))]
+                return (
+                    f"the position {farthest:g} of the joint {name!r} is beyond its limits, "
+                    f"{lower:g} to {upper:g} rad; for degrees, write "
+                    "np.radians(degrees)"
+                )
+        return ""
 
     def joint_transforms(self, positions: Mapping[str, ArrayLike] | ArrayLike) -> Array:
         """Pose of each link in its parent link, (N, links - 1, 7), for ``links[1:]``.
@@ -168,9 +217,15 @@ class Kinematics:
         follower = self.followers.get(name)
         if follower is not None:
             return f"the joint {name!r} follows {follower.leader!r}; give that one's position"
-        text = f"the robot {self.robot.name!r} has no free joint {name!r}"
-        near = did_you_mean(name, self.joints)
-        return f"{text}. {near}" if near else text
+        if name in self.robot.parent_joints:
+            above = self.robot.parent_joints[name].name
+            return f"{name!r} is a link, not a joint; the joint above it is {above!r}"
+        if name in self.robot.joints:
+            kind = self.robot.joints[name].type
+            return f"the joint {name!r} is {kind}, and has no position; leave it out"
+        near = did_you_mean(str(name), self.joints)
+        has = near or f"It has {', '.join(self.joints) or 'none'}"
+        return f"the robot {self.robot.name!r} has no free joint {name!r}. {has}"
 
 
 def transforms_at(constants: Array, positions: Array) -> Array:
@@ -192,7 +247,7 @@ def transforms_at(constants: Array, positions: Array) -> Array:
     return out
 
 
-def _levels(robot: Robot) -> list[list[str]]:
+def _levels(robot: Description) -> list[list[str]]:
     """Links by their distance from the root, which itself is left out."""
     levels: list[list[str]] = []
     level = [robot.root]

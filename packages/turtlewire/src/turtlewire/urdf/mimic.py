@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from turtlewire.urdf.faults import UrdfError
+from turtlewire.errors import UrdfError
 
 if TYPE_CHECKING:
-    from turtlewire.urdf.model import Joint, Mimic, Robot
+    from turtlewire.urdf.model import Description, Joint, Mimic
 
 __all__ = ["Follower", "followers_of"]
 
@@ -28,7 +28,7 @@ class Follower:
     offset: float
 
 
-def followers_of(robot: Robot) -> dict[str, Follower]:
+def followers_of(robot: Description) -> dict[str, Follower]:
     """Return the moving joints that follow others, by name, in the order of the file.
 
     A joint that follows one that does not exist or does not move is missing: it is free.
@@ -55,7 +55,7 @@ def _behind(mimic: Mimic, leader: Follower | None) -> Follower:
     )
 
 
-def _unresolved_chain(robot: Robot, joint: Joint, found: dict[str, Follower]) -> list[Joint]:
+def _unresolved_chain(robot: Description, joint: Joint, found: dict[str, Follower]) -> list[Joint]:
     """Return the joint, the one that it follows, and so on, as far as they are not in ``found``."""
     chain: dict[str, Joint] = {}
     while joint.name not in found and (leader := _leader_of(robot, joint)) is not None:
@@ -72,7 +72,7 @@ def _unresolved_chain(robot: Robot, joint: Joint, found: dict[str, Follower]) ->
     return list(chain.values())
 
 
-def _leader_of(robot: Robot, joint: Joint) -> Joint | None:
+def _leader_of(robot: Description, joint: Joint) -> Joint | None:
     if joint.mimic is None or not joint.moves:
         return None
     leader = robot.joints.get(joint.mimic.joint)

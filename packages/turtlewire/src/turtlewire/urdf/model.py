@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
+from turtlewire.geometry import quaternions
+
 if TYPE_CHECKING:
+    from turtlewire.geometry.quaternions import Quaternion
     from turtlewire.urdf.faults import UrdfWarning
 
 __all__ = [
     "MOVING_TYPES",
     "Box",
     "Calibration",
+    "Capsule",
     "Collision",
     "Cylinder",
+    "Description",
     "Dynamics",
     "Geometry",
     "Inertial",
@@ -26,7 +32,6 @@ __all__ = [
     "Mesh",
     "Mimic",
     "Pose",
-    "Robot",
     "Safety",
     "Sphere",
     "Vector",
@@ -47,10 +52,18 @@ class Pose:
     Attributes:
         xyz: Translation in metres.
         rpy: Roll, pitch and yaw in radians about fixed axes: ``R = Rz(yaw) Ry(pitch) Rx(roll)``.
+        quat_xyzw: The rotation as a unit quaternion, if the file gives it so (version 1.1); then
+            ``rpy`` are the angles of the same rotation.
     """
 
     xyz: Vector = (0.0, 0.0, 0.0)
     rpy: Vector = (0.0, 0.0, 0.0)
+    quat_xyzw: Quaternion | None = None
+
+    @property
+    def quaternion(self) -> Quaternion:
+        """The rotation as a unit quaternion: x, y, z, w."""
+        return self.quat_xyzw or quaternions.from_rpy(*self.rpy)
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,6 +89,17 @@ class Cylinder:
 
 
 @dataclass(frozen=True, slots=True)
+class Capsule:
+    """A cylinder along z with a half sphere at each end, its origin in the middle; in metres.
+
+    ``length`` is that of the cylinder.
+    """
+
+    radius: float
+    length: float
+
+
+@dataclass(frozen=True, slots=True)
 class Mesh:
     """A file with triangles; ``filename`` is a path or URI, ``scale`` a factor for each axis."""
 
@@ -83,7 +107,7 @@ class Mesh:
     scale: Vector = (1.0, 1.0, 1.0)
 
 
-Geometry: TypeAlias = Box | Sphere | Cylinder | Mesh
+Geometry: TypeAlias = Box | Sphere | Cylinder | Capsule | Mesh
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,12 +171,18 @@ class Link:
 
 @dataclass(frozen=True, slots=True)
 class JointLimits:
-    """Limits in radians (prismatic joints: metres), N m (N), and rad/s (m/s)."""
+    """Limits in radians (prismatic joints: metres), N m (N), and rad/s (m/s), per s and per s².
+
+    Acceleration, deceleration and jerk came with version 1.2. What has no limit is infinite.
+    """
 
     lower: float
     upper: float
     effort: float
     velocity: float
+    acceleration: float = math.inf
+    deceleration: float = math.inf
+    jerk: float = math.inf
 
 
 @dataclass(frozen=True, slots=True)
@@ -229,8 +259,8 @@ class Joint:
 
 
 @dataclass(frozen=True)
-class Robot:
-    """A tree of links and joints.
+class Description:
+    """What a URDF describes: a tree of links and joints.
 
     Attributes:
         name: Name of the robot.

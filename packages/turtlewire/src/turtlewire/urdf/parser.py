@@ -5,38 +5,27 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from turtlewire.errors import UrdfError
 from turtlewire.urdf.bodies import read_link, read_material
 from turtlewire.urdf.elements import Element, parse_xml
-from turtlewire.urdf.faults import XACRO_LEFT, UrdfError, UrdfWarning, reported
+from turtlewire.urdf.faults import XACRO_LEFT, UrdfWarning, left_out, reported
 from turtlewire.urdf.joints import read_joint
-from turtlewire.urdf.model import Robot
+from turtlewire.urdf.model import Description, Material
 from turtlewire.urdf.tree import root_of
-from turtlewire.urdf.values import as_number
+from turtlewire.urdf.versions import check_version
 
 if TYPE_CHECKING:
-    import os
     from collections.abc import Iterator
 
-    from turtlewire.urdf.model import Joint, Link, Material, Visual
+    from turtlewire.urdf.model import Joint, Link, Visual
 
-__all__ = ["load_urdf", "parse_urdf"]
+__all__ = ["parse_urdf"]
 
 _LIMITED = frozenset({"revolute", "prismatic"})
 
 
-def load_urdf(path: str | os.PathLike[str]) -> Robot:
-    """Return the robot that a file describes.
-
-    Raises:
-        OSError: The file cannot be read.
-        UrdfError: :func:`parse_urdf` refuses it.
-    """
-    with open(path, "rb") as file:
-        return parse_urdf(file.read())
-
-
-def parse_urdf(text: str | bytes) -> Robot:
-    """Return the robot that a URDF describes.
+def parse_urdf(text: str | bytes) -> Description:
+    """Return what a URDF describes.
 
     Elements that urdfdom does not know (``gazebo``, ``transmission``, ``ros2_control``) are
     ignored.
@@ -52,7 +41,7 @@ def parse_urdf(text: str | bytes) -> Robot:
     if not isinstance(text, (str, bytes)):
         got = type(text).__name__
         raise TypeError(
-            f"parse_urdf accepts the XML as str or bytes, got {got}; for a file, use load_urdf"
+            f"Robot.from_xml accepts the XML as str or bytes, got {got}; for a file, use Robot.load"
         )
     if not text.strip():
         raise UrdfError("The description is empty")
@@ -62,7 +51,7 @@ def parse_urdf(text: str | bytes) -> Robot:
     name = root.get("name")
     if name is None:
         raise root.error("No name given for the robot.")
-    _check_version(root)
+    check_version(root)
     warnings = [*_xacro_left(root)]
     materials = _materials(root, warnings)
     links = _links(root, materials, warnings)
@@ -70,7 +59,7 @@ def parse_urdf(text: str | bytes) -> Robot:
         raise root.error("No link elements found in urdf file")
     joints = _joints(root, warnings)
     top = root_of(root, links, joints)
-    return Robot(name, links, joints, materials, top, tuple(warnings))
+    return Description(name, links, joints, materials, top, tuple(warnings))
 
 
 def _xacro_left(root: Element) -> Iterator[UrdfWarning]:
@@ -84,27 +73,20 @@ def _xacro_left(root: Element) -> Iterator[UrdfWarning]:
         left += reversed(element.children)
 
 
-def _check_version(root: Element) -> None:
-    version = root.get("version")
-    if version is None:
-        return
-    parts = version.split(".")
-    if len(parts) != 2 or not all(part.isdecimal() for part in parts):
-        raise root.error("The version attribute should be in the form 'x.y'")
-    if [as_number(part) for part in parts] != [1, 0]:
-        raise root.error("Invalid 'version' specified; only version 1.0 is currently supported")
-
-
 def _materials(root: Element, warnings: list[UrdfWarning]) -> dict[str, Material]:
     found: dict[str, Material] = {}
     for element in root.all("material"):
-        with reported("material xml is not initialized correctly"):
+        try:
             material = read_material(element, warnings)
+        except UrdfError as error:
+            warnings.append(left_out(error))
+            material = Material("")
+        else:
+            if material.rgba is None and material.texture is None:
+                text = f"Material [{material.name}] color has no rgba"
+                warnings.append(UrdfWarning(text, element.line, element.described()))
         if material.name in found:
             raise element.error(f"material '{material.name}' is not unique.")
-        if material.rgba is None and material.texture is None:
-            text = f"Material [{material.name}] color has no rgba"
-            warnings.append(UrdfWarning(text, element.line, element.described()))
         found[material.name] = material
     return found
 
@@ -114,8 +96,7 @@ def _links(
 ) -> dict[str, Link]:
     found: dict[str, Link] = {}
     for element in root.all("link"):
-        with reported("link xml is not initialized correctly"):
-            link = read_link(element, warnings)
+        link = read_link(element, warnings)
         if link.name in found:
             raise element.error(f"link '{link.name}' is not unique.")
         visuals = tuple(
@@ -151,7 +132,7 @@ def _joints(root: Element, warnings: list[UrdfWarning]) -> dict[str, Joint]:
     found: dict[str, Joint] = {}
     for element in root.all("joint"):
         with reported("joint xml is not initialized correctly"):
-            joint = read_joint(element)
+            joint = read_joint(element, warnings)
         if joint.name in found:
             raise element.error(f"joint '{joint.name}' is not unique.")
         found[joint.name] = joint

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from turtlewire.urdf.faults import UrdfError
+from turtlewire.errors import UrdfError
 
 if TYPE_CHECKING:
     from turtlewire.urdf.elements import Element

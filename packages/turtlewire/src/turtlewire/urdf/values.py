@@ -6,10 +6,14 @@ import math
 import re
 from typing import TYPE_CHECKING
 
+from turtlewire.geometry.quaternions import to_rpy
 from turtlewire.urdf.model import Pose
+from turtlewire.urdf.versions import is_of_version
 
 if TYPE_CHECKING:
+    from turtlewire.geometry.quaternions import Quaternion
     from turtlewire.urdf.elements import Element
+    from turtlewire.urdf.faults import UrdfWarning
     from turtlewire.urdf.model import Vector
 
 __all__ = ["as_number", "color_of", "number_of", "pose_of", "vector_of"]
@@ -91,16 +95,44 @@ def color_of(
     return (numbers[0], numbers[1], numbers[2], numbers[3])
 
 
-def pose_of(element: Element | None) -> Pose:
+def pose_of(element: Element | None, warnings: list[UrdfWarning]) -> Pose:
     """The pose of an ``origin`` element; the identity where the element or an attribute is missing.
 
+    Args:
+        element: The element.
+        warnings: Gets a quaternion that is ignored, as it came with version 1.1.
+
     Raises:
-        UrdfError: An attribute does not hold three numbers.
+        UrdfError: An attribute does not hold its numbers, or there are two rotations.
     """
     if element is None:
         return Pose()
     zero = (0.0, 0.0, 0.0)
-    return Pose(vector_of(element, "xyz") or zero, vector_of(element, "rpy") or zero)
+    xyz, rpy = vector_of(element, "xyz") or zero, vector_of(element, "rpy")
+    if element.get("quat_xyzw") is None or not is_of_version(
+        element, 1, "quat_xyzw attribute requiring", warnings
+    ):
+        return Pose(xyz, rpy or zero)
+    if rpy is not None:
+        raise element.error(
+            "Both rpy and quat_xyzw orientations are defined. Use either one or the other."
+        )
+    quaternion = _quaternion_of(element)
+    return Pose(xyz, to_rpy(quaternion), quaternion)
+
+
+def _quaternion_of(element: Element) -> Quaternion:
+    text = element.get("quat_xyzw") or ""
+    numbers = _numbers(element, text, "quaternion", "")
+    if len(numbers) != 4:
+        raise element.error(
+            f"Parser found {len(numbers)} elements but 4 expected while parsing quaternion [{text}]"
+        )
+    length = math.hypot(*numbers)
+    if not 0 < length < math.inf:
+        raise element.error(f"The quaternion [{text}] has no direction")
+    x, y, z, w = (number / length for number in numbers)
+    return x, y, z, w
 
 
 def _numbers(element: Element, text: str, what: str, before: str) -> list[float]:

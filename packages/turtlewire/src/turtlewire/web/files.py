@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
-__all__ = ["Content", "File", "find_files", "headers", "policy", "script_hash"]
+__all__ = ["File", "WebContent", "find_files", "headers", "policy", "script_hash"]
 
 #: Suffix to media type. A page consists of nothing else.
 _MEDIA_TYPES = {
@@ -39,7 +39,7 @@ _SOURCES = {
 _IMPORT_MAP = re.compile(rb'<script type="importmap">(.*?)</script>', re.DOTALL)
 
 
-class Content(NamedTuple):
+class WebContent(NamedTuple):
     """An answer to a request.
 
     Attributes:
@@ -58,13 +58,13 @@ class File(NamedTuple):
     media_type: str
 
 
-def find_files(root: Path) -> dict[str, File]:
-    """URL path to file, for everything below ``root`` of a known type; ``/`` is ``index.html``.
+def find_files(root: Path, prefix: str = "/") -> dict[str, File]:
+    """Return the files below ``root`` of a known type by URL path; ``/`` is ``index.html``.
 
     A request can only name what is in here, so no path leads out of ``root``.
     """
     files = {
-        "/" + path.relative_to(root).as_posix(): File(path, _MEDIA_TYPES[path.suffix])
+        prefix + path.relative_to(root).as_posix(): File(path, _MEDIA_TYPES[path.suffix])
         for path in sorted(root.rglob("*"))
         if path.suffix in _MEDIA_TYPES and path.is_file()
     }

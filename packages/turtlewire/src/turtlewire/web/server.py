@@ -1,65 +1,42 @@
-"""One thread that serves a page and talks to every browser that shows it."""
+"""The server of a page: its files, and a WebSocket for every browser that shows it."""
 
 from __future__ import annotations
 
 import errno
-import os
-import socket
-import threading
-from typing import TYPE_CHECKING, Any, Protocol
+from pathlib import Path
+from typing import TYPE_CHECKING
 
-from turtlewire.web.connections import Connections
 from turtlewire.web.encoding import Encoder, has_tag, takes_gzip
-from turtlewire.web.files import Content, find_files, headers, policy
+from turtlewire.web.files import WebContent, find_files, headers, policy
 from turtlewire.web.lan import new_token, path_below
 from turtlewire.web.origin import refusal
+from turtlewire.web.server_thread import ServerThread, listening_socket, until_one_ends
 
 if TYPE_CHECKING:
     import asyncio
-    import logging
+    import socket
     from collections.abc import Callable, Mapping
-    from pathlib import Path
 
     from websockets.asyncio.server import ServerConnection
     from websockets.http11 import Request, Response
 
-__all__ = ["LIVE_PATH", "PageSession", "Server"]
+    from turtlewire.web.sessions import PageSession
+
+__all__ = ["LIVE_PATH", "Server"]
 
 #: Where pages open their WebSocket.
 LIVE_PATH = "/live"
 #: Longest message that a page may send [bytes].
 _MAX_MESSAGE = 65536
-#: System errors that pass when files or memory are freed; the server tries again each second.
-_OUT_OF_RESOURCES = frozenset({errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM})
-#: How long a browser may take to answer the closing of its WebSocket [s].
-_CLOSE_TIMEOUT = 0.5
+#: Files that all pages share, served below ``/kit/``.
+_KIT = Path(__file__).parent / "kit"
+_NAME = "turtlewire.web"
 #: The response to requests without it.
 _UNINVITED = "The token that the program printed is missing from the address."
 
 
-class PageSession(Protocol):
-    """One browser's connection. The server's thread calls all methods, so they must be short."""
-
-    def outgoing(self) -> list[str | bytes]:
-        """Return the messages that this browser does not have yet.
-
-        Called after :meth:`Server.notify`, and only when the browser has taken the last messages:
-        values that became outdated in between are never sent, so a slow browser sees fewer frames,
-        not old ones.
-        """
-        ...
-
-    def receive(self, message: str | bytes) -> None:
-        """Take a message of the browser; the session answers a wrong one itself."""
-        ...
-
-    def closed(self) -> None:
-        """The browser is gone."""
-        ...
-
-
 class Server:
-    """Serves the files below a folder on 127.0.0.1, and a WebSocket at ``live``.
+    """Serves the files below a folder, the kit at ``kit/`` and a WebSocket at ``live``.
 
     It answers from the moment it is constructed until :meth:`close`. Requests under a foreign name
     and WebSockets of foreign pages get status 403 (see :mod:`turtlewire.web.origin`). Pages name
@@ -76,7 +53,7 @@ class Server:
         *,
         port: int = 0,
         lan: bool = False,
-        answer: Callable[[str], Content | None] | None = None,
+        answer: Callable[[str], WebContent | None] | None = None,
         sources: Mapping[str, str] | None = None,
         immutable: str | None = None,
     ) -> None:
@@ -98,24 +75,24 @@ class Server:
         Raises:
             OSError: No socket can be opened, or the port may not be used.
         """
-        self._files = find_files(root)
+        self._files = {**find_files(root), **find_files(_KIT, "/kit/")}
         self._encoder = Encoder()
         self._policy = policy(self._files, sources or {})
         self._immutable = immutable
         self._connect = connect
         self._computed = answer
         self._token = new_token() if lan else None
-        self._socket = _listen("0.0.0.0" if lan else "127.0.0.1", port)  # noqa: S104
         self._home = f"/{self._token}/" if lan else "/"
-        self.url = f"http://127.0.0.1:{self._socket.getsockname()[1]}{self._home}"
-        self._lock = threading.Lock()
-        self._loop: asyncio.AbstractEventLoop | None = None
-        self._stopping: asyncio.Event | None = None
-        self._started = threading.Event()
         self._wake_ups: set[asyncio.Event] = set()
-        self._connections = Connections()
-        self._thread = threading.Thread(target=self._run, name="turtlewire-web", daemon=True)
-        self._thread.start()
+        listener = _listen("0.0.0.0" if lan else "127.0.0.1", port)  # noqa: S104
+        self.url = f"http://127.0.0.1:{listener.getsockname()[1]}{self._home}"
+        self._thread = ServerThread(
+            listener,
+            self._handle,
+            self._answer,
+            name=_NAME,
+            max_size=_MAX_MESSAGE,
+        )
 
     @property
     def watched(self) -> bool:
@@ -124,54 +101,12 @@ class Server:
 
     def notify(self) -> None:
         """Tell every session that there is something new. Returns at once; for any thread."""
-        if not self._wake_ups:  # the simulator calls this at each tick, mostly without a browser
-            return
-        with self._lock:
-            if self._loop is not None:
-                self._loop.call_soon_threadsafe(self._wake_sessions)
+        if self._wake_ups:  # the simulator calls this at each tick, mostly without a browser
+            self._thread.soon(self._wake_sessions)
 
     def close(self) -> None:
         """Close all WebSockets and stop serving, within a second. Not for the server's thread."""
-        self._started.wait()  # before that there is no loop that could be stopped
-        with self._lock:
-            if self._loop is not None and self._stopping is not None:
-                self._loop.call_soon_threadsafe(self._stopping.set)
-        self._thread.join()
-
-    def _run(self) -> None:
-        import asyncio
-
-        try:
-            asyncio.run(self._serve())
-        finally:
-            self._socket.close()
-            self._started.set()
-
-    async def _serve(self) -> None:
-        import asyncio
-
-        from websockets.asyncio.server import serve
-
-        self._stopping = asyncio.Event()
-        asyncio.get_running_loop().set_exception_handler(_ExceptionHandler())
-        server = await serve(
-            self._handle,
-            sock=self._socket,
-            create_connection=self._connections.connection_type(),
-            process_request=self._answer,
-            compression=None,  # costs more than it saves on this machine's own loopback
-            close_timeout=_CLOSE_TIMEOUT,
-            max_size=_MAX_MESSAGE,
-            logger=_logger(),
-        )
-        with self._lock:
-            self._loop = asyncio.get_running_loop()
-        self._started.set()
-        await self._stopping.wait()
-        # From here on `notify` does nothing: the loop may be closed at any moment.
-        with self._lock:
-            self._loop = None
-        await self._connections.close(server, 2 * _CLOSE_TIMEOUT)
+        self._thread.close()
 
     def _wake_sessions(self) -> None:
         for wake_up in self._wake_ups:
@@ -221,12 +156,13 @@ class Server:
         fields = {**self._headers(path, host), **encoded.caching}
         if has_tag(request.headers.get_all("If-None-Match"), encoded.caching["ETag"]):
             return _response(304, "Not Modified", fields)
-        content = Content(encoded.body, file.media_type)
+        content = WebContent(encoded.body, file.media_type)
         return _response(200, "OK", {**fields, **encoded.coding}, content)
 
-    async def _compute(self, path: str) -> Content | None:
+    async def _compute(self, path: str) -> WebContent | None:
         """Return what ``answer`` has at a path, or None if it has nothing."""
         import asyncio
+        import logging
         from urllib.parse import unquote
 
         if self._computed is None:
@@ -234,7 +170,7 @@ class Server:
         try:  # in another thread: it may read long files, and the streams go on
             return await asyncio.to_thread(self._computed, unquote(path))
         except Exception:
-            _logger().exception("Internal error while serving %s", path)
+            logging.getLogger(_NAME).exception("Internal error while serving %s", path)
             raise  # the browser gets status 500
 
     def _headers(self, path: str, host: str) -> dict[str, str]:
@@ -245,31 +181,23 @@ class Server:
         """Serve one WebSocket until either side ends it."""
         import asyncio
 
-        from websockets.exceptions import ConnectionClosed
-
         session = self._connect()
         wake_up = asyncio.Event()
         wake_up.set()  # a new browser needs the whole picture, though nothing has changed
         self._wake_ups.add(wake_up)
-        tasks = [
-            asyncio.create_task(_send(connection, session, wake_up)),
-            asyncio.create_task(_receive(connection, session, wake_up)),
-        ]
         try:
-            await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+            error = await until_one_ends(
+                _send(connection, session, wake_up), _receive(connection, session, wake_up)
+            )
         finally:
             self._wake_ups.discard(wake_up)
-            for task in tasks:
-                task.cancel()
-            results = await asyncio.gather(*tasks, return_exceptions=True)
             session.closed()
-        for result in results:
-            if isinstance(result, Exception) and not isinstance(result, ConnectionClosed):
-                raise result
+        if error is not None:
+            raise error
 
 
 def _response(
-    status: int, reason: str, fields: Mapping[str, str], content: Content | None = None
+    status: int, reason: str, fields: Mapping[str, str], content: WebContent | None = None
 ) -> Response:
     from websockets.datastructures import Headers
     from websockets.http11 import Response
@@ -296,55 +224,11 @@ async def _receive(
         wake_up.set()
 
 
-class _ExceptionHandler:
-    """Reports once that no connection can be accepted; asyncio would report each attempt."""
-
-    def __init__(self) -> None:
-        self._reported = False
-
-    def __call__(self, loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
-        error = context.get("exception")
-        if not isinstance(error, OSError) or error.errno not in _OUT_OF_RESOURCES:
-            loop.default_exception_handler(context)
-        elif not self._reported:
-            self._reported = True
-            _logger().warning(
-                "No more browsers can connect: %s. "
-                "Close pages or other programs, or raise the limit (ulimit -n).",
-                error.strerror,
-            )
-
-
-def _listen(host: str, port: int) -> socket.socket:
+def _listen(address: str, port: int) -> socket.socket:
+    """Return a socket at a port, or at a free one if it is in use."""
     try:
-        return _bound(host, port)
+        return listening_socket(address, port)
     except OSError as error:
         if error.errno != errno.EADDRINUSE:
             raise
-        return _bound(host, 0)
-
-
-def _bound(host: str, port: int) -> socket.socket:
-    listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
-    try:
-        if os.name == "posix":  # on Windows the option would let two servers share a port
-            listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        listener.bind((host, port))
-        listener.listen()
-    except BaseException:
-        listener.close()
-        raise
-    return listener
-
-
-def _logger() -> logging.Logger:
-    """The library's log without reports of clients that do not speak HTTP, which got a status."""
-    import logging
-
-    logger = logging.getLogger("turtlewire.web")
-    logger.addFilter(_is_ours)
-    return logger
-
-
-def _is_ours(record: logging.LogRecord) -> bool:
-    return record.msg != "opening handshake failed"
+        return listening_socket(address, 0)

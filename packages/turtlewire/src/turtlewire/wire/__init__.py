@@ -44,13 +44,16 @@ if TYPE_CHECKING:
 __all__ = ["open_context"]
 
 
-def open_context(domain_id: int | None = None, *, middleware: str | None = None) -> Context:
+def open_context(
+    domain_id: int | None = None, *, middleware: str | None = None, enclave: str = "/"
+) -> Context:
     """Join a domain.
 
     Args:
         domain_id: None takes ``ROS_DOMAIN_ID``, or 0.
         middleware: ``rmw_cyclonedds_cpp`` (Cyclone DDS), ``rmw_zenoh_cpp`` (Zenoh) or ``local``
             (inside this process); None takes :func:`.environment.middleware_name`.
+        enclave: The enclave of the first nodes. A participant of DDS announces it from the start.
 
     Raises:
         WireError: No such middleware, it is not available on this platform, the domain cannot be
@@ -72,7 +75,7 @@ def open_context(domain_id: int | None = None, *, middleware: str | None = None)
     if name == "rmw_cyclonedds_cpp":
         from .cyclone.context import CycloneContext
 
-        return CycloneContext(domain_id)
+        return CycloneContext(domain_id, enclave)
     if name == "rmw_zenoh_cpp":
         from .zenoh.library import require_zenoh
 

@@ -263,7 +263,8 @@ class WaitSet(Entity):
 
         Returns:
             The ready entities, empty after a wake-up or at the end of the time. An entity stays
-            ready until all of its data is taken (level-triggered). A wake-up without a
+            ready until all of its data is taken (level-triggered). With DDS, one can be ready
+            without data: when the last peer that sent to it is missed. A wake-up without a
             waiting thread ends the next wait at once.
         """
 
@@ -356,6 +357,13 @@ class Graph(ABC):
         """
         return []
 
+    def middlewares(self) -> dict[str, int]:
+        """Return the middlewares of the other ROS participants that are known, with their numbers.
+
+        It is empty for a middleware that meets no others.
+        """
+        return {}
+
     @abstractmethod
     def wait_for(self, predicate: Callable[[], bool], timeout_ns: int | None = None) -> bool:
         """Block until ``predicate()`` is true; test it at once and after every change of the graph.
@@ -420,6 +428,24 @@ class Context(ABC):
     @abstractmethod
     def create_wait_set(self) -> WaitSet:
         """Return a new, empty wait set."""
+
+    @abstractmethod
+    def call_when_ready(self, entity: Waitable, call: Callable[[], None]) -> Callable[[], None]:
+        """Call ``call()`` once, when a subscription, client or service has something to take.
+
+        It is called at once if there is something already, on any thread, perhaps with locks held:
+        it may only wake something up. This is the way to wait without a thread of one's own.
+
+        Args:
+            entity: What to wait for. It has one such call at a time.
+            call: What to call.
+
+        Returns:
+            A function that takes the call back; call it before the entity is closed.
+
+        Raises:
+            WireError: The entity or the context is closed.
+        """
 
     @abstractmethod
     def call_soon(self, call: Callable[[], None]) -> None:

@@ -11,7 +11,7 @@ from .report import warn_once
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["EndpointTypes", "NodeNames", "as_compared"]
+__all__ = ["EndpointTypes", "NodeNames", "as_compared", "warn_of_types"]
 
 #: The kind of endpoints whose types are compared with one's own. A server has none: its clients
 #: have to use its type.
@@ -25,6 +25,12 @@ _TEXTS = {
     + _NO_MESSAGES,
     "client": "service {name} has the type {theirs}, but this process calls {ours}" + _NO_REQUESTS,
 }
+#: The packages of turtlesim's interfaces in Jazzy, and in later distributions.
+_TURTLESIMS = {"turtlesim", "turtlesim_msgs"}
+_OTHER_DISTRIBUTION = (
+    " The two packages belong to different distributions of ROS 2. Type export ROS_DISTRO=lyrical "
+    "in both terminals; both names then stand for the same types."
+)
 _OF_REQUESTS = {"publisher": "client", "subscription": "service"}
 
 
@@ -59,9 +65,7 @@ class EndpointTypes:
             other = _OTHER.get(kind)
             others = {theirs for kind_, theirs in self._all[name] if kind_ == other}
             if others and type_name not in others and not _is_of_action(name, kind):
-                theirs = " and ".join(sorted(others))
-                text = _TEXTS[kind].format(name=name, theirs=theirs, ours=type_name)
-                warn_once(f"types {name} {kind}", text)
+                warn_of_types(name, kind, type_name, others)
 
     def remove(self, name: str, kind: str, type_name: str, *, own: bool) -> None:
         """Undo :meth:`add`."""
@@ -72,6 +76,22 @@ class EndpointTypes:
                 del counter[kind, type_name]
             if not counter:
                 del counters[name]
+
+
+def warn_of_types(name: str, kind: str, ours: str, others: set[str]) -> None:
+    """Warn once of a topic or service where this process uses another type than its peers.
+
+    Args:
+        name: The full name of the topic or service.
+        kind: The kind of our endpoint: ``publisher``, ``subscription`` or ``client``.
+        ours: Its type.
+        others: The types of the peers.
+    """
+    theirs = " and ".join(sorted(others))
+    text = _TEXTS[kind].format(name=name, theirs=theirs, ours=ours)
+    if {each.partition("/")[0] for each in (ours, *others)} == _TURTLESIMS:
+        text += _OTHER_DISTRIBUTION
+    warn_once(f"types {name} {kind}", text)
 
 
 def _is_of_action(name: str, kind: str) -> bool:

@@ -17,6 +17,7 @@ from .report import warn_once
 __all__ = [
     "MAX_DOMAIN_ID",
     "MIDDLEWARES",
+    "NO_CYCLONE",
     "Discovery",
     "Range",
     "compares_qos",
@@ -31,6 +32,9 @@ __all__ = [
 #: stays inside the process.
 MIDDLEWARES = ("rmw_cyclonedds_cpp", "rmw_zenoh_cpp", "local")
 _CYCLONE = "turtlewire.wire.cyclone.library"
+_ZENOH_INSTEAD = "Zenoh is used, which reaches robots that run rmw_zenoh_cpp"
+#: Why the default is Zenoh on some platforms.
+NO_CYCLONE = f"Cyclone DDS is not installed (it has no wheel for every platform): {_ZENOH_INSTEAD}"
 
 #: Above it, the ports of a domain would not fit.
 MAX_DOMAIN_ID = 232
@@ -80,8 +84,9 @@ def middleware_name() -> str:
     """``RMW_IMPLEMENTATION``; Cyclone DDS if it is not set or, after a warning, names another one.
 
     A shell that sourced a real ROS 2 often has a middleware set that only exists there. If Zenoh
-    is available but Cyclone DDS is not, Zenoh is used, also after a warning. In a browser tab
-    there is only ``local``.
+    is available but Cyclone DDS is not, Zenoh is used: without a word on a platform for which
+    Cyclone has no wheel, where the set-up and ``turtlewire doctor`` say so, and after a warning if
+    there is a library that cannot be used. In a browser tab there is only ``local``.
     """
     name = os.environ.get("RMW_IMPLEMENTATION", "").strip()
     if name in MIDDLEWARES and is_installed(name):
@@ -96,14 +101,8 @@ def middleware_name() -> str:
             f"RMW_IMPLEMENTATION is {name}, which is not available here{remedy}: "
             f"{default} is used (valid: {', '.join(MIDDLEWARES)})",
         )
-    elif default != MIDDLEWARES[0]:
-        refused = find_libddsc().refused or [
-            "Cyclone DDS is not installed (it has no wheel for every platform)"
-        ]
-        warn_once(
-            "no Cyclone DDS",
-            f"{'; '.join(refused)}: Zenoh is used, which reaches robots that run rmw_zenoh_cpp",
-        )
+    elif default != MIDDLEWARES[0] and (refused := find_libddsc().refused):
+        warn_once("no Cyclone DDS", f"{'; '.join(refused)}: {_ZENOH_INSTEAD}")
     return default
 
 

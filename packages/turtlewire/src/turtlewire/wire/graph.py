@@ -44,6 +44,7 @@ DISCOVERY_TYPE = TypeId(
 )
 
 _GID_SIZE = 16
+_HUMBLE_GID_SIZE = 24
 _NODE_MIN_SIZE = 24  # two empty strings, two empty sequences
 _HEADER = b"\x00\x01\x00\x00"
 _U32 = Struct("<I")
@@ -80,26 +81,42 @@ def _align(out: bytearray) -> None:
 def unpack_discovery_info(cdr: bytes) -> tuple[bytes, list[NodeEndpoints]]:
     """Read a ``ros_discovery_info`` sample: the participant's gid and its nodes.
 
+    In Humble, a gid is followed by eight zeros; its samples are told by bytes that are left over.
+
     Raises:
         CdrError: The bytes are not such a message.
     """
-    return _DiscoveryInfoReader(cdr).read()
+    reader = _DiscoveryInfoReader(cdr, _GID_SIZE)
+    humble = _DiscoveryInfoReader(cdr, _HUMBLE_GID_SIZE)
+    if reader.fits() or not humble.fits():
+        return reader.read()
+    return humble.read()
 
 
 class _DiscoveryInfoReader:
     """A cursor over the bytes of one sample that never leaves them."""
 
-    def __init__(self, cdr: bytes) -> None:
+    def __init__(self, cdr: bytes, gid_size: int) -> None:
         self._cdr = cdr
-        self._at = len(_HEADER)
+        self._gid_size = gid_size
+        self._at = 0
+
+    def fits(self) -> bool:
+        """Return whether the message ends where its bytes do, but for the padding of a field."""
+        try:
+            self.read()
+        except CdrError:
+            return False
+        return len(self._cdr) - self._at < 4
 
     def read(self) -> tuple[bytes, list[NodeEndpoints]]:
+        self._at = len(_HEADER)
         if self._cdr[:2] != _HEADER[:2]:
             raise CdrError(
                 "ros_discovery_info: expected little endian CDR (00 01), got header "
                 f"{self._cdr[:4].hex(' ')}"
             )
-        participant = self._bytes(_GID_SIZE)
+        participant = self._gid()
         return participant, [self._node() for _ in range(self._count(_NODE_MIN_SIZE))]
 
     def _node(self) -> NodeEndpoints:
@@ -113,7 +130,10 @@ class _DiscoveryInfoReader:
             raise CdrError(f"ros_discovery_info: a name is not UTF-8: {encoded!r}") from error
 
     def _gids(self) -> tuple[bytes, ...]:
-        return tuple(self._bytes(_GID_SIZE) for _ in range(self._count(_GID_SIZE)))
+        return tuple(self._gid() for _ in range(self._count(self._gid_size)))
+
+    def _gid(self) -> bytes:
+        return self._bytes(self._gid_size)[:_GID_SIZE]
 
     def _count(self, item_size: int) -> int:
         """Return a sequence length, refused when not even ``item_size`` bytes per item are left."""

@@ -32,6 +32,7 @@ class Abi(NamedTuple):
             the type is read from the structure of the topic.
         prunes_peers: Whether ``<Peer>`` has the attribute ``PruneDelay``; without it, peers are
             never given up.
+        ignores_types: Whether ``<IgnoreTypeInformation>`` names vendors whose types are not read.
         finds_fast_dds: Whether nodes on Fast DDS are found on the loopback interface. They announce
             the addresses of the other interfaces alone.
     """
@@ -39,12 +40,13 @@ class Abi(NamedTuple):
     version: str
     tells_type: bool
     prunes_peers: bool
+    ignores_types: bool
     finds_fast_dds: bool
 
 
 ABIS = (
-    Abi("11.0", tells_type=True, prunes_peers=True, finds_fast_dds=True),
-    Abi("0.10", tells_type=False, prunes_peers=False, finds_fast_dds=False),
+    Abi("11.0", tells_type=True, prunes_peers=True, ignores_types=True, finds_fast_dds=True),
+    Abi("0.10", tells_type=False, prunes_peers=False, ignores_types=False, finds_fast_dds=False),
 )
 
 

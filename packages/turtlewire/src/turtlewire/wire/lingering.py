@@ -19,7 +19,7 @@ _leaving = 0
 
 @contextlib.contextmanager
 def leaving_at_once() -> Iterator[None]:
-    """A domain that the process joins meanwhile is left without waiting."""
+    """Make the process leave domains that it joins within this context without waiting."""
     global _leaving  # noqa: PLW0603  domains belong to the process
     _leaving += 1
     try:

@@ -20,7 +20,7 @@ from turtlewire.wire.report import warn_once
 if TYPE_CHECKING:
     from collections.abc import Container, Iterable
 
-__all__ = ["ANY_PORT", "bind_to_loopback", "open_sockets"]
+__all__ = ["ANY_PORT", "bind_to_loopback", "open_sockets", "ports_of_sockets"]
 
 ANY_PORT = range(1 << 16)
 _FILES = "/proc/self/fd"
@@ -69,6 +69,15 @@ def bind_to_loopback(former: Iterable[str], ports: Container[int]) -> None:
             receiving.append(sockets[name])
     for number in receiving:
         _bind(number)
+
+
+def ports_of_sockets(ports: Container[int]) -> list[int]:
+    """Return the ports at which UDP sockets of this process receive, among the given ones.
+
+    Empty on other systems than Linux.
+    """
+    addresses = map(_udp_address, open_sockets().values())
+    return sorted({address[1] for address in addresses if address and address[1] in ports})
 
 
 def _udp_address(number: int) -> tuple[str, int] | None:

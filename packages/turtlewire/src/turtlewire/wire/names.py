@@ -16,7 +16,7 @@ import re
 from typing import NamedTuple
 
 __all__ = [
-    "Fault",
+    "NameFault",
     "expand_topic_name",
     "fully_qualified_node_name",
     "is_hidden",
@@ -48,7 +48,7 @@ _SUBSTITUTION = re.compile(r"\{[^}]*\}")
 _DDS_TYPE = re.compile(r"(.+)::dds_::([^:]+)_")
 
 
-class Fault(NamedTuple):
+class NameFault(NamedTuple):
     """Why a name is not valid.
 
     Attributes:
@@ -60,21 +60,21 @@ class Fault(NamedTuple):
     invalid_index: int
 
 
-def validate_topic_name(name: str) -> Fault | None:
+def validate_topic_name(name: str) -> NameFault | None:
     """Check a topic or service name as a user types it.
 
     Relative, private (``~``) and with substitutions allowed.
     """
     if not name:
-        return Fault("topic name must not be empty string", 0)
+        return NameFault("topic name must not be empty string", 0)
     if _is_digit(name[0]):
-        return Fault("topic name token must not start with a number", 0)
+        return NameFault("topic name token must not start with a number", 0)
     if name.endswith("/"):
-        return Fault("topic name must not end with a forward slash", len(name) - 1)
+        return NameFault("topic name must not end with a forward slash", len(name) - 1)
     return _check_braces_and_characters(name) or _check_tokens(name)
 
 
-def _check_braces_and_characters(name: str) -> Fault | None:
+def _check_braces_and_characters(name: str) -> NameFault | None:
     opened = None  # index of the brace that is open
     for index, char in enumerate(name):
         message = (
@@ -83,12 +83,12 @@ def _check_braces_and_characters(name: str) -> Fault | None:
             else _fault_outside_braces(char, index)
         )
         if message:
-            return Fault(message, index)
+            return NameFault(message, index)
         if char == "{":
             opened = index
         elif char == "}":
             opened = None
-    return None if opened is None else Fault(_UNMATCHED_BRACE, opened)
+    return None if opened is None else NameFault(_UNMATCHED_BRACE, opened)
 
 
 def _fault_outside_braces(char: str, index: int) -> str:
@@ -117,25 +117,27 @@ def _fault_in_braces(char: str, distance: int) -> str:
     )
 
 
-def _check_tokens(name: str) -> Fault | None:
+def _check_tokens(name: str) -> NameFault | None:
     if name[0] == "~" and len(name) > 1 and name[1] != "/":
-        return Fault(
+        return NameFault(
             "topic name must not have a tilde '~' that is not followed by a forward slash '/'", 1
         )
     digit = _DIGIT_AFTER_SLASH.search(name)
     return (
-        Fault("topic name token must not start with a number", digit.start() + 1) if digit else None
+        NameFault("topic name token must not start with a number", digit.start() + 1)
+        if digit
+        else None
     )
 
 
-def validate_full_topic_name(name: str) -> Fault | None:
+def validate_full_topic_name(name: str) -> NameFault | None:
     """Check a fully qualified topic or service name (``/turtle1/pose``)."""
     return _check_absolute(
         name, "topic name", "topic name must not end with a '/'"
     ) or _check_length(name, "topic length", _TOPIC_MAX)
 
 
-def validate_namespace(namespace: str) -> Fault | None:
+def validate_namespace(namespace: str) -> NameFault | None:
     """Check a namespace: ``/``, or like a fully qualified topic name."""
     if namespace == "/":
         return None
@@ -145,30 +147,30 @@ def validate_namespace(namespace: str) -> Fault | None:
     return fault or _check_length(namespace, "namespace", _NAMESPACE_MAX)
 
 
-def validate_node_name(name: str) -> Fault | None:
+def validate_node_name(name: str) -> NameFault | None:
     """Check a node's base name (no slashes)."""
     if not name:
-        return Fault("node name must not be empty", 0)
+        return NameFault("node name must not be empty", 0)
     bad = _NOT_IN_NODE.search(name)
     if bad is not None:
-        return Fault(
+        return NameFault(
             "node name must not contain characters other than alphanumerics or '_'", bad.start()
         )
     if _is_digit(name[0]):
-        return Fault("node name must not start with a number", 0)
+        return NameFault("node name must not start with a number", 0)
     return _check_length(name, "node name length", _NODE_MAX)
 
 
-def _check_absolute(name: str, what: str, ends_with_slash: str) -> Fault | None:
+def _check_absolute(name: str, what: str, ends_with_slash: str) -> NameFault | None:
     if not name:
-        return Fault(f"{what} must not be empty", 0)
+        return NameFault(f"{what} must not be empty", 0)
     if name[0] != "/":
-        return Fault(f"{what} must be absolute, it must lead with a '/'", 0)
+        return NameFault(f"{what} must be absolute, it must lead with a '/'", 0)
     if name.endswith("/"):
-        return Fault(ends_with_slash, len(name) - 1)
+        return NameFault(ends_with_slash, len(name) - 1)
     bad = _NOT_IN_FULL_TOPIC.search(name)
     if bad:
-        return Fault(
+        return NameFault(
             f"{what} must not contain characters other than alphanumerics, '_', or '/'", bad.start()
         )
     bad = _BAD_TOKEN_START.search(name)
@@ -178,12 +180,14 @@ def _check_absolute(name: str, what: str, ends_with_slash: str) -> Fault | None:
             if bad.group() == "//"
             else "have a token that starts with a number"
         )
-        return Fault(f"{what} must not {rest}", bad.end() - 1)
+        return NameFault(f"{what} must not {rest}", bad.end() - 1)
     return None
 
 
-def _check_length(name: str, what: str, limit: int) -> Fault | None:
-    return Fault(f"{what} should not exceed '{limit}'", limit - 1) if len(name) > limit else None
+def _check_length(name: str, what: str, limit: int) -> NameFault | None:
+    return (
+        NameFault(f"{what} should not exceed '{limit}'", limit - 1) if len(name) > limit else None
+    )
 
 
 def _is_digit(char: str) -> bool:

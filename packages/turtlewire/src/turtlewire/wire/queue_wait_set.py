@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from .base import Entity, WaitSet
 from .events import EventWatcher, StatusEvent
@@ -14,18 +14,31 @@ if TYPE_CHECKING:
 
     from .base import Waitable
 
-__all__ = ["QueueWaitSet", "Queued"]
+__all__ = ["QueueWaitSet", "Queued", "Watcher", "call_when_queued"]
+
+
+class Watcher(Protocol):
+    """Something that waits for an entity."""
+
+    def detach(self, entity: Waitable, /) -> None:
+        """Wait no more; a closing entity calls it."""
+        ...
 
 
 class Queued(Entity):
     """An entity with a queue.
 
     Attributes:
-        watchers: The wait sets that it is attached to, and what to call, with their lock held, when
-            something was queued.
+        watchers: What waits for it, and what to call, with the lock held, when something was
+            queued.
     """
 
-    watchers: dict[WaitSet, Callable[[], None]]
+    watchers: dict[Watcher, Callable[[], None]]
+
+    def tell_watchers(self) -> None:
+        """Tell them that something was queued; call it with the lock held."""
+        for notify in list(self.watchers.values()):  # one that is told may leave
+            notify()
 
     @property
     def is_waiting(self) -> bool:
@@ -105,6 +118,40 @@ class QueueWaitSet(EventWatcher, WaitSet):
                 queue.watchers.pop(self, None)
             self._attached.clear()
             self.wake()
+
+
+class _Call:
+    """Calls a function when something is queued, once."""
+
+    def __init__(self, queue: Queued, call: Callable[[], None]) -> None:
+        self._queue = queue
+        self._call = call
+
+    def notify(self) -> None:
+        """Something was queued; called with the lock held."""
+        self.detach(self._queue)
+        self._call()
+
+    def detach(self, _entity: object) -> None:
+        self._queue.watchers.pop(self, None)
+
+
+def call_when_queued(
+    lock: threading.RLock, entity: Waitable, call: Callable[[], None]
+) -> Callable[[], None]:
+    """Do what :meth:`turtlewire.wire.base.Context.call_when_ready` says."""
+    queue = _queue_of(entity)
+    once = _Call(queue, call)
+    with lock:
+        queue.watchers[once] = once.notify
+        if queue.is_waiting:
+            once.notify()
+
+    def take_back() -> None:
+        with lock:
+            once.detach(queue)
+
+    return take_back
 
 
 def _queue_of(entity: Waitable) -> Queued:

@@ -1,4 +1,4 @@
-"""The thread that calls callbacks, for middlewares without one in C."""
+"""The thread that calls callbacks, for middlewares without one in C; asyncio in a browser tab."""
 
 from __future__ import annotations
 
@@ -9,10 +9,12 @@ import time
 from collections import deque
 from typing import TYPE_CHECKING, Protocol
 
+from turtlewire.wake_up import WakeUp
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["Reader", "ReaderThread"]
+__all__ = ["LoopReader", "Reader", "ReaderThread"]
 
 
 class Reader(Protocol):
@@ -29,7 +31,9 @@ class ReaderThread:
     """Runs what is submitted, in order, on one thread that starts with the first submission."""
 
     def __init__(self) -> None:
-        self._condition = threading.Condition()
+        # Not a `threading.Condition`, which a signal can leave locked; see `turtlewire.wake_up`.
+        self._lock = threading.RLock()
+        self._changed = WakeUp()
         self._work: deque[Callable[[], None]] = deque()
         self._later: list[tuple[int, int, Callable[[], None]]] = []
         self._numbers = itertools.count()
@@ -38,7 +42,7 @@ class ReaderThread:
 
     def submit(self, work: Callable[[], None]) -> None:
         """Run ``work`` soon."""
-        with self._condition:
+        with self._lock:
             if self._closed:
                 return
             self._work.append(work)
@@ -46,7 +50,7 @@ class ReaderThread:
 
     def submit_after(self, delay_ns: int, work: Callable[[], None]) -> None:
         """Run ``work`` when this time has passed."""
-        with self._condition:
+        with self._lock:
             if self._closed:
                 return
             # The number orders work of one time; functions cannot be compared.
@@ -55,23 +59,25 @@ class ReaderThread:
             self._start()
 
     def _start(self) -> None:
-        self._condition.notify()
+        self._changed.set()
         if self._thread is None:
             self._thread = threading.Thread(target=self._run, name="turtlewire-reader", daemon=True)
             self._thread.start()
 
     def _run(self) -> None:
         while True:
-            with self._condition:
-                while not self._closed and not self._is_due():
-                    self._condition.wait(self._time_to_next())
+            with self._lock:
                 if self._closed:
                     return
-                work = self._work.popleft() if self._work else heapq.heappop(self._later)[2]
-            work()
+                delay = self._time_to_next()
+                work = self._next_work() if self._work or delay == 0 else None
+            if work is None:
+                self._changed.wait(delay)
+            else:
+                work()
 
-    def _is_due(self) -> bool:
-        return bool(self._work) or self._time_to_next() == 0
+    def _next_work(self) -> Callable[[], None]:
+        return self._work.popleft() if self._work else heapq.heappop(self._later)[2]
 
     def _time_to_next(self) -> float | None:
         if not self._later:
@@ -80,8 +86,30 @@ class ReaderThread:
 
     def close(self) -> None:
         """End the thread and join it, unless this is it."""
-        with self._condition:
+        with self._lock:
             self._closed = True
-            self._condition.notify()
+            self._changed.set()
         if self._thread is not None and self._thread is not threading.current_thread():
             self._thread.join()
+
+
+class LoopReader:
+    """Runs what is submitted in asyncio's loop, where no thread can be started."""
+
+    def __init__(self) -> None:
+        self._closed = False
+
+    def submit(self, work: Callable[[], None]) -> None:
+        """Run ``work`` soon."""
+        import asyncio
+
+        if not self._closed:
+            asyncio.get_event_loop().call_soon(self._run, work)
+
+    def _run(self, work: Callable[[], None]) -> None:
+        if not self._closed:
+            work()
+
+    def close(self) -> None:
+        """Run nothing more."""
+        self._closed = True

@@ -5,6 +5,8 @@ from __future__ import annotations
 from enum import Enum
 from typing import TYPE_CHECKING, NamedTuple
 
+from turtlewire.distro import LYRICAL, since
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -54,6 +56,10 @@ class ServiceTypes(NamedTuple):
         """Return the service itself, with its hash."""
         return TypeId(self.name, self.hash_of(self.name))
 
+    def announced_hash(self) -> str:
+        """Return the hash that the endpoints of the service announce; Jazzy's announce none."""
+        return self.hash_of(self.name) if since(LYRICAL) else ""
+
 
 class MessageInfo(NamedTuple):
     """What is known of a received message beside its bytes.
@@ -62,11 +68,14 @@ class MessageInfo(NamedTuple):
         source_timestamp_ns: When the sender wrote it, system time.
         received_timestamp_ns: When it was taken here, system time.
         publisher_gid: 16 bytes that identify the publisher.
+        publication_number: The publisher's count of its messages, from 1; None if the middleware
+            does not report it (Cyclone DDS).
     """
 
     source_timestamp_ns: int
     received_timestamp_ns: int
     publisher_gid: bytes
+    publication_number: int | None = None
 
 
 class RequestId(NamedTuple):
@@ -100,6 +109,8 @@ class EndpointInfo(NamedTuple):
         node: The node that owns it, or None when no node claims it.
         gid: 16 bytes.
         qos: As the peer announced it.
+        service_hash: Of an endpoint of a service: the hash of the service's type, or an empty
+            string when the peer says none.
     """
 
     kind: str
@@ -109,6 +120,7 @@ class EndpointInfo(NamedTuple):
     node: NodeInfo | None
     gid: bytes
     qos: QoS
+    service_hash: str = ""
 
 
 class ForeignServer(NamedTuple):
@@ -118,11 +130,14 @@ class ForeignServer(NamedTuple):
         service: Fully qualified ROS name.
         node: The node that owns it, or None when no node claims it.
         middleware: Name of the middleware on which it runs.
+        is_rival: Whether it would not misread them if the service had no server on another
+            middleware, which would.
     """
 
     service: str
     node: NodeInfo | None
     middleware: str
+    is_rival: bool = False
 
 
 class EventKind(Enum):

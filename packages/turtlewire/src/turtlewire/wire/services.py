@@ -18,15 +18,19 @@ from .base import Client, RequestId, Service
 from .report import warn_once
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from .base import Graph, Publisher, Subscription
 
 __all__ = [
+    "ONE_MIDDLEWARE",
     "TopicClient",
     "TopicService",
     "advice",
     "join_header",
     "not_callable",
     "require_callable",
+    "served_twice",
     "split_header",
 ]
 
@@ -34,8 +38,11 @@ _ENCAPSULATION = 4
 _HEADER = Struct("<Qq")
 _BODY = _ENCAPSULATION + _HEADER.size
 
-#: One counter per process, as rmw_cyclonedds has.
-_sequence = itertools.count(1)
+#: One counter per process, as rmw_cyclonedds has. Requests to Fast DDS bear the numbers of their
+#: samples, which do not reach this one: replies of both kinds can come to one client.
+_sequence = itertools.count(1 << 40)
+#: Advice where servers of one service read requests in different layouts.
+ONE_MIDDLEWARE = "Stop one of the servers, or start both with the same RMW_IMPLEMENTATION."
 
 
 def join_header(request_id: RequestId, cdr: bytes) -> bytes:
@@ -70,15 +77,33 @@ def not_callable(service: str, middleware: str) -> UncallableServiceError:
     return error
 
 
+def served_twice(service: str, middlewares: Iterable[str]) -> UncallableServiceError:
+    """Return the error that says that servers of a service read requests in different layouts.
+
+    Args:
+        service: Name of the service.
+        middlewares: Names of the middlewares on which the servers run.
+    """
+    error = UncallableServiceError(
+        f"service {service} is not called: it has servers on {' and '.join(sorted(middlewares))}, "
+        "and a request that one understands would be misread by the other"
+    )
+    error.with_hint(ONE_MIDDLEWARE)
+    return error
+
+
 def require_callable(graph: Graph, service: str) -> None:
     """Make sure that no server of a service would misread requests.
 
     Raises:
         UncallableServiceError: A server would.
     """
-    for server in graph.foreign_servers():
-        if server.service == service:
+    servers = [server for server in graph.foreign_servers() if server.service == service]
+    for server in servers:
+        if not server.is_rival:
             raise not_callable(service, server.middleware)
+    if servers:
+        raise served_twice(service, {server.middleware for server in servers})
 
 
 def advice(other: str) -> str:
@@ -112,12 +137,17 @@ class TopicClient(Client):
     def take(self, limit: int = 32) -> list[tuple[int, bytes]]:
         responses = []
         for payload, _ in self.replies.take(limit):
-            split = split_header(payload)
-            if split is None:
-                _warn_short(self.service, "response")
-            elif split[0].client_id == self.client_id:
-                responses.append((split[0].sequence_number, split[1]))
+            responses += self.own_response(payload)
         return responses
+
+    def own_response(self, payload: bytes) -> list[tuple[int, bytes]]:
+        """Return number and fields of a reply; nothing if it is for another client."""
+        split = split_header(payload)
+        if split is None:
+            _warn_short(self.service, "response")
+        elif split[0].client_id == self.client_id:
+            return [(split[0].sequence_number, split[1])]
+        return []
 
     def is_ready(self) -> bool:
         return self.requests.subscription_count() > 0 and self.replies.publisher_count() > 0

@@ -7,13 +7,16 @@ module                 what it holds
 =====================  ==================================================
 `link`                 the history of one link
 `tree`                 the tree of frames and tf2's search in it
+`rules`                how the releases of tf2 differ
 `shared_tree`          the tree with a lock, waiting and listeners
 `buffer`               the public class
+`additions`            its methods that add transforms
 `batch`                its methods that take and return arrays
 `inspection`           its methods that show, remove and load samples
 `arguments`, `checks`  arguments that are arrays; all others
 `transform`            the result of a lookup
 `failure`              why a lookup has no answer, in tf2's words
+`status`               the outcomes of a lookup
 `refusals`             refused transforms, counted by frame
 `report`               tf2's texts about the whole tree
 `tf_message`           decodes ``tf2_msgs/msg/TFMessage``

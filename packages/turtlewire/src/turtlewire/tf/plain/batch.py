@@ -7,14 +7,16 @@ from __future__ import annotations
 
 import math
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
+from turtlewire.errors import ExtrapolationException
 from turtlewire.geometry.poses import IDENTITY, Pose, compose
 from turtlewire.geometry.quaternions import Quaternion, Vector, conjugate, multiply, rotate
+from turtlewire.tf.answers import FramePoses
 from turtlewire.tf.plain import arguments
-from turtlewire.tf.plain.checks import check_frames, nanoseconds, numbers
+from turtlewire.tf.plain.checks import LIMIT, check_frames, moments, nanoseconds, numbers
 from turtlewire.tf.plain.failure import Failure
-from turtlewire.tf.status import LookupStatus
+from turtlewire.tf.plain.status import LookupStatus
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -28,49 +30,48 @@ if TYPE_CHECKING:
 _FIRST_NS = 10_000
 
 
-def lookup_batch(
+def lookup_transforms(
     self: SharedTree,
     target_frame: str,
     source_frame: str,
     stamps: ArrayLike,
     *,
+    errors: Literal["raise", "nan"] = "raise",
+    extrapolate_ns: int = 0,
     matrices: bool = False,
     out: NDArray[np.float64] | None = None,
-    status: NDArray[np.uint8] | None = None,
 ) -> NDArray[np.float64]:
     """`lookup_transform` at many times: (N, 7), or (N, 4, 4) with ``matrices``."""
     check_frames(target_frame=target_frame, source_frame=source_frame)
+    nan = arguments.check_errors(errors)
+    (beyond,) = nanoseconds(extrapolate_ns=extrapolate_ns)
+    if beyond < 0:
+        raise ValueError("extrapolate_ns must not be negative")
     times = arguments.stamp_list(stamps)
     result = arguments.output_array(out, (len(times), 4, 4) if matrices else (len(times), 7))
-    for i, pose in enumerate(_poses(self, target_frame, source_frame, times, status)):
+    for i, pose in enumerate(_poses(self, target_frame, source_frame, times, nan, beyond)):
         result[i] = _matrix(pose) if matrices else pose
     return result
 
 
-def lookup_all(
-    self: SharedTree, target_frame: str, stamp_ns: int = 0
-) -> tuple[list[str], NDArray[np.float64], NDArray[np.int64]]:
+def lookup_all(self: SharedTree, target_frame: str, stamp_ns: int | None = None) -> FramePoses:
     """Return the poses of all frames in one frame at one time."""
     import numpy as np
 
     check_frames(target_frame=target_frame)
-    (stamp_ns,) = nanoseconds(stamp_ns=stamp_ns)
+    (stamp,) = moments(stamp_ns=stamp_ns)
     frames, poses, stamps = [], [], []
-    with self._changed:
+    with self._lock:
         self._checked(
             lambda: self._tree.check_name(target_frame, "lookupTransform", "target_frame")
         )
         for frame in self._tree.frames:
-            found = _attempt(
-                lambda frame=frame: self._tree.lookup(  # type: ignore[misc]
-                    target_frame, frame, stamp_ns, "lookupTransform"
-                )
-            )
+            found = _attempt(partial(_found, self, target_frame, frame, stamp))
             if isinstance(found, tuple):
                 frames.append(frame)
-                stamps.append(found[0])
+                stamps.append(-LIMIT if found[0] is None else found[0])
                 poses.append(found[1])
-    return (
+    return FramePoses(
         frames,
         np.array(poses, dtype=np.float64).reshape(-1, 7),
         np.array(stamps, dtype=np.int64),
@@ -82,12 +83,12 @@ def transform_points(
     target_frame: str,
     source_frame: str,
     points: ArrayLike,
-    stamps: int | ArrayLike = 0,
+    stamps: int | ArrayLike | None = None,
     *,
     fixed_frame: str | None = None,
-    target_stamp_ns: int = 0,
+    target_stamp_ns: int | None = None,
+    errors: Literal["raise", "nan"] = "raise",
     out: NDArray[Any] | None = None,
-    status: NDArray[np.uint8] | None = None,
 ) -> NDArray[Any]:
     """Express points (N, 3) of the source frame in the target frame.
 
@@ -95,24 +96,24 @@ def transform_points(
     """
     own_target = target_frame if fixed_frame is None else fixed_frame
     check_frames(target_frame=target_frame, source_frame=source_frame, fixed_frame=own_target)
-    (target_stamp_ns,) = nanoseconds(target_stamp_ns=target_stamp_ns)
-    if fixed_frame is None and target_stamp_ns:
+    nan = arguments.check_errors(errors)
+    (target_stamp,) = moments(target_stamp_ns=target_stamp_ns)
+    if fixed_frame is None and target_stamp is not None:
         raise ValueError("target_stamp_ns needs fixed_frame, the frame that joins the two times")
     given, result = arguments.point_arrays(points, out)
     last = (
-        _pose(self, target_frame, own_target, target_stamp_ns)
-        if fixed_frame is not None
-        else IDENTITY
+        _pose(self, target_frame, own_target, target_stamp) if fixed_frame is not None else IDENTITY
     )
     times, single = arguments.times_of(stamps)
     if single:
-        if status is not None:
-            raise ValueError("status is for a stamp for each point")
         poses: Iterable[Pose] = [_pose(self, own_target, source_frame, times[0])] * len(given)
     else:
         if len(times) != len(given):
-            raise ValueError("stamps must be one int, or one for each point")
-        poses = _poses(self, own_target, source_frame, times, status)
+            raise ValueError(
+                "stamps must be one time, or one for each point: "
+                f"{len(given)} points have {len(times)} stamps"
+            )
+        poses = _poses(self, own_target, source_frame, times, nan)
     for i, pose in enumerate(poses):
         x, y, z = (float(value) for value in given[i])
         result[i] = compose(last, compose(pose, (x, y, z, 0.0, 0.0, 0.0, 1.0)))[:3]
@@ -121,46 +122,47 @@ def transform_points(
 
 def lookup_velocity(
     self: SharedTree,
-    tracking_frame: str,
-    observation_frame: str,
-    stamps: int | ArrayLike = 0,
+    target_frame: str,
+    source_frame: str,
+    stamps: int | ArrayLike | None = None,
     *,
     interval_ns: int = 100_000_000,
-    reference_frame: str | None = None,
+    axes_frame: str | None = None,
     point: Vector = (0.0, 0.0, 0.0),
     point_frame: str | None = None,
+    errors: Literal["raise", "nan"] = "raise",
     out: NDArray[np.float64] | None = None,
-    status: NDArray[np.uint8] | None = None,
 ) -> NDArray[np.float64]:
-    """Return the velocity of a body: vx, vy, vz in m/s and wx, wy, wz in rad/s.
+    """Return the velocity of the source: vx, vy, vz in m/s and wx, wy, wz in rad/s.
 
     Shape (6,), or (N, 6) for an array of stamps.
     """
-    check_frames(tracking_frame=tracking_frame, observation_frame=observation_frame)
+    check_frames(target_frame=target_frame, source_frame=source_frame)
+    nan = arguments.check_errors(errors)
     (interval_ns,) = nanoseconds(interval_ns=interval_ns)
     if interval_ns <= 0:
         raise ValueError("interval_ns must be positive")
     px, py, pz = numbers("point", point, 3)
     times, single = arguments.times_of(stamps)
     result = arguments.output_array(out, (6,) if single else (len(times), 6))
-    arguments.check_status(status, len(times))
-    latest = _attempt(lambda: self._tree.latest_common_time(observation_frame, tracking_frame))
-    newest = latest if isinstance(latest, int) else 0
-    axes, fixed = reference_frame or observation_frame, point_frame or tracking_frame
+    latest = _attempt(lambda: self._tree.latest_common_time(target_frame, source_frame))
+    # Between static links, any time is as good as another.
+    newest = 0 if latest is None or isinstance(latest, LookupStatus) else latest
+    axes, fixed = axes_frame or target_frame, point_frame or source_frame
 
     def measure(t: int) -> tuple[float, ...]:
         end = min(t + interval_ns // 2, newest) if t <= newest else t
-        last = _bare(self, observation_frame, tracking_frame, end)
+        last = _bare(self, target_frame, source_frame, end)
         start = _interval_start(end, interval_ns)
-        first = _bare(self, observation_frame, tracking_frame, start)
-        turn = _bare(self, axes, observation_frame, t)[3:]
-        at = compose(_bare(self, tracking_frame, fixed, t), (px, py, pz, 0.0, 0.0, 0.0, 1.0))[:3]
+        first = _bare(self, target_frame, source_frame, start)
+        turn = _bare(self, axes, target_frame, t)[3:]
+        at = compose(_bare(self, source_frame, fixed, t), (px, py, pz, 0.0, 0.0, 0.0, 1.0))[:3]
         linear, angular = _mean_velocity(first, last, at, (end - start) / 1e9)
         return (*rotate(turn, linear), *rotate(turn, angular))
 
     for i, stamp in enumerate(times):
-        with self._changed:
-            row = _with_status(self, partial(measure, stamp or newest), status, i)
+        with self._lock:
+            row = _answer(self, partial(measure, newest if stamp is None else stamp), nan)
         target = result if single else result[i]
         target[:] = math.nan if row is None else row
     return result
@@ -169,8 +171,8 @@ def lookup_velocity(
 def _interval_start(end: int, interval_ns: int) -> int:
     """Return the start of an interval that ends there.
 
-    As in ROS 2, one that would begin before time 0, or at 0, which means the latest time, begins 10
-    microseconds after it.
+    As in ROS 2, whose time 0 is not a time of data, an interval that would begin at 0 or before it
+    begins 10 microseconds after it.
     """
     return max(end - interval_ns, _FIRST_NS) if end > _FIRST_NS else end - interval_ns
 
@@ -194,27 +196,33 @@ def _mean_velocity(first: Pose, last: Pose, point: Vector, seconds: float) -> tu
     return linear, (factor * x, factor * y, factor * z)
 
 
-def _bare(self: SharedTree, target: str, source: str, stamp: int) -> Pose:
-    return self._tree.lookup(target, source, stamp, "lookupTransform")[1]
+def _found(
+    self: SharedTree, target: str, source: str, stamp: int | None, beyond: int = 0
+) -> tuple[int | None, Pose]:
+    return self._tree.lookup(target, source, stamp, "lookupTransform", beyond)
 
 
-def _pose(self: SharedTree, target: str, source: str, stamp: int) -> Pose:
-    with self._changed:
-        return self._checked(lambda: _bare(self, target, source, stamp))
+def _bare(self: SharedTree, target: str, source: str, stamp: int | None, beyond: int = 0) -> Pose:
+    return _found(self, target, source, stamp, beyond)[1]
+
+
+def _pose(self: SharedTree, target: str, source: str, stamp: int | None) -> Pose:
+    with self._lock:
+        pose: Pose = _answer(self, partial(_bare, self, target, source, stamp), nan=False)
+    return pose
 
 
 def _poses(
-    self: SharedTree, target: str, source: str, stamps: list[int], status: NDArray[np.uint8] | None
+    self: SharedTree,
+    target: str,
+    source: str,
+    stamps: Iterable[int | None],
+    nan: bool,
+    beyond: int = 0,
 ) -> Iterable[Pose]:
-    arguments.check_status(status, len(stamps))
-    for i, stamp in enumerate(stamps):
-        with self._changed:
-            pose = _with_status(
-                self,
-                lambda stamp=stamp: _bare(self, target, source, stamp),  # type: ignore[misc]
-                status,
-                i,
-            )
+    for stamp in stamps:
+        with self._lock:
+            pose = _answer(self, partial(_bare, self, target, source, stamp, beyond), nan)
         yield pose or (math.nan,) * 7
 
 
@@ -225,17 +233,15 @@ def _attempt(ask: Callable[[], Any]) -> Any:
         return failure.status
 
 
-def _with_status(
-    self: SharedTree, ask: Callable[[], Any], status: NDArray[np.uint8] | None, i: int
-) -> Any:
-    """Return the answer, or None with the reason noted in ``status``.
-
-    Without ``status`` the failure raises.
-    """
-    if status is None:
-        return self._checked(ask)
+def _answer(self: SharedTree, ask: Callable[[], Any], nan: bool) -> Any:
+    """Return the answer; without one, None if it is to become NaN, else the failure raises."""
+    if not nan:
+        try:
+            return self._checked(ask)
+        except ExtrapolationException as error:
+            error._in_batch = True
+            raise
     answer = _attempt(ask)
-    status[i] = answer if isinstance(answer, LookupStatus) else LookupStatus.OK
     return None if isinstance(answer, LookupStatus) else answer
 
 
@@ -244,4 +250,4 @@ def _matrix(pose: Pose) -> NDArray[np.float64]:
     from turtlewire.tf.plain.transform import Transform
 
     rotation: Quaternion = pose[3:]
-    return pose_matrix(Transform("", "", 0, pose[:3], rotation))
+    return pose_matrix(Transform("", "", pose[:3], rotation))

@@ -5,7 +5,9 @@ from __future__ import annotations
 import operator
 from typing import Any
 
+from turtlewire.call_errors import frame_error
 from turtlewire.tf import datetimes
+from turtlewire.tf.number_errors import numbers_error
 
 LIMIT = 2**63
 """The first stamp that does not fit into 64 bits."""
@@ -15,7 +17,7 @@ def check_frames(**frames: object) -> None:
     """Raise a TypeError unless all are strings, and a UnicodeEncodeError for invalid Unicode."""
     for argument, frame in frames.items():
         if not isinstance(frame, str):
-            raise TypeError(f"{argument} must be str, not {type(frame).__name__}")
+            raise frame_error(argument, frame)
         if not frame.isascii():
             frame.encode()
 
@@ -29,22 +31,40 @@ def nanoseconds(**times: Any) -> list[int]:
     return [_nanoseconds(argument, time) for argument, time in times.items()]
 
 
+def moments(**times: Any) -> list[int | None]:
+    """Return the times of a question as Python's integers; None stays None.
+
+    Raises:
+        TypeError: A time is a float, which cannot hold a present stamp exactly.
+        ValueError: A time is NaT.
+    """
+    found = [
+        None if time is None else _nanoseconds(argument, time) for argument, time in times.items()
+    ]
+    if -LIMIT in found:
+        raise ValueError(f"{list(times)[found.index(-LIMIT)]} is NaT (not a time)")
+    return found
+
+
 def _nanoseconds(argument: str, time: Any) -> int:
     try:
         value = operator.index(time)
     except TypeError:
         value = datetimes.nanoseconds(time, argument)
     if not -LIMIT <= value < LIMIT:
-        raise OverflowError(f"{argument} does not fit into 64 bits")
+        raise OverflowError(f"{argument} does not fit into 64 bits of nanoseconds")
     return value
 
 
 def numbers(argument: str, values: Any, count: int) -> tuple[float, ...]:
     """Return a given count of floats."""
-    items = tuple(values)
-    if len(items) != count:
-        raise ValueError(f"{argument} must have {count} numbers")
-    for item in items:
-        if isinstance(item, str):  # float() would take it
-            raise TypeError("must be real number, not str")
-    return tuple(map(float, items))
+    try:
+        items = tuple(values)
+    except TypeError:
+        raise numbers_error(argument, values, None) from None
+    if len(items) != count or any(isinstance(item, str) for item in items):  # float() takes str
+        raise numbers_error(argument, values, items)
+    try:
+        return tuple(map(float, items))
+    except TypeError:
+        raise numbers_error(argument, values, items) from None

@@ -7,15 +7,18 @@ from enum import Enum
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
 from turtlewire import errors
-from turtlewire.tf.status import LookupStatus
+from turtlewire.tf.plain.status import LookupStatus
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from turtlewire.geometry.poses import Pose
-    from turtlewire.tf.plain.link import Link
+    from turtlewire.tf.plain.link import LinkSamples
 
 Question: TypeAlias = Literal["lookupTransform", "canTransform", "get_latest_common_time"]
+
+
+_STATIC_CACHE_IS_EMPTY = "Static cache is empty"
 
 
 def seconds(stamp: int) -> float:
@@ -46,6 +49,10 @@ class Failure(Exception):
         self.details = details or {}
         self.hopeless = hopeless
 
+    def without_reason(self) -> Failure:
+        """Return it as can_transform words a static link that was cleared: without the reason."""
+        return Failure(str(self).removeprefix(_STATIC_CACHE_IS_EMPTY), self.status)
+
 
 ERRORS: dict[LookupStatus, type[errors.TransformException]] = {
     LookupStatus.EMPTY_NAME: errors.InvalidArgumentException,
@@ -56,6 +63,7 @@ ERRORS: dict[LookupStatus, type[errors.TransformException]] = {
     LookupStatus.NO_DATA: errors.ExtrapolationException,
     LookupStatus.FUTURE: errors.ExtrapolationException,
     LookupStatus.PAST: errors.ExtrapolationException,
+    LookupStatus.NO_STATIC_DATA: errors.LookupException,
 }
 
 #: `ExtrapolationException.reason`.
@@ -81,7 +89,7 @@ def name_failure(status: LookupStatus, name: str, question: Question, argument: 
     else:
         text = f'Invalid argument "{name}" passed to {where} - in tf2 frame_ids {why}'
     unknown = status == LookupStatus.UNKNOWN_FRAME
-    return Failure(text, status, {"frame": name} if unknown else None, hopeless=not unknown)
+    return Failure(text, status, {"frame": name}, hopeless=not unknown)
 
 
 def connection_failure(target: str, source: str, target_root: str, source_root: str) -> Failure:
@@ -108,10 +116,21 @@ def loop_failure(frames: str) -> Failure:
 
 
 def time_failure(
-    status: LookupStatus, child: str, link: Link, stamp: int, target: str, source: str, keep: int
+    status: LookupStatus,
+    child: str,
+    link: LinkSamples,
+    stamp: int | None,
+    target: str,
+    source: str,
+    keep: int,
+    *,
+    tells_emptied: bool,
 ) -> Failure:
     """Return a link whose data does not reach a time."""
-    asked, oldest, newest = (f"{seconds(t):.6f}" for t in (stamp, link.oldest, link.newest))
+    looking = f", when looking up transform from frame [{source}] to frame [{target}]"
+    if link.static:
+        return Failure(f"{_STATIC_CACHE_IS_EMPTY}{looking}", LookupStatus.NO_STATIC_DATA)
+    asked, oldest, newest = (f"{seconds(t or 0):.6f}" for t in (stamp, link.oldest, link.newest))
     if status == LookupStatus.FUTURE:
         text = (
             f"Lookup would require extrapolation into the future.  Requested time {asked} "
@@ -122,7 +141,7 @@ def time_failure(
             f"Lookup would require extrapolation into the past.  Requested time {asked} "
             f"but the earliest data is at time {oldest}"
         )
-    elif link.has_data:
+    elif link.has_data or tells_emptied:
         text = (
             f"Lookup would require extrapolation at time {asked}, "
             f"but only time {newest} is in the buffer"
@@ -130,7 +149,7 @@ def time_failure(
     else:
         text = ""
     return Failure(
-        f"{text}, when looking up transform from frame [{source}] to frame [{target}]",
+        f"{text}{looking}",
         status,
         {
             "reason": _REASONS[status],
@@ -139,20 +158,22 @@ def time_failure(
             "parent_frame": link.parent,
             "child_frame": child,
             "requested_ns": stamp,
-            "oldest_ns": link.oldest,
-            "newest_ns": link.newest,
-            "_has_data": link.has_data,
+            "oldest_ns": link.oldest if link.has_data else None,
+            "newest_ns": link.reached,
         },
-        hopeless=status != LookupStatus.FUTURE and link.has_data and stamp < link.newest - keep,
+        hopeless=status != LookupStatus.FUTURE
+        and link.has_data
+        and stamp is not None
+        and stamp < link.newest - keep,
     )
 
 
-def _values(pose: Pose) -> str:
-    numbers = [
+def _values(numbers: Sequence[float]) -> str:
+    texts = [
         "-nan" if math.isnan(value) and math.copysign(1.0, value) < 0.0 else f"{value:.6f}"
-        for value in pose
+        for value in numbers
     ]
-    return f"({' '.join(numbers[:3])}) ({' '.join(numbers[3:])})"
+    return f"({' '.join(texts)})"
 
 
 class Verdict(Enum):
@@ -167,10 +188,25 @@ class Verdict(Enum):
     RESERVED_NAME = "reserved_name"
     BAD_NAME = "bad_name"
     TOO_MANY_FRAMES = "too_many_frames"
+    DENORMALIZED = "denormalized"
+
+
+#: `InvalidTransformError.reason`.
+_REFUSAL_REASONS: dict[Verdict, Any] = {
+    Verdict.SELF_TRANSFORM: "self",
+    Verdict.NO_CHILD_FRAME: "no child",
+    Verdict.NO_PARENT_FRAME: "no parent",
+    Verdict.NAN_VALUE: "nan",
+    Verdict.OLD_DATA: "old",
+    Verdict.RESERVED_NAME: "bad name",
+    Verdict.BAD_NAME: "bad name",
+    Verdict.TOO_MANY_FRAMES: "too many frames",
+    Verdict.DENORMALIZED: "denormalized",
+}
 
 
 class Refusal(NamedTuple):
-    """A transform that was not taken."""
+    """What became of a transform; it was refused unless the verdict is ACCEPTED."""
 
     verdict: Verdict
     parent: str
@@ -178,6 +214,18 @@ class Refusal(NamedTuple):
     stamp: int
     pose: Pose
     authority: str
+
+    def check(self, row: int | None = None) -> None:
+        """Raise InvalidTransformError unless the transform was accepted."""
+        if self.verdict is Verdict.ACCEPTED:
+            return
+        error = errors.InvalidTransformError(self.explain())
+        error.reason = _REFUSAL_REASONS[self.verdict]
+        if self.verdict is Verdict.NAN_VALUE and not any(self.pose[3:]):
+            error.reason = "zero quaternion"
+        error.parent_frame, error.child_frame = self.parent, self.child
+        error.sender, error.row = self.authority, row
+        raise error
 
     def explain(self) -> str:
         """tf2's text for its own reasons, ours for the reasons that only we have."""
@@ -194,7 +242,10 @@ class Refusal(NamedTuple):
             f'  from authority "{authority}" because frame_id not set',
             Verdict.NAN_VALUE: f'TF_NAN_INPUT: Ignoring transform for child_frame_id "{child}" '
             f'from authority "{authority}" because of a nan value in the transform '
-            f"{_values(self.pose)}",
+            f"{_values(self.pose[:3])} {_values(self.pose[3:])}",
+            Verdict.DENORMALIZED: "TF_DENORMALIZED_QUATERNION: Ignoring transform for "
+            f'child_frame_id "{child}" from authority "{authority}" because of an invalid '
+            f"quaternion in the transform {_values(self.pose[3:])}",
             Verdict.OLD_DATA: f"TF_OLD_DATA ignoring data from the past for frame {child} "
             f"at time {seconds(self.stamp):.6f} according to authority {authority}\n"
             "Possible reasons are listed at http://wiki.ros.org/tf/Errors%20explained",

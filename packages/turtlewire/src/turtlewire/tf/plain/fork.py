@@ -10,12 +10,12 @@ import os
 import threading
 from weakref import WeakSet
 
-_guarded: WeakSet[threading.Condition] = WeakSet()
+_guarded: WeakSet[threading.RLock] = WeakSet()
 _registry = threading.Lock()
-_held: list[threading.Condition] = []
+_held: list[threading.RLock] = []
 
 
-def guard(lock: threading.Condition) -> None:
+def guard(lock: threading.RLock) -> None:
     """Make fork() acquire the lock first, as long as the lock exists."""
     with _registry:
         _guarded.add(lock)

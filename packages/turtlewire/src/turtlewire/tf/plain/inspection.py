@@ -6,77 +6,79 @@ The compiled core documents them.
 from __future__ import annotations
 
 from itertools import groupby, islice
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
+from turtlewire.tf.answers import Samples
 from turtlewire.tf.plain import arguments
-from turtlewire.tf.plain.checks import check_frames, nanoseconds
-from turtlewire.tf.plain.failure import Verdict
+from turtlewire.tf.plain.checks import check_frames, moments, nanoseconds
+from turtlewire.tf.plain.failure import Refusal, Verdict
 from turtlewire.tf.plain.transform import Transform
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
+    from turtlewire.geometry.poses import Pose
     from turtlewire.tf.links import LinkRow
     from turtlewire.tf.plain.shared_tree import SharedTree
+    from turtlewire.tf.plain.tree import Tree
 
 
-def extrapolate_transform(
-    self: SharedTree, target_frame: str, source_frame: str, stamp_ns: int, limit_ns: int
+def lookup_newest(
+    self: SharedTree,
+    target_frame: str,
+    source_frame: str,
+    *,
+    max_age_ns: int | None = None,
+    now_ns: int | None = None,
 ) -> Transform:
-    """`lookup_transform`, also for times up to ``limit_ns`` outside of a link's data."""
+    """The transform made of the newest data of each link, with the oldest of their stamps."""
     check_frames(target_frame=target_frame, source_frame=source_frame)
-    stamp_ns, limit_ns = nanoseconds(stamp_ns=stamp_ns, limit_ns=limit_ns)
-    if limit_ns < 0:
-        raise ValueError("limit_ns must not be negative")
-    with self._changed:
-        pose, _ = self._checked(
-            lambda: self._tree.lookup_by(
-                target_frame,
-                source_frame,
-                stamp_ns,
-                lambda link: link.read_beyond(stamp_ns, limit_ns),
-            )
-        )
-    return Transform(target_frame, source_frame, stamp_ns, pose[:3], pose[3:])
-
-
-def lookup_latest(
-    self: SharedTree, target_frame: str, source_frame: str, *, max_age_ns: int = 0, now_ns: int = 0
-) -> tuple[Transform, dict[str, int]]:
-    """The transform made of the newest data of each link, and their stamps by child frame."""
-    check_frames(target_frame=target_frame, source_frame=source_frame)
-    max_age_ns, now_ns = nanoseconds(max_age_ns=max_age_ns, now_ns=now_ns)
-    if max_age_ns and not now_ns:
+    max_age, now = moments(max_age_ns=max_age_ns, now_ns=now_ns)
+    if max_age is not None and now is None:
         raise ValueError("max_age_ns needs now_ns, the present by the clock of the stamps")
-    with self._changed:
+    with self._lock:
         pose, used = self._checked(
             lambda: self._tree.lookup_by(
-                target_frame,
-                source_frame,
-                now_ns,
-                lambda link: link.read_newest(now_ns, max_age_ns),
+                target_frame, source_frame, now, lambda link: link.read_newest(now, max_age)
             )
         )
-        stamps = {
-            child: link.newest for child in used if not (link := self._tree.links[child]).static
-        }
-    return Transform(
-        target_frame, source_frame, min(stamps.values(), default=0), pose[:3], pose[3:]
-    ), stamps
+        stamps = [self._tree.links[child].reached for child in used]
+    stamp = min((stamp for stamp in stamps if stamp is not None), default=None)
+    return Transform(target_frame, source_frame, pose[:3], pose[3:], stamp_ns=stamp)
+
+
+def time_range(self: SharedTree, target_frame: str, source_frame: str) -> tuple[int, int] | None:
+    """The oldest and the newest time at which lookups answer; None if they always do."""
+    check_frames(target_frame=target_frame, source_frame=source_frame)
+    with self._lock:
+        newest, used = self._checked(lambda: _links_between(self._tree, target_frame, source_frame))
+        links = [self._tree.links[child] for child in used]
+    oldest = [link.oldest for link in links if not link.static]
+    return None if newest is None else (max(oldest), newest)
+
+
+def _links_between(tree: Tree, target: str, source: str) -> tuple[int | None, list[str]]:
+    """The latest common time, and the children of the links between two frames then."""
+    tree.check_name(target, "lookupTransform", "target_frame")
+    tree.check_name(source, "lookupTransform", "source_frame")
+    if target == source:
+        return None, []
+    newest = tree.latest_common_time(target, source)
+    return newest, tree.lookup_by(target, source, newest, lambda link: link.read(newest))[1]
 
 
 def remove_frame(self: SharedTree, child_frame: str) -> bool:
     """Forget how a frame lies in its parent; whether there was anything to forget."""
     check_frames(child_frame=child_frame)
-    with self._changed:
+    with self._lock:
         return bool(self._tree.remove([child_frame]))
 
 
 def remove_stale(self: SharedTree, before_ns: int) -> list[str]:
     """Remove all frames that move and have no data since a time; their names."""
     (before_ns,) = nanoseconds(before_ns=before_ns)
-    with self._changed:
+    with self._lock:
         stale = [
             child
             for child, link in self._tree.links_in_order().items()
@@ -90,15 +92,13 @@ def stamps(self: SharedTree, child_frame: str) -> NDArray[np.int64]:
     import numpy as np
 
     check_frames(child_frame=child_frame)
-    with self._changed:
+    with self._lock:
         self._checked(lambda: self._tree.check_name(child_frame, "lookupTransform", "target_frame"))
         link = self._tree.links.get(child_frame)
         return np.array([] if link is None or link.fixed else link.stamps, dtype=np.int64)
 
 
-def samples(
-    self: SharedTree, child_frame: str
-) -> list[tuple[str, NDArray[np.int64], NDArray[np.float64]]]:
+def samples(self: SharedTree, child_frame: str) -> list[Samples]:
     """Return the whole history of one frame, oldest first.
 
     For each run of samples with one parent: the parent, the stamps and the poses.
@@ -106,7 +106,7 @@ def samples(
     import numpy as np
 
     check_frames(child_frame=child_frame)
-    with self._changed:
+    with self._lock:
         self._checked(lambda: self._tree.check_name(child_frame, "lookupTransform", "target_frame"))
         link = self._tree.links.get(child_frame)
         if link is None:
@@ -115,7 +115,7 @@ def samples(
             [(0, link.fixed)] if link.fixed else list(zip(link.stamps, link.samples, strict=True))
         )
     return [
-        (
+        Samples(
             parent,
             np.array([stamp for stamp, _ in rows], dtype=np.int64),
             np.array([sample.pose for _, sample in rows]),
@@ -131,36 +131,61 @@ def set_transforms(
     child_frame: str,
     stamps: ArrayLike,
     poses: ArrayLike,
-    authority: str = "default_authority",
+    *,
+    errors: Literal["raise", "skip"] = "raise",
+    sender: str = "default_authority",
 ) -> int:
-    """set_transform for many samples of one frame; how many were accepted."""
-    import numpy as np
+    """set_transform for many samples of one frame; how many the buffer now holds."""
+    from turtlewire.tf.pose_rows import pose_rows
 
-    check_frames(parent_frame=parent_frame, child_frame=child_frame, authority=authority)
+    check_frames(parent_frame=parent_frame, child_frame=child_frame, sender=sender)
+    skip = arguments.check_errors(errors, "skip")
     times = arguments.stamp_list(stamps)
-    rows = np.ascontiguousarray(poses, dtype=np.float64)
-    if rows.ndim != 2 or rows.shape[1] != 7:
-        raise ValueError("poses must have the shape (N, 7)")
+    rows = pose_rows(poses, skip=skip)
     arguments.check_shape(rows, (len(times), 7), "poses")
-    accepted = 0
-    with self._changed:
-        for stamp, row in zip(times, rows.tolist(), strict=True):
-            x, y, z, qx, qy, qz, qw = row
-            pose = (x, y, z, qx, qy, qz, qw)
-            verdict = self._tree.set(
-                parent_frame, child_frame, stamp, pose, authority, static=False
-            )
-            accepted += verdict is Verdict.ACCEPTED
+    samples: list[tuple[int, Pose]] = [
+        (stamp, (x, y, z, qx, qy, qz, qw))
+        for stamp, (x, y, z, qx, qy, qz, qw) in zip(times, rows.tolist(), strict=True)
+    ]
+    with self._lock:
+        if errors == "raise":
+            _check_batch(self._tree, parent_frame, child_frame, samples, sender)
+        accepted = [
+            stamp
+            for stamp, pose in samples
+            if self._tree.set(parent_frame, child_frame, stamp, pose, sender, static=False)
+            is Verdict.ACCEPTED
+        ]
         if accepted:
-            self._changed.notify_all()
-    if accepted:
-        self._call_listeners()
-    return accepted
+            oldest = self._tree.links[child_frame.removeprefix("/")].oldest
+            self._end_waits()
+    if not accepted:
+        return 0
+    self._call_listeners()
+    return sum(stamp >= oldest for stamp in accepted)
+
+
+def _check_batch(
+    tree: Tree, parent: str, child: str, samples: list[tuple[int, Pose]], sender: str
+) -> None:
+    """Raise for the first sample that the buffer would not hold when all are added."""
+    parent, child = parent.removeprefix("/"), child.removeprefix("/")
+    link = tree.links.get(child)
+    newest = [link.newest] if link and link.stamps else []
+    limit = max([*newest, *(stamp for stamp, _ in samples)], default=0) - tree.keep
+    for row, (stamp, pose) in enumerate(samples):
+        verdict = tree.judge(parent, child, pose)
+        if verdict is Verdict.ACCEPTED and stamp < limit:
+            verdict = Verdict.OLD_DATA
+        if verdict is not Verdict.ACCEPTED:
+            refusal = Refusal(verdict, parent, child, stamp, pose, sender)
+            tree.refusals.add(refusal)
+            refusal.check(row)
 
 
 def describe_links(self: SharedTree, most: int) -> list[LinkRow]:
-    """For turtlewire.tf.inspection."""
-    with self._changed:
+    """For `turtlewire.tf.links` and `turtlewire.tf.faults`."""
+    with self._lock:
         return [
             (
                 child,
@@ -178,8 +203,8 @@ def describe_links(self: SharedTree, most: int) -> list[LinkRow]:
 
 
 def describe_refusals(self: SharedTree) -> dict[str, tuple[dict[str, int], str]]:
-    """For turtlewire.tf.inspection."""
-    with self._changed:
+    """For `turtlewire.tf.links` and `turtlewire.tf.faults`."""
+    with self._lock:
         return {
             child: (
                 {verdict.value: count for verdict, count in record.counts.items()},
@@ -190,20 +215,20 @@ def describe_refusals(self: SharedTree) -> dict[str, tuple[dict[str, int], str]]
 
 
 def describe_malformed(self: SharedTree) -> tuple[int, str, str]:
-    """For turtlewire.tf.inspection."""
-    with self._changed:
+    """For `turtlewire.tf.links` and `turtlewire.tf.faults`."""
+    with self._lock:
         return self._tree.refusals.malformed
 
 
 def rename_sender(self: SharedTree, name: str, shown: str) -> None:
     """Show another name for a sender, also for what it has sent already."""
-    with self._changed:
+    with self._lock:
         self._tree.rename_sender(name, shown)
 
 
 def fault(self: SharedTree) -> str:
     """Return a description of a broken invariant, or an empty string; for tests."""
-    with self._changed:
+    with self._lock:
         for child, link in self._tree.links.items():
             if child not in self._tree.frames or (
                 link.has_data and link.parent not in self._tree.frames

@@ -5,10 +5,13 @@ from __future__ import annotations
 import math
 from bisect import bisect_left, bisect_right
 from itertools import pairwise
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-from turtlewire.geometry.poses import Pose, interpolate
-from turtlewire.tf.status import LookupStatus
+from turtlewire.tf.plain.rules import ENGINE, Rules
+from turtlewire.tf.plain.status import LookupStatus
+
+if TYPE_CHECKING:
+    from turtlewire.geometry.poses import Pose
 
 MOST_SENDERS = 16
 """Beyond it the one that has been silent longest is forgotten."""
@@ -17,26 +20,28 @@ MOST_PER_STAMP = 1000
 """Beyond this many values of one stamp only the first, the last and the count are kept."""
 
 
-class Sample(NamedTuple):
+class PoseSample(NamedTuple):
     """One pose of the child in ``parent``."""
 
     parent: str
     pose: Pose
 
 
-class Link:
+class LinkSamples:
     """What is known of one child frame: a static pose, or samples in order of time.
 
     Samples of one stamp are in order of arrival.
     """
 
-    def __init__(self, *, static: bool) -> None:
+    def __init__(self, *, static: bool, rules: Rules = ENGINE) -> None:
         self.static = static
+        self.rules = rules
         #: (name, parent) -> number of samples, newest stamp; the last sender is last.
         self.senders: dict[tuple[str, str], list[int]] = {}
-        self.fixed: Sample | None = None
+        self.fixed: PoseSample | None = None
+        self.cleared_parent = ""  # of a static link that was cleared
         self.stamps: list[int] = []
-        self.samples: list[Sample] = []
+        self.samples: list[PoseSample] = []
         self.dropped: dict[int, int] = {}  # by flooded stamp
 
     @property
@@ -51,10 +56,20 @@ class Link:
         return newest.parent if newest else "NO_PARENT"
 
     @property
+    def last_parent(self) -> str:
+        """The parent, of a static link that was cleared its last one; empty without any.
+
+        The search for the latest common time of Lyrical's tf2 still goes that way.
+        """
+        return self.parent if self.has_data else self.cleared_parent
+
+    @property
     def parents(self) -> set[str]:
         """All parents in the data."""
         history = {sample.parent for sample in self.samples}
-        return {self.fixed.parent} if self.fixed else history
+        if self.static:
+            return {self.last_parent} - {""}
+        return history
 
     @property
     def newest(self) -> int:
@@ -104,19 +119,23 @@ class Link:
             for (name, parent), (samples, newest) in self.senders.items()
         ]
 
-    def clear(self) -> None:
-        """Forget the samples; a static pose stays."""
+    def clear(self, *, static_stays: bool) -> None:
+        """Forget the samples, and a static pose if it is not to stay."""
+        if not static_stays and self.fixed is not None:
+            self.cleared_parent = self.fixed.parent
+            self.fixed = None
         self.stamps.clear()
         self.samples.clear()
         self.dropped.clear()
 
-    def insert(self, stamp: int, sample: Sample, keep: int) -> bool:
+    def insert(self, stamp: int, sample: PoseSample, keep: int) -> bool:
         """Add a sample; False if it is too old.
 
         Samples that are too old by the newest stamp so far are dropped first, as in tf2.
         """
         if self.static:
             self.fixed = sample
+            self.cleared_parent = ""
             return True
         if self.stamps:
             limit = self.newest - keep
@@ -141,38 +160,45 @@ class Link:
             del self.stamps[:n], self.samples[:n]
             self.dropped = {stamp: count for stamp, count in self.dropped.items() if stamp >= limit}
 
-    def read(self, stamp: int) -> Sample | LookupStatus:
-        """The pose at a time (0: newest), or NO_DATA, FUTURE or PAST."""
+    @property
+    def reached(self) -> int | None:
+        """The newest stamp; None without samples, as of a static link."""
+        return self.stamps[-1] if self.stamps else None
+
+    def read(self, stamp: int | None) -> PoseSample | LookupStatus:
+        """The pose at a time (None: the newest), or NO_DATA, FUTURE or PAST."""
         if self.fixed is not None:
             return self.fixed
-        if not self.samples or (len(self.samples) == 1 and stamp not in {0, self.newest}):
+        if stamp is None and self.samples:
+            return self.samples[-1]
+        if stamp is None or not self.samples or (len(self.samples) == 1 and stamp != self.newest):
             return LookupStatus.NO_DATA
         # As in tf2, a stamp on the edge of the data needs no neighbour to interpolate with.
-        if stamp in {0, self.newest, self.oldest}:
+        if stamp in {self.newest, self.oldest}:
             return self.samples[0 if stamp == self.oldest != self.newest else -1]
         if not self.oldest < stamp < self.newest:
             return LookupStatus.FUTURE if stamp > self.newest else LookupStatus.PAST
         return self._between(stamp)
 
-    def _between(self, stamp: int) -> Sample:
+    def _between(self, stamp: int) -> PoseSample:
         i = bisect_right(self.stamps, stamp)
         # Poses in different parents cannot be mixed; tf2 takes the older one.
         if self.samples[i - 1].parent != self.samples[i].parent:
             return self.samples[i - 1]
         return self._mix(i - 1, stamp)
 
-    def _mix(self, i: int, stamp: int) -> Sample:
+    def _mix(self, i: int, stamp: int) -> PoseSample:
         older, newer = self.samples[i], self.samples[i + 1]
         ratio = (stamp - self.stamps[i]) / (self.stamps[i + 1] - self.stamps[i])
-        return Sample(older.parent, interpolate(older.pose, newer.pose, ratio))
+        return PoseSample(older.parent, self.rules.interpolate(older.pose, newer.pose, ratio))
 
-    def read_beyond(self, stamp: int, limit: int) -> Sample | LookupStatus:
+    def read_beyond(self, stamp: int | None, limit: int) -> PoseSample | LookupStatus:
         """As `read`, also up to ``limit`` outside of the data.
 
         The motion between the two outermost samples is continued.
         """
         reading = self.read(stamp)
-        if reading not in {LookupStatus.FUTURE, LookupStatus.PAST}:
+        if stamp is None or reading not in {LookupStatus.FUTURE, LookupStatus.PAST}:
             return reading
         after = reading == LookupStatus.FUTURE
         i = len(self.samples) - 2 if after else 0
@@ -182,11 +208,13 @@ class Link:
             return reading
         return self._mix(i, stamp)
 
-    def read_newest(self, now: int, max_age: int) -> Sample | LookupStatus:
-        """Return the newest pose, unless it is older than ``max_age`` (0: any age)."""
-        if max_age and not self.static and now - self.newest > max_age:
+    def read_newest(self, now: int | None, max_age: int | None) -> PoseSample | LookupStatus:
+        """Return the newest pose, unless it is older than ``max_age`` (None: any age)."""
+        if max_age is None or now is None or self.reached is None:
+            return self.read(None)
+        if now - self.reached > max_age:
             return LookupStatus.FUTURE  # the data would have to reach further into the future
-        return self.read(0)
+        return self.read(None)
 
 
 def is_nan(pose: Pose) -> bool:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     class TakesMessages(Protocol):
         """A Buffer of either core."""
 
-        def ingest(self, cdr: bytes, static: bool = ..., authority: str = ...) -> int:
+        def add_tf_message(self, cdr: bytes, *, static: bool = ..., sender: str = ...) -> int:
             """Add the transforms of one message."""
             ...
 
@@ -46,7 +46,7 @@ class RecordWalk:
     """Walks the records of MCAP chunks and adds the TFMessages among them to a buffer.
 
     One thread at a time may use it. Messages that are not a TFMessage are counted by the buffer, as
-    in ``ingest``.
+    in ``add_tf_message``.
 
     Args:
         start_ns: The first log time of the messages that are taken.
@@ -111,10 +111,10 @@ class RecordWalk:
     def _take(
         self, buffer: TakesMessages, log_time: int, data: bytes, channel: tuple[str, bool]
     ) -> None:
-        authority, static = channel
+        sender, static = channel
         self.messages += 1
         try:
-            buffer.ingest(data, static, authority)
+            buffer.add_tf_message(data, static=static, sender=sender)
         except CdrError:
             return  # the buffer counts them
         if static or len(data) < _SMALLEST:  # without transforms

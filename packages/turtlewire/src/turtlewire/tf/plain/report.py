@@ -9,21 +9,21 @@ from turtlewire.tf.plain.failure import seconds
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from turtlewire.tf.plain.link import Link
+    from turtlewire.tf.plain.link import LinkSamples
 
 
-def _rate(link: Link) -> float:
+def _rate(link: LinkSamples) -> float:
     return link.length / max(seconds(link.newest - link.oldest), 0.0001)
 
 
-def frames_as_string(links: Mapping[str, Link]) -> str:
+def frames_as_string(links: Mapping[str, LinkSamples]) -> str:
     """tf2's list of frames and parents."""
     return "".join(
         f"Frame {child} exists with parent {link.parent}.\n" for child, link in links.items()
     )
 
 
-def frames_as_yaml(links: Mapping[str, Link], now: float, *, empty: bool) -> str:
+def frames_as_yaml(links: Mapping[str, LinkSamples], now: float, *, empty: bool) -> str:
     """tf2's YAML; ``now`` in seconds adds the delay."""
     if empty:
         return "[]"
@@ -43,7 +43,7 @@ def frames_as_yaml(links: Mapping[str, Link], now: float, *, empty: bool) -> str
     return "".join(text)
 
 
-def frames_as_dot(frames: list[str], links: Mapping[str, Link], now: float) -> str:
+def frames_as_dot(frames: list[str], links: Mapping[str, LinkSamples], now: float) -> str:
     """tf2's Graphviz text; ``now`` in seconds adds ages."""
     text = ["digraph G {\n"]
     if not frames:

@@ -9,11 +9,13 @@ from functools import partial
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, TypeVar
 
+from turtlewire.call_errors import explain_calls
 from turtlewire.tf.plain import fork
 from turtlewire.tf.plain.checks import nanoseconds
 from turtlewire.tf.plain.failure import ERRORS, Failure
+from turtlewire.tf.plain.status import LookupStatus
 from turtlewire.tf.plain.tree import Tree
-from turtlewire.tf.status import LookupStatus
+from turtlewire.wake_up import WakeUp
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -23,32 +25,39 @@ if TYPE_CHECKING:
 _Answer = TypeVar("_Answer")
 
 
+@explain_calls
 class SharedTree:
-    """A tree, the condition that guards it, and the listeners of its changes.
+    """A tree, the lock that guards it, and the listeners of its changes.
 
     Args:
         keep: How long samples are kept, in nanoseconds.
         max_frames: How many frames are taken; None: no limit.
     """
 
+    # As in the compiled core, setting a misspelt attribute is an error.
+    __slots__ = ("__weakref__", "_listeners", "_lock", "_tree", "_waits")
+
     def __init__(self, keep: int, max_frames: int | None = None) -> None:
         self._tree = Tree(keep, max_frames)
-        self._changed = threading.Condition()
+        # Not a `threading.Condition`, which a signal can leave locked; see `turtlewire.wake_up`.
+        self._lock = threading.RLock()
+        self._waits: set[WakeUp] = set()
         self._listeners: list[Callable[[], object]] = []
-        fork.guard(self._changed)
+        fork.guard(self._lock)
 
-    def add_change_listener(self, listener: Callable[[], object]) -> Callable[[], None]:
-        """Have ``listener()`` called after data came in.
+    def on_change(self, call: Callable[[], object]) -> Callable[[], None]:
+        """Call ``call()`` after data came in.
 
         The thread that brought the data calls it, without any lock.
 
         Returns:
-            A function that removes the listener again.
+            A function that ends the calls.
         """
-        if not callable(listener):
-            raise TypeError(f"listener must be callable, not {type(listener).__name__}")
-        self._listeners.append(listener)
-        return partial(self._remove_change_listener, listener)
+        if not callable(call):
+            given = type(call).__name__
+            raise TypeError(f"call must be a function that takes no arguments, not {given}")
+        self._listeners.append(call)
+        return partial(self._remove_change_listener, call)
 
     def _remove_change_listener(self, listener: Callable[[], object]) -> None:
         self._listeners = [known for known in self._listeners if known is not listener]
@@ -57,10 +66,15 @@ class SharedTree:
         for listener in tuple(self._listeners):
             _call(listener)
 
-    def wake(self) -> None:
+    def _wake(self) -> None:
         """Make every waiting lookup check for pending signals now; without one it waits on."""
-        with self._changed:
-            self._changed.notify_all()
+        with self._lock:
+            self._end_waits()
+
+    def _end_waits(self) -> None:
+        """Have the waiting lookups ask again; called with the lock held."""
+        for wait in self._waits:
+            wait.set()
 
     def _raising(self, ask: Callable[[], _Answer], timeout_ns: int) -> _Answer:
         try:
@@ -79,7 +93,7 @@ class SharedTree:
         error = ERRORS[failure.status](str(failure))
         for name, value in failure.details.items():
             setattr(error, name, value)
-        if failure.status == LookupStatus.UNKNOWN_FRAME:
+        if failure.status in {LookupStatus.UNKNOWN_FRAME, LookupStatus.LOOP}:
             error._buffer = self  # type: ignore[attr-defined] # ERRORS says that it is one
         return error
 
@@ -93,16 +107,25 @@ class SharedTree:
     def _waiting(self, ask: Callable[[], _Answer], timeout_ns: int) -> _Answer:
         """Ask; after a Failure that more data can end, ask again when data comes in."""
         (timeout_ns,) = nanoseconds(timeout_ns=timeout_ns)
+        if timeout_ns <= 0:
+            with self._lock:
+                return ask()
         deadline = time.monotonic_ns() + timeout_ns
-        with self._changed:
+        changed = WakeUp()
+        try:
             while True:
-                try:
-                    return ask()
-                except Failure as failure:
-                    left = deadline - time.monotonic_ns()
-                    if left <= 0 or failure.hopeless:
-                        raise
-                self._changed.wait(left / 1e9)
+                with self._lock:
+                    try:
+                        return ask()
+                    except Failure as failure:
+                        left = deadline - time.monotonic_ns()
+                        if left <= 0 or failure.hopeless:
+                            raise
+                    self._waits.add(changed)
+                changed.wait(left / 1e9)
+        finally:
+            with self._lock:
+                self._waits.discard(changed)
 
 
 def _call(listener: Callable[[], object]) -> None:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypeAlias
 
-from turtlewire.geometry.poses import IDENTITY, Pose, between, canonical, compose
-from turtlewire.geometry.quaternions import through_matrix
+from turtlewire.geometry.poses import IDENTITY, Pose
 from turtlewire.tf.plain.failure import (
     Failure,
     Question,
@@ -16,21 +15,26 @@ from turtlewire.tf.plain.failure import (
     name_failure,
     time_failure,
 )
-from turtlewire.tf.plain.link import Link, Sample, is_nan
+from turtlewire.tf.plain.link import LinkSamples, PoseSample, is_nan
 from turtlewire.tf.plain.refusals import Refusals
 from turtlewire.tf.plain.report import frames_as_string
-from turtlewire.tf.status import LookupStatus
+from turtlewire.tf.plain.rules import ENGINE
+from turtlewire.tf.plain.status import LookupStatus
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
+
+    from turtlewire.geometry.quaternions import Quaternion
 
 MAX_GRAPH_DEPTH = 1000
 """tf2 takes more hops for a loop."""
 
 NO_PARENT = "NO_PARENT"
 
-Reader: TypeAlias = "Callable[[Link], Sample | LookupStatus]"
+Reader: TypeAlias = "Callable[[LinkSamples], PoseSample | LookupStatus]"
 _LONGEST_NAME = 4096
+#: Of a quaternion's squared length, in tf2.
+_LENGTH_TOLERANCE = 10e-3
 
 
 class Tree:
@@ -45,8 +49,9 @@ class Tree:
         self.keep = keep
         self.max_frames = max_frames
         self.is_full = False
+        self.rules = ENGINE
         self.frames: dict[str, None] = {}  # a set in order of arrival
-        self.links: dict[str, Link] = {}
+        self.links: dict[str, LinkSamples] = {}
         self.refusals = Refusals()
         self.shown_senders: dict[str, str] = {}
 
@@ -64,26 +69,34 @@ class Tree:
         return verdict
 
     def _insert(self, parent: str, child: str, stamp: int, pose: Pose, *, static: bool) -> Verdict:
-        verdict = judge_names(parent, child)
+        verdict = self.judge(parent, child, pose)
         if verdict is not Verdict.ACCEPTED:
+            self.is_full = self.is_full or verdict is Verdict.TOO_MANY_FRAMES
             return verdict
-        stored = (*pose[:3], *through_matrix(pose[3:]))
-        if is_nan(stored):
-            return Verdict.NAN_VALUE
-        if not self._has_room(child, parent):
-            self.is_full = True
-            return Verdict.TOO_MANY_FRAMES
+        stored = self.rules.stored(pose)
         self.frames.setdefault(child)
         self.frames.setdefault(parent)
         link = self.links.get(child)
         if link is None or link.static != static:
             known = link
-            link = Link(static=static)
+            link = LinkSamples(static=static, rules=self.rules)
             if known is not None:
                 link.senders = known.senders
             self.links[child] = link
-        fits = link.insert(stamp, Sample(parent, stored), self.keep)
+        fits = link.insert(stamp, PoseSample(parent, stored), self.keep)
         return Verdict.ACCEPTED if fits else Verdict.OLD_DATA
+
+    def judge(self, parent: str, child: str, pose: Pose) -> Verdict:
+        """Return what `set` would say of a sample, but for its time."""
+        verdict = judge_names(parent, child)
+        if verdict is not Verdict.ACCEPTED:
+            return verdict
+        stored = self.rules.stored(pose)
+        if is_nan(stored):
+            return Verdict.NAN_VALUE
+        if self.rules.keeps_rotations and not _is_nearly_unit(stored[3:]):
+            return Verdict.DENORMALIZED
+        return Verdict.ACCEPTED if self._has_room(child, parent) else Verdict.TOO_MANY_FRAMES
 
     def _has_room(self, *names: str) -> bool:
         if self.max_frames is None:
@@ -110,14 +123,14 @@ class Tree:
                     self.frames.pop(frame, None)
         return list(removed)
 
-    def links_in_order(self) -> dict[str, Link]:
+    def links_in_order(self) -> dict[str, LinkSamples]:
         """Return the links by child, in the order in which the frames were first named."""
         return {frame: self.links[frame] for frame in self.frames if frame in self.links}
 
     def clear(self) -> None:
-        """Forget all samples; static poses and names stay."""
+        """Forget all samples; names stay, and static poses by most rules."""
         for link in self.links.values():
-            link.clear()
+            link.clear(static_stays=not self.rules.clears_static)
 
     def check_name(self, name: str, question: Question, argument: str) -> None:
         """Raise Failure unless the frame can be asked for."""
@@ -131,29 +144,39 @@ class Tree:
         if status:
             raise name_failure(status, name, question, argument)
 
-    def lookup(self, target: str, source: str, stamp: int, question: Question) -> tuple[int, Pose]:
+    def lookup(
+        self, target: str, source: str, stamp: int | None, question: Question, beyond: int = 0
+    ) -> tuple[int | None, Pose]:
         """Return the time and the pose ``target_from_source``.
 
         A frame in itself is the identity, also for a frame that does not exist, as in tf2.
+
+        Args:
+            target: The frame in which the answer is expressed.
+            source: The frame whose pose is asked for.
+            stamp: The time; None: the latest common time. An answer without a time is static.
+            question: Who asks; tf2 words its reasons by it.
+            beyond: How far outside of a link's data its motion is taken to go on; never in tf2.
         """
         if target == source:
             link = self.links.get(target)
-            return (link.newest if stamp == 0 and link else stamp, IDENTITY)
+            return (link.reached if stamp is None and link else stamp, IDENTITY)
         self.check_name(target, question, "target_frame")
         self.check_name(source, question, "source_frame")
-        latest = stamp == 0
+        latest = stamp is None
         if latest:
             stamp = self.latest_common_time(target, source)
         try:
-            return stamp, canonical(
-                self._walk(target, source, stamp, lambda link: link.read(stamp))[0]
+            pose, _ = self._walk(
+                target, source, stamp, lambda link: link.read_beyond(stamp, beyond)
             )
+            return stamp, self.rules.stored(pose)
         except Failure as failure:
             failure.hopeless = failure.hopeless and not latest  # new data moves the latest time on
             raise
 
     def lookup_by(
-        self, target: str, source: str, stamp: int, read: Reader
+        self, target: str, source: str, stamp: int | None, read: Reader
     ) -> tuple[Pose, list[str]]:
         """The pose when links answer by ``read``, not by tf2's rule; and the links' children."""
         self.check_name(target, "lookupTransform", "target_frame")
@@ -161,9 +184,11 @@ class Tree:
         if target == source:
             return IDENTITY, []
         pose, used = self._walk(target, source, stamp, read)
-        return canonical(pose), used
+        return self.rules.stored(pose), used
 
-    def _walk(self, target: str, source: str, stamp: int, read: Reader) -> tuple[Pose, list[str]]:
+    def _walk(
+        self, target: str, source: str, stamp: int | None, read: Reader
+    ) -> tuple[Pose, list[str]]:
         """Walk from the source to the root, then from the target up to that walk.
 
         A link without data ends the first walk and fails the second. If both walks have no data,
@@ -180,19 +205,20 @@ class Tree:
             reading = read(link)
             if isinstance(reading, LookupStatus):
                 # Not raised yet: the target's own way up may meet the source's below this link.
-                stopped = time_failure(reading, top, link, stamp, target, source, self.keep)
+                stopped = self._time_failure(reading, top, link, stamp, target, source)
                 reached = link.newest
                 break
             if top == target:
                 return source_to_top, up
             up.append(top)
-            source_to_top, top = compose(reading.pose, source_to_top), reading.parent
+            source_to_top = self.rules.compose(reading.pose, source_to_top)
+            top = reading.parent
             self._check_depth(depth + 1)
         target_to_top, frame = IDENTITY, target
         for depth in range(MAX_GRAPH_DEPTH + 2):
             link = self.links.get(frame)
             if frame == top:
-                return between(target_to_top, source_to_top), [
+                return self.rules.between(target_to_top, source_to_top), [
                     f for f in up + down if (f in up) != (f in down)
                 ]
             if link is None:
@@ -201,13 +227,28 @@ class Tree:
             if isinstance(reading, LookupStatus):
                 if stopped is not None and reached >= link.newest:
                     raise stopped
-                raise time_failure(reading, frame, link, stamp, target, source, self.keep)
+                raise self._time_failure(reading, frame, link, stamp, target, source)
             if frame == source:
-                return between(target_to_top, IDENTITY), down
+                return self.rules.between(target_to_top, IDENTITY), down
             down.append(frame)
-            target_to_top, frame = compose(reading.pose, target_to_top), reading.parent
+            target_to_top = self.rules.compose(reading.pose, target_to_top)
+            frame = reading.parent
             self._check_depth(depth + 1)
         raise stopped or self._connection_failure(target, source)
+
+    def _time_failure(
+        self,
+        reading: LookupStatus,
+        child: str,
+        link: LinkSamples,
+        stamp: int | None,
+        target: str,
+        source: str,
+    ) -> Failure:
+        told = self.rules.tells_emptied
+        return time_failure(
+            reading, child, link, stamp, target, source, self.keep, tells_emptied=told
+        )
 
     def _connection_failure(self, target: str, source: str) -> Failure:
         return connection_failure(target, source, self._root(target), self._root(source))
@@ -224,40 +265,46 @@ class Tree:
         if depth > MAX_GRAPH_DEPTH:
             raise loop_failure(frames_as_string(self.links_in_order()))
 
-    def latest_common_time(self, target: str, source: str) -> int:
-        """Return the oldest of the links' newest stamps between the frames.
+    def latest_common_time(self, target: str, source: str) -> int | None:
+        """Return the oldest of the links' newest stamps between the frames; None if all are static.
 
-        The newest parent of each link counts; a stamp of 0 counts as static.
+        The newest parent of each link counts.
         """
         if target == source:
             link = self.links.get(source)
-            return link.newest if link else 0
+            return link.reached if link else None
         #: Each ancestor of the source, with the number of stamps on the way to it.
         line: dict[str, int] = {}
-        stamps: list[int] = []
+        stamps: list[int | None] = []
         frame = source
-        while (link := self.links.get(frame)) and link.has_data:
-            stamps.append(link.newest)
-            frame = link.parent
+        while (link := self.links.get(frame)) and link.last_parent:
+            stamps.append(link.reached)
+            frame = link.last_parent
             line.setdefault(frame, len(stamps))
             if frame == target:
-                return _earliest(stamps)
+                return self._earliest(stamps)
             self._check_depth(len(stamps))
-        target_stamps: list[int] = []
+        target_stamps: list[int | None] = []
         frame = target
-        while (link := self.links.get(frame)) and link.has_data:
-            target_stamps.append(link.newest)
-            frame = link.parent
+        while (link := self.links.get(frame)) and link.last_parent:
+            target_stamps.append(link.reached)
+            frame = link.last_parent
             if frame in line:
-                return _earliest(target_stamps + stamps[: line[frame]])
+                return self._earliest(target_stamps + stamps[: line[frame]])
             if frame == source:
-                return _earliest(target_stamps)
+                return self._earliest(target_stamps)
             self._check_depth(len(target_stamps))
         raise self._connection_failure(target, source)
 
+    def _earliest(self, stamps: list[int | None]) -> int | None:
+        return min(
+            (stamp for stamp in stamps if stamp is not None and stamp != self.rules.no_time),
+            default=None,
+        )
 
-def _earliest(stamps: list[int]) -> int:
-    return min((stamp for stamp in stamps if stamp != 0), default=0)
+
+def _is_nearly_unit(q: Quaternion) -> bool:
+    return abs(sum(number * number for number in q) - 1.0) < _LENGTH_TOLERANCE
 
 
 def _is_frame_name(name: str) -> bool:

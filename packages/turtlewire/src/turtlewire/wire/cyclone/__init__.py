@@ -28,6 +28,9 @@ module                    what it holds
 `native`                  the compiled half of this package, or None
 `services`                services as rmw_cyclonedds spells them
 `servers`                 which servers get requests, and why others get none
+`fast_dds`                prepares the types of services for nodes on Fast DDS
+`identified_requests`     requests to servers on Fast DDS
+`first_requests`          asks new clients on Fast DDS for their first request
 `waiting`                 wait sets
 `reader`                  the one Python thread of a context
 `graph`                   the graph as this participant sees it

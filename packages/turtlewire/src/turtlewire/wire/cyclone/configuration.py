@@ -32,6 +32,12 @@ _ANNOUNCEMENT_INTERVAL = "5s"
 #: Each holds one fragment. With Cyclone's fragments of 1.3 kB, a reader asks for the 48 of a lost
 #: datagram in several rounds, which held up one flood of images in four for more than a second.
 _LOOPBACK_DATAGRAM = "<MaxMessageSize>65500B</MaxMessageSize><FragmentSize>64000B</FragmentSize>"
+#: Fast DDS 3 describes the types of its endpoints. Cyclone asks for the details, cannot read some
+#: answers ("invalid type object"), and from then on drops every endpoint with such a type: replies
+#: to a client would reach nobody. Our types match by name, as those of rmw_cyclonedds.
+_TYPES_OF_FAST_DDS = (
+    "<Compatibility><IgnoreTypeInformation>1.15</IgnoreTypeInformation></Compatibility>"
+)
 _FOR_EVER = ' PruneDelay="inf"'
 _PEER = r"(?P<host>[A-Za-z0-9._-]+)(:(?P<port>[0-9]{1,5}))?"
 _LAST_PORT = 65535
@@ -47,6 +53,8 @@ def domain_configuration(domain_id: int, discovery: Discovery) -> str:
     """
     internal = _BUFFER + _KEYHASH + ("" if lingers() else _NO_LINGER)
     parts = [_general(discovery), f"<Internal>{internal}</Internal>"]
+    if dds.ABI.ignores_types:
+        parts.append(_TYPES_OF_FAST_DDS)
     if discovery.range == Range.OFF:
         # A tag of our own: participants with different tags do not see each other, not even on this
         # host.

@@ -14,12 +14,12 @@ from turtlewire.wire.base import Context, EventKind
 from .context_state import CycloneContextState
 from .graph import CycloneGraph
 from .node import CycloneNode
-from .waiting import CycloneWaitSet
+from .waiting import CycloneWaitSet, readable_part
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from turtlewire.wire.base import WaitSet
+    from turtlewire.wire.base import Waitable, WaitSet
 
 __all__ = ["CycloneContext"]
 
@@ -29,9 +29,9 @@ class CycloneContext(Context):
 
     events = frozenset(EventKind)
 
-    def __init__(self, domain_id: int) -> None:
+    def __init__(self, domain_id: int, enclave: str = "/") -> None:
         self.domain_id = domain_id
-        self._enclave = "/"
+        self._enclave = enclave
         self._core = CycloneContextState(domain_id, self._enclave)
         self.gid = self._core.participant.gid
         self._lock = threading.Lock()
@@ -78,6 +78,17 @@ class CycloneContext(Context):
             wait_set = CycloneWaitSet(self._core.participant.handle, self._wait_sets.discard)
             self._wait_sets.add(wait_set)
         return wait_set
+
+    def call_when_ready(self, entity: Waitable, call: Callable[[], None]) -> Callable[[], None]:
+        reader = self._core.reader
+        condition = readable_part(entity).condition()
+
+        def report() -> None:
+            reader.unwatch(condition)  # it stays true until everything is taken
+            call()
+
+        reader.watch(condition, report)
+        return lambda: reader.unwatch(condition)
 
     def call_soon(self, call: Callable[[], None]) -> None:
         self._core.reader.call_soon(call)

@@ -43,7 +43,8 @@ class EndpointSpec(NamedTuple):
         dds_topic: Name on the wire.
         type_id: Type on the wire.
         qos: What is offered or requested.
-        identity: ``clientid`` or ``serviceid`` of one half of a service; empty for topics.
+        identity: ``clientid`` or ``serviceid`` of one half of a service, and ``sertypehash`` if it
+            is announced; empty for topics.
         partition: The DDS partition; empty for the default one.
     """
 
@@ -53,6 +54,11 @@ class EndpointSpec(NamedTuple):
     qos: QoS
     identity: dict[str, str] = {}  # noqa: RUF012 - never changed
     partition: str = ""
+
+    @property
+    def carries_identities(self) -> bool:
+        """True if it is a half of a service that nodes on Fast DDS can match."""
+        return bool(self.identity) and not self.partition
 
     @property
     def user_data(self) -> bytes:
@@ -82,10 +88,12 @@ class Endpoint(Entity):
         on_closing: Each is called once, before it is deleted.
         ends_with_participant: Whether the participant is about to be deleted, and all that it has
             with it: that takes half the time.
+        shared_type: Address of the type of service messages that it was made with; 0 if none.
     """
 
     handle: int
     gid: bytes
+    shared_type = 0
     _sources: ClassVar[Mapping[EventKind, StatusSource]]
 
     def __init__(self, spec: EndpointSpec) -> None:
@@ -125,8 +133,8 @@ class Endpoint(Entity):
         if dds.get_status_changes(self.handle, changed) < 0:
             return  # it has been deleted
         news: list[tuple[EventKind, EventStatus]] = []
-        # Before the callbacks: reading resets a status. A match that came behind them, but before
-        # the reading, would be told to nobody.
+        # Read before the callbacks, because reading resets a status: a match that arrives after the
+        # callbacks but before the read would never be reported.
         for kind, source in self._sources.items():
             if changed.value & source.bit:
                 status = source.structure()

@@ -8,6 +8,7 @@ from __future__ import annotations
 import ctypes
 import threading
 import time
+from collections import Counter
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from turtlewire.errors import CdrError
@@ -29,7 +30,7 @@ from . import library as dds
 from .endpoint import EndpointSpec
 from .ports import process_of, processes_on_host
 from .qos import read_qos, read_user_data
-from .servers import foreign_middleware, is_fast_dds
+from .servers import foreign_middleware, is_fast_dds, middleware_of
 from .silent_peers import PATIENCE_NS, Questions, SilentPeers
 from .subscription import CycloneSubscription
 
@@ -150,10 +151,10 @@ class CycloneGraph(GraphView):
             self._reader.call_soon(self.notify_changed)
 
     def _update(self) -> bool:
-        """Take over everything that is new; whether there was anything.
+        """Apply all pending changes; return True if there were any.
 
-        Announcements are taken first and kept only from participants that are known after that: so
-        the last words of one that has gone do not bring its nodes back.
+        Announcements are taken first and kept only from participants that are known after that, so
+        that a late announcement of a participant that has left does not add its nodes again.
         """
         with self._lock:
             infos = self._infos.take_bytes()
@@ -305,21 +306,38 @@ class CycloneGraph(GraphView):
     def foreign_servers(self) -> list[ForeignServer]:
         self._look_first()
         with self._lock:
-            foreign = {
-                gid: (service, middleware)
+            readers = [
+                (service, gid, endpoint.user_data)
                 for gid, endpoint in self._endpoints.items()
                 if endpoint.kind == "subscription"
                 and (service := names.service_of_requests(endpoint.dds_topic)) is not None
-                and (middleware := foreign_middleware(gid, endpoint.user_data))
+            ]
+            foreign = {
+                gid: (service, middleware, False)
+                for service, gid, ids in readers
+                if (middleware := foreign_middleware(gid, ids))
             }
+            twice = _served_twice((service, gid) for service, gid, _ in readers)
+            for service, gid, _ in readers:
+                if service in twice:
+                    foreign.setdefault(gid, (service, middleware_of(gid), True))
             if not foreign:  # as nearly always: spare the search for the owners
                 return []
             owners = {endpoint.gid: endpoint.node for endpoint in self.endpoints()}
             return [
-                ForeignServer(service, owners[gid], middleware)
-                for gid, (service, middleware) in foreign.items()
+                ForeignServer(service, owners[gid], middleware, is_rival)
+                for gid, (service, middleware, is_rival) in foreign.items()
                 if gid in owners  # it may have left meanwhile
             ]
+
+    def middlewares(self) -> dict[str, int]:
+        self._look_first()
+        with self._lock:
+            own = process_of(self._participant_gid)
+            others = [
+                gid for gid, enclave in self._enclaves.items() if enclave and process_of(gid) != own
+            ]
+        return dict(Counter(map(middleware_of, others)))
 
     def end_waits(self) -> None:
         """End all waits, and take back what was asked."""
@@ -329,6 +347,15 @@ class CycloneGraph(GraphView):
 
 def _full_names(nodes: Iterable[NodeEndpoints]) -> list[str]:
     return [names.fully_qualified_node_name(node.name, node.namespace) for node in nodes]
+
+
+def _served_twice(readers: Iterable[tuple[str, bytes]]) -> set[str]:
+    """Return the services with servers on Fast DDS and on another middleware."""
+    fast_dds: set[str] = set()
+    others: set[str] = set()
+    for service, gid in readers:
+        (fast_dds if is_fast_dds(gid) else others).add(service)
+    return fast_dds & others
 
 
 def _endpoint_info(gid: bytes, endpoint: _Endpoint, owner: NodeInfo | None) -> EndpointInfo:
@@ -344,4 +371,5 @@ def _endpoint_info(gid: bytes, endpoint: _Endpoint, owner: NodeInfo | None) -> E
     if topic is None:
         topic = endpoint.dds_topic
         qos = qos._replace(avoid_ros_namespace_conventions=names.service_from_dds(topic) is None)
-    return EndpointInfo(endpoint.kind, topic, type_name, type_hash, owner, gid, qos)
+    service_hash = endpoint.user_data.get("sertypehash", "")
+    return EndpointInfo(endpoint.kind, topic, type_name, type_hash, owner, gid, qos, service_hash)

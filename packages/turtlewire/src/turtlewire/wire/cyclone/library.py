@@ -237,6 +237,10 @@ create_guard_condition = _waits("dds_create_guardcondition", _entity, _entity)
 create_wait_set = _waits("dds_create_waitset", _entity, _entity)
 delete = _waits("dds_delete", _retcode, _entity)
 wait_for_acks = _waits("dds_wait_for_acks", _retcode, _entity, c_int64)
+create_topic_of_type = _waits(
+    "dds_create_topic_sertype",
+    *(_entity, _entity, c_char_p, POINTER(c_void_p), c_void_p, c_void_p, c_void_p),
+)
 set_qos = _waits("dds_set_qos", _retcode, _entity, c_void_p)
 
 set_guard_condition = _short("dds_set_guardcondition", _retcode, _entity, c_bool)
@@ -247,6 +251,10 @@ wait_set_wait = _waits("dds_waitset_wait", _retcode, _entity, POINTER(c_int64), 
 create_listener = _short("dds_create_listener", c_void_p, c_void_p)
 delete_listener = _short("dds_delete_listener", None, c_void_p)
 lset_data_available = _short("dds_lset_data_available", None, c_void_p, c_void_p)
+lset_subscription_matched = _short(
+    "dds_lset_subscription_matched_arg", _retcode, c_void_p, c_void_p, c_void_p, c_bool
+)
+set_listener = _waits("dds_set_listener", _retcode, _entity, c_void_p)
 
 set_status_mask = _short("dds_set_status_mask", _retcode, _entity, c_uint32)
 get_status_changes = _short("dds_get_status_changes", _retcode, _entity, POINTER(c_uint32))
@@ -286,6 +294,8 @@ else:
     pin_entity = _short("dds_entity_pin", _retcode, _entity, POINTER(c_void_p))
     unpin_entity = _short("dds_entity_unpin", None, c_void_p)
     default_types = c_char.in_dll(_short_library, "ddsi_sertype_ops_default")
+hold_sertype = _short("ddsi_sertype_ref", c_void_p, c_void_p)
+release_sertype = _short("ddsi_sertype_unref", None, c_void_p)
 return_code_text = _short("dds_strretcode", c_char_p, c_int32)
 free = _short("dds_free", None, c_void_p)
 

@@ -1,4 +1,4 @@
-"""What Cyclone complains about, in words for people, and bounded.
+"""Cyclone's log messages, reworded for users and limited in number.
 
 Cyclone writes a line on stderr for every datagram that the network refuses or a peer garbles, and
 has no setting for it; its ``dds_set_log_sink`` is not exported by the library in the wheel. A
@@ -120,7 +120,7 @@ class CycloneLog:
 
     @contextmanager
     def capturing(self) -> Iterator[None]:
-        """A domain that is made meanwhile writes into the pipe."""
+        """Have a domain that is made within this context write its log into the pipe."""
         if self._file is None:
             yield
             return

@@ -14,11 +14,11 @@ if TYPE_CHECKING:
 
     from turtlewire._native import Cyclone
 
-__all__ = ["NATIVE"]
+__all__ = ["NATIVE", "address_of"]
 
 
-def _address(function: Callable[..., object]) -> int:
-    # A function of ctypes.
+def address_of(function: Callable[..., object]) -> int:
+    """Return the address of a function of ctypes."""
     address = ctypes.cast(function, ctypes.c_void_p).value  # type: ignore[arg-type]
     assert address is not None
     return address
@@ -43,7 +43,7 @@ def _load() -> Cyclone | None:
     info = dds.SampleInfo
     members = (info.valid_data, info.source_timestamp, info.publication_handle)
     layout = (ctypes.sizeof(info), *(member.offset for member in members))
-    return Cyclone([_address(function) for function in functions], layout)
+    return Cyclone([address_of(function) for function in functions], layout)
 
 
 #: Calls Cyclone from native code.

@@ -89,30 +89,34 @@ class CycloneNode(Node):
         self._core.reader.watch(condition, deliver)
 
     def create_client(self, service: str, types: ServiceTypes, qos: QoS) -> Client:
-        identity = {"clientid": self._service_id()}
-        topic = names.request_topic(service)
-        requests = self._publisher(
-            EndpointSpec(service, topic, types.request, qos, identity, ONLY_CYCLONE)
-        )
+        identity = self._identity("clientid", types)
+        spec = EndpointSpec(service, names.request_topic(service), types.request, qos, identity)
+        requests = self._publisher(spec._replace(partition=ONLY_CYCLONE))
         replies = self._subscription(
             EndpointSpec(service, names.reply_topic(service), types.response, qos, identity)
         )
-        return CycloneClient(service, requests, replies)
+        return CycloneClient(service, requests, replies, lambda: self._publisher(spec))
 
     def create_service(self, service: str, types: ServiceTypes, qos: QoS) -> Service:
-        identity = {"serviceid": self._service_id()}
+        identity = self._identity("serviceid", types)
         replies = self._publisher(
             EndpointSpec(service, names.reply_topic(service), types.response, qos, identity)
         )
         requests = self._subscription(
             EndpointSpec(service, names.request_topic(service), types.request, qos, identity)
         )
-        server = CycloneService(service, requests, replies, self._core.reader)
+        server = CycloneService(
+            service, requests, replies, self._core.reader, self.context.domain_id
+        )
         replies.on_matched.append(server.matched)
         return server
 
-    def _service_id(self) -> str:
-        return format_service_id(self.context.gid, self._core.next_service_number())
+    def _identity(self, key: str, types: ServiceTypes) -> dict[str, str]:
+        """Return what both halves of a client or server announce beside the hash of a message."""
+        number = self._core.next_service_number()
+        identity = {key: format_service_id(self.context.gid, number)}
+        service_hash = types.announced_hash()
+        return {**identity, "sertypehash": service_hash} if service_hash else identity
 
     def _publisher(self, spec: EndpointSpec) -> CyclonePublisher:
         publisher = CyclonePublisher(self._core.participant, spec)

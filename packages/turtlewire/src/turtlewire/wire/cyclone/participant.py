@@ -212,13 +212,21 @@ class Participant:
             dds.delete_qos(qos)
 
     @contextlib.contextmanager
-    def topic(self, dds_topic: str, type_name: str) -> Iterator[int]:
+    def topic(self, dds_topic: str, type_name: str, shared_type: int = 0) -> Iterator[int]:
         """The handle of a topic, to make readers and writers of.
 
         It is deleted afterwards. What was made of it keeps it alive, and the last of these to go
         ends it: names that come and go leave nothing behind.
+
+        Args:
+            dds_topic: Its name.
+            type_name: The name of its type.
+            shared_type: Address of a type of that name to use, and to release; 0 for a new one.
         """
-        handle = self._create_topic(dds_topic, type_name)
+        if shared_type:
+            handle = self._create_topic_of(shared_type, dds_topic)
+        else:
+            handle = self._create_topic(dds_topic, type_name)
         try:
             yield handle
         finally:
@@ -239,6 +247,13 @@ class Participant:
             dds.create_topic(self.handle, descriptor, dds_topic.encode(), None, None),
             f"create topic {dds_topic}",
         )
+
+    def _create_topic_of(self, sertype: int, dds_topic: str) -> int:
+        place = ctypes.c_void_p(sertype)
+        handle = dds.create_topic_of_type(self.handle, dds_topic.encode(), place, None, None, None)
+        if handle < 0:  # else Cyclone has released it
+            dds.release_sertype(sertype)
+        return dds.check(handle, f"create topic {dds_topic}")
 
     def close(self) -> None:
         """Leave the domain; everything made in this participant is deleted."""

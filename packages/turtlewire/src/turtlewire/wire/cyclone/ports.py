@@ -9,7 +9,14 @@ from __future__ import annotations
 
 import re
 
-__all__ = ["is_cyclone", "max_processes", "ports_of", "process_of", "processes_on_host"]
+__all__ = [
+    "is_cyclone",
+    "max_processes",
+    "ports_of",
+    "process_of",
+    "processes_on_host",
+    "unicast_ports_of",
+]
 
 _BASE = 7400
 _PER_DOMAIN = 250
@@ -37,6 +44,11 @@ def ports_of(domain_id: int) -> range:
     """Return the UDP ports of a domain."""
     first = _BASE + _PER_DOMAIN * domain_id
     return range(first, first + _PER_DOMAIN)
+
+
+def unicast_ports_of(domain_id: int) -> range:
+    """Return the UDP ports of a domain of which each is one process's."""
+    return range(_first_port(domain_id), ports_of(domain_id).stop)
 
 
 def processes_on_host(domain_id: int) -> int | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, cast
 
 from turtlewire.errors import WireError
 from turtlewire.wire.base import EventKind, Publisher
@@ -13,17 +13,21 @@ from .endpoint import (
     Endpoint,
     EndpointSpec,
     StatusSource,
+    matched_handles,
     read_count,
     read_incompatible,
     read_matched,
 )
+from .fast_dds import FAST_DDS
 from .native import NATIVE
 from .qos import MAX_BLOCKING_NS, dds_qos
-from .writing import CLOSED, NO_MESSAGE, REFUSED, make_writer
+from .servers import is_fast_dds, matched_endpoints
+from .writing import CLOSED, NO_IDENTITY, NO_MESSAGE, REFUSED, make_writer
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from turtlewire._native import CycloneWriter
     from turtlewire.wire.base import Outlet
     from turtlewire.wire.encapsulation import Cdr
 
@@ -54,7 +58,8 @@ class CyclonePublisher(Endpoint, Publisher):
         super().__init__(spec)
         self.topic = spec.name
         with (
-            participant.topic(spec.dds_topic, spec.type_id.name) as topic,
+            FAST_DDS.shared_type(participant, self) as shared_type,
+            participant.topic(spec.dds_topic, spec.type_id.name, shared_type) as topic,
             dds_qos(spec.qos, spec.user_data, writer=True, partition=spec.partition) as qos,
         ):
             self._created(dds.create_writer(participant.handle, topic, qos, None))
@@ -68,6 +73,26 @@ class CyclonePublisher(Endpoint, Publisher):
         code = self._write(cdr)
         if code < 0:
             self._refused(code, joined(cdr))
+
+    def publish_identified(self, cdr: bytes, guid: bytes, number: int) -> None:
+        """Send a message of a service with the identity of a request beside it, as Fast DDS does.
+
+        Its type was prepared for that.
+        """
+        writer = cast("CycloneWriter", self._writer)
+        code = writer.write_identified(cdr, guid, number)
+        if code == NO_IDENTITY:
+            # Without readers on Fast DDS, Cyclone makes no message that could take the identity.
+            if any(map(is_fast_dds, self.subscriber_gids())):
+                FAST_DDS.give_up("messages")
+        elif code < 0:
+            self._refused(code, cdr)
+
+    def subscriber_gids(self) -> list[bytes]:
+        """Return the gids of the matching readers."""
+        matched = matched_handles(self.handle, dds.matched_subscriptions)
+        found = matched_endpoints(self.handle, matched, dds.matched_subscription_data)
+        return [each.gid for each in found]
 
     def _refused(self, code: int, cdr: bytes) -> None:
         if code == NO_MESSAGE:

@@ -1,15 +1,16 @@
 """Which servers of a service get requests, and why others get none.
 
 rmw_cyclonedds writes 16 bytes in front of the fields of a request; the other middlewares carry them
-elsewhere. A server on Fast DDS therefore reads these bytes as fields: it takes a length out of
-them, and allocates gigabytes or never answers again. So no request may ever reach such a server.
+elsewhere. A server on Fast DDS would read these bytes as fields: it takes a length out of them, and
+allocates gigabytes or never answers again. So no such request may ever reach such a server.
 
 Two measures together see to that:
 
 - :class:`Servers` looks at all matching servers before each request.
-- The writer of requests is in the partition `ONLY_CYCLONE`, because a server may begin to match
-  between that look and the request. Cyclone matches that partition with the default one, Fast DDS
-  does not, and drops what comes from a writer that it does not match.
+- The writer of these requests is in the partition `ONLY_CYCLONE`, because a server may begin to
+  match between that look and the request. Cyclone matches that partition with the default one, Fast
+  DDS does not, and drops what comes from a writer that it does not match. Requests in the layout of
+  Fast DDS come out of another writer (see `fast_dds`).
 """
 
 from __future__ import annotations
@@ -17,9 +18,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.wire.graph import parse_user_data
+from turtlewire.wire.services import not_callable, served_twice
 
 from . import library as dds
 from .endpoint import matched_handles
+from .fast_dds import FAST_DDS
 from .ports import is_cyclone
 from .qos import read_user_data
 
@@ -27,14 +30,17 @@ if TYPE_CHECKING:
     import ctypes
     from collections.abc import Callable
 
+    from turtlewire.errors import UncallableServiceError
+
 __all__ = [
     "ONLY_CYCLONE",
     "MatchedEndpoint",
     "Servers",
-    "foreign_among",
     "foreign_middleware",
     "is_fast_dds",
     "matched_endpoints",
+    "middleware_of",
+    "refusal",
 ]
 
 #: Cyclone compares patterns with the default partition, whose name is empty; Fast DDS does not.
@@ -44,6 +50,7 @@ _FAST_DDS = b"\x01\x0f"
 _MIDDLEWARES = {
     b"\x01\x01": "Connext DDS (rmw_connextdds)",
     _FAST_DDS: "Fast DDS (rmw_fastrtps_cpp)",
+    b"\x01\x10": "Cyclone DDS (rmw_cyclonedds_cpp)",
     b"\x01\x12": "RustDDS",
 }
 
@@ -65,10 +72,15 @@ def is_fast_dds(gid: bytes) -> bool:
     return gid.startswith(_FAST_DDS)
 
 
-def foreign_middleware(gid: bytes, ids: dict[str, str]) -> str:
-    """Return the middleware of a server that reads requests in another layout than ours.
+def middleware_of(gid: bytes) -> str:
+    """Return the middleware of an endpoint."""
+    return _MIDDLEWARES.get(gid[:2], f"a DDS of vendor {gid[:2].hex('.')}")
 
-    Empty for a server on rmw_cyclonedds.
+
+def foreign_middleware(gid: bytes, ids: dict[str, str]) -> str:
+    """Return the middleware of a server to which requests cannot be sent in the layout it reads.
+
+    Empty for a server on rmw_cyclonedds, and on Fast DDS if services with it work here.
 
     Args:
         gid: The gid of the server's reader.
@@ -76,7 +88,9 @@ def foreign_middleware(gid: bytes, ids: dict[str, str]) -> str:
     """
     if is_cyclone(gid):
         return "" if "serviceid" in ids else "a middleware that announces no serviceid"
-    return _MIDDLEWARES.get(gid[:2], f"a DDS of vendor {gid[:2].hex('.')}")
+    if is_fast_dds(gid) and not FAST_DDS.obstacle:
+        return ""
+    return middleware_of(gid)
 
 
 def matched_endpoints(
@@ -126,6 +140,10 @@ class Servers:
         return servers
 
 
-def foreign_among(servers: list[MatchedEndpoint]) -> str:
-    """Return the middleware of a server that would misread a request; empty if none would."""
-    return next(filter(None, (foreign_middleware(*server) for server in servers)), "")
+def refusal(service: str, servers: list[MatchedEndpoint]) -> UncallableServiceError | None:
+    """Return why a service with these servers is not called; None if it can be."""
+    foreign = next(filter(None, (foreign_middleware(*server) for server in servers)), "")
+    if foreign:
+        return not_callable(service, foreign)
+    middlewares = {middleware_of(server.gid) for server in servers}
+    return served_twice(service, middlewares) if len(middlewares) > 1 else None

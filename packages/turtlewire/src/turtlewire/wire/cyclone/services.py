@@ -1,6 +1,6 @@
-"""Services as rmw_cyclonedds does them.
+"""Services in the layout of rmw_cyclonedds and in that of Fast DDS.
 
-Which server belongs to which client is in the user data of their endpoints.
+On rmw_cyclonedds, the user data of endpoints says which reader and writer belong together.
 """
 
 from __future__ import annotations
@@ -24,11 +24,23 @@ from turtlewire.wire.services import (
 
 from . import library as dds
 from .endpoint import matched_handles
-from .ports import is_cyclone
-from .servers import Servers, foreign_among, foreign_middleware, matched_endpoints
+from .fast_dds import FAST_DDS, guid_of_client, split_identity
+from .first_requests import FirstRequests
+from .identified_requests import IdentifiedRequests
+from .ports import is_cyclone, process_of
+from .servers import (
+    MatchedEndpoint,
+    Servers,
+    is_fast_dds,
+    matched_endpoints,
+    middleware_of,
+    refusal,
+)
 from .subscription import is_identified
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from turtlewire.wire.base import RequestId
 
     from .publisher import CyclonePublisher
@@ -40,6 +52,8 @@ __all__ = ["CycloneClient", "CycloneService", "format_service_id"]
 #: How long a response waits for the client's end of the reply topic to be discovered.
 _PATIENCE_NS = 1_000_000_000
 _KNOWN_CLIENTS = 1000
+#: The bit of the last byte of a GUID that tells readers from writers.
+_READER = 4
 
 
 def format_service_id(participant_gid: bytes, number: int) -> str:
@@ -49,24 +63,85 @@ def format_service_id(participant_gid: bytes, number: int) -> str:
 
 
 class CycloneClient(TopicClient):
-    """A client: a writer of requests and a reader of replies."""
+    """A client: a writer of requests and a reader of replies.
+
+    Args:
+        service: Name of the service.
+        requests: Writer in the layout of rmw_cyclonedds.
+        replies: Reader of all replies.
+        open_requests: Makes a writer of requests to Fast DDS; called when such a server appears.
+    """
 
     requests: CyclonePublisher
     replies: CycloneSubscription
 
     def __init__(
-        self, service: str, requests: CyclonePublisher, replies: CycloneSubscription
+        self,
+        service: str,
+        requests: CyclonePublisher,
+        replies: CycloneSubscription,
+        open_requests: Callable[[], CyclonePublisher],
     ) -> None:
         handle = ctypes.c_uint64()
         dds.check(dds.get_instance_handle(requests.handle, handle), f"create a client of {service}")
         super().__init__(service, handle.value, requests, replies)
         self._servers = Servers(requests.handle)
+        self._open_requests = open_requests
+        self._lock = threading.Lock()
+        self._closed = False
+        self._identified: IdentifiedRequests | None = None
+        self._is_prepared = FAST_DDS.prepare(replies)
+        # Before others learn of the match: they may ask whether the service is ready then.
+        requests.on_matched.insert(0, self._servers_changed)
+        self._servers_changed()
+
+    def _servers_changed(self) -> None:
+        """Open a writer of requests to Fast DDS once a server there is matched."""
+        if self._identified is not None or not any(map(_on_fast_dds, self._servers.now())):
+            return
+        if FAST_DDS.obstacle or not self._is_prepared:
+            FAST_DDS.say_obstacle()
+            return
+        with self._lock:
+            if self._closed or self._identified is not None:
+                return
+            try:
+                requests = self._open_requests()
+                if not FAST_DDS.prepare(requests):
+                    self._is_prepared = False
+                    requests.close()
+                    return
+            except WireError as error:
+                warn_once(f"requests {self.service}", str(error))
+                return
+            self._identified = IdentifiedRequests(requests, self.replies.gid, self._refuse)
+
+    def _refuse(self, servers: list[MatchedEndpoint]) -> None:
+        why = refusal(self.service, servers)
+        if why is not None:
+            raise why
 
     def send_request(self, cdr: bytes) -> int:
-        middleware = foreign_among(self._servers.now())
-        if middleware:
-            raise not_callable(self.service, middleware)
+        servers = self._servers.now()
+        self._refuse(servers)
+        if any(map(_on_fast_dds, servers)):
+            self._servers_changed()
+            if self._identified is None:
+                raise not_callable(self.service, middleware_of(servers[0].gid))
+            if (number := self._identified.send(cdr)) is not None:
+                return number
         return super().send_request(cdr)
+
+    def take(self, limit: int = 32) -> list[tuple[int, bytes]]:
+        responses = []
+        for payload, info in self.replies.take(limit):
+            if (identified := split_identity(payload)) is not None:
+                (client_id, number), cdr = identified
+                if self._identified and self._identified.is_ours(guid_of_client(client_id)):
+                    responses.append((number, cdr))
+            elif not is_fast_dds(info.publisher_gid):  # from there, it is for another client
+                responses += self.own_response(payload)
+        return responses
 
     def is_ready(self) -> bool:
         """Return True once a server is matched in both directions.
@@ -74,19 +149,43 @@ class CycloneClient(TopicClient):
         One and the same server reads our requests and writes replies to us.
         """
         servers = self._servers.now()
-        if foreign_among(servers):
+        if refusal(self.service, servers) is not None:
             return False
         replies = self.replies.handle
         matched = matched_handles(replies, dds.matched_publications)
         writers = matched_endpoints(replies, matched, dds.matched_publication_data)
-        replying = {writer.ids.get("serviceid") for writer in writers}
-        return any(server.ids["serviceid"] in replying for server in servers)
+        if any(map(_on_fast_dds, servers)):  # which announce no serviceid
+            replying = {process_of(writer.gid) for writer in writers}
+            found = [] if self._identified is None else self._identified.servers.now()
+            return any(process_of(server.gid) in replying for server in found)
+        serving = {writer.ids.get("serviceid") for writer in writers}
+        return any(server.ids["serviceid"] in serving for server in servers)
+
+    def close(self) -> None:
+        with self._lock:
+            self._closed = True
+            identified = self._identified
+        if identified is not None:
+            identified.requests.close()
+        super().close()
+
+
+def _on_fast_dds(server: MatchedEndpoint) -> bool:
+    return is_fast_dds(server.gid)
+
+
+class _Reply(NamedTuple):
+    """A reply, with the GUID and the number of its inline QoS; no GUID for rmw_cyclonedds."""
+
+    payload: bytes
+    guid: bytes = b""
+    number: int = 0
 
 
 class _Waiting(NamedTuple):
-    client: str
+    client: str | bytes
     deadline_ns: int
-    payload: bytes
+    reply: _Reply
 
 
 class CycloneService(TopicService):
@@ -105,21 +204,30 @@ class CycloneService(TopicService):
         requests: CycloneSubscription,
         replies: CyclonePublisher,
         reader: CycloneReaderThread,
+        domain_id: int,
     ) -> None:
         super().__init__(service, requests, replies)
         self._reader = reader
         self._lock = threading.Lock()
         self._clients: dict[int, str] = {}
-        self._reachable: set[str | None] = set()
+        self._reachable: set[str | bytes | None] = set()
         self._waiting: list[_Waiting] = []
+        if FAST_DDS.prepare(replies):  # else no request is understood, so that none is answered
+            FAST_DDS.prepare(requests)
         # Before others learn of the match: they may take requests then.
         requests.on_matched.insert(0, requests.learn_publishers)
+        if not FAST_DDS.obstacle:
+            first_requests = FirstRequests(requests.handle, requests.gid, domain_id)
+            requests.on_closing.append(first_requests.close)
 
     def take(self, limit: int = 32) -> list[tuple[RequestId, bytes]]:
         requests = []
         for payload, info in self.requests.take(limit):
+            identified = split_identity(payload)
             split = split_header(payload)
-            if not is_identified(info.publisher_gid):
+            if identified is not None and not FAST_DDS.obstacle:
+                requests.append(identified)
+            elif not is_identified(info.publisher_gid):
                 self._warn_unidentified()
             elif not is_cyclone(info.publisher_gid):
                 self._warn_foreign(info.publisher_gid)
@@ -140,7 +248,9 @@ class CycloneService(TopicService):
 
     def _warn_foreign(self, client: bytes) -> None:
         """Say that a request had another layout: ours would be read out of 16 wrong bytes."""
-        middleware = foreign_middleware(client, {})
+        middleware = middleware_of(client)
+        if is_fast_dds(client):
+            FAST_DDS.say_obstacle()
         warn_once(
             f"{self.service} request {middleware}",
             f"dropped a request of service {self.service}: its client runs on {middleware}, whose "
@@ -155,20 +265,33 @@ class CycloneService(TopicService):
             self._clients[client_id] = client
 
     def send_response(self, request_id: RequestId, cdr: bytes) -> None:
-        payload = join_header(request_id, cdr)
-        client = self._clients.get(request_id.client_id)
+        client: str | bytes | None
+        guid = guid_of_client(request_id.client_id)
+        if guid:
+            reply = _Reply(cdr, guid, request_id.sequence_number)
+            # A client that named its writer says nothing about its reader.
+            client = guid if guid[-1] & _READER else None
+        else:
+            reply = _Reply(join_header(request_id, cdr))
+            client = self._clients.get(request_id.client_id)
         if client is not None and not self._can_reach(client):
             deadline = time.monotonic_ns() + _PATIENCE_NS
             with self._lock:
-                self._waiting.append(_Waiting(client, deadline, payload))
+                self._waiting.append(_Waiting(client, deadline, reply))
             self._reader.call_at(deadline, self.send_waiting)
             if not self._can_reach(client):
                 return
             self.send_waiting()
         else:
-            self.replies.publish(payload)
+            self._send(reply)
 
-    def _can_reach(self, client: str) -> bool:
+    def _send(self, reply: _Reply) -> None:
+        if reply.guid:
+            self.replies.publish_identified(*reply)
+        else:
+            self.replies.publish(reply.payload)
+
+    def _can_reach(self, client: str | bytes) -> bool:
         """Return True if the client's reply reader has matched.
 
         It stays known when it has left: a reply to it goes to nobody.
@@ -178,6 +301,7 @@ class CycloneService(TopicService):
             matched = matched_handles(replies, dds.matched_subscriptions)
             clients = matched_endpoints(replies, matched, dds.matched_subscription_data)
             self._reachable = {each.ids.get("clientid") for each in clients}
+            self._reachable.update(each.gid for each in clients)
         return client in self._reachable
 
     def matched(self) -> None:
@@ -200,7 +324,7 @@ class CycloneService(TopicService):
             ]
         for waiting in ready:
             try:
-                self.replies.publish(waiting.payload)
+                self._send(waiting.reply)
             except WireError as error:  # noqa: PERF203 - one client's trouble is not another's
                 if not self.replies.closed:  # another thread may close the service meanwhile
                     warn_once(f"reply {self.service}", str(error))

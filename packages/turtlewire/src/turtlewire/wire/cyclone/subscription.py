@@ -21,6 +21,7 @@ from .endpoint import (
     read_liveliness_changed,
     read_matched,
 )
+from .fast_dds import FAST_DDS
 from .inlet import Inlet
 from .native import NATIVE
 from .qos import dds_qos, read_user_data
@@ -97,13 +98,14 @@ class CycloneSubscription(Endpoint, Subscription):
             self.inlet = Inlet(NATIVE, participant.handle, sink)
         listener = None if self.inlet is None else self.inlet.listener
         with (
-            participant.topic(spec.dds_topic, spec.type_id.name) as topic,
+            FAST_DDS.shared_type(participant, self) as shared_type,
+            participant.topic(spec.dds_topic, spec.type_id.name, shared_type) as topic,
             dds_qos(spec.qos, spec.user_data, writer=False, ignore_local=ignore_local) as qos,
         ):
             handle = dds.create_reader(participant.handle, topic, qos, listener)
-        if handle < 0 and self.inlet is not None:
-            self.inlet.close()
-        self._created(handle)
+            if handle < 0 and self.inlet is not None:
+                self.inlet.close()
+            self._created(handle)
 
     def condition(self) -> int:
         """Return the condition that is true while messages are waiting."""
@@ -167,6 +169,11 @@ class CycloneSubscription(Endpoint, Subscription):
             for publisher in matched_handles(self.handle, dds.matched_publications):
                 if publisher not in self._gids:
                     self._gid_of(publisher)
+
+    def publisher_gids(self) -> set[bytes]:
+        """Return the gids of the publishers that are known."""
+        with self._lock:
+            return set(self._gids.values())
 
     def _publishers_changed(self) -> None:
         self._forget = True

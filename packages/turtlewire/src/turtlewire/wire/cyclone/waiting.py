@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from turtlewire.wire.base import Waitable
 
-__all__ = ["ConditionSet", "CycloneWaitSet"]
+__all__ = ["ConditionSet", "CycloneWaitSet", "readable_part"]
 
 T = TypeVar("T")
 
@@ -102,7 +102,7 @@ class CycloneWaitSet(EventWatcher, WaitSet):
         if isinstance(entity, StatusEvent):
             entity.attach(self)
         else:
-            subscription = _readable_part(entity)
+            subscription = readable_part(entity)
             self._conditions.attach(subscription.condition(), entity)
             subscription.wait_sets.add(self)
 
@@ -110,7 +110,7 @@ class CycloneWaitSet(EventWatcher, WaitSet):
         if isinstance(entity, StatusEvent):
             entity.detach(self)
         else:
-            subscription = _readable_part(entity)
+            subscription = readable_part(entity)
             if self in subscription.wait_sets:  # a closed one has no condition to be asked for
                 subscription.wait_sets.discard(self)
                 self._conditions.detach(subscription.condition())
@@ -128,7 +128,8 @@ class CycloneWaitSet(EventWatcher, WaitSet):
         self._conditions.close()
 
 
-def _readable_part(entity: Waitable) -> CycloneSubscription:
+def readable_part(entity: Waitable) -> CycloneSubscription:
+    """Return the subscription that makes an entity ready."""
     if isinstance(entity, TopicClient):
         entity = entity.replies
     elif isinstance(entity, TopicService):

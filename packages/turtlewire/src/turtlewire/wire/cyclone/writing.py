@@ -31,10 +31,10 @@ if TYPE_CHECKING:
             ...
 
 
-__all__ = ["CLOSED", "NO_MESSAGE", "REFUSED", "CtypesWriter", "make_writer"]
+__all__ = ["CLOSED", "NO_IDENTITY", "NO_MESSAGE", "REFUSED", "CtypesWriter", "make_writer"]
 
 # The codes that native/cyclone/writer.hpp adds to Cyclone's.
-NO_MESSAGE, CLOSED, REFUSED = -1001, -1002, -1003
+NO_MESSAGE, CLOSED, REFUSED, NO_IDENTITY = -1001, -1002, -1003, -1004
 
 
 class CtypesWriter:

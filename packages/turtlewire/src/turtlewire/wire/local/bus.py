@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from .endpoint import LocalEndpoint, Message
 
-__all__ = ["Bus", "Sender", "bus_of"]
+__all__ = ["Bus", "LocalSender", "bus_of"]
 
 _POLICY_DURABILITY, _POLICY_RELIABILITY = 2, 16
 
@@ -29,7 +29,7 @@ def bus_of(domain_id: int) -> Bus:
         return _buses.setdefault(domain_id, Bus())
 
 
-class Sender(Protocol):
+class LocalSender(Protocol):
     """A publisher, as :attr:`Bus.tamper` sees it.
 
     Attributes:
@@ -57,14 +57,14 @@ class Bus:
         nodes: The open nodes, in the order of their creation.
         listeners: Called when the graph has changed.
         tamper: For tests of faults: called with each message instead of delivering it; calls
-            :meth:`Sender.deliver` with what is to arrive. None delivers all.
+            :meth:`LocalSender.deliver` with what is to arrive. None delivers all.
     """
 
     def __init__(self) -> None:
         self.lock = threading.RLock()
         self.nodes: list[NodeInfo] = []
         self.listeners: list[Callable[[], None]] = []
-        self.tamper: Callable[[Sender, Message], None] | None = None
+        self.tamper: Callable[[LocalSender, Message], None] | None = None
         self._types = EndpointTypes()
         self._topics: dict[tuple[str, str], _Topic] = {}
 

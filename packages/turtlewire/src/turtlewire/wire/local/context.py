@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from turtlewire.errors import WireError
+from turtlewire.platforms import in_browser
 from turtlewire.wire.base import Context, EndpointInfo, NodeInfo
 from turtlewire.wire.graph import GraphView
-from turtlewire.wire.queue_wait_set import QueueWaitSet
-from turtlewire.wire.reader_thread import Reader, ReaderThread
+from turtlewire.wire.queue_wait_set import QueueWaitSet, call_when_queued
+from turtlewire.wire.reader_thread import LoopReader, Reader, ReaderThread
 
 from .bus import Bus, bus_of
 from .endpoint import EVENTS, new_gid
@@ -18,7 +19,7 @@ from .node_state import LocalNodeState
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from turtlewire.wire.base import WaitSet
+    from turtlewire.wire.base import Waitable, WaitSet
 
 __all__ = ["LocalContext"]
 
@@ -49,7 +50,7 @@ class LocalContext(Context):
         self.domain_id = domain_id
         self.gid = new_gid()
         self._nodes: list[LocalNode] = []
-        self._reader: Reader = ReaderThread()
+        self._reader: Reader = LoopReader() if in_browser() else ReaderThread()
         self.bus = bus_of(domain_id)
         self._graph = _LocalGraph(self.bus)
         self._wait_sets: set[QueueWaitSet] = set()
@@ -95,6 +96,9 @@ class LocalContext(Context):
             wait_set = QueueWaitSet(self.bus.lock, self._wait_sets.discard)
             self._wait_sets.add(wait_set)
         return wait_set
+
+    def call_when_ready(self, entity: Waitable, call: Callable[[], None]) -> Callable[[], None]:
+        return call_when_queued(self.bus.lock, entity, call)
 
     def call_soon(self, call: Callable[[], None]) -> None:
         self._reader.submit(call)

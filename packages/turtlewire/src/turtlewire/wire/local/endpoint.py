@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from turtlewire.wire.base import Event, NodeInfo, TypeId
     from turtlewire.wire.qos import QoS
 
-__all__ = ["EVENTS", "EndpointSpec", "LocalEndpoint", "Message", "new_gid"]
+__all__ = ["EVENTS", "LocalEndpoint", "LocalEndpointSpec", "Message", "new_gid"]
 
 Message = tuple[bytes, MessageInfo]
 
@@ -37,7 +37,7 @@ def new_gid() -> bytes:
     return b"local\0\0\0" + os.getpid().to_bytes(4, "big") + next(_gids).to_bytes(4, "big")
 
 
-class EndpointSpec(NamedTuple):
+class LocalEndpointSpec(NamedTuple):
     """What an endpoint is created from.
 
     Attributes:
@@ -45,12 +45,14 @@ class EndpointSpec(NamedTuple):
         dds_topic: Name of the topic on the wire.
         type_id: Type of the messages.
         qos: Its policies.
+        service_hash: Hash of the service's type, if it is announced.
     """
 
     name: str
     dds_topic: str
     type_id: TypeId
     qos: QoS
+    service_hash: str = ""
 
 
 class LocalEndpoint(Entity):
@@ -60,7 +62,7 @@ class LocalEndpoint(Entity):
         matched: The endpoints of the other kind that it matches.
     """
 
-    def __init__(self, spec: EndpointSpec, node: NodeInfo, lock: threading.RLock) -> None:
+    def __init__(self, spec: LocalEndpointSpec, node: NodeInfo, lock: threading.RLock) -> None:
         self.topic = spec.name
         self.dds_topic = spec.dds_topic
         self.type_id = spec.type_id
@@ -70,6 +72,7 @@ class LocalEndpoint(Entity):
         self._matched_count = 0
         self._incompatible_count = 0
         self._node = node
+        self._service_hash = spec.service_hash
         self._lock = lock
         self._closed = False
         keep_all = spec.qos.history == History.KEEP_ALL
@@ -88,7 +91,9 @@ class LocalEndpoint(Entity):
     def info(self, kind: str) -> EndpointInfo:
         """Return the graph's entry of this endpoint; ``kind`` as in `EndpointInfo`."""
         topic = names.topic_from_dds(self.dds_topic) or self.dds_topic
-        return EndpointInfo(kind, topic, *self.type_id, self._node, self.gid, self.qos)
+        return EndpointInfo(
+            kind, topic, *self.type_id, self._node, self.gid, self.qos, self._service_hash
+        )
 
     def kept(self) -> list[Message]:
         """Return the messages that a late joiner receives."""

@@ -9,7 +9,7 @@ from turtlewire.wire.base import Client, MessageInfo, Node, Publisher, Service, 
 from turtlewire.wire.graph import with_best_available
 from turtlewire.wire.services import TopicClient, TopicService
 
-from .endpoint import EndpointSpec
+from .endpoint import LocalEndpointSpec
 from .publisher import LocalPublisher
 from .subscription import LocalSubscription
 
@@ -46,7 +46,7 @@ class LocalNode(Node):
     def create_publisher(self, topic: str, type_id: TypeId, qos: QoS) -> Publisher:
         qos = with_best_available(qos, topic, "publisher", self.context)
         dds_topic = names.topic_to_dds(topic, bare=qos.avoid_ros_namespace_conventions)
-        return LocalPublisher(self._core, EndpointSpec(topic, dds_topic, type_id, qos))
+        return LocalPublisher(self._core, LocalEndpointSpec(topic, dds_topic, type_id, qos))
 
     def create_subscription(
         self,
@@ -58,7 +58,7 @@ class LocalNode(Node):
     ) -> Subscription:
         qos = with_best_available(qos, topic, "subscription", self.context)
         dds_topic = names.topic_to_dds(topic, bare=qos.avoid_ros_namespace_conventions)
-        spec = EndpointSpec(topic, dds_topic, type_id, qos)
+        spec = LocalEndpointSpec(topic, dds_topic, type_id, qos)
         return LocalSubscription(self._core, spec, on_message)
 
     def create_client(self, service: str, types: ServiceTypes, qos: QoS) -> Client:
@@ -81,9 +81,16 @@ class LocalNode(Node):
         self._on_closed(self)
 
 
-def _specs(service: str, types: ServiceTypes, qos: QoS) -> tuple[EndpointSpec, EndpointSpec]:
+def _specs(
+    service: str, types: ServiceTypes, qos: QoS
+) -> tuple[LocalEndpointSpec, LocalEndpointSpec]:
     """Return the specs of a service's requests and replies."""
-    return (
-        EndpointSpec(service, names.request_topic(service), types.request, qos),
-        EndpointSpec(service, names.reply_topic(service), types.response, qos),
+    topics = (
+        (names.request_topic(service), types.request),
+        (names.reply_topic(service), types.response),
     )
+    service_hash = types.announced_hash()
+    requests, replies = (
+        LocalEndpointSpec(service, topic, type_id, qos, service_hash) for topic, type_id in topics
+    )
+    return requests, replies

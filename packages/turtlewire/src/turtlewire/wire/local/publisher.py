@@ -15,7 +15,7 @@ from .endpoint import LocalEndpoint
 if TYPE_CHECKING:
     from turtlewire.wire.encapsulation import Cdr
 
-    from .endpoint import EndpointSpec, Message
+    from .endpoint import LocalEndpointSpec, Message
     from .node_state import LocalNodeState
 
 __all__ = ["LocalPublisher"]
@@ -24,9 +24,10 @@ __all__ = ["LocalPublisher"]
 class LocalPublisher(LocalEndpoint, Publisher):
     """Hands its messages to the queues of the matching subscriptions."""
 
-    def __init__(self, node: LocalNodeState, spec: EndpointSpec) -> None:
+    def __init__(self, node: LocalNodeState, spec: LocalEndpointSpec) -> None:
         super().__init__(spec, node.info, node.bus.lock)
         self._core = node
+        self._published = 0
         with self._lock:
             node.bus.add_publisher(self)
             node.endpoints.add(self)
@@ -36,10 +37,11 @@ class LocalPublisher(LocalEndpoint, Publisher):
         cdr = joined(cdr)
         require_message(cdr, self.topic)
         now = time.time_ns()
-        message = (cdr, MessageInfo(now, now, self.gid))
         with self._lock:
             if self._closed:
                 raise WireError(f"publish on {self.topic}: the publisher is closed")
+            self._published += 1
+            message = (cdr, MessageInfo(now, now, self.gid, self._published))
             if self._core.bus.tamper is None:
                 self.deliver(message)
             else:

@@ -14,9 +14,9 @@ from .endpoint import LocalEndpoint
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from turtlewire.wire.base import WaitSet
+    from turtlewire.wire.queue_wait_set import Watcher
 
-    from .endpoint import EndpointSpec, Message
+    from .endpoint import LocalEndpointSpec, Message
     from .node_state import LocalNodeState
 
 __all__ = ["LocalSubscription"]
@@ -26,19 +26,19 @@ class LocalSubscription(LocalEndpoint, Queued, Subscription):
     """Keeps messages until they are taken.
 
     Attributes:
-        watchers: The wait sets that it is attached to, and what to call when a message arrives.
+        watchers: What waits for it, and what to call when a message arrives.
     """
 
     def __init__(
         self,
         node: LocalNodeState,
-        spec: EndpointSpec,
+        spec: LocalEndpointSpec,
         on_message: Callable[[bytes, MessageInfo], None] | None = None,
     ) -> None:
         super().__init__(spec, node.info, node.bus.lock)
         self._core = node
         self._on_message = on_message
-        self.watchers: dict[WaitSet, Callable[[], None]] = {}
+        self.watchers: dict[Watcher, Callable[[], None]] = {}
         with self._lock:
             node.bus.add_subscription(self)
             node.endpoints.add(self)
@@ -54,8 +54,7 @@ class LocalSubscription(LocalEndpoint, Queued, Subscription):
         self._queue.append(message)
         if self._on_message is not None:
             self._core.reader.submit(self._deliver)
-        for notify in self.watchers.values():
-            notify()
+        self.tell_watchers()
 
     def _deliver(self) -> None:
         """Hand over all waiting messages; on the reader thread."""
@@ -79,5 +78,5 @@ class LocalSubscription(LocalEndpoint, Queued, Subscription):
         self._core.endpoints.discard(self)
         self._core.bus.remove_subscription(self)
         self._core.bus.changed()
-        for wait_set in list(self.watchers):
-            wait_set.detach(self)
+        for watcher in list(self.watchers):
+            watcher.detach(self)

@@ -4,10 +4,10 @@ Messages travel as CDR with 33 bytes beside them; the graph is made of livelines
 says everything about a node or an endpoint. Nothing here is asked for by an endpoint but its key,
 so all endpoints of one topic and type match, whatever their QoS.
 
-Zenoh calls Python on threads of its own. Each subscription has one, made by the library, which
-waits without the GIL and only queues; one with a native sink (TF) has a channel and a thread of
-ours, which empties the channel into the sink in batches. Tokens, requests and responses are rare
-and are queued on Zenoh's receiving threads. The context's reader thread calls the callbacks.
+Each subscription and publisher and the graph have a thread, made by the library, which waits
+without the GIL and only queues; a subscription with a native sink (TF) has a channel and a thread
+of ours, which empties the channel into the sink in batches. Requests and responses are rare and are
+queued on Zenoh's receiving threads. The context's reader thread calls the callbacks.
 
 ===========================  ==================================================================
 module                       what it holds
@@ -19,6 +19,7 @@ module                       what it holds
 `library`                    the import of ``eclipse-zenoh``
 `context`                    a participant
 `calls`                      who is in Zenoh's library
+`callback_threads`           the threads of callbacks
 `context_state`              what a context shares with its nodes and endpoints
 `graph`                      nodes and endpoints, from the tokens
 `node`                       nodes

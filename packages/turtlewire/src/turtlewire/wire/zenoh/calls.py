@@ -13,8 +13,8 @@ class Calls:
     """Lets threads into the library until it is closed; a context manager. Thread-safe.
 
     At its end, Python ends a daemon thread that comes back from a library by unwinding its stack.
-    Rust aborts the process then. So no thread may be in the library at that time. Freeing an object
-    of the library is such a call, too.
+    Rust aborts the process then. So no thread may be in the library at that time, not even to
+    free one of its objects.
     """
 
     def __init__(self) -> None:

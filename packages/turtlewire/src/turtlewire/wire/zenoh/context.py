@@ -5,7 +5,7 @@ from __future__ import annotations
 import atexit
 import ctypes
 import os
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 from weakref import WeakSet
 
 import zenoh
@@ -13,7 +13,7 @@ import zenoh
 from turtlewire.errors import WireError
 from turtlewire.wire.base import Context, EventKind, NodeInfo
 from turtlewire.wire.loopback import ANY_PORT, bind_to_loopback, open_sockets
-from turtlewire.wire.queue_wait_set import QueueWaitSet
+from turtlewire.wire.queue_wait_set import QueueWaitSet, call_when_queued
 from turtlewire.wire.reader_thread import ReaderThread
 
 from .configuration import session_configuration, stays_on_loopback
@@ -26,10 +26,14 @@ from .router_check import wait_for_router
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from turtlewire.wire.base import WaitSet
+    from turtlewire.wire.base import Waitable, WaitSet
 
 __all__ = ["ZenohContext"]
 
+_FORK_FIRST = (
+    "Start processes with subprocess or multiprocessing's 'spawn', or fork before the first "
+    "context."
+)
 _contexts: WeakSet[ZenohContext] = WeakSet()
 
 
@@ -50,8 +54,11 @@ class ZenohContext(Context):
     """A Zenoh session."""
 
     events = frozenset({EventKind.MATCHED, EventKind.MESSAGE_LOST})
+    _opener: ClassVar[int | None] = None
+    """The process that opened the first session, and with it started the threads of Zenoh."""
 
     def __init__(self, domain_id: int) -> None:
+        self._require_threads()
         self.domain_id = domain_id
         session = _open()
         reader = ReaderThread()
@@ -61,7 +68,7 @@ class ZenohContext(Context):
         self._process = os.getpid()
         self._nodes: dict[ZenohNode, None] = {}
         self._wait_sets: set[QueueWaitSet] = set()
-        self._graph.start(session)
+        self._graph.start(session, self._core.threads)
         _contexts.add(self)
         atexit.register(self.close)
 
@@ -87,17 +94,31 @@ class ZenohContext(Context):
         self._wait_sets.add(wait_set)
         return wait_set
 
+    def call_when_ready(self, entity: Waitable, call: Callable[[], None]) -> Callable[[], None]:
+        return call_when_queued(self._core.lock, entity, call)
+
     def call_soon(self, call: Callable[[], None]) -> None:
         self._core.reader.submit(call)
+
+    @classmethod
+    def _require_threads(cls) -> None:
+        """Raise a WireError in a forked child that has inherited Zenoh without its threads.
+
+        They outlive the sessions, so a session that was closed before the fork counts, too: the
+        child would wait for them forever.
+        """
+        if cls._opener is None:
+            cls._opener = os.getpid()
+        elif cls._opener != os.getpid():
+            raise WireError(
+                "open a context: this process was forked from one that had opened a context"
+            ).with_hint(_FORK_FIRST)
 
     def _require_open(self, what: str) -> None:
         self._core.require_open(what)
         if self._process != os.getpid():
             error = WireError(f"{what}: the context was opened before this process was forked")
-            raise error.with_hint(
-                "Start processes with subprocess or multiprocessing's 'spawn', or fork before the "
-                "first context."
-            )
+            raise error.with_hint(_FORK_FIRST)
 
     def close(self) -> None:
         with self._core.lock:
@@ -115,7 +136,7 @@ class ZenohContext(Context):
             wait_set.close()
         self._graph.end_waits()
         self._core.calls.join()
-        self._core.join_threads()
+        self._core.threads.join()
 
 
 def _open() -> zenoh.Session:

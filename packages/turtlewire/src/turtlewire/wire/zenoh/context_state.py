@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import threading
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Protocol
 
@@ -11,10 +10,12 @@ import zenoh
 
 from turtlewire.errors import WireError
 
+from .callback_threads import CallbackThreads
 from .calls import Calls
 from .library import reason_of
 
 if TYPE_CHECKING:
+    import threading
     from collections.abc import Iterator
 
     from turtlewire.wire.base import Entity
@@ -54,6 +55,7 @@ class ZenohContextState:
         reader: Calls callbacks.
         graph: Nodes and endpoints.
         calls: Who is in Zenoh's library.
+        threads: Those on which Zenoh's callbacks run.
         closing: Whether the context is being closed, or is closed.
     """
 
@@ -67,11 +69,9 @@ class ZenohContextState:
         self.reader = reader
         self.graph = graph
         self.calls = Calls()
+        self.threads = CallbackThreads()
         self.closing = False
         self._numbers = itertools.count()
-        self._threads_ended = threading.Condition(self.lock)
-        self._serving = 0
-        self._ended: list[threading.Thread] = []
 
     def next_number(self) -> str:
         """Return a number for a new node or endpoint."""
@@ -98,24 +98,3 @@ class ZenohContextState:
             yield
         except zenoh.ZError as error:
             raise WireError(f"{what}: {reason_of(error)}") from error
-
-    def thread_starts(self) -> None:
-        """A subscription is about to get a thread."""
-        with self.lock:
-            self._serving += 1
-
-    def thread_ends(self) -> None:
-        """The thread that calls this has nothing more to do."""
-        with self._threads_ended:
-            self._serving -= 1
-            self._ended = [thread for thread in self._ended if thread.is_alive()]
-            self._ended.append(threading.current_thread())
-            self._threads_ended.notify_all()
-
-    def join_threads(self) -> None:
-        """Wait until the threads of all subscriptions have ended; after closing the session."""
-        with self._threads_ended:
-            self._threads_ended.wait_for(lambda: not self._serving)
-            ended = self._ended
-        for thread in ended:
-            thread.join()

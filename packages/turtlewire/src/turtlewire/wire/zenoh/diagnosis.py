@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     import zenoh
 
-__all__ = ["Fault", "fault_of", "warn_of_faults"]
+__all__ = ["ConnectFault", "fault_of", "warn_of_faults"]
 
 _LIMIT_S = 10.0
 _TLS = "transport/link/tls"
@@ -68,7 +68,7 @@ _VERIFIED = {
 }
 
 
-class Fault(NamedTuple):
+class ConnectFault(NamedTuple):
     """What keeps a session from an address.
 
     Attributes:
@@ -87,19 +87,19 @@ class _Address(NamedTuple):
     port: int
 
 
-def fault_of(configuration: zenoh.Config, reason: str) -> Fault:
+def fault_of(configuration: zenoh.Config, reason: str) -> ConnectFault:
     """Why a session cannot be opened, for which Zenoh gives a ``reason``."""
     if not re.match("Unable to connect|Timeout", reason, re.IGNORECASE):
-        return Fault(reason, _ORIGIN)
+        return ConnectFault(reason, _ORIGIN)
     addresses = list(_flat(_value(configuration, "connect/endpoints")))
     if not addresses:
-        return Fault("connect/endpoints names no router, and none was found", _FORM)
+        return ConnectFault("connect/endpoints names no router, and none was found", _FORM)
     for text in addresses:
         address = _parsed(text)
         if address is not None:
             fault = _link_fault(address, configuration) or _session_fault(address, configuration)
             return fault._replace(text=f"{text}: {fault.text}")
-    return Fault(f"connect/endpoints: {addresses[0]} is not a reachable address", _FORM)
+    return ConnectFault(f"connect/endpoints: {addresses[0]} is not a reachable address", _FORM)
 
 
 def warn_of_faults(configuration: zenoh.Config) -> None:
@@ -141,25 +141,27 @@ def _value(configuration: zenoh.Config, key: str) -> Any:
     return json.loads(configuration.get_json(key))
 
 
-def _link_fault(address: _Address, configuration: zenoh.Config) -> Fault | None:
+def _link_fault(address: _Address, configuration: zenoh.Config) -> ConnectFault | None:
     """Return the problem below Zenoh: files, network or TLS."""
     tls = _value(configuration, _TLS) or {}
     encrypted = address.protocol in ("tls", "quic")
     context = _context(tls) if encrypted else None
-    if isinstance(context, Fault) or address.protocol == "quic":  # which Python does not speak
-        return context if isinstance(context, Fault) else None
+    if (
+        isinstance(context, ConnectFault) or address.protocol == "quic"
+    ):  # which Python does not speak
+        return context if isinstance(context, ConnectFault) else None
     try:
         with socket.create_connection((address.host, address.port), _LIMIT_S) as plain:
             return None if context is None else _handshake_fault(plain, address, context, tls)
     except OSError as error:
-        return Fault(
+        return ConnectFault(
             f"no connection ({error.strerror or error})",
             "Is the router running there (`ros2 run rmw_zenoh_cpp rmw_zenohd`), does it listen at "
             "that address, and does the firewall let TCP through?",
         )
 
 
-def _context(tls: dict[str, Any]) -> ssl.SSLContext | Fault:
+def _context(tls: dict[str, Any]) -> ssl.SSLContext | ConnectFault:
     """Return Python's TLS context, or the problem of a file."""
     import ssl
 
@@ -172,11 +174,13 @@ def _context(tls: dict[str, Any]) -> ssl.SSLContext | Fault:
             with open(path, "rb"):
                 pass
         except OSError as error:
-            return Fault(f"{path} cannot be read: {error.strerror}", f"{_TLS}/{key} names it.")
+            return ConnectFault(
+                f"{path} cannot be read: {error.strerror}", f"{_TLS}/{key} names it."
+            )
     try:
         context = ssl.create_default_context(cafile=tls.get("root_ca_certificate"))
     except ssl.SSLError:
-        return Fault(
+        return ConnectFault(
             f"{tls['root_ca_certificate']} holds no certificate",
             f"{_TLS}/root_ca_certificate names it; it must be PEM.",
         )
@@ -188,7 +192,7 @@ def _context(tls: dict[str, Any]) -> ssl.SSLContext | Fault:
         try:
             context.load_cert_chain(certificate, private_key)
         except ssl.SSLError:
-            return Fault(
+            return ConnectFault(
                 f"{certificate} and {private_key} are not a matching certificate and key",
                 f"{_TLS}/connect_certificate and connect_private_key name them.",
             )
@@ -197,7 +201,7 @@ def _context(tls: dict[str, Any]) -> ssl.SSLContext | Fault:
 
 def _handshake_fault(
     plain: socket.socket, address: _Address, context: ssl.SSLContext, tls: dict[str, Any]
-) -> Fault | None:
+) -> ConnectFault | None:
     import ssl
 
     names = {
@@ -217,7 +221,7 @@ def _handshake_fault(
         alert = next((name for name in _ALERTS if name in (error.reason or "")), None)
         if alert:
             return _named(_ALERTS[alert], names)
-        return Fault(
+        return ConnectFault(
             f"the other side ends the TLS handshake ({error.reason or error})",
             "Does it listen with tls/? Its terminal says more with RUST_LOG=zenoh=warn.",
         )
@@ -226,22 +230,22 @@ def _handshake_fault(
     return None
 
 
-def _named(sentence: tuple[str, str], names: dict[str, str]) -> Fault:
+def _named(sentence: tuple[str, str], names: dict[str, str]) -> ConnectFault:
     text, remedy = sentence
-    return Fault(text.format(**names), remedy)
+    return ConnectFault(text.format(**names), remedy)
 
 
-def _session_fault(address: _Address, configuration: zenoh.Config) -> Fault:
+def _session_fault(address: _Address, configuration: zenoh.Config) -> ConnectFault:
     """Return the problem of a session whose link works."""
     user = _value(configuration, "transport/auth/usrpwd/user")
     if user:
-        return Fault(
+        return ConnectFault(
             f"no session is given to user {user!r} with this password",
             "A line user:password must be in the file that transport/auth/usrpwd/dictionary_file "
             "of the router names.",
         )
     kind = "" if address.protocol == "tls" else ", or requires TLS (tls/HOST:PORT)"
-    return Fault(
+    return ConnectFault(
         "the peer at that address opened no session",
         "It is not a Zenoh router, or it requires a user and password "
         f"(transport/auth/usrpwd){kind}.",

@@ -6,7 +6,6 @@ import threading
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from zenoh import SampleKind
-from zenoh.handlers import Callback
 
 from turtlewire.wire import names
 from turtlewire.wire.base import EndpointInfo, NodeInfo
@@ -24,6 +23,8 @@ if TYPE_CHECKING:
     import zenoh
 
     from turtlewire.wire.reader_thread import ReaderThread
+
+    from .callback_threads import CallbackThreads
 
 __all__ = ["Matching", "ZenohGraph"]
 
@@ -69,13 +70,13 @@ class ZenohGraph(GraphView):
         self._node_names = NodeNames(domain_id)
         self._is_complete = False
 
-    def start(self, session: zenoh.Session) -> None:
+    def start(self, session: zenoh.Session, threads: CallbackThreads) -> None:
         """Collect the tokens that are there, and from now on."""
         self._session_id = str(session.zid())
-        self._subscriber = session.liveliness().declare_subscriber(
-            graph_key(self._domain_id),
-            Callback(self._on_token, indirect=False),
-            history=True,
+        liveliness, key = session.liveliness(), graph_key(self._domain_id)
+        self._subscriber = threads.declare(
+            self._on_token,
+            lambda handler: liveliness.declare_subscriber(key, handler, history=True),
         )
         self._reader.submit_after(_DISCOVERY_NS, self._completed)
 
@@ -88,7 +89,7 @@ class ZenohGraph(GraphView):
         return self._is_complete
 
     def _on_token(self, sample: zenoh.Sample) -> None:
-        """On a thread of Zenoh."""
+        """Add or remove a token, on the thread of tokens."""
         text = str(sample.key_expr)
         token = Token.parse(text)
         if token is None:
@@ -248,4 +249,5 @@ def _endpoint_infos(token: Token) -> list[EndpointInfo]:
         (request, request_topic, f"{type_name}_Request"),
         (reply, reply_topic, f"{type_name}_Response"),
     )
-    return [EndpointInfo(*topic, type_hash, node, gid, qos) for topic in topics]
+    # a token has the hash of the service, not of its messages
+    return [EndpointInfo(*topic, type_hash, node, gid, qos, type_hash) for topic in topics]

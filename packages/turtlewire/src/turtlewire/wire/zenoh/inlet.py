@@ -61,6 +61,7 @@ class ZenohSinkSubscription(ZenohSubscription):
         super().__init__(core, node, topic, type_id, qos, on_message)
 
     def _subscribe(self) -> Declared:
+        self._core.threads.count_start()
         subscriber = self._declare(FifoChannel(_CAPACITY))
         channel: Any = subscriber.handler  # type: ignore[attr-defined]
         threading.Thread(
@@ -79,7 +80,7 @@ class ZenohSinkSubscription(ZenohSubscription):
         except zenoh.ZError:  # the channel is closed
             return
         finally:
-            self._core.thread_ends()
+            self._core.threads.count_end()
 
     def _hand_over(self, batch: list[zenoh.Sample]) -> None:
         with self._receiving:  # so that nothing comes after close()

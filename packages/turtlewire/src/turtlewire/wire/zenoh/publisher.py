@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import zenoh
 from zenoh import ext
-from zenoh.handlers import Callback
 
 from turtlewire.errors import WireError
 from turtlewire.wire.base import Publisher
@@ -53,7 +52,7 @@ class ZenohPublisher(ZenohEndpoint, Publisher):
             # Publishes nothing. Bridges and storages are subscribers without a token, and only a
             # plain publisher can say that one is there.
             plain = core.session.declare_publisher(self.token.data_key)
-            listener = plain.declare_matching_listener(Callback(self._on_matching, indirect=False))
+            listener = core.threads.declare(self._on_matching, plain.declare_matching_listener)
             status: Any = plain.matching_status  # zenoh's stub calls it a bool
             if status.matching:
                 self._has_subscriber = True
@@ -61,7 +60,7 @@ class ZenohPublisher(ZenohEndpoint, Publisher):
         self.announce(self._publisher)
 
     def _on_matching(self, status: zenoh.MatchingStatus) -> None:
-        """Note on a thread of Zenoh that any subscriber is there, or that the last has gone."""
+        """Note, on its own thread, that the first subscriber has come or the last has gone."""
         self._has_subscriber = status.matching
         self._core.reader.submit(self._core.graph.notify_changed)
 

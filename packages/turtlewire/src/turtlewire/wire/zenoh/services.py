@@ -26,8 +26,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import Any
 
-    from turtlewire.wire.base import TypeId, WaitSet
+    from turtlewire.wire.base import TypeId
     from turtlewire.wire.qos import QoS
+    from turtlewire.wire.queue_wait_set import Watcher
 
     from .context_state import Owner, ZenohContextState
 
@@ -47,15 +48,14 @@ class _QueuedEndpoint(ZenohEndpoint, Queued):
     ) -> None:
         super().__init__(core, node, service, type_id, qos)
         self.service = service
-        self.watchers: dict[WaitSet, Callable[[], None]] = {}
+        self.watchers: dict[Watcher, Callable[[], None]] = {}
         self._limit = None if qos.history == History.KEEP_ALL else self.qos.depth
         self._queue: deque[Any] = deque()
 
     def _append(self, item: Any) -> Any | None:
         """Queue something; returns the oldest if there are too many. With the lock held."""
         self._queue.append(item)
-        for notify in self.watchers.values():
-            notify()
+        self.tell_watchers()
         return (
             self._queue.popleft() if len(self._queue) > (self._limit or len(self._queue)) else None
         )
@@ -72,8 +72,8 @@ class _QueuedEndpoint(ZenohEndpoint, Queued):
 
     def close(self) -> None:
         super().close()
-        for wait_set in list(self.watchers):
-            wait_set.detach(self)  # type: ignore[arg-type]  # both subclasses are waitable
+        for watcher in list(self.watchers):
+            watcher.detach(self)  # type: ignore[arg-type]  # both subclasses are waitable
         with self._lock:
             self._queue.clear()
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import threading
 import time
 from collections import deque
 from typing import TYPE_CHECKING
 
 from zenoh import ext
-from zenoh.handlers import Callback as Handler
 
 from turtlewire.wire.base import EventKind, EventStatus, MessageInfo, Subscription
 from turtlewire.wire.encapsulation import HEADER_SIZE
@@ -26,8 +24,9 @@ if TYPE_CHECKING:
 
     import zenoh
 
-    from turtlewire.wire.base import TypeId, WaitSet
+    from turtlewire.wire.base import TypeId
     from turtlewire.wire.qos import QoS
+    from turtlewire.wire.queue_wait_set import Watcher
 
     from .context_state import Owner, ZenohContextState
     from .endpoint import Declared
@@ -62,7 +61,7 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
         on_message: OnMessage | None = None,
     ) -> None:
         super().__init__(core, node, topic, type_id, qos)
-        self.watchers: dict[WaitSet, Callable[[], None]] = {}
+        self.watchers: dict[Watcher, Callable[[], None]] = {}
         keep_all = self.qos.history == History.KEEP_ALL
         self._queue: deque[tuple[bytes, MessageInfo]] = deque(
             maxlen=None if keep_all else self.qos.depth
@@ -72,14 +71,12 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
         self._last_numbers: dict[bytes, int] = {}
         self._lost_count = 0
         with core.calls:
-            core.thread_starts()
             subscriber = self._subscribe()
         self.announce(subscriber)
 
     def _subscribe(self) -> Declared:
         """Begin to receive, on a new thread."""
-        handler = Handler(self._on_sample, self._core.thread_ends, indirect=True)
-        return _on_a_daemon_thread(lambda: self._declare(handler))
+        return self._core.threads.declare(self._on_sample, self._declare)
 
     def _declare(self, handler: Any) -> Declared:
         if self.qos.durability != Durability.TRANSIENT_LOCAL:
@@ -106,7 +103,12 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
         except ValueError:
             self._warn_of_loss(sample)
             return
-        info = MessageInfo(attachment.source_timestamp_ns, time.time_ns(), attachment.gid)
+        info = MessageInfo(
+            attachment.source_timestamp_ns,
+            time.time_ns(),
+            attachment.gid,
+            attachment.sequence_number,
+        )
         with self._lock:
             if not self._closed:
                 self._count_lost(attachment)
@@ -137,8 +139,7 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
         if self._on_message is not None and not self._is_delivering:
             self._is_delivering = True
             self._core.reader.submit(self._deliver)
-        for notify in self.watchers.values():
-            notify()
+        self.tell_watchers()
 
     def _deliver(self) -> None:
         """Hand over all waiting messages; on the reader thread."""
@@ -168,8 +169,8 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
 
     def close(self) -> None:
         super().close()
-        for wait_set in list(self.watchers):
-            wait_set.detach(self)
+        for watcher in list(self.watchers):
+            watcher.detach(self)
         with self._lock:
             self._queue.clear()
 
@@ -189,27 +190,3 @@ def _read(sample: zenoh.Sample) -> tuple[Attachment, bytes]:
     if len(cdr) <= HEADER_SIZE:
         raise ValueError(f"{len(cdr)} bytes are not a message")
     return attachment, cdr
-
-
-def _on_a_daemon_thread(call: Callable[[], Declared]) -> Declared:
-    """Run ``call`` on a daemon thread.
-
-    The library's thread for a subscriber becomes a daemon if the thread that declares it is one. A
-    program that forgets to close would never end otherwise: Python waits for all other threads
-    before it runs what was registered for the exit.
-    """
-    results: list[Declared] = []
-    errors: list[BaseException] = []
-
-    def run() -> None:
-        try:
-            results.append(call())
-        except BaseException as error:  # noqa: BLE001 - raised again by the caller's thread
-            errors.append(error)
-
-    thread = threading.Thread(target=run, name="turtlewire-declare", daemon=True)
-    thread.start()
-    thread.join()
-    if errors:
-        raise errors[0]
-    return results[0]

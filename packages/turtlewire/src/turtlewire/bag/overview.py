@@ -1,0 +1,154 @@
+"""What a bag holds, topic by topic: counts, times, sizes, definitions."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from turtlewire.bag.latched import is_latched
+from turtlewire.bag.reader import open_bag
+from turtlewire.errors import BagError
+
+if TYPE_CHECKING:
+    from turtlewire.bag.metadata import TopicInfo
+    from turtlewire.bag.reader import Bag
+
+__all__ = ["BagOverview", "TopicOverview", "describe_bag"]
+
+
+@dataclass
+class TopicOverview:
+    """The messages of one topic.
+
+    Attributes:
+        name: The topic.
+        type: Its type; may be empty.
+        encoding: ``cdr``, or another encoding of its messages.
+        count: Number of messages.
+        data_bytes: Bytes of the messages before compression.
+        rate_hz: Messages a second between its first and last; 0.0 for fewer than two times.
+        latched: Whether late subscribers get its last messages.
+        has_definition: Whether the bag has the definition of its type.
+    """
+
+    name: str
+    type: str
+    encoding: str
+    count: int = 0
+    data_bytes: int = 0
+    rate_hz: float = 0.0
+    latched: bool = False
+    has_definition: bool = False
+
+
+@dataclass
+class BagOverview:
+    """What a bag holds.
+
+    Attributes:
+        path: The folder or file.
+        storage: ``mcap``, ``sqlite3`` or ``ros1``.
+        compression: ``zstd`` or ``lz4``; empty for none.
+        ros_distro: The distribution that recorded it; empty if the bag does not name it.
+        files: Names of its files.
+        file_bytes: Size of its files.
+        start_ns: Log time of the first message.
+        duration_ns: From the first to the last message.
+        count: Number of messages.
+        topics: The topics, those with the most bytes first.
+        problems: What is damaged or missing, one sentence each.
+    """
+
+    path: str
+    storage: str
+    compression: str
+    ros_distro: str
+    files: list[str]
+    file_bytes: int
+    start_ns: int
+    duration_ns: int
+    count: int
+    topics: list[TopicOverview] = field(default_factory=list)
+    problems: list[str] = field(default_factory=list)
+
+
+def describe_bag(path: str | os.PathLike[str]) -> BagOverview:
+    """Return what a bag holds.
+
+    The message indexes of MCAP files and the rows of sqlite3 files tell the sizes. Other files are
+    read to their end.
+
+    Args:
+        path: The bag; see `open_bag`.
+
+    Raises:
+        FileNotFoundError: ``path`` does not exist.
+        BagError: ``path`` is not a bag.
+    """
+    with open_bag(path) as bag:
+        definitions = bag.definitions() if bag.metadata.paths else {}
+        topics = {topic.name: _described(topic, definitions) for topic in bag.metadata.topics}
+        damage: list[str] = []
+        _measure(bag, topics, damage)
+        metadata = bag.metadata
+        folder = bag.path if os.path.isdir(bag.path) else os.path.dirname(bag.path)
+        sizes = [_size(os.path.join(folder, name)) for name in metadata.paths]
+        return BagOverview(
+            bag.path,
+            metadata.storage,
+            metadata.compression_format or _chunk_compression(bag),
+            metadata.ros_distro,
+            metadata.paths,
+            sum(sizes),
+            metadata.start_ns,
+            metadata.duration_ns,
+            metadata.message_count,
+            sorted(topics.values(), key=lambda topic: (-topic.data_bytes, topic.name)),
+            list(dict.fromkeys([*bag.problems, *damage])),
+        )
+
+
+def _described(topic: TopicInfo, definitions: dict[str, tuple[str, str]]) -> TopicOverview:
+    encoding, text = definitions.get(topic.type, ("", ""))
+    return TopicOverview(
+        topic.name,
+        topic.type,
+        topic.serialization_format or "cdr",
+        latched=is_latched(topic),
+        # ROS 1 defines a type without fields by no characters.
+        has_definition=bool(text) or encoding == "ros1msg",
+    )
+
+
+def _measure(bag: Bag, topics: dict[str, TopicOverview], damage: list[str]) -> None:
+    """Fill in counts, sizes and rates."""
+    times: dict[str, tuple[int, int]] = {}
+    try:
+        for file in bag.files():
+            for name, (count, size, first, last) in file.extents().items():
+                topic = topics.get(name)
+                if topic is None or not count:
+                    continue
+                topic.count += count
+                topic.data_bytes += size
+                known = times.get(name, (first, last))
+                times[name] = min(known[0], first), max(known[1], last)
+    except (BagError, OSError) as error:
+        damage.append(str(error))
+    for name, (first, last) in times.items():
+        if last > first:
+            topics[name].rate_hz = (topics[name].count - 1) / ((last - first) * 1e-9)
+
+
+def _chunk_compression(bag: Bag) -> str:
+    for file in bag.readable_files(bag.metadata.paths[:1], []):
+        return str(getattr(getattr(file, "file", None), "compression", ""))
+    return ""
+
+
+def _size(path: str) -> int:
+    try:
+        return os.path.getsize(path)
+    except OSError:  # a missing file is among the problems
+        return 0

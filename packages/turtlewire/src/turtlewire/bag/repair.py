@@ -1,0 +1,108 @@
+"""Makes a damaged file of a bag whole: what can be read of it, in a new file.
+
+Other programs do not read an MCAP file without its end, nor a database that was cut.
+"""
+
+from __future__ import annotations
+
+import os
+from contextlib import suppress
+from typing import TYPE_CHECKING
+
+from turtlewire.bag.extra_records import extra_records
+from turtlewire.bag.mcap_storage import McapStorage
+from turtlewire.bag.mcap_writer import McapWriter
+from turtlewire.bag.metadata import NEWEST_VERSION
+from turtlewire.bag.qos_yaml import profiles_to_text
+from turtlewire.bag.sqlite_storage import SqliteStorage
+from turtlewire.bag.sqlite_writer import SqliteWriter
+from turtlewire.errors import BagError
+
+if TYPE_CHECKING:
+    from turtlewire.bag.mcap_reader import McapFile
+    from turtlewire.bag.sqlite_reader import SqliteFile
+    from turtlewire.bag.storage import StorageFile
+
+__all__ = ["DAMAGED", "repaired_copy"]
+
+#: What is appended to the name of a file that was replaced.
+DAMAGED = ".damaged"
+
+_FOREVER = (1 << 64) - 1
+
+
+def repaired_copy(file: StorageFile) -> str:
+    """Write what can be read of a damaged file into a copy beside it.
+
+    Returns:
+        The path of the copy; empty if the file is whole.
+
+    Raises:
+        OSError: The disk is full, for example; no copy is left.
+    """
+    copy = f"{file.path}.part"
+    with suppress(FileNotFoundError):
+        os.remove(copy)
+    try:
+        if isinstance(file, McapStorage) and not file.file.closed_properly:
+            _copy_mcap(file.file, copy)
+        elif isinstance(file, SqliteStorage) and not file.file.is_whole:
+            _copy_sqlite(file.file, copy)
+        else:
+            return ""
+    except BaseException:
+        with suppress(FileNotFoundError):
+            os.remove(copy)
+        raise
+    return copy
+
+
+def _copy_mcap(file: McapFile, path: str) -> None:
+    writer = McapWriter(path, compression="zstd")  # so that it fits beside the damaged one
+    try:
+        schemas = {0: 0}
+        for number, schema in file.schemas.items():
+            schemas[number] = writer.add_schema(schema.name, schema.encoding, schema.data)
+        channels = {
+            number: writer.add_channel(
+                schemas.get(channel.schema_id, 0),
+                channel.topic,
+                channel.metadata,
+                channel.message_encoding,
+            )
+            for number, channel in file.channels.items()
+        }
+        if entries := file.metadata.get("rosbag2"):
+            writer.write_metadata("rosbag2", entries)
+        for extra in extra_records(file, lambda _: None):  # the others cannot be copied
+            writer.copy_extra(extra.record)
+        for chunk in file.chunks:
+            with suppress(BagError):  # the messages before the damage are read
+                for log_time, number, publish_time, data in file.messages(chunk, channels):
+                    writer.write(channels[number], log_time, publish_time, data)
+    finally:
+        writer.close()
+
+
+def _copy_sqlite(file: SqliteFile, path: str) -> None:
+    embedded = file.embedded_metadata()
+    writer = SqliteWriter(path, embedded.ros_distro if embedded else "")
+    try:
+        hashes = {topic.type: topic.type_hash for topic in file.topics.values()}
+        for name, (encoding, text) in file.definitions().items():
+            writer.add_definition(name, encoding, text, hashes.get(name, ""))
+        topics = {
+            number: writer.add_topic(
+                topic.name,
+                topic.type,
+                profiles_to_text(topic.qos, NEWEST_VERSION),
+                topic.type_hash,
+            )
+            for number, topic in file.topics.items()
+        }
+        with suppress(BagError):  # rows that cannot be read after all are left out
+            for block in file.blocks(topics, 0, _FOREVER):
+                for log_time, number, publish_time, data in block:
+                    writer.write(topics[number], log_time, publish_time, data)
+    finally:
+        writer.close()

@@ -1,0 +1,164 @@
+"""Convert messages of ROS 1 to CDR."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+from turtlewire.bag.definitions import ENCODING, definition_text, parse_definition
+from turtlewire.bag.frame_fields import frame_fields, rename_frames
+from turtlewire.bag.message import UndecodableType, message_class
+from turtlewire.bag.metadata import full_type_name
+from turtlewire.bag.ros1_definitions import ros2_definition
+from turtlewire.bag.ros1_steps import conversion_steps
+from turtlewire.bag.written_types import written_type
+from turtlewire.errors import BagError, CdrError, InterfaceError
+from turtlewire.msg.cdr import serialize
+from turtlewire.msg.registry import load_message
+from turtlewire.platforms import asked_core
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator, Mapping
+
+    from turtlewire.bag.channels import BagChannel
+    from turtlewire.bag.message import BagMessage
+    from turtlewire.bag.record_messages import RawMessage
+    from turtlewire.msg.evolution import Evolution
+    from turtlewire.msg.message import Message
+
+__all__ = ["Ros1Messages", "converted_blocks"]
+
+#: The type of /tf in old bags, which has the same fields.
+_RENAMED = dict.fromkeys(("tf/tfMessage", "tf/msg/tfMessage"), "tf2_msgs/msg/TFMessage")
+
+#: A text that begins with a slash, if it is shorter than 256 bytes: the end of its length, and '/'.
+_SLASH = b"\0\0\0/"
+
+
+class Ros1Messages:
+    """The messages of one type in a bag of ROS 1.
+
+    Args:
+        name: ``"sensor_msgs/msg/Range"`` or, as ROS 1 has it, ``"sensor_msgs/Range"``.
+        text: The definition with its dependencies, as ROS 1 wrote it.
+
+    Attributes:
+        name: The name of the type.
+        problem: Why the messages cannot be converted; empty if they can.
+        encoding: ``cdr``, or ``ros1`` if they cannot be converted.
+    """
+
+    def __init__(self, name: str, text: str) -> None:
+        self.name = _RENAMED.get(name, full_type_name(name))
+        self.problem = ""
+        self._text = text
+        self._evolution: Evolution | None = None
+        self._convert: Callable[[bytes], bytes | None] = _no_steps
+        try:
+            written = written_type(self.name, "ros1msg", text, is_ros1=True)
+            self._evolution = written.evolution
+            self._convert = _conversion(self.name, text)
+        except (InterfaceError, ValueError) as error:
+            self.problem = str(error)
+        self.encoding = "ros1" if self.problem else "cdr"
+
+    def cdr(self, data: bytes) -> bytes:
+        """Return a message as CDR by our definition, without the slashes before frame names.
+
+        tf2 refuses such names since ROS 2.
+
+        Raises:
+            CdrError: The bytes do not follow the definition.
+        """
+        converted = self._convert(data)
+        return self._cdr_of_message(data) if converted is None else converted
+
+    def _cdr_of_message(self, data: bytes) -> bytes:
+        assert self._evolution is not None
+        message = self._evolution.decode(data)
+        if _SLASH in data:
+            rename_frames(message, _our_frame_fields(self.name), _without_slashes)
+        return serialize(message)
+
+    @property
+    def definition(self) -> tuple[str, str]:
+        """Encoding and text of the definition of `cdr`; of ROS 1's if it cannot be used."""
+        return ("ros1msg", self._text) if self.problem else (ENCODING, definition_text(self.name))
+
+    def message_class(self, channel: BagChannel) -> type[BagMessage]:
+        """Return the class for the messages of a channel."""
+        if not self.problem:
+            return message_class(self, channel)
+        topic = channel.topic.name
+        undecodable = UndecodableType(topic, self.name, self.encoding, self.problem)
+        return message_class(undecodable, channel)
+
+    def decode(self, data: bytes) -> Message:
+        """Decode what `cdr` returned; `missing_fields` names what ROS 1 does not have."""
+        assert self._evolution is not None
+        return self._evolution.decode_ours(data)
+
+    def upgrade(self, data: bytes) -> bytes:
+        """Return what `cdr` returned."""
+        return data
+
+
+def converted_blocks(
+    blocks: Iterable[list[RawMessage]],
+    converters: Mapping[int, tuple[str, Ros1Messages]],
+    path: str,
+    damaged: Callable[[BagError], None],
+) -> Iterator[list[RawMessage]]:
+    """Yield the messages of blocks in CDR where that is possible.
+
+    A message that does not follow its definition is left out.
+
+    Args:
+        blocks: The messages.
+        converters: Topic and converter of the channels with messages of ROS 1.
+        path: The file, for errors.
+        damaged: Called at the end for each topic of which messages are left out.
+    """
+    convert = {number: kind.cdr for number, (_, kind) in converters.items() if not kind.problem}
+    left_out: dict[str, tuple[int, CdrError]] = {}
+    for block in blocks:
+        converted: list[RawMessage] = []
+        for message in block:
+            log_time, number, publish_time, data = message
+            if number not in convert:
+                converted.append(message)
+                continue
+            try:
+                converted.append((log_time, number, publish_time, convert[number](data)))
+            except CdrError as error:
+                topic = converters[number][0]
+                count, first = left_out.get(topic, (0, error))
+                left_out[topic] = count + 1, first
+        yield converted
+    for topic, (count, first) in left_out.items():
+        damaged(BagError(f"{path}: {count:,} messages of {topic} are left out: {first}"))
+
+
+def _no_steps(_data: bytes) -> None:
+    """Leave a message to `Evolution`."""
+
+
+def _conversion(name: str, text: str) -> Callable[[bytes], bytes | None]:
+    """Return the native conversion of a type's messages, if there is one."""
+    if asked_core() == "python":
+        return _no_steps
+    try:
+        from turtlewire._native import Ros1ToCdr
+    except ImportError:
+        return _no_steps
+    steps = conversion_steps(name, parse_definition(name, ros2_definition(text)))
+    return Ros1ToCdr(steps).convert if steps else _no_steps
+
+
+@cache
+def _our_frame_fields(full_name: str) -> dict[str, Any]:
+    return frame_fields(full_name, load_message)
+
+
+def _without_slashes(frame: str) -> str:
+    return frame.lstrip("/")

@@ -1,0 +1,20 @@
+"""Topics and transforms of a ROS network without ROS's names: ``turtlewire.connect``.
+
+==============  ===================================================================
+module          what it holds
+==============  ===================================================================
+`connection`    `connect` and `Connection`, which make the rest
+`publisher`     `Publisher`: messages out
+`subscription`  `Subscription`: messages in, with ``for`` and ``async for``
+`arguments`     checks of their arguments
+`broadcaster`   the transforms that a connection sends
+==============  ===================================================================
+"""
+
+from __future__ import annotations
+
+from turtlewire.net.connection import Connection, connect
+from turtlewire.net.publisher import Publisher
+from turtlewire.net.subscription import Subscription
+
+__all__ = ["Connection", "Publisher", "Subscription", "connect"]

@@ -1,0 +1,62 @@
+"""Paths that callers pass: checked, and explained where nothing is."""
+
+from __future__ import annotations
+
+import errno
+import os
+from typing import Any
+
+from turtlewire.call_errors import near_name
+
+__all__ = ["missing_file", "near_path", "path_text"]
+
+
+def path_text(path: Any, argument: str = "path", what: str = "path") -> str:
+    """Return a path as str.
+
+    Args:
+        path: A str, bytes, or an object with ``__fspath__`` such as a ``pathlib.Path``.
+        argument: The name of the argument, for the text of the error.
+        what: The thing at the path, for the text of the error.
+
+    Raises:
+        TypeError: The path is something else, such as a number (of an open file).
+        ValueError: The path is empty.
+    """
+    if not isinstance(path, (str, bytes, os.PathLike)):
+        advice = ""
+        if isinstance(path, (list, tuple, set)):
+            advice = "; pass one path at a time"
+        elif isinstance(getattr(path, "path", None), str):
+            advice = "; pass its attribute `path`"
+        elif isinstance(getattr(path, "name", None), str) and hasattr(path, "read"):
+            advice = "; pass its attribute `name`"
+        raise TypeError(
+            f"{argument} must be a str or pathlib.Path, not {type(path).__name__}{advice}"
+        )
+    text = os.fsdecode(path)
+    if not text:
+        raise ValueError(f"{argument} is empty; pass the {what}")
+    return text
+
+
+def missing_file(path: str) -> FileNotFoundError:
+    """Return the error for the name of a file that does not exist."""
+    text = f"No such file or directory{near_path(path)}"
+    return FileNotFoundError(errno.ENOENT, text, path)
+
+
+def near_path(path: str) -> str:
+    """Return what to write instead of a path at which nothing is, as the end of an error's text."""
+    if path.startswith("~"):
+        return "; Python does not expand '~', os.path.expanduser(path) does"
+    if "://" in path:
+        return "; pass the path of a file on this computer, not a URL"
+    folder, name = os.path.split(path.rstrip(os.sep))
+    if folder and not os.path.isdir(folder):
+        return f"; the folder {folder} does not exist"
+    try:
+        near = near_name(name, os.listdir(folder or "."))
+    except OSError:  # a folder that may not be listed
+        return ""
+    return f"; did you mean {os.path.join(folder, near)!r}?" if near else ""

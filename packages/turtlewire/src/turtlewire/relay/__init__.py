@@ -1,0 +1,17 @@
+"""Carries topics, services and actions between two networks: ``turtlewire relay``.
+
+================  =================================================================
+module            what it holds
+================  =================================================================
+`ends`            parses the networks that the command line names
+`renaming`        converts names between the two ends
+`frame_prefix`    adds a prefix to frames, and removes it
+`marks`           marks the nodes of relays, so that nothing is carried twice
+`side`            one end: its context, its nodes and the thread that takes messages
+`direction`       opens and closes routes from one end to the other
+`topic_route`     one topic
+`service_route`   one service
+`service_types`   the type hashes of a service, known or announced
+`relay`           `Relay`, which follows the changes at both ends
+================  =================================================================
+"""

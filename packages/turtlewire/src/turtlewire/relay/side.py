@@ -1,0 +1,148 @@
+"""One end of a relay: its context, its nodes and the thread that takes messages."""
+
+from __future__ import annotations
+
+import threading
+import time
+from typing import TYPE_CHECKING, NamedTuple
+
+from turtlewire.errors import WireError
+from turtlewire.wire import names, open_context
+from turtlewire.wire.report import warn_once
+
+from .marks import is_relayed
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from turtlewire.wire.base import EndpointInfo, Entity, Node, NodeInfo, Waitable
+
+    from .ends import End
+    from .marks import Mark
+
+__all__ = ["Seen", "Side"]
+
+#: An endpoint on DDS that no node claims for this long is not one of ROS.
+_PATIENCE_S = 2.0
+_NAME = "_turtlewire_relay"
+
+
+class Seen(NamedTuple):
+    """What one end's graph shows at one moment.
+
+    Attributes:
+        nodes: All nodes.
+        real: The endpoints that do not belong to a relay.
+        relayed: The gids of those that do.
+        until: When an endpoint that no node claims yet will count as real (monotonic seconds);
+            None if there is no such endpoint.
+    """
+
+    nodes: list[NodeInfo]
+    real: list[EndpointInfo]
+    relayed: set[bytes]
+    until: float | None
+
+
+class Side:
+    """One end.
+
+    Attributes:
+        end: The network.
+        node: The relay's own node, which owns what has no other owner.
+    """
+
+    def __init__(self, end: End, mark: Mark) -> None:
+        self.end = end
+        self._enclave = mark.enclave
+        self._context = open_context(
+            end.domain_id, middleware=end.middleware, enclave=self._enclave
+        )
+        self.graph = self._context.graph
+        self.node = self._context.create_node(_NAME, "/", self._enclave)
+        self._nodes: dict[str, Node] = {}
+        self._unclaimed: dict[bytes, float] = {}
+        self._handlers: dict[Entity, Callable[[], None]] = {}
+        self._wait_set = self._context.create_wait_set()
+        self._closed = False
+        self._thread = threading.Thread(target=self._serve, name=f"relay {end}")
+        self._thread.start()
+
+    # -- the graph
+
+    def look(self) -> Seen:
+        """Return what the graph shows now."""
+        real: list[EndpointInfo] = []
+        relayed: set[bytes] = set()
+        now, unclaimed = time.monotonic(), {}
+        for endpoint in self.graph.endpoints():
+            if endpoint.node is None:
+                since = unclaimed[endpoint.gid] = self._unclaimed.get(endpoint.gid, now)
+                if now - since >= _PATIENCE_S:
+                    real.append(endpoint)
+            elif is_relayed(endpoint.node):
+                relayed.add(endpoint.gid)
+            else:
+                real.append(endpoint)
+        self._unclaimed = unclaimed
+        ends = (since + _PATIENCE_S for since in unclaimed.values())
+        until = min((end for end in ends if end > now), default=None)
+        return Seen(self.graph.nodes(), real, relayed, until)
+
+    # -- nodes that stand for nodes of the other end
+
+    def node_for(self, full_name: str, seen: Seen) -> Node:
+        """Return the node that stands for one of the other end.
+
+        It is the relay's own node if a node of this name is here already, or if it is hidden.
+        """
+        there = {
+            names.fully_qualified_node_name(node.name, node.namespace)
+            for node in seen.nodes
+            if not is_relayed(node)
+        }
+        if names.is_hidden(full_name) or (full_name in there and full_name not in self._nodes):
+            return self.node
+        if full_name not in self._nodes:
+            namespace, _, name = full_name.rpartition("/")
+            self._nodes[full_name] = self._context.create_node(
+                name, namespace or "/", self._enclave
+            )
+        return self._nodes[full_name]
+
+    def keep_nodes(self, used: set[Node]) -> None:
+        """Close the nodes that stand for others and own nothing any more."""
+        for full_name, node in list(self._nodes.items()):
+            if node not in used:
+                del self._nodes[full_name]
+                node.close()
+
+    # -- messages
+
+    def serve(self, entity: Waitable, handle: Callable[[], None]) -> None:
+        """Call ``handle`` on this end's thread whenever the entity is ready, until it is closed."""
+        self._handlers[entity] = handle
+        self._wait_set.attach(entity)
+
+    def forget(self, entity: Waitable) -> None:
+        """Close an entity that was served."""
+        self._handlers.pop(entity, None)
+        entity.close()
+
+    def _serve(self) -> None:
+        while not self._closed:
+            for entity in self._wait_set.wait():
+                handle = self._handlers.get(entity)
+                if handle is None:
+                    continue
+                try:
+                    handle()
+                except WireError as error:
+                    warn_once(f"relay {self.end} {error}", f"{self.end}: {error.in_one_line()}")
+
+    def close(self) -> None:
+        """Leave the network."""
+        self._closed = True
+        self._wait_set.wake()
+        self._thread.join()
+        self._context.close()

@@ -1,0 +1,113 @@
+"""Commands of a page: JSON from the browser, checked and turned into tuples.
+
+A kind of command is a class of named tuples. Its annotations say what the fields take: text, true
+or false, numbers, lists or objects.
+``Annotated[float, Between(0, 10)]`` narrows the size of a number or the length of a text. A field
+with a default may be missing, and is null if the annotation is a union with None.
+"""
+
+from __future__ import annotations
+
+import json
+import typing
+from types import NoneType, UnionType
+from typing import Annotated, Any, NamedTuple
+
+if typing.TYPE_CHECKING:
+    from collections.abc import Mapping
+
+__all__ = ["Between", "CommandError", "CommandReader"]
+
+
+class CommandError(ValueError):
+    """The browser sent something that is not a command; the text names the mistake."""
+
+
+class Between(NamedTuple):
+    """The least and the most that a field takes, both included."""
+
+    least: float
+    most: float
+
+
+_LENGTHS = Between(0, 1024)
+_NUMBERS = Between(-1_000_000, 1_000_000)
+_WORDS = {bool: "true or false", list: "a list", dict: "an object"}
+
+
+class CommandReader:
+    """Reads commands of some kinds.
+
+    Args:
+        kinds: Classes of named tuples, by the ``type`` of the command.
+    """
+
+    def __init__(self, kinds: Mapping[str, type[Any]]) -> None:
+        self._kinds = dict(kinds)
+        self._fields = {
+            name: typing.get_type_hints(kind, include_extras=True) for name, kind in kinds.items()
+        }
+
+    def read(self, text: str | bytes) -> Any:
+        """Return the command in a message, such as ``{"type": "kill", "turtle": "turtle1"}``.
+
+        Raises:
+            CommandError: The text is not JSON or too deeply nested, the type is unknown, or a
+                field is missing, unknown or of the wrong kind.
+        """
+        try:
+            message = json.loads(text)
+        except ValueError as error:
+            raise CommandError(f"not JSON: {error}") from error
+        except RecursionError as error:
+            raise CommandError("not a command: the JSON is nested too deeply") from error
+        name = message.pop("type", None) if isinstance(message, dict) else None
+        if not isinstance(name, str) or name not in self._kinds:
+            known = ", ".join(self._kinds)
+            raise CommandError(f"expected an object whose type is one of {known}")
+        kind, fields = self._kinds[name], self._fields[name]
+        optional = kind._field_defaults.keys()
+        if not fields.keys() - optional <= message.keys() <= fields.keys():
+            expected, got = (", ".join(names) or "no fields" for names in (fields, message))
+            raise CommandError(f"{name} has {expected}; got {got}")
+        return kind(**{each: _checked(each, fields[each], message[each]) for each in message})
+
+
+def _checked(name: str, hint: Any, value: Any) -> Any:
+    """Return a field's value.
+
+    Raises:
+        CommandError: The value is none that the field takes.
+    """
+    limits = None
+    if typing.get_origin(hint) is Annotated:
+        hint, limits = typing.get_args(hint)
+    if isinstance(hint, UnionType):  # with None
+        if value is None:
+            return None
+        (hint,) = set(typing.get_args(hint)) - {NoneType}
+    kind = typing.get_origin(hint) or hint
+    if kind in (int, float):
+        return _number(name, kind, limits or _NUMBERS, value)
+    if kind is str:
+        return _text(name, limits or _LENGTHS, value)
+    if not isinstance(value, kind):
+        raise CommandError(f"{name} must be {_WORDS[kind]}")
+    return value
+
+
+def _number(name: str, kind: type[int | float], limits: Between, value: Any) -> int | float:
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    # NaN is not between the limits, either.
+    if not is_number or not limits.least <= value <= limits.most or kind(value) != value:
+        word = "number" if kind is float else "whole number"
+        raise CommandError(
+            f"{name} must be a {word} from {limits.least:.15g} to {limits.most:.15g}"
+        )
+    return kind(value)
+
+
+def _text(name: str, limits: Between, value: Any) -> str:
+    if not isinstance(value, str) or not len(value) <= limits.most:
+        raise CommandError(f"{name} must be a string of at most {limits.most:.15g} characters")
+    return value

@@ -1,0 +1,134 @@
+"""The compiled core and plain Python read the same messages, and convert them to the same bytes."""
+
+from __future__ import annotations
+
+import random
+import struct
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from rosbags.typesys import Stores, get_typestore
+from tests.needs import COMPILED_CORE
+from tests.rosbags_messages import random_message, write_ros1
+
+from turtlewire.bag.record_messages import plain_mcap_messages, plain_ros1_messages
+from turtlewire.bag.ros1_file import Ros1File
+from turtlewire.bag.ros1_messages import Ros1Messages
+from turtlewire.bag.ros1_steps import conversion_steps
+from turtlewire.errors import CdrError
+
+native = pytest.importorskip("turtlewire._native", reason=COMPILED_CORE)
+
+ROS1 = get_typestore(Stores.ROS1_NOETIC)
+
+u32, u64 = (st.integers(0, 2**bits - 1) for bits in (32, 64))
+
+
+def mcap_record(opcode, body):
+    return struct.pack("<BQ", opcode, len(body)) + body
+
+
+mcap_records = st.one_of(
+    st.builds(
+        lambda *fields: mcap_record(5, struct.pack("<HIQQ", *fields[:4]) + fields[4]),
+        st.integers(0, 3),
+        u32,
+        u64,
+        u64,
+        st.binary(max_size=9),
+    ),
+    st.builds(mcap_record, st.integers(0, 255), st.binary(max_size=30)),
+    st.binary(max_size=12),
+)
+
+
+def ros1_record(fields, data):
+    head = b"".join(
+        struct.pack("<I", len(name) + 1 + len(value)) + name + b"=" + value
+        for name, value in fields
+    )
+    return struct.pack("<I", len(head)) + head + struct.pack("<I", len(data)) + data
+
+
+ros1_fields = st.permutations(
+    [(b"op", b"\x02"), (b"conn", b"\1\0\0\0"), (b"time", b"\1\0\0\0\2\0\0\xff"), (b"more", b"=x")]
+)
+ros1_records = st.one_of(
+    st.builds(ros1_record, ros1_fields, st.binary(max_size=9)),
+    st.builds(
+        lambda fields, count, data: ros1_record(fields[:count], data),
+        ros1_fields,
+        st.integers(0, 3),
+        st.binary(max_size=9),
+    ),
+    st.builds(ros1_record, st.just([(b"op", b"\x07")]), st.binary(max_size=9)),
+    st.binary(max_size=12),
+)
+
+
+@pytest.mark.parametrize(
+    ("compiled", "plain", "record"),
+    [
+        (native.mcap_messages, plain_mcap_messages, mcap_records),
+        (native.ros1_messages, plain_ros1_messages, ros1_records),
+    ],
+    ids=["mcap", "ros1"],
+)
+def test_both_read_the_same_messages(compiled, plain, record):
+    wanted = st.none() | st.sets(st.integers(0, 3)) | st.just({})
+
+    @given(st.lists(record, max_size=6).map(b"".join), wanted)
+    def check(records, channels):
+        position = 0
+        while position < len(records):
+            found, expected = [], []
+            end = compiled(records, position, channels, found)
+            expected_end = plain(memoryview(records), position, channels, expected)
+            assert (end, found) == (expected_end, expected)
+            position = max(end, position) + 1  # also from places that are no record
+
+    check()
+
+
+def test_a_wrong_argument_is_refused():
+    with pytest.raises(TypeError):
+        native.mcap_messages(5, 0, None, [])
+    with pytest.raises(TypeError):
+        native.mcap_messages(mcap_record(5, bytes(22)), 0, 7, [])
+    for step in [(10, 1, 1, 0), (0, 1, 0, 0), (0, 1, 9, 0), (6, 0, 1, 1)]:
+        with pytest.raises((ValueError, RuntimeError)):
+            native.Ros1ToCdr([step])
+
+
+def test_the_steps_make_the_bytes_that_message_objects_make(tmp_path):
+    names = sorted(ROS1.fielddefs)
+    generator = random.Random(3)
+    write_ros1(tmp_path / "all.bag", ROS1, names, each=1)
+    file = Ros1File(str(tmp_path / "all.bag"))
+    compared = 0
+    for connection in file.connections.values():
+        kind = Ros1Messages(connection.type, connection.definition)
+        for _ in range(6):
+            message = random_message(ROS1, kind.name, generator)
+            data = bytes(ROS1.serialize_ros1(message, kind.name))
+            fast = kind._convert(data)
+            if fast is not None:
+                compared += 1
+                assert fast == kind._cdr_of_message(data), kind.name
+            for wrong in (data[:-1], data + b"\0") if data else ():
+                assert kind._convert(wrong) is None
+                with pytest.raises(CdrError):
+                    kind.cdr(wrong)
+    file.close()
+    assert compared > 4 * len(names)  # the others have text beyond ASCII
+
+
+def test_damaged_messages_never_leave_the_bytes(tmp_path):
+    generator = random.Random(4)
+    for name in ("sensor_msgs/msg/JointState", "nav_msgs/msg/Path"):
+        steps = conversion_steps(name, {})
+        convert = native.Ros1ToCdr(steps).convert
+        for _ in range(2000):
+            convert(generator.randbytes(generator.randrange(80)))
+        assert convert(b"\xff" * 60) is None

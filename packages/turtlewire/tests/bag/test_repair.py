@@ -1,0 +1,144 @@
+"""Bags that a crash or a full disk cut off: read, and repaired by `reindex`."""
+
+from __future__ import annotations
+
+import os
+import random
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+from rosbags.rosbag2 import Reader
+from tests.bags import START
+
+from ros2cli.main import main
+from turtlewire.bag import BagWriter, open_bag, reindex
+from turtlewire.errors import BagError
+from turtlewire.msg import get_message
+from turtlewire.wire.qos import Durability, QoS
+
+String = get_message("std_msgs/msg/String")
+LATCHED = QoS(depth=1, durability=Durability.TRANSIENT_LOCAL)
+
+
+def written(path, storage, count=1000):
+    """A bag without metadata.yaml; returns its file."""
+    with BagWriter(path, storage=storage, chunk_bytes=5000) as writer:
+        writer.add_topic("/a", "std_msgs/msg/String", qos=[LATCHED])
+        for number in range(count):
+            writer.write("/a", String(data=f"{number} " + "x" * 50), START + number)
+    os.remove(path / "metadata.yaml")
+    (file,) = path.iterdir()
+    return file
+
+
+def numbers(path):
+    """The numbers in the messages that can be read."""
+    found = []
+    with open_bag(path) as bag, suppress(BagError):  # raised after what can be read
+        found.extend(int(each.decode().data.split()[0]) for each in bag)
+    return found
+
+
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+@pytest.mark.parametrize("share", [0.3, 0.65, 0.97])
+def test_a_cut_bag_is_made_whole(tmp_path, storage, share):
+    path = tmp_path / "bag"
+    file = written(path, storage)
+    whole = file.read_bytes()
+    file.write_bytes(whole[: int(len(whole) * share)])
+    before = numbers(path)
+    assert before == list(range(len(before)))
+    assert 0 < len(before) <= 1000
+    told = []
+    metadata = reindex(path, told.append)
+    assert metadata.message_count == len(before)
+    assert any(f"the damaged file is {file}.damaged" in each for each in told)
+    assert Path(f"{file}.damaged").read_bytes() == whole[: int(len(whole) * share)]
+    with open_bag(path) as bag:
+        assert bag.problems == []
+        assert [qos.durability for qos in bag.topics["/a"].qos] == [Durability.TRANSIENT_LOCAL]
+        assert "std_msgs/msg/String" in bag.definitions()
+    assert numbers(path) == before
+    with Reader(path) as reader:  # the judge: it takes only whole files
+        assert len(list(reader.messages())) == len(before)
+    told.clear()
+    reindex(path, told.append)
+    assert told == []
+
+
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+def test_a_copy_that_a_killed_repair_left_is_replaced(tmp_path, storage):
+    path = tmp_path / "bag"
+    file = written(path, storage)
+    left_over = file.read_bytes()
+    file.write_bytes(left_over[: len(left_over) // 2])
+    before = numbers(path)
+    Path(f"{file}.part").write_bytes(left_over)
+    assert 0 < len(before) < 1000
+    assert reindex(path).message_count == len(before)
+    assert numbers(path) == before
+    names = {file.name, f"{file.name}.damaged", "metadata.yaml"}
+    assert {each.name for each in path.iterdir()} == names
+
+
+def test_a_whole_bag_is_not_rewritten(tmp_path):
+    file = written(tmp_path / "bag", "mcap")
+    before = file.read_bytes()
+    assert main(["bag", "reindex", str(tmp_path / "bag")]) == 0
+    assert file.read_bytes() == before
+    assert {each.name for each in (tmp_path / "bag").iterdir()} == {file.name, "metadata.yaml"}
+
+
+def test_without_room_the_damaged_file_stays(tmp_path, monkeypatch, capfd):
+    file = written(tmp_path / "bag", "mcap")
+    damaged = file.read_bytes()[:20_000]
+    file.write_bytes(damaged)
+
+    def full(*_args, **_options):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("turtlewire.bag.repair._copy_mcap", full)
+    assert main(["bag", "reindex", str(tmp_path / "bag")]) == 0
+    assert f"{file} is not repaired: [Errno 28] No space left" in capfd.readouterr().err
+    assert file.read_bytes() == damaged
+    assert {each.name for each in (tmp_path / "bag").iterdir()} == {file.name, "metadata.yaml"}
+
+
+def test_a_cut_file_says_how_much_is_missing(tmp_path):
+    for storage, text in (("mcap", "the last "), ("sqlite3", "its last ")):
+        file = written(tmp_path / storage, storage)
+        file.write_bytes(file.read_bytes()[:-9_000])
+        with open_bag(tmp_path / storage) as bag:
+            assert text in bag.problems[0]
+            assert " bytes" in bag.problems[0]
+
+
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+def test_mutated_bags_are_repaired_or_refused(tmp_path, storage):
+    path = tmp_path / "bag"
+    file = written(path, storage, 200)
+    whole = file.read_bytes()
+    generator = random.Random(storage)
+    repaired = 0
+    for _ in range(60):
+        for old in path.iterdir():
+            old.unlink()
+        data = bytearray(whole)
+        for _ in range(generator.randint(1, 4)):
+            at = generator.randrange(100 if storage == "sqlite3" else 8, len(data))
+            if generator.random() < 0.3:
+                del data[at:]
+            else:
+                data[at : at + 1] = generator.randbytes(1)
+            if len(data) < 200:
+                break
+        file.write_bytes(data)
+        try:
+            metadata = reindex(path)
+        except BagError:
+            continue
+        repaired += 1
+        with open_bag(path) as bag:
+            assert len(bag) == metadata.message_count
+    assert repaired > 20

@@ -1,0 +1,211 @@
+"""Each type of ROS 1, read by the definition in its bag; `rosbags` is the oracle."""
+
+from __future__ import annotations
+
+import random
+from collections import defaultdict
+
+import pytest
+from rosbags.convert.converter import migrate_bytes
+from rosbags.rosbag1 import Writer
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from tests.bags import START
+from tests.rosbags_messages import as_mcap, random_message, write_ros1
+
+from turtlewire import Buffer
+from turtlewire.bag import open_bag
+from turtlewire.errors import BagError, InterfaceError
+from turtlewire.msg import deserialize, missing_fields, serialize
+
+TF = "tf2_msgs/msg/TFMessage"
+ROS1 = get_typestore(Stores.ROS1_NOETIC)
+ROS1.register(get_types_from_msg("geometry_msgs/TransformStamped[] transforms", TF))
+JAZZY = get_typestore(Stores.ROS2_JAZZY)
+#: The types of ROS 2, and those of ROS 1 that it does not have.
+BOTH = get_typestore(Stores.ROS2_JAZZY)
+BOTH.register({k: ([], v[1]) for k, v in ROS1.fielddefs.items() if k not in JAZZY.fielddefs})
+
+
+def test_each_type_becomes_what_rosbags_makes_of_it(tmp_path):
+    names = sorted(ROS1.fielddefs)
+    raw = write_ros1(tmp_path / "all.bag", ROS1, names)
+    found = defaultdict(list)
+    with open_bag(tmp_path / "all.bag") as bag:
+        assert bag.problems == []
+        for message in bag:
+            found[message.topic].append(message)
+    counts = {"migrated": 0, "kept": 0}
+    for topic, messages in found.items():
+        name = messages[0].type
+        is_known = name in JAZZY.fielddefs
+        for message, data in zip(messages, raw[topic], strict=True):
+            expected = migrate_bytes(ROS1, BOTH, name, name, {}, data, src_is2=False, dst_is2=True)
+            assert message.data == bytes(expected), name
+            assert serialize(message.decode()) == message.data, name
+            counts["migrated" if is_known else "kept"] += 1
+    assert set(found) == set(raw)
+    assert counts["migrated"] > 300
+    assert counts["kept"] > 30
+
+
+@pytest.mark.parametrize(
+    ("name", "missing"),
+    [
+        ("sensor_msgs/msg/Range", ("variance",)),
+        ("shape_msgs/msg/SolidPrimitive", ("polygon",)),
+        ("sensor_msgs/msg/Image", ()),
+    ],
+)
+def test_a_message_says_what_ros1_does_not_have(tmp_path, name, missing):
+    write_ros1(tmp_path / "one.bag", ROS1, [name], each=1)
+    with open_bag(tmp_path / "one.bag") as bag:
+        (message,) = bag
+        plain = deserialize(name, message.data)
+        assert missing_fields(plain) == ()
+        assert plain == message.decode()
+        assert missing_fields(message.decode()) == missing
+
+
+CUSTOM = """# A type that only the bag knows
+Header header
+time began
+duration took
+uint8 idle=0
+byte LOW = -1 # a byte has a sign
+string HINT = a "b" # no comment
+float64[2] X
+byte level
+char letter
+Part[] parts   # with its own
+bool class
+================================================================================
+MSG: my_robot/Part
+string child_frame_id
+int16[] counts
+================================================================================
+MSG: std_msgs/Header
+uint32 seq
+time stamp
+string frame_id
+"""
+
+
+def packed(frame="/base"):
+    name = frame.encode()
+    head = (7).to_bytes(4, "little") + (5).to_bytes(4, "little") + (6).to_bytes(4, "little")
+    text = len(name).to_bytes(4, "little") + name
+    times = b"".join(n.to_bytes(4, "little") for n in (1, 2, 3, 4))
+    numbers = b"\0" * 8 + (0x3FF0 << 48).to_bytes(8, "little")
+    part = text + (1).to_bytes(4, "little") + (9).to_bytes(2, "little")
+    return head + text + times + numbers + b"\1\2" + (1).to_bytes(4, "little") + part + b"\1"
+
+
+def write_custom(path, text=CUSTOM, data=None, latching=None, name="my_robot/msg/status"):
+    with Writer(path) as writer:
+        connection = writer.add_connection(
+            "/status", name, msgdef=text, md5sum="0" * 32, latching=latching
+        )
+        for number, content in enumerate(data or [packed()]):
+            writer.write(connection, START + number, content)
+
+
+def test_a_type_that_only_the_bag_knows(tmp_path):
+    write_custom(tmp_path / "custom.bag", latching=1)
+    with open_bag(tmp_path / "custom.bag") as bag:
+        (message,) = bag
+        status = message.decode()
+        assert [qos.durability.name for qos in bag.topics["/status"].qos] == ["TRANSIENT_LOCAL"]
+        text = bag.definitions()["my_robot/msg/status"][1]
+    assert (status.header.frame_id, status.header.stamp.sec) == ("base", 5)
+    assert (status.began.sec, status.began.nanosec, status.took.nanosec) == (1, 2, 4)
+    assert (status.X.tolist(), status.level, status.letter) == ([0.0, 1.0], b"\1", 2)
+    assert (status.parts[0].child_frame_id, list(status.parts[0].counts)) == ("base", [9])
+    assert (status.class_, status.IDLE, status.HINT) == (True, 0, 'a "b" # no comment')
+    assert status.LOW == b"\xff"
+    assert "builtin_interfaces/Time began" in text
+    assert "MSG: my_robot/Part" in text
+    assert "MSG: std_msgs/Header" in text
+    assert get_types_from_msg(text, "my_robot/msg/status")  # others parse it, too
+
+
+def test_one_bad_message_does_not_end_the_others(tmp_path):
+    good = packed()
+    write_custom(tmp_path / "bad.bag", data=[good, good[:-1], good + b"\0", good])
+    found = []
+    first = f"my_robot/msg/status: its {len(good) - 1} bytes do not follow"
+    with (
+        open_bag(tmp_path / "bad.bag") as bag,
+        pytest.raises(BagError, match=f"2 messages of /status are left out: {first}"),
+    ):
+        found.extend(bag.messages())
+    assert len(found) == 2
+
+
+def test_a_topic_without_a_readable_definition_is_named(tmp_path):
+    write_custom(tmp_path / "odd.bag", text="not a definition\n", name="odd/msg/Thing")
+
+    with open_bag(tmp_path / "odd.bag") as bag:
+        assert bag.topics["/status"].serialization_format == "ros1"
+        assert "/status is not converted" in bag.problems[0]
+        (message,) = bag
+        assert message.data == packed()
+        with pytest.raises(InterfaceError, match="/status"):
+            message.decode()
+
+
+def test_messages_of_ros1_in_an_mcap(tmp_path):
+    names = ["sensor_msgs/msg/Range", TF, "std_msgs/msg/Empty"]
+    write_ros1(tmp_path / "old.bag", ROS1, names)
+    path = as_mcap(tmp_path / "old.bag", tmp_path / "old.mcap")
+    with open_bag(path) as bag, open_bag(tmp_path / "old.bag") as old:
+        assert [tuple(each) for each in bag] == [tuple(each) for each in old]
+        assert {each.serialization_format for each in bag.topics.values()} == {"cdr"}
+        first = next(bag.messages("/sensor_msgs/Range")).decode()
+        assert missing_fields(first) == ("variance",)
+        assert bag.definitions() == old.definitions()
+    cut = as_mcap(tmp_path / "old.bag", tmp_path / "cut.mcap", lambda data: data[:-1])
+    with (
+        open_bag(cut) as bag,
+        pytest.raises(BagError, match=r"3 messages of /sensor_msgs/Range are left out"),
+    ):
+        list(bag)
+
+
+@pytest.mark.parametrize("slashes", ["", "/", "//"])
+def test_transforms_of_ros1_lose_their_slashes(tmp_path, slashes):
+    one = ROS1.types["geometry_msgs/msg/TransformStamped"]
+    message = random_message(ROS1, one.__msgtype__, random.Random(2))
+    message.header.frame_id, message.child_frame_id = f"{slashes}map", f"{slashes}base"
+    turn = message.transform.rotation
+    turn.x, turn.y, turn.z, turn.w = 0.0, 0.0, 0.0, 1.0
+    with Writer(tmp_path / "tf.bag") as writer:
+        connection = writer.add_connection("/tf", TF, typestore=ROS1)
+        writer.write(connection, START, ROS1.serialize_ros1(ROS1.types[TF]([message]), TF))
+    for path in (tmp_path / "tf.bag", as_mcap(tmp_path / "tf.bag", tmp_path / "tf.mcap")):
+        with open_bag(path) as bag:
+            (one,) = next(bag.messages("/tf")).decode().transforms
+        assert (one.header.frame_id, one.child_frame_id) == ("map", "base")
+        assert sorted(Buffer.from_bag(path).frames()) == ["base", "map"]
+
+
+def test_mutated_bags_are_read_or_refused(tmp_path):
+    names = ["sensor_msgs/msg/Range", "visualization_msgs/msg/Marker", "std_msgs/msg/Empty"]
+    write_ros1(tmp_path / "old.bag", ROS1, names)
+    whole = (tmp_path / "old.bag").read_bytes()
+    generator = random.Random(7)
+    read = 0
+    for _ in range(300):
+        data = bytearray(whole)
+        for _ in range(generator.randint(1, 3)):
+            at = generator.randrange(13, len(data))
+            data[at] = generator.randrange(256)
+        (tmp_path / "bad.bag").write_bytes(data)
+        try:
+            with open_bag(tmp_path / "bad.bag") as bag:
+                for message in bag:
+                    if bag.topics[message.topic].serialization_format == "cdr":
+                        message.decode()
+            read += 1
+        except BagError:
+            pass
+    assert read > 50

@@ -1,0 +1,69 @@
+"""Names that people know from other libraries: the AttributeError says what to use here."""
+
+from __future__ import annotations
+
+import builtins
+import re
+
+import pytest
+
+import turtlewire
+from turtlewire.attribute_hints import hint_at
+from turtlewire.bag import Bag, BagMessage, BagWriter
+from turtlewire.net.connection import Connection
+from turtlewire.trajectory import Trajectory
+from turtlewire.urdf import Robot
+
+CLASSES = [
+    turtlewire.Transform, turtlewire.Buffer, Bag, BagMessage, BagWriter, Connection, Trajectory,
+    Robot,
+]  # fmt: skip
+
+
+def hints_of(cls: type) -> dict[str, str]:
+    """Return what to use instead of each name that the class lacks."""
+    found = (re.fullmatch(r"<no attribute; use (.*)>", repr(each)) for each in vars(cls).values())
+    return {name: match[1] for name, match in zip(vars(cls), found, strict=True) if match}
+
+
+@pytest.mark.parametrize("cls", CLASSES)
+def test_each_hint_names_something_that_exists(cls: type) -> None:
+    hints = hints_of(cls)
+    assert hints
+    for name, advice in hints.items():
+        with pytest.raises(AttributeError, match=re.escape(f"has no attribute {name!r}; use ")):
+            getattr(cls, name)
+        named = re.match(r"\w+(?![\w.])", advice)  # other advice begins with a module or a class
+        if named and named[0] not in dir(builtins):
+            fields = getattr(cls, "__dataclass_fields__", {})
+            assert named[0] in {*dir(cls), *fields} - hints.keys()
+
+
+def test_an_instance_has_no_such_attribute() -> None:
+    transform = turtlewire.Transform("map", "robot", (1, 2, 3))
+    with pytest.raises(AttributeError) as caught:
+        transform.quaternion  # type: ignore[attr-defined]  # noqa: B018
+    assert str(caught.value) == (
+        "'Transform' object has no attribute 'quaternion'; use rotation: x, y, z, w"
+    )
+    assert not hasattr(transform, "inv")
+    assert "inv" not in dir(transform)
+    assert {"inverse", "rotation", "__eq__"} <= set(dir(transform))
+    assert "add_transform" not in dir(turtlewire.Buffer())
+
+
+def test_an_attribute_of_a_subclass_is_its_own() -> None:
+    @hint_at({"old older": "new"})
+    class Base:
+        new = 1
+
+    class Derived(Base):
+        old = 2
+
+    assert Derived().old == 2
+    with pytest.raises(AttributeError, match="'Derived' object has no attribute 'older'; use new"):
+        Derived().older  # type: ignore[attr-defined]  # noqa: B018
+    with pytest.raises(AttributeError, match="type object 'Base' has no attribute 'old'; use new"):
+        Base.old  # type: ignore[attr-defined]  # noqa: B018
+    Base.old = 3  # type: ignore[attr-defined]
+    assert "old" in dir(Derived())
