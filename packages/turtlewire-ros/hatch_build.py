@@ -115,7 +115,7 @@ class PrefixBuildHook(BuildHookInterface):  # type: ignore[type-arg]
                 str(self._folder),
                 str(self._modules),
             ],
-            env={**os.environ, "PYTHONPATH": paths, "AMENT_PREFIX_PATH": ""},
+            env={**os.environ, "PYTHONPATH": paths, "AMENT_PREFIX_PATH": "", "ROS_DISTRO": ""},
             check=True,
         )
 
@@ -130,7 +130,7 @@ class PrefixBuildHook(BuildHookInterface):  # type: ignore[type-arg]
             if package.name != _MIXED:
                 included[str(package)] = package.name
             elif is_editable:
-                # Its code is imported from this folder, so its interfaces must lie there, too.
+                # Its code is imported from this folder, so its interfaces must also lie there.
                 for kind in package.iterdir():
                     target = root / _MIXED / _MIXED / kind.name
                     shutil.rmtree(target, ignore_errors=True)

@@ -49,7 +49,7 @@ def main(argv: list[str] = sys.argv[1:]) -> str | None:
 
 
 def resource_type_completer(prefix: str, **kwarg: Any) -> list[str]:  # noqa: ARG001
-    """Types that begin with the prefix."""
+    """Return the types that begin with the prefix."""
     return [name for name in get_resource_types() if name.startswith(prefix)]
 
 
@@ -58,7 +58,7 @@ def resource_name_completer(
     parsed_args: argparse.Namespace,
     **kwargs: Any,  # noqa: ARG001  argcomplete's arguments
 ) -> list[str]:
-    """Names of the type on the command line that begin with the prefix."""
+    """Return the names of the type on the command line that begin with the prefix."""
     found = get_resources(parsed_args.resource_type)
     return [name for name in found if name.startswith(prefix)]
 

@@ -74,6 +74,7 @@ def get_resources(resource_type: str) -> dict[str, str]:
         if os.path.isdir(folder):
             for name in os.listdir(folder):
                 if not name.startswith(".") and os.path.isfile(os.path.join(folder, name)):
+                    # The first prefix wins, because an overlay comes before its underlay.
                     resources.setdefault(name, prefix)
     return resources
 

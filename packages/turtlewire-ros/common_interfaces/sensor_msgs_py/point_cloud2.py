@@ -50,7 +50,7 @@ def read_points(
     uvs: Iterable[int] | None = None,
     reshape_organized_cloud: bool = False,
 ) -> np.ndarray[Any, np.dtype[np.void]]:
-    """Points of a cloud as a structured array.
+    """Return the points of a cloud as a structured array.
 
     Args:
         cloud: The cloud.
@@ -81,6 +81,7 @@ def read_points(
     if uvs is not None:
         points = points[uvs if isinstance(uvs, np.ndarray) else np.fromiter(uvs, int)]
     if reshape_organized_cloud and cloud.height > 1:
+        # As in ROS 2, although the message has the points row by row.
         points = points.reshape(cloud.width, cloud.height)
     return points
 
@@ -105,7 +106,7 @@ def read_points_numpy(
     uvs: Iterable[int] | None = None,
     reshape_organized_cloud: bool = False,
 ) -> np.ndarray[Any, np.dtype[Any]]:
-    """Points of a cloud whose fields have one type, as a plain array of shape (N, fields).
+    """Return the points of a cloud with fields of one type, as an array of shape (N, fields).
 
     See `read_points` for the arguments.
 
@@ -129,7 +130,7 @@ def read_points_list(
     skip_nans: bool = False,
     uvs: Iterable[int] | None = None,
 ) -> list[Any]:
-    """Points of a cloud as a list of named tuples; slow for large clouds.
+    """Return the points of a cloud as a list of named tuples; slow for large clouds.
 
     See `read_points` for the arguments.
     """
@@ -143,7 +144,7 @@ def read_points_list(
 def dtype_from_fields(
     fields: Iterable[PointField], point_step: int | None = None
 ) -> np.dtype[np.void]:
-    """Structured dtype of a point.
+    """Return the structured dtype of a point.
 
     Args:
         fields: Its fields; one with a count above one becomes ``name_0``, ``name_1`` and so on.
@@ -194,6 +195,7 @@ def create_cloud(
             "Too many dimensions for organized cloud! "
             "Points can only be organized in max. two dimensional space"
         )
+    # As in ROS 2, the first axis is the width.
     width, height = structured.shape[0], structured.shape[1] if structured.ndim == 2 else 1
     data = array("B")
     data.frombytes(structured.tobytes())
@@ -206,6 +208,7 @@ def create_cloud(
         point_step=structured.dtype.itemsize,
         row_step=structured.dtype.itemsize * width,
         data=data,
+        # As in ROS 2: nobody looks for NaNs in the points.
         is_dense=False,
     )
 

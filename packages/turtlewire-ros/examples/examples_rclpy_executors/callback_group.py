@@ -1,4 +1,4 @@
-"""Two timers that exclude each other, on four threads, and a listener beside them."""
+"""Two timers that exclude each other, on four threads, and a listener next to them."""
 
 from __future__ import annotations
 

@@ -39,6 +39,7 @@ class ThrottledCallbackGroup(CallbackGroup):
 
     def beginning_execution(self, entity: Any) -> bool:  # noqa: ARG002 -- all are alike
         """Take a turn, if there is one."""
+        # Several threads of an executor may come here at once.
         with self.lock:
             if self.bucket > 0:
                 self.bucket -= 1

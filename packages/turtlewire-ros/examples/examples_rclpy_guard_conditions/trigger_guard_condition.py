@@ -21,6 +21,7 @@ def main(args: list[str] | None = None) -> None:
         guard_condition = node.create_guard_condition(guard_condition_callback)
         for number in ("first", "second"):
             node.get_logger().info(f"{number} trigger")
+            # Only wakes the executor; the callback runs in `spin_once`.
             guard_condition.trigger()
             executor.spin_once(timeout_sec=5.0)
         node.destroy_guard_condition(guard_condition)

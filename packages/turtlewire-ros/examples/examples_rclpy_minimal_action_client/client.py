@@ -56,6 +56,7 @@ class MinimalActionClient(Node):
             self.get_logger().info(f"Goal succeeded! Result: {answer.result.sequence}")
         else:
             self.get_logger().info(f"Goal failed with status: {answer.status}")
+        # Lets `rclpy.spin` in `main` return.
         rclpy.shutdown()
 
 

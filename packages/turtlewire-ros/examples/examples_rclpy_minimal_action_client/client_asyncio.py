@@ -62,6 +62,7 @@ async def run(node: MinimalActionClientAsyncIO) -> None:
     if sending.done():
         rclpy.shutdown()
         await sending
+    # If it is not done, nobody spins any more, so no answer can come.
     sending.cancel()
     await spinning
 

@@ -54,6 +54,7 @@ class MinimalActionClient(Node):
         """Cancel the goal, once."""
         self.get_logger().info("Canceling goal")
         self._goal_handle.cancel_goal_async().add_done_callback(self.cancel_done)
+        # A timer repeats until it is cancelled.
         self._timer.cancel()
 
     def cancel_done(self, future: Future[Any]) -> None:

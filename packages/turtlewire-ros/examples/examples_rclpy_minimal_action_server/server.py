@@ -26,6 +26,7 @@ class MinimalActionServer(Node):
             Fibonacci,
             "fibonacci",
             execute_callback=self.execute_callback,
+            # Lets goals run side by side, and cancellations in while they run.
             callback_group=ReentrantCallbackGroup(),
             goal_callback=self.goal_callback,
             cancel_callback=self.cancel_callback,
@@ -58,6 +59,7 @@ class MinimalActionServer(Node):
             feedback.sequence.append(feedback.sequence[-1] + feedback.sequence[-2])
             self.get_logger().info(f"Publishing feedback: {feedback.sequence}")
             goal_handle.publish_feedback(feedback)
+            # Blocks one thread only; the executor has others.
             time.sleep(1)
         goal_handle.succeed()
         result = Fibonacci.Result(sequence=feedback.sequence)

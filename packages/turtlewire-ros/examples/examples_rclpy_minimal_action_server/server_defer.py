@@ -47,6 +47,7 @@ class MinimalActionServer(Node):
         self.get_logger().info("Deferring execution...")
 
         def execute() -> None:
+            # A timer repeats, but this goal is executed once.
             self.destroy_timer(timer)
             goal_handle.execute()
 

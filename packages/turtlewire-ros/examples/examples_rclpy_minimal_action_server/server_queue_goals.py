@@ -66,6 +66,7 @@ class MinimalActionServer(Node):
         """Compute one sequence, then start the goal that has waited longest."""
         try:
             return self.compute(goal_handle)
+        # Also after a cancellation or an error; the other goals would wait forever.
         finally:
             self.start_next_goal()
 

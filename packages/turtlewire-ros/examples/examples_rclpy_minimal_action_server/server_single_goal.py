@@ -82,6 +82,7 @@ class MinimalActionServer(Node):
             self.get_logger().info(f"Publishing feedback: {feedback.sequence}")
             goal_handle.publish_feedback(feedback)
             time.sleep(1)
+        # A new goal may have aborted this one during the last sleep.
         with self._goal_lock:
             if not goal_handle.is_active:
                 self.get_logger().info("Goal aborted")

@@ -23,6 +23,7 @@ def main(args: list[str] | None = None) -> None:
         answered: Future[AddTwoInts.Response] = Future()
 
         async def call_service() -> None:
+            # First, because the timer would ask again during the wait.
             timer.cancel()
             request = AddTwoInts.Request(a=41, b=1)
             answer = await client.call_async(request)

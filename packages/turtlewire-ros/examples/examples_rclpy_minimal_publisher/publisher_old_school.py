@@ -18,6 +18,7 @@ def main(args: list[str] | None = None) -> None:
     with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
         node = rclpy.create_node("minimal_publisher")
         publisher = node.create_publisher(String, "topic", 10)
+        # Nothing is spun: publishing needs no executor, and there are no callbacks.
         for number in itertools.count():
             if not rclpy.ok():
                 break

@@ -42,6 +42,7 @@ class PointCloudPublisher(Node):
         self.header.stamp = self.get_clock().now().to_msg()
         x, y = np.meshgrid(np.linspace(-2, 2, self.width), np.linspace(-2, 2, self.height))
         z = 0.5 * np.sin(2 * x - self.counter / 10.0) * np.sin(2 * y)
+        # The height is also the intensity.
         points = np.stack([x, y, z, z], axis=-1).reshape(-1, 4).astype(np.float32)
         self.publisher_.publish(point_cloud2.create_cloud(self.header, [*self.fields], points))
         if self.moving:

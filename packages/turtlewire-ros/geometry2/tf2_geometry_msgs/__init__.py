@@ -1,4 +1,4 @@
-"""Transforms messages of geometry_msgs, also those that ROS 2 transforms only in C++.
+"""Transforms messages of geometry_msgs, also types that ROS 2 transforms only in C++.
 
 Importing it makes ``tf2_ros.Buffer.transform`` take these stamped types: points, vectors,
 quaternions, poses, arrays of poses, paths, poses with covariance, odometry, twists (with

@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.geometry import quaternions
+from turtlewire.geometry.quaternions import matrix, multiply
 
 if TYPE_CHECKING:
     from turtlewire.geometry.quaternions import Quaternion, Vector
 
 __all__ = ["NO_LENGTH", "Motion", "unit_quaternion"]
 
-#: tf2 takes a quaternion whose squared length is below this for no rotation.
+#: The epsilon of doubles. tf2 treats a quaternion whose squared length is below it as no rotation.
 NO_LENGTH = 2.220446049250313e-16
 
 
@@ -37,7 +37,7 @@ class Motion:
         t = transform.translation
         self.translation: Vector = (t.x, t.y, t.z)
         self.quaternion = unit_quaternion(transform.rotation)
-        self.rows = quaternions.matrix(self.quaternion)
+        self.rows = matrix(self.quaternion)
 
     def vector(self, v: Any) -> Vector:
         """Return a free vector (anything with x, y, z): turned, not moved."""
@@ -54,8 +54,14 @@ class Motion:
 
     def orientation(self, q: Any) -> Quaternion:
         """Return an orientation (anything with x, y, z, w), as a unit quaternion with w >= 0."""
-        x, y, z, w = quaternions.multiply(self.quaternion, unit_quaternion(q))
-        return (x, y, z, w) if w >= 0.0 else (-x, -y, -z, -w)
+        x, y, z, w = q.x, q.y, q.z, q.w
+        squared = x * x + y * y + z * z + w * w
+        if squared < NO_LENGTH:
+            x, y, z, w, squared = 0.0, 0.0, 0.0, 1.0, 1.0
+        x, y, z, w = multiply(self.quaternion, (x, y, z, w))
+        # q and -q are the same rotation. One scaling makes the length 1 and w positive.
+        scale = (1.0 if w >= 0.0 else -1.0) / math.sqrt(squared)
+        return x * scale, y * scale, z * scale, w * scale
 
     def moment(self, about_origin: Any, free: Any) -> Vector:
         """Return the part that depends on the point of reference: ``R m + t x (R f)``.
@@ -70,7 +76,7 @@ class Motion:
 
 
 def unit_quaternion(q: Any) -> Quaternion:
-    """x, y, z, w of a quaternion message, of unit length."""
+    """Return x, y, z, w of a quaternion message, with unit length."""
     x, y, z, w = q.x, q.y, q.z, q.w
     squared = x * x + y * y + z * z + w * w
     if squared < NO_LENGTH:

@@ -3,7 +3,7 @@
 An *array* has the numbers in the order of the fields: a point ``x, y, z``, a quaternion ``x, y, z,
 w``, a pose ``x, y, z, qx, qy, qz, qw``. A *matrix* is ``(4, 4)`` and acts on column vectors from
 the left: ``matrix_from_transform(t) @ (x, y, z, 1)`` does what ``do_transform_point`` does. *Euler*
-angles are radians; ``axes`` names the convention, see :mod:`turtlewire.tf.conversions`, which has
+angles are radians; ``axes`` names the convention, see :mod:`turtlewire.geometry`, which has
 all of this for plain arrays of any shape.
 
 Arrays are of double precision, and never share memory with a message. Wrong shapes raise
@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geometry_msgs.msg import Point, Pose, Quaternion, Transform, Vector3
-from turtlewire.tf import conversions
+from turtlewire import geometry
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -51,7 +51,7 @@ __all__ = [
 
 
 def array_from_point(point: Point | Any) -> Array:
-    """Shape ``(3,)`` of a Point or Point32."""
+    """Convert a Point or Point32 to shape ``(3,)``."""
     return np.array((point.x, point.y, point.z), dtype=np.float64)
 
 
@@ -63,16 +63,17 @@ def point_from_array(array: ArrayLike) -> Point:
 
 def array_from_points(points: Iterable[Point | Any]) -> Array:
     """Convert Points, Point32s or Vector3s, for example a polygon's, to shape ``(N, 3)``."""
+    # The shape also holds without points, when the list has no second axis.
     return np.array([(p.x, p.y, p.z) for p in points], dtype=np.float64).reshape(-1, 3)
 
 
 def points_from_array(array: ArrayLike) -> list[Point]:
-    """Points of an array of shape ``(N, 3)``."""
+    """Return the Points of an array of shape ``(N, 3)``."""
     return [Point(x=x, y=y, z=z) for x, y, z in _rows(array, 3, "points")]
 
 
 def array_from_vector3(vector3: Vector3) -> Array:
-    """Shape ``(3,)``."""
+    """Convert a Vector3 to shape ``(3,)``."""
     return np.array((vector3.x, vector3.y, vector3.z), dtype=np.float64)
 
 
@@ -83,7 +84,7 @@ def vector3_from_array(array: ArrayLike) -> Vector3:
 
 
 def array_from_quaternion(quaternion: Quaternion) -> Array:
-    """Shape ``(4,)``: x, y, z, w as they are."""
+    """Convert a Quaternion to shape ``(4,)``: x, y, z, w as they are."""
     return np.array((quaternion.x, quaternion.y, quaternion.z, quaternion.w), dtype=np.float64)
 
 
@@ -94,23 +95,23 @@ def quaternion_from_array(array: ArrayLike) -> Quaternion:
 
 
 def euler_from_quaternion(quaternion: Quaternion, axes: str = "sxyz") -> Array:
-    """Three angles in the order that ``axes`` names.
+    """Return three angles in the order that ``axes`` names.
 
-    Unless it is given roll, pitch, yaw about static axes.
+    By default these are roll, pitch and yaw about static axes.
     """
-    return conversions.euler_from_quaternion(array_from_quaternion(quaternion), axes)
+    return geometry.euler_from_quaternion(array_from_quaternion(quaternion), axes)
 
 
 def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Quaternion:
     """Return a Quaternion of three angles in the order that ``axes`` names.
 
-    Unless it is given roll, pitch, yaw about static axes.
+    By default these are roll, pitch and yaw about static axes.
     """
-    return quaternion_from_array(conversions.quaternion_from_euler((ai, aj, ak), axes))
+    return quaternion_from_array(geometry.quaternion_from_euler((ai, aj, ak), axes))
 
 
 def array_from_pose(pose: Pose) -> Array:
-    """Shape ``(7,)``."""
+    """Convert a Pose to shape ``(7,)``."""
     return np.array(_pose_numbers(pose), dtype=np.float64)
 
 
@@ -120,30 +121,30 @@ def pose_from_array(array: ArrayLike) -> Pose:
 
 
 def array_from_poses(poses: Iterable[Pose]) -> Array:
-    """Shape ``(N, 7)``, of the poses of a PoseArray for example."""
+    """Convert Poses, for example of a PoseArray, to shape ``(N, 7)``."""
     return np.array([_pose_numbers(pose) for pose in poses], dtype=np.float64).reshape(-1, 7)
 
 
 def poses_from_array(array: ArrayLike) -> list[Pose]:
-    """Poses of an array of shape ``(N, 7)``."""
+    """Return the poses of an array of shape ``(N, 7)``."""
     return [_pose(numbers) for numbers in _rows(array, 7, "poses")]
 
 
 def matrix_from_pose(pose: Pose) -> Array:
-    """Shape ``(4, 4)``.
+    """Return the homogeneous matrix of a Pose, of shape ``(4, 4)``.
 
     It takes coordinates in the pose's own frame to the frame of its header.
     """
-    return conversions.matrix_from_pose(array_from_pose(pose))
+    return geometry.matrix_from_pose(array_from_pose(pose))
 
 
 def pose_from_matrix(matrix: ArrayLike) -> Pose:
     """Return the Pose of a homogeneous matrix."""
-    return pose_from_array(conversions.pose_from_matrix(matrix))
+    return pose_from_array(geometry.pose_from_matrix(matrix))
 
 
 def array_from_transform(transform: Transform | Any) -> Array:
-    """Shape ``(7,)``, of a Transform or TransformStamped."""
+    """Convert a Transform or TransformStamped to shape ``(7,)``."""
     transform = getattr(transform, "transform", transform)
     return np.concatenate(
         (array_from_vector3(transform.translation), array_from_quaternion(transform.rotation))
@@ -159,13 +160,13 @@ def transform_from_array(array: ArrayLike) -> Transform:
 
 
 def matrix_from_transform(transform: Transform | Any) -> Array:
-    """Shape ``(4, 4)``: target_from_source, of a Transform or TransformStamped."""
-    return conversions.matrix_from_pose(array_from_transform(transform))
+    """Return target_from_source, of shape ``(4, 4)``, of a Transform or TransformStamped."""
+    return geometry.matrix_from_pose(array_from_transform(transform))
 
 
 def transform_from_matrix(matrix: ArrayLike) -> Transform:
     """Return the Transform of a homogeneous matrix."""
-    return transform_from_array(conversions.pose_from_matrix(matrix))
+    return transform_from_array(geometry.pose_from_matrix(matrix))
 
 
 def _numbers(array: ArrayLike, count: int, what: str) -> list[float]:

@@ -136,7 +136,7 @@ def do_transform_transform(inner: Transform, transform: TransformStamped | Any) 
 def do_transform_transform_stamped(
     inner: TransformStamped, transform: TransformStamped
 ) -> TransformStamped:
-    """A transform after another, with stamp and frame of the outer one; the child frame stays."""
+    """Return a transform after another, with stamp and frame of the outer one; the child stays."""
     moved = do_transform_transform(inner.transform, transform)
     return TransformStamped(
         header=header_of(transform), child_frame_id=inner.child_frame_id, transform=moved
@@ -159,6 +159,7 @@ def transform_covariance(cov_in: ArrayLike, transform: TransformStamped | Any) -
 
     turn = np.reshape(Motion(transform).rows, (3, 3))
     blocks = np.reshape(np.asarray(cov_in, dtype=float), (2, 3, 2, 3))
+    # R C R^T for each of the four blocks.
     turned: NDArray[Any] = np.einsum("ij,ajbk,lk->aibl", turn, blocks, turn).reshape(36)
     return turned
 

@@ -79,7 +79,7 @@ def do_transform_velocity_stamped(
 def do_transform_twist_with_covariance(
     twist: TwistWithCovariance, transform: TransformStamped | Any
 ) -> TwistWithCovariance:
-    """An uncertain motion at the origin of the target frame, in its axes; exact transform."""
+    """Return an uncertain motion at the origin of the target frame, in its axes."""
     moved = do_transform_twist(twist.twist, transform)
     return TwistWithCovariance(
         twist=moved, covariance=transform_twist_covariance(twist.covariance, transform)
@@ -125,13 +125,14 @@ def transform_twist_covariance(
 
     Returns:
         Shape ``(36,)``. An uncertain angular velocity makes the velocity of a distant point
-        uncertain too.
+        uncertain as well.
     """
     import numpy as np
 
     motion = Motion(transform)
     turn = np.reshape(motion.rows, (3, 3))
     x, y, z = motion.translation
+    # The adjoint of the transform: it takes (v, w) to the other origin.
     target_from_source = np.zeros((6, 6))
     target_from_source[:3, :3] = target_from_source[3:, 3:] = turn
     target_from_source[:3, 3:] = np.array([(0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0)]) @ turn

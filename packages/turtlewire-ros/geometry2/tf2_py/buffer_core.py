@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import turtlewire
 from tf2_py.messages import message_lookup
-from tf2_py.times import to_nanoseconds
-from turtlewire.tf.inspection import links
+from tf2_py.times import to_moment, to_nanoseconds
+from turtlewire.distro import LYRICAL, current_distro, since
+from turtlewire.tf.links import links
 
 if TYPE_CHECKING:
     from geometry_msgs.msg import TransformStamped
@@ -19,6 +20,10 @@ if TYPE_CHECKING:
 __all__ = ["BufferCore"]
 
 _DEFAULT_CACHE_NS = 10_000_000_000
+_HINT_IF_EMPTY = (
+    "No transform has arrived yet. Is a broadcaster running, and does a TransformListener fill "
+    "this buffer?"
+)
 
 
 class BufferCore:
@@ -27,7 +32,7 @@ class BufferCore:
     Args:
         cache_time: How long samples are kept (``rclpy.duration.Duration`` or a duration message);
             by default 10 s.
-        max_frames: How many frames it takes; transforms of further ones are refused. None: no
+        max_frames: How many frames it accepts; transforms of further ones are rejected. None: no
             limit. Not in ROS 2.
 
     Attributes:
@@ -43,12 +48,14 @@ class BufferCore:
             _DEFAULT_CACHE_NS if cache_time is None else to_nanoseconds(cache_time, "duration"),
             max_frames,
         )
+        self.engine._follow_tf2(current_distro())
+        self.engine._hint_if_empty = _HINT_IF_EMPTY
         self._messages = message_lookup(self.engine)
 
     # -- data in
 
     def set_transform(self, transform: TransformStamped | Any, authority: str) -> None:
-        """Add a transform at the time of its stamp. A refusal is logged with its reason."""
+        """Add a transform at the time of its stamp. A rejected one is logged with the reason."""
         self._set(transform, authority, static=False)
 
     def set_transform_static(self, transform: TransformStamped | Any, authority: str) -> None:
@@ -59,20 +66,20 @@ class BufferCore:
         header, pose = transform.header, transform.transform
         t, q = pose.translation, pose.rotation
         stamp = to_nanoseconds(header.stamp)
-        refusal = self.engine.set_transform(
+        refusal = self.engine._set_transform(
             header.frame_id,
             transform.child_frame_id,
             stamp,
             (t.x, t.y, t.z),
             (q.x, q.y, q.z, q.w),
             static,
-            authority,
+            sender=authority,
         )
         if refusal:
             _log_refusal(refusal)
 
     def clear(self) -> None:
-        """Drop all samples; frame names and static transforms stay."""
+        """Drop all samples; frame names stay, and static transforms, except in Lyrical."""
         self.engine.clear()
 
     # -- questions
@@ -80,7 +87,7 @@ class BufferCore:
     def lookup_transform_core(
         self, target_frame: str, source_frame: str, time: Time | Any
     ) -> TransformStamped:
-        """The transform that takes data from ``source_frame`` into ``target_frame``; does not wait.
+        """Return the transform from ``source_frame`` to ``target_frame``; does not wait.
 
         Raises:
             LookupException: A frame does not exist.
@@ -98,7 +105,7 @@ class BufferCore:
         source_time: Time | Any,
         fixed_frame: str,
     ) -> TransformStamped:
-        """The transform between two frames at two times, by way of a frame that did not move."""
+        """Return the transform between two frames at two times, via a frame that did not move."""
         return self._messages.lookup_full(
             target_frame, target_time, source_frame, source_time, fixed_frame
         )
@@ -106,9 +113,9 @@ class BufferCore:
     def can_transform_core(
         self, target_frame: str, source_frame: str, time: Time | Any
     ) -> tuple[int, str]:
-        """1 and an empty string if a lookup would succeed, else 0 and the reason."""
-        reason = self.engine.can_transform_reason(target_frame, source_frame, to_nanoseconds(time))
-        return (int(not reason), reason)
+        """Return 1 and an empty string if a lookup would succeed, else 0 and the reason."""
+        reason = self.engine._can_transform_reason(target_frame, source_frame, to_moment(time))
+        return (_succeeds(reason), reason)
 
     def can_transform_full_core(
         self,
@@ -119,17 +126,20 @@ class BufferCore:
         fixed_frame: str,
     ) -> tuple[int, str]:
         """:meth:`can_transform_core` for :meth:`lookup_transform_full_core`."""
-        times = to_nanoseconds(target_time), to_nanoseconds(source_time)
-        reason = self.engine.can_transform_full_reason(
-            target_frame, times[0], source_frame, times[1], fixed_frame
+        reason = self.engine._can_transform_reason(
+            target_frame,
+            source_frame,
+            to_moment(source_time),
+            fixed_frame=fixed_frame,
+            target_stamp_ns=to_moment(target_time),
         )
-        return (int(not reason), reason)
+        return (_succeeds(reason), reason)
 
     def get_latest_common_time(self, target_frame: str, source_frame: str, /) -> Time:
         """Return the newest time that every link between the frames has reached."""
         from rclpy.time import Time
 
-        return Time(nanoseconds=self.engine.latest_common_time(target_frame, source_frame))
+        return Time(nanoseconds=self.engine._latest_common_time(target_frame, source_frame))
 
     # -- velocities
 
@@ -140,7 +150,7 @@ class BufferCore:
         time: Time | Any,
         averaging_interval: Duration | Any,
     ) -> tuple[Triple, Triple]:
-        """Linear [m/s] and angular velocity [rad/s] of ``tracking_frame``.
+        """Return linear [m/s] and angular velocity [rad/s] of ``tracking_frame``.
 
         Velocity of its origin relative to ``observation_frame`` and in the axes of that frame, as
         mean over the interval around ``time``.
@@ -166,13 +176,13 @@ class BufferCore:
         averaging_interval: Duration | Any,
         /,
     ) -> tuple[Triple, Triple]:
-        """The velocity at a ``reference_point`` of the body, in the axes of ``reference_frame``."""
+        """Return the velocity of a ``reference_point``, in the axes of ``reference_frame``."""
         vx, vy, vz, wx, wy, wz = self.engine.lookup_velocity(
-            tracking_frame,
             observation_frame,
-            to_nanoseconds(time),
+            tracking_frame,
+            to_moment(time),
             interval_ns=to_nanoseconds(averaging_interval, "duration"),
-            reference_frame=reference_frame,
+            axes_frame=reference_frame,
             point=reference_point,
             point_frame=reference_point_frame,
         ).tolist()
@@ -203,15 +213,15 @@ class BufferCore:
 
     def all_frames_as_yaml(self, *_ignored: Any) -> str:
         """Frames, parents, senders, rates and ages as YAML. Arguments are ignored, as in ROS 2."""
-        return self.engine.all_frames_as_yaml()
+        return self.engine.to_yaml()
 
     def all_frames_as_string(self, *_ignored: Any) -> str:
         """One line for each frame with its parent. Arguments are ignored, as in ROS 2."""
-        return self.engine.all_frames_as_string()
+        return self.engine._frames_as_string()
 
     def _allFramesAsDot(self, time: Time | Any | None = None) -> str:  # noqa: N802 -- ROS 2's name
         """Return the tree as Graphviz text; ``time`` is the present, for ages."""
-        return self.engine.all_frames_as_dot(0.0 if time is None else to_nanoseconds(time) / 1e9)
+        return self.engine.to_dot(now_ns=None if time is None else to_nanoseconds(time))
 
     def _repr_svg_(self) -> str:
         """Return the tree of frames as SVG, for notebooks."""
@@ -219,15 +229,15 @@ class BufferCore:
 
     def _frameExists(self, frame_id: str, /) -> bool:  # noqa: N802 -- ROS 2's name
         """Return True if any transform has named the frame."""
-        return self.engine.frame_exists(frame_id)
+        return self.engine._knows(frame_id)
 
     def _getFrameStrings(self) -> list[str]:  # noqa: N802 -- ROS 2's name
         """Return the names of all frames, in order of arrival."""
-        return self.engine.frame_strings()
+        return self.engine.frames()
 
 
 def _way(parents: dict[str, str], start: str, end: str) -> list[str]:
-    """Up from one frame to the nearest common ancestor and down to the other."""
+    """Go up from one frame to the nearest common ancestor and down to the other."""
     up, down = _line(parents, start), _line(parents, end)
     meeting = next(frame for frame in up if frame in down)
     return up[: up.index(meeting) + 1] + down[: down.index(meeting)][::-1]
@@ -235,15 +245,25 @@ def _way(parents: dict[str, str], start: str, end: str) -> list[str]:
 
 def _line(parents: dict[str, str], frame: str) -> list[str]:
     line = [frame]
+    # The transforms may form a loop.
     while (parent := parents.get(line[-1])) and parent not in line:
         line.append(parent)
     return line
+
+
+def _succeeds(reason: str) -> int:
+    """Return what can_transform_core returns beside a reason.
+
+    Lyrical's tf2 takes a static transform that was cleared for a success, but gives half a reason.
+    """
+    return int(not reason or (since(LYRICAL) and reason.startswith(", when looking up")))
 
 
 def _log_refusal(reason: str) -> None:
     from rclpy.logging import get_logger
 
     logger = get_logger("tf2")
+    # tf2's severities.
     if reason.startswith("TF_OLD_DATA"):
         logger.warning(reason)
     else:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Protocol
 
-from tf2_py.times import to_nanoseconds
+from tf2_py.times import to_moment, to_nanoseconds
 from turtlewire.tf.buffer import CORE
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ class MessageLookup(Protocol):
         fixed_frame: str,
         timeout: Any = None,
     ) -> TransformStamped:
-        """As ``turtlewire.Buffer.lookup_transform_full``; without a timeout it does not wait."""
+        """As `lookup`, by way of a frame that does not move."""
         ...
 
 
@@ -48,7 +48,7 @@ class _PlainMessageLookup:
     ) -> TransformStamped:
         return to_message(
             self._buffer.lookup_transform(
-                target_frame, source_frame, to_nanoseconds(time), _timeout(timeout)
+                target_frame, source_frame, to_moment(time), timeout_ns=_timeout(timeout)
             )
         )
 
@@ -61,9 +61,13 @@ class _PlainMessageLookup:
         fixed_frame: str,
         timeout: Any = None,
     ) -> TransformStamped:
-        times = to_nanoseconds(target_time), to_nanoseconds(source_time)
-        found = self._buffer.lookup_transform_full(
-            target_frame, times[0], source_frame, times[1], fixed_frame, _timeout(timeout)
+        found = self._buffer.lookup_transform(
+            target_frame,
+            source_frame,
+            to_moment(source_time),
+            fixed_frame=fixed_frame,
+            target_stamp_ns=to_moment(target_time),
+            timeout_ns=_timeout(timeout),
         )
         return to_message(found)
 
@@ -78,10 +82,10 @@ def to_message(transform: turtlewire.Transform) -> TransformStamped:
 
     message = TransformStamped()
     message.header.stamp.sec, message.header.stamp.nanosec = divmod(
-        transform.stamp_ns, 1_000_000_000
+        transform.stamp_ns or 0, 1_000_000_000
     )
-    message.header.frame_id = transform.frame_id
-    message.child_frame_id = transform.child_frame_id
+    message.header.frame_id = transform.target_frame
+    message.child_frame_id = transform.source_frame
     translation, rotation = message.transform.translation, message.transform.rotation
     translation.x, translation.y, translation.z = transform.translation
     rotation.x, rotation.y, rotation.z, rotation.w = transform.rotation

@@ -4,7 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-__all__ = ["to_nanoseconds"]
+__all__ = ["to_moment", "to_nanoseconds"]
+
+
+def to_moment(time: Any) -> int | None:
+    """Return the nanoseconds of a time of a question; time 0, the latest, is the engine's None."""
+    return to_nanoseconds(time) or None
 
 
 def to_nanoseconds(value: Any, what: str = "time") -> int:

@@ -7,6 +7,7 @@ module                            what it holds
 `buffer_interface`                `BufferInterface`: what all buffers share; registered types
 `buffer_client`, `buffer_server`  lookups in a buffer of another process
 `transform_listener`              `TransformListener`: fills a buffer from the wire
+`static_transform_listener`       `StaticTransformListener`: of static transforms only
 `transform_broadcaster`           `TransformBroadcaster`
 `static_transform_broadcaster`    `StaticTransformBroadcaster`: also for later subscriptions
 `message_filter`                  holds messages back until they can be transformed
@@ -46,13 +47,9 @@ from .buffer_interface import (
     convert,
 )
 from .static_transform_broadcaster import StaticTransformBroadcaster
+from .static_transform_listener import StaticTransformListener
 from .transform_broadcaster import TransformBroadcaster
-from .transform_listener import (
-    DEFAULT_STATIC_TF_TOPIC,
-    DEFAULT_TF_TOPIC,
-    StaticTransformListener,
-    TransformListener,
-)
+from .transform_listener import DEFAULT_STATIC_TF_TOPIC, DEFAULT_TF_TOPIC, TransformListener
 
 if TYPE_CHECKING:
     from .buffer_client import BufferClient

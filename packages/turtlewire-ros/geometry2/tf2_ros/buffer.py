@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from rclpy.clock import Clock, JumpThreshold
 from rclpy.duration import Duration
 from tf2_py import BufferCore
-from tf2_py.times import to_nanoseconds
+from tf2_py.times import to_moment, to_nanoseconds
 from turtlewire.errors import ExtrapolationException, InvalidArgumentException
 
 from .buffer_interface import NO_TIMEOUT, BufferInterface
@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 
     import turtlewire
     from geometry_msgs.msg import TransformStamped
-    from rclpy.clock import TimeJump
+    from rclpy.clock import BaseClock, TimeJump
+    from rclpy.experimental import AsyncNode
     from rclpy.node import Node
     from rclpy.task import Future
     from turtlewire.errors import TransformException
@@ -45,14 +46,14 @@ class Buffer(BufferCore, BufferInterface):
         cache_time: How long samples are kept; the default is 10 s.
         node: The node that offers the service ``tf2_frames`` (``tf2_msgs/srv/FrameGraph``), and
             whose clock counts.
-        max_frames: How many frames it takes; transforms of further ones are refused, with a
+        max_frames: How many frames it accepts; transforms of further ones are rejected, with a
             warning at most once a minute. None: no limit. Not in ROS 2.
     """
 
     def __init__(
         self,
         cache_time: Duration | None = None,
-        node: Node | None = None,
+        node: Node | AsyncNode | None = None,
         *,
         max_frames: int | None = None,
     ) -> None:
@@ -60,14 +61,14 @@ class Buffer(BufferCore, BufferInterface):
         BufferInterface.__init__(self)
         self._futures = TransformFutures(self.engine)
         self.node = node
-        self.clock = Clock() if node is None else node.get_clock()
+        self.clock: BaseClock = Clock() if node is None else node.get_clock()
         if node is not None:
             self._offer_frames(node)
             self.jump_handle = self.clock.create_jump_callback(
                 JUMP_BACK, post_callback=self.time_jump_callback
             )
 
-    def _offer_frames(self, node: Node) -> None:
+    def _offer_frames(self, node: Node | AsyncNode) -> None:
         from tf2_msgs.srv import FrameGraph
 
         def answer(_request: Any, response: Any) -> Any:
@@ -103,6 +104,7 @@ class Buffer(BufferCore, BufferInterface):
             ExtrapolationException: The data does not reach the time.
             InvalidArgumentException: A frame id is empty or starts with a slash.
         """
+        # The usual case needs no conversion of a timeout.
         if timeout is NO_TIMEOUT:
             return self._messages.lookup(target_frame, source_frame, time)
         return self._messages.lookup(target_frame, source_frame, time, timeout)
@@ -116,7 +118,7 @@ class Buffer(BufferCore, BufferInterface):
         fixed_frame: str,
         timeout: Duration | Any = NO_TIMEOUT,
     ) -> TransformStamped:
-        """The transform from ``source_frame`` at one time into ``target_frame`` at another time.
+        """Return the transform from ``source_frame`` at one time into ``target_frame`` at another.
 
         Args:
             target_frame: The frame in which the answer is expressed.
@@ -141,12 +143,15 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Duration | Any = NO_TIMEOUT,
         return_debug_tuple: bool = False,
     ) -> int | tuple[int, str]:
-        """1 if :meth:`lookup_transform` would succeed within ``timeout``, else 0.
+        """Return 1 if :meth:`lookup_transform` would succeed within ``timeout``, else 0.
 
         ``return_debug_tuple`` adds the reason of a failure: ``(0, text)``.
         """
-        reason = self.engine.can_transform_reason(
-            target_frame, source_frame, to_nanoseconds(time), to_nanoseconds(timeout, "duration")
+        reason = self.engine._can_transform_reason(
+            target_frame,
+            source_frame,
+            to_moment(time),
+            timeout_ns=to_nanoseconds(timeout, "duration"),
         )
         return (int(not reason), reason) if return_debug_tuple else int(not reason)
 
@@ -160,14 +165,17 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Duration | Any = NO_TIMEOUT,
         return_debug_tuple: bool = False,
     ) -> int | tuple[int, str]:
-        """1 if :meth:`lookup_transform_full` would succeed within ``timeout``, else 0.
+        """Return 1 if :meth:`lookup_transform_full` would succeed within ``timeout``, else 0.
 
         ``return_debug_tuple`` adds the reason of a failure: ``(0, text)``.
         """
-        times = to_nanoseconds(target_time), to_nanoseconds(source_time)
-        timeout_ns = to_nanoseconds(timeout, "duration")
-        reason = self.engine.can_transform_full_reason(
-            target_frame, times[0], source_frame, times[1], fixed_frame, timeout_ns
+        reason = self.engine._can_transform_reason(
+            target_frame,
+            source_frame,
+            to_moment(source_time),
+            timeout_ns=to_nanoseconds(timeout, "duration"),
+            fixed_frame=fixed_frame,
+            target_stamp_ns=to_moment(target_time),
         )
         return (int(not reason), reason) if return_debug_tuple else int(not reason)
 
@@ -251,20 +259,18 @@ class _Leg(NamedTuple):
 
 
 class _Question(NamedTuple):
-    """A lookup that a future waits for; see :class:`~.transform_futures.Question`."""
+    """A lookup that a future waits for; see :class:`~.transform_futures.PendingLookup`."""
 
     engine: turtlewire.Buffer
     legs: tuple[_Leg, ...]
     answer: Callable[[], TransformStamped]
 
     def never(self, error: TransformException) -> bool:
-        """Return True if no later data can bring the answer.
-
-        That is so for invalid frame ids, and for a time that has left a link's cache. The latest
-        time advances with the data.
-        """
+        """Return True if no later data can bring the answer."""
         if isinstance(error, InvalidArgumentException):
             return True
+        # Otherwise only a time that has left a cache cannot come back; the latest time advances
+        # with the data.
         keep_ns = self.engine.cache_time_ns
         if not isinstance(error, ExtrapolationException):
             return False
@@ -275,7 +281,9 @@ class _Question(NamedTuple):
             for leg in self.legs
             if (leg.target, leg.source) == (error.target_frame, error.source_frame)
         )
-        return not latest and error.requested_ns < error.newest_ns - keep_ns
+        if latest or error.requested_ns is None or error.newest_ns is None:
+            return False
+        return error.requested_ns < error.newest_ns - keep_ns
 
 
 async def _outcome(future: Future) -> TransformStamped:

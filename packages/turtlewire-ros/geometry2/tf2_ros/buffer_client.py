@@ -14,6 +14,7 @@ from rclpy.time import Time
 from tf2_msgs.action import LookupTransform
 from tf2_msgs.msg import TF2Error
 from tf2_py.times import to_nanoseconds
+from turtlewire.distro import LYRICAL, since
 from turtlewire.errors import TimeoutException, TransformException
 
 from .buffer_interface import NO_TIMEOUT, BufferInterface
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 
 __all__ = ["BufferClient"]
 
+# `STATUS_SUCCEEDED` of action_msgs.
 _SUCCEEDED = 4
 _NOT_READY = "The BufferServer is not ready."
 _WRONG = "Something is likely wrong with the server."
@@ -73,6 +75,7 @@ class BufferClient(BufferInterface):
             f"_{node.get_name()}_buffer_client",
             context=node.context,
             namespace=node.get_namespace(),
+            # The command line's rules are for the user's nodes.
             use_global_arguments=False,
             enable_rosout=False,
             start_parameter_services=False,
@@ -87,6 +90,7 @@ class BufferClient(BufferInterface):
         If the server was killed, the middleware waits up to a second for it to acknowledge the last
         request.
         """
+        # First, so that no callback uses what is destroyed below.
         self._executor.shutdown()
         self._thread.join()
         self.action_client.destroy()
@@ -175,6 +179,7 @@ class BufferClient(BufferInterface):
         timeout_s = to_nanoseconds(timeout, "duration") / 1e9
         if not self.action_client.wait_for_server(timeout_sec=timeout_s):
             raise TimeoutException(_NOT_READY)
+        # Before the request: a server that leaves later cannot answer it.
         limit, servers = timeout_s + self.timeout_padding.nanoseconds / 1e9, self._servers()
         handle = self._wait(self.action_client.send_goal_async(goal), limit, servers)
         if not handle.accepted:
@@ -182,11 +187,13 @@ class BufferClient(BufferInterface):
         try:
             response = self._wait(handle.get_result_async(), limit, servers)
         except TimeoutException:
+            # The server need not go on waiting.
             handle.cancel_goal_async()
             raise
         return _transform(response)
 
     def _servers(self) -> set[bytes]:
+        # Each action server publishes the status, so its publisher stands for it.
         return {
             bytes(each.endpoint_gid)
             for each in self._node.get_publishers_info_by_topic(f"{self._action}/_action/status")
@@ -200,6 +207,7 @@ class BufferClient(BufferInterface):
         """
         until, news = time.monotonic() + seconds, threading.Event()
         future.add_done_callback(lambda _future: news.set())
+        # Also woken by changes of the graph, to notice that the server has left.
         stop_listening = self._node.context.wire.graph.add_listener(news.set)
         try:
             while not future.done():
@@ -235,11 +243,12 @@ def _message(time: Time | Any) -> Any:
     """Return a time as message.
 
     Raises:
-        TypeError: ``time`` is not a time.
+        TypeError: ``time`` is not a time; in Lyrical, it is a message.
     """
     if isinstance(time, Time):
         return time.to_msg()
-    if hasattr(time, "sec") and hasattr(time, "nanosec"):
+    if hasattr(time, "sec") and hasattr(time, "nanosec") and not since(LYRICAL):
+        # The level is that of the user's call.
         warnings.warn(
             "Passing a builtin_interfaces.msg.Time is deprecated, pass a rclpy.time.Time object.",
             UserWarning,

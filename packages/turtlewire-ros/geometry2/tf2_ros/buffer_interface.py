@@ -78,6 +78,7 @@ class NotImplementedException(Exception):
 def _unknown_type(key: Any) -> TypeException:
     error = TypeException(f"Type {key} is not loaded or supported")
     advice = _advice(key)
+    # Python 3.10 has no notes.
     if advice and hasattr(error, "add_note"):
         error.add_note(advice)
     return error
@@ -166,7 +167,7 @@ class BufferInterface:
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Any, timeout: Any = NO_TIMEOUT
     ) -> TransformStamped:
-        """The transform that takes data from ``source_frame`` to ``target_frame`` at ``time``."""
+        """Return the transform from ``source_frame`` to ``target_frame`` at ``time``."""
         raise NotImplementedException
 
     def lookup_transform_full(
@@ -256,15 +257,15 @@ class ConvertRegistration:
         self._convert[key] = callback
 
     def get_from_msg(self, key: type) -> Callable[[Any], Any]:
-        """The function of :meth:`add_from_msg`; raises :class:`TypeException` if unknown."""
+        """Return the function of :meth:`add_from_msg`; raises :class:`TypeException` if unknown."""
         return self._get(self._from_msg, key)
 
     def get_to_msg(self, key: type) -> Callable[[Any], Any]:
-        """The function of :meth:`add_to_msg`; raises :class:`TypeException` if unknown."""
+        """Return the function of :meth:`add_to_msg`; raises :class:`TypeException` if unknown."""
         return self._get(self._to_msg, key)
 
     def get_convert(self, key: tuple[type, type]) -> Callable[[Any], Any]:
-        """The function of :meth:`add_convert`; raises :class:`TypeException` if unknown."""
+        """Return the function of :meth:`add_convert`; raises :class:`TypeException` if unknown."""
         return self._get(self._convert, key)
 
     @staticmethod
@@ -291,7 +292,7 @@ def convert(a: Any, b_type: type) -> Any:
         if type(a) is b_type:
             return deepcopy(a)
         converted = registration.get_from_msg(b_type)(registration.get_to_msg(type(a))(a))
-        # The conversion from a message takes any message: the type tells if it fitted.
+        # The conversion from a message accepts any message: only the result shows if it fitted.
         if not isinstance(converted, b_type):
             raise TypeException(f"No conversion from {type(a)} to {b_type} is registered") from None
         return converted

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 __all__ = ["BufferServer", "error_number", "exception_for"]
 
+# The base class comes last, because the first match counts.
 _NUMBERS: dict[type[TransformException], int] = {
     LookupException: TF2Error.LOOKUP_ERROR,
     ConnectivityException: TF2Error.CONNECTIVITY_ERROR,
@@ -71,6 +72,7 @@ class BufferServer:
             ns,
             self._execute,
             cancel_callback=self._cancel,
+            # Goals that wait must not hold up each other.
             callback_group=ReentrantCallbackGroup(),
         )
 

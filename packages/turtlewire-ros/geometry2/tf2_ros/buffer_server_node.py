@@ -20,7 +20,7 @@ _MOST_S = 1e9
 
 
 def main(args: list[str] | None = None) -> int:
-    """Serve until stopped; the exit status.
+    """Serve until stopped; return the exit status.
 
     The parameter ``buffer_size`` says how many seconds of samples are kept; its default is 120.
     """

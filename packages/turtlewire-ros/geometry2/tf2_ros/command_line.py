@@ -6,10 +6,10 @@ import argparse
 import sys
 from typing import Any
 
-__all__ = ["Parser", "count", "digits", "frame_id"]
+__all__ = ["ToolParser", "count", "digits", "frame_id"]
 
 
-class Parser(argparse.ArgumentParser):
+class ToolParser(argparse.ArgumentParser):
     """A parser that exits with status 1 after an error, as ROS 2's tools do."""
 
     def error(self, message: str) -> Any:
@@ -19,7 +19,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def frame_id(text: str) -> str:
-    """Return a frame id; argparse prints the error of one that tf2 would refuse."""
+    """Return a frame id; argparse prints the error of one that tf2 would reject."""
     if not text:
         raise argparse.ArgumentTypeError("in tf2 frame_ids cannot be empty")
     if text.startswith("/"):
@@ -36,7 +36,7 @@ def count(text: str) -> int:
 
 
 def digits(text: str) -> int:
-    """Digits after the point, of which a double has up to 17."""
+    """Return a number of digits after the point, of which a double has up to 17."""
     return _whole(text, 17, "a whole number from 0 to 17")
 
 

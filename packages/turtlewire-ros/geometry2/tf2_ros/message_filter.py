@@ -65,7 +65,7 @@ class MessageFilter(SimpleFilter):
         target_frame: The frame, or the frames, that a message will be transformed into.
         queue_size: How many messages may wait; then the oldest is dropped. 0 sets no limit.
         node: Its executor runs the callbacks, and its clock measures the timeout.
-        tolerance: The transform must be known at the stamp, and this much later, too.
+        tolerance: The transform must be known at the stamp, and also this much later.
         timeout: How long a message waits; None sets no limit.
     """
 
@@ -96,11 +96,10 @@ class MessageFilter(SimpleFilter):
             if timeout is None
             else node.create_timer(timeout.nanoseconds / 1e9, self._expire, autostart=False)
         )
-        self._stop_listening: Callable[[], None] | None = self._engine.add_change_listener(
-            self._on_data
-        )
+        self._stop_listening: Callable[[], None] | None = self._engine.on_change(self._on_data)
         self._jumps = node.get_clock().create_jump_callback(JUMP_BACK, post_callback=self._on_jump)
         self._on_destroy: Callable[[MessageFilter], None] | None = None
+        # The node holds the filter, which then works without any other reference to it.
         node._rclpy_endpoints.keep(self)
         if f is not None:
             self.connectInput(f)
@@ -121,6 +120,7 @@ class MessageFilter(SimpleFilter):
 
     def setTargetFrames(self, target_frames: Iterable[str]) -> None:  # noqa: N802 -- as in C++
         """Wait for other frames, also with the messages that wait already."""
+        # As in C++, the leading slash of ROS 1 is removed.
         self._targets = tuple(frame.removeprefix("/") for frame in target_frames)
         self._ready.trigger()
 
@@ -165,6 +165,7 @@ class MessageFilter(SimpleFilter):
             elif (
                 len(self._waiting) == 1 and self._timer is not None and self._timeout_ns is not None
             ):
+                # The timer runs for the oldest message only.
                 self._timer.timer_period_ns = self._timeout_ns
                 self._timer.reset()
         # Without the lock: the callbacks are the user's, and may add messages.
@@ -203,7 +204,7 @@ class MessageFilter(SimpleFilter):
             self._ready.trigger()
 
     def _deliver(self) -> None:
-        """Pass on the ready messages in order of arrival, and drop those that are too old."""
+        """Pass on the ready messages in order of arrival, and drop messages that are too old."""
         with self._lock:
             ready = [each for each in self._waiting if self._is_ready(each)]
             too_old = [
@@ -230,7 +231,7 @@ class MessageFilter(SimpleFilter):
         oldest = waiting.stamp_ns + self._engine.cache_time_ns
         try:
             return any(
-                oldest < self._engine.latest_common_time(target, waiting.source)
+                oldest < self._engine._latest_common_time(target, waiting.source)
                 for target in self._targets
             )
         except TransformException:
@@ -241,6 +242,7 @@ class MessageFilter(SimpleFilter):
         now = self._node.get_clock().now().nanoseconds
         with self._lock:
             expired = []
+            # With one timeout for all, the deadlines are in order of arrival.
             while (
                 self._waiting
                 and self._waiting[0].deadline_ns is not None

@@ -10,9 +10,9 @@ __all__ = ["transform_html"]
 
 
 class _Pose(NamedTuple):
-    frame_id: str
-    child_frame_id: str
-    stamp_ns: int
+    target_frame: str
+    source_frame: str
+    stamp_ns: int | None
     translation: tuple[float, float, float]
     rotation: tuple[float, float, float, float]
 
@@ -32,7 +32,7 @@ def transform_html(message: TransformStamped) -> str | None:
         _Pose(
             message.header.frame_id,
             message.child_frame_id,
-            stamp_ns,
+            stamp_ns or None,  # 0 stands for static links
             (t.x, t.y, t.z),
             (q.x, q.y, q.z, q.w),
         )

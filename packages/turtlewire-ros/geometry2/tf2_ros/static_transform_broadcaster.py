@@ -19,8 +19,9 @@ if TYPE_CHECKING:
 
     from geometry_msgs.msg import TransformStamped
     from rclpy.context import Context
+    from rclpy.experimental import AsyncNode
     from rclpy.node import Node
-    from rclpy.publisher import Publisher
+    from rclpy.publisher import BasePublisher
 
 __all__ = ["StaticTransformBroadcaster"]
 
@@ -28,7 +29,7 @@ __all__ = ["StaticTransformBroadcaster"]
 class _Kept:
     """The transforms that one publisher keeps for late joiners."""
 
-    def __init__(self, publisher: Publisher) -> None:
+    def __init__(self, publisher: BasePublisher) -> None:
         # Its node owns it: a broadcaster that replaces a transform later must not keep it alive.
         self._publisher = ref(publisher)
         self.transforms: dict[str, TransformStamped] = {}
@@ -68,7 +69,7 @@ class StaticTransformBroadcaster:
         pub_tf: The publisher.
     """
 
-    def __init__(self, node: Node, qos: QoSProfile | int | None = None) -> None:
+    def __init__(self, node: Node | AsyncNode, qos: QoSProfile | int | None = None) -> None:
         if qos is None:
             qos = QoSProfile(
                 depth=1,
@@ -81,6 +82,7 @@ class StaticTransformBroadcaster:
             self._keepers = _keepers.setdefault(node.context, {}).setdefault(
                 self.pub_tf.topic_name, {}
             )
+            # A publisher that is gone keeps nothing for late joiners.
             for child in [child for child, kept in self._keepers.items() if kept.gone]:
                 del self._keepers[child]
 
@@ -101,5 +103,7 @@ class StaticTransformBroadcaster:
                     replaced.append(keeper)
                 self._keepers[child] = self._kept
                 self._kept.transforms[child] = each
+            # The replaced publishers as well: a late joiner must not get the old transform from
+            # them.
             for keeper in (*replaced, self._kept):
                 keeper.publish()

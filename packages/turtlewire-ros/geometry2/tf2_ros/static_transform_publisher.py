@@ -16,6 +16,7 @@ from rclpy.node import Node
 from rclpy.qos import qos_profile_parameter_events
 from rclpy.utilities import remove_ros_args
 from tf_transformations import quaternion_from_euler
+from turtlewire.distro import LYRICAL, since
 
 from .static_transform_broadcaster import StaticTransformBroadcaster
 
@@ -32,7 +33,7 @@ Publishes the pose of the child frame in the frame: a translation in metres, and
 as a quaternion or as roll, pitch and yaw in radians about the fixed axes x, y and z. Numbers that
 are not given are zero.
 
-old style, deprecated (mind the order of the angles):
+old style, deprecated, gone in Lyrical (mind the order of the angles):
        static_transform_publisher X Y Z QX QY QZ QW FRAME_ID CHILD_FRAME_ID
        static_transform_publisher X Y Z YAW PITCH ROLL FRAME_ID CHILD_FRAME_ID"""
 
@@ -80,6 +81,10 @@ def parse(arguments: Sequence[str]) -> Placement:
                 raise ArgumentsError(f"Not enough arguments for {word}")
         else:
             rest.append(word)
+    # Lyrical ignores all other words.
+    if since(LYRICAL):
+        return _checked(_new_style(flags))
+    # The old style: a translation, a quaternion or three angles, and two frame ids.
     if flags and len(rest) in {8, 9}:
         raise ArgumentsError("Cannot specify both new-style (flags) and old-style (arguments)")
     if len(rest) in {8, 9}:
@@ -98,6 +103,7 @@ def _new_style(flags: dict[str, str]) -> Placement:
             number["--qx"],
             number["--qy"],
             number["--qz"],
+            # Without `--qw`, the quaternion would not have unit length.
             number["--qw"] if "--qw" in flags else 1.0,
         )
     else:
@@ -115,7 +121,9 @@ def _old_style(words: list[str]) -> Placement:
         if len(words) == 9
         else ("x", "y", "z", "yaw", "pitch", "roll")
     )
+    # The frame ids come last and remain.
     x, y, z, *turn = (_float(word, name) for word, name in zip(words, names, strict=False))
+    # The old style has yaw first.
     rotation = (
         (turn[0], turn[1], turn[2], turn[3])
         if len(turn) == 4
@@ -159,6 +167,7 @@ class StaticTransformPublisher(Node):
     """
 
     def __init__(self, placement: Placement) -> None:
+        # As in ROS 2, because several of these nodes may run.
         letters = string.ascii_letters + string.digits
         suffix = "".join(random.choices(letters, k=16))  # noqa: S311 -- no secret
         super().__init__(f"static_transform_publisher_{suffix}")
@@ -170,6 +179,8 @@ class StaticTransformPublisher(Node):
         read_only = ParameterDescriptor(read_only=True)
         for part, names in (("translation", "xyz"), ("rotation", "xyzw")):
             for name, number in zip(names, getattr(placement, part), strict=True):
+                # The parameter's value and not the argument: a parameter file may have set another
+                # one.
                 value = self.declare_parameter(f"{part}.{name}", number, read_only).value
                 setattr(getattr(transform.transform, part), name, value)
         transform.header.frame_id = self.declare_parameter(
@@ -197,7 +208,7 @@ class StaticTransformPublisher(Node):
 
 
 def main(args: list[str] | None = None) -> int:
-    """Publish until stopped; the exit status."""
+    """Publish until stopped; return the exit status."""
     argv = sys.argv if args is None else args
     words = remove_ros_args(argv)[1:]
     if {"-h", "--help"} & {*words}:

@@ -19,7 +19,7 @@ from turtlewire.geometry import quaternions
 from turtlewire.terminal.printable import printable_lines
 
 from .buffer import Buffer
-from .command_line import Parser, count, digits, frame_id
+from .command_line import ToolParser, count, digits, frame_id
 from .transform_listener import TransformListener
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ def main(args: list[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = Parser(
+    parser = ToolParser(
         prog="tf2_echo",
         description="Print the pose of TARGET in SOURCE, which takes data from TARGET into SOURCE.",
     )
@@ -96,6 +96,7 @@ def _echo(node: Node, options: argparse.Namespace, period_s: float) -> None:
     TransformListener(buffer, node, spin_thread=True)  # a simulated clock needs the spinning
     source, target = options.source_frame, options.target_frame
     printed = 0
+    # Each hint only once: the line itself is repeated every second.
     said: set[str] = set()
     while not stopped.is_set():
         answer: Any = buffer.can_transform(
@@ -107,6 +108,7 @@ def _echo(node: Node, options: argparse.Namespace, period_s: float) -> None:
         hints = _hints(buffer, source, target, node.context.get_domain_id())
         why = printable_lines("\n".join([reason, *(hint for hint in hints if hint not in said)]))
         said.update(hints)
+        # ROS 2's text, with its two blanks.
         node.get_logger().info(f"Waiting for transform {source} ->  {target}: {why}")
     while not stopped.is_set():
         try:
@@ -135,7 +137,7 @@ def _hints(buffer: Buffer, source: str, target: str, domain: int) -> list[str]:
 
 
 def _failure(now_ns: int, error: TransformException, buffer: Buffer) -> str:
-    """ROS 2's text for a transform that was known before, and is not any more."""
+    """Return ROS 2's text for a transform that was known before, and is not any more."""
     return (
         f"Failure at {now_ns / 1e9:f}\nException thrown:{error}\n"
         f"The current list of frames is:\n{buffer.all_frames_as_string()}"
@@ -143,7 +145,7 @@ def _failure(now_ns: int, error: TransformException, buffer: Buffer) -> str:
 
 
 def describe(transform: TransformStamped, options: argparse.Namespace) -> str:
-    """One transform as ROS 2 prints it, with padded nanoseconds and a last line in words."""
+    """Describe a transform as ROS 2 does, with padded nanoseconds and a last line in words."""
     t, q = transform.transform.translation, transform.transform.rotation
     stamp, digits = transform.header.stamp, options.precision
 
@@ -198,7 +200,7 @@ def in_words(transform: TransformStamped, digits: int = 2) -> str:
 
 
 def as_json(transform: TransformStamped) -> str:
-    """One transform as a JSON object in one line."""
+    """Return a transform as a JSON object in one line."""
     t, q = transform.transform.translation, transform.transform.rotation
     return json.dumps(
         {

@@ -20,17 +20,17 @@ from turtlewire.tf.listener import QOS, STATIC_QOS, STATIC_TOPIC, TOPIC, TYPE_NA
 from turtlewire.wire.base import TypeId
 
 from .buffer import Buffer
-from .command_line import Parser, count, frame_id
+from .command_line import ToolParser, count, frame_id
 from .spinning import spin_in_thread
 
 if TYPE_CHECKING:
     import argparse
     from collections.abc import Callable
 
-    from turtlewire.tf.frame_tree import Link
+    from turtlewire.tf.frame_tree import FrameLink
     from turtlewire.wire.base import MessageInfo
 
-__all__ = ["NOBODY", "Delays", "Statistics", "chain", "main"]
+__all__ = ["NOBODY", "DelayStatistics", "Delays", "chain", "main"]
 
 #: ROS 2's name for a publisher whose node is unknown.
 NOBODY = "<no authority available>"
@@ -47,6 +47,7 @@ class Delays:
         """Add one delay."""
         self.count += 1
         self.total += seconds
+        # Delays may be negative, so that the first one may be the largest.
         self.maximum = seconds if self.count == 1 else max(self.maximum, seconds)
 
     def merge(self, other: Delays) -> None:
@@ -63,7 +64,7 @@ class Delays:
         return self.total / self.count if self.count else 0.0
 
 
-class Statistics:
+class DelayStatistics:
     """Delays by frame and by publisher. Thread-safe.
 
     Args:
@@ -96,7 +97,7 @@ class Statistics:
             delays.add(of_message.mean)  # as ROS 2: a broadcaster's figures count messages
 
     def _name(self, gid: bytes) -> str:
-        """The node of a publisher; its first message may arrive before the graph knows it."""
+        """Return the node of a publisher, whose first message may arrive before it is known."""
         name = self._names.get(gid) or self._name_of(gid)
         if name != NOBODY:
             self._names[gid] = name
@@ -137,7 +138,7 @@ def _rate(delays: Delays, span: list[float]) -> float:
 
 
 def main(args: list[str] | None = None) -> int:
-    """Gather and report until stopped; the exit status."""
+    """Gather and report until stopped; return the exit status."""
     argv = sys.argv if args is None else args
     options = _parser().parse_args(remove_ros_args(argv)[1:])
     if len(options.frames) not in {0, 2}:
@@ -161,7 +162,7 @@ def main(args: list[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = Parser(
+    parser = ToolParser(
         prog="tf2_monitor",
         description="Report the delays, the rates and the publishers of transforms.",
     )
@@ -189,7 +190,7 @@ def _monitor(node: Node, options: argparse.Namespace) -> None:
     buffer, stopped = Buffer(node=node), threading.Event()
     rclpy.get_default_context().on_shutdown(stopped.set)
     clock = node.get_clock()
-    statistics = Statistics(
+    statistics = DelayStatistics(
         lambda gid: _publisher_name(node, gid), lambda: clock.now().nanoseconds / 1e9
     )
     net = Delays()
@@ -207,17 +208,19 @@ def _monitor(node: Node, options: argparse.Namespace) -> None:
 
 
 def _subscribe(
-    node: Node, buffer: Buffer, statistics: Statistics, on_data: Callable[[], None]
+    node: Node, buffer: Buffer, statistics: DelayStatistics, on_data: Callable[[], None]
 ) -> None:
     message_class = msg.get_message(TYPE_NAME)
     type_id = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
     for topic, qos in ((TOPIC, QOS), (STATIC_TOPIC, STATIC_QOS)):
 
         def receive(cdr: bytes, info: MessageInfo, *, static: bool = topic == STATIC_TOPIC) -> None:
-            buffer.engine.ingest(cdr, static=static)
+            # One subscription serves the buffer and the statistics.
+            buffer.engine.add_tf_message(cdr, static=static)
             statistics.take(msg.deserialize(message_class, cdr), info)
             on_data()
 
+        # Below rclpy, whose message info has no publisher gid.
         node._rclpy_wire.create_subscription(node.resolve_topic_name(topic), type_id, qos, receive)
 
 
@@ -231,7 +234,7 @@ def _publisher_name(node: Node, gid: bytes) -> str:
 def _note_chain(frames: list[str], buffer: Buffer, net: Delays, clock: Any) -> None:
     if frames:
         try:
-            stamp_ns = buffer.engine.latest_common_time(frames[1], frames[0])
+            stamp_ns = buffer.engine._latest_common_time(frames[1], frames[0])
         except TransformException:
             return  # not connected yet
         if stamp_ns:  # a static chain has no delay
@@ -251,7 +254,7 @@ def chain(buffer: Buffer, source: str, target: str) -> list[str]:
     return ups[0][: ups[0].index(common) + 1] + ups[1][: ups[1].index(common)][::-1]
 
 
-def _to_root(frame: str, links: dict[str, Link]) -> list[str]:
+def _to_root(frame: str, links: dict[str, FrameLink]) -> list[str]:
     found = [frame]
     while found[-1] in links and links[found[-1]].parent not in found:
         found.append(links[found[-1]].parent)
@@ -259,7 +262,7 @@ def _to_root(frame: str, links: dict[str, Link]) -> list[str]:
 
 
 def _report(
-    options: argparse.Namespace, buffer: Buffer, statistics: Statistics, net: Delays
+    options: argparse.Namespace, buffer: Buffer, statistics: DelayStatistics, net: Delays
 ) -> str:
     data = statistics.as_dict()
     way: list[str] = []

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from geometry_msgs.msg import TransformStamped
+    from rclpy.experimental import AsyncNode
     from rclpy.node import Node
 
 __all__ = ["TransformBroadcaster", "as_list"]
@@ -27,7 +28,7 @@ class TransformBroadcaster:
         pub_tf: The publisher.
     """
 
-    def __init__(self, node: Node, qos: QoSProfile | int | None = None) -> None:
+    def __init__(self, node: Node | AsyncNode, qos: QoSProfile | int | None = None) -> None:
         self.pub_tf = node.create_publisher(
             TFMessage, "/tf", QoSProfile(depth=100) if qos is None else qos
         )
@@ -43,5 +44,5 @@ class TransformBroadcaster:
 
 
 def as_list(transform: TransformStamped | Iterable[TransformStamped]) -> list[TransformStamped]:
-    """One or several transforms as a list."""
+    """Return one or several transforms as a list."""
     return [*transform] if hasattr(transform, "__iter__") else [transform]

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import turtlewire
     from geometry_msgs.msg import TransformStamped
 
-    class Question(Protocol):
+    class PendingLookup(Protocol):
         """A lookup in a buffer."""
 
         def never(self, error: TransformException) -> bool:
@@ -37,7 +37,7 @@ _deadlines = Deadlines()
 class _Waiting:
     __slots__ = ("cancel_deadline", "future", "question")
 
-    def __init__(self, question: Question) -> None:
+    def __init__(self, question: PendingLookup) -> None:
         self.question = question
         self.future = Future()
         self.cancel_deadline: Callable[[], None] | None = None
@@ -58,7 +58,7 @@ class TransformFutures:
         self._waiting: list[_Waiting] = []
         self._stop_listening: Callable[[], None] | None = None
 
-    def add(self, question: Question, timeout_ns: int | None = None) -> Future:
+    def add(self, question: PendingLookup, timeout_ns: int | None = None) -> Future:
         """Return a future for the answer.
 
         It gets the exception of the lookup when the time is over, and at once if there can be no
@@ -72,8 +72,8 @@ class TransformFutures:
         with self._lock:
             self._waiting.append(waiting)
             if self._stop_listening is None:
-                self._stop_listening = self._buffer.add_change_listener(self._look_again)
-        # After listening has begun: data that comes meanwhile is not missed.
+                self._stop_listening = self._buffer.on_change(self._look_again)
+        # After listening has begun, so that no data is missed.
         try:
             result = question.answer()
         except TransformException as error:
@@ -85,7 +85,7 @@ class TransformFutures:
             waiting.cancel_deadline = _deadlines.call_after(
                 timeout_ns / 1e9, lambda: self._give_up(waiting)
             )
-        # A future that the user cancels leaves the list, too.
+        # A future that the user cancels also leaves the list.
         waiting.future.add_done_callback(lambda _future: self._claim(waiting))
         return waiting.future
 

@@ -18,13 +18,13 @@ if TYPE_CHECKING:
 
     from rclpy.clock import JumpHandle
     from rclpy.executors import SingleThreadedExecutor
+    from rclpy.experimental import AsyncNode
     from rclpy.node import Node
     from tf2_msgs.msg import TFMessage
 
 __all__ = [
     "DEFAULT_STATIC_TF_TOPIC",
     "DEFAULT_TF_TOPIC",
-    "StaticTransformListener",
     "TransformListener",
 ]
 
@@ -59,7 +59,7 @@ class TransformListener:
     def __init__(
         self,
         buffer: Buffer,
-        node: Node | None,
+        node: Node | AsyncNode | None,
         *,
         spin_thread: bool = False,
         qos: QoSProfile | int | None = None,
@@ -69,7 +69,7 @@ class TransformListener:
         static_only: bool = False,
     ) -> None:
         self.buffer = buffer
-        self.node: Node = _make_node() if node is None else node
+        self.node: Node | AsyncNode = _make_node() if node is None else node
         self._own_node = self.node if node is None else None
         self._on_destroy: Callable[[TransformListener], None] | None = None
         self._engine = engine.TransformListener(
@@ -89,11 +89,13 @@ class TransformListener:
             ).to_wire(),
         )
         self._follow_clock: JumpHandle | None = None
+        # Otherwise the buffer follows the clock of its own node.
         if isinstance(buffer, Buffer) and buffer.node is None:
             self._follow_clock = self.node.get_clock().create_jump_callback(
                 JUMP_BACK, post_callback=buffer.time_jump_callback
             )
         self._events = BackgroundEvents(self._engine)
+        # The node holds both, because the listener works without any other reference to it.
         self.node._rclpy_endpoints.keep(self._events)
         self.node._rclpy_endpoints.keep(self)
         self._stop_closing = self.node._rclpy_endpoints.before_leaving(self._engine.close)
@@ -121,6 +123,7 @@ class TransformListener:
         if self.executor is not None:
             self.executor.shutdown()
         thread = self.dedicated_listener_thread
+        # A callback may destroy the listener on its own thread.
         if thread is not None and thread is not current_thread():
             thread.join()
         if self._own_node is not None:
@@ -136,36 +139,6 @@ class TransformListener:
         """:meth:`callback` for static transforms."""
         for transform in data.transforms:
             self.buffer.set_transform_static(transform, "default_authority")
-
-
-class StaticTransformListener(TransformListener):
-    """A :class:`TransformListener` that listens to ``/tf_static`` only.
-
-    Args:
-        buffer: The buffer to fill.
-        node: The node that owns the subscription; None makes one in the default context.
-        spin_thread: Spin the node in a thread of its own, for its other callbacks.
-        static_qos: Quality of service, or a depth; by default depth 100 and transient local.
-        tf_static_topic: The topic of static transforms.
-    """
-
-    def __init__(
-        self,
-        buffer: Buffer,
-        node: Node | None,
-        *,
-        spin_thread: bool = False,
-        static_qos: QoSProfile | int | None = None,
-        tf_static_topic: str = DEFAULT_STATIC_TF_TOPIC,
-    ) -> None:
-        super().__init__(
-            buffer,
-            node,
-            spin_thread=spin_thread,
-            static_qos=static_qos,
-            tf_static_topic=tf_static_topic,
-            static_only=True,
-        )
 
 
 def _make_node() -> Any:

@@ -47,6 +47,7 @@ def do_transform_cloud(
         AssertionError: The cloud has no x, y and z.
         ValueError: The coordinates are of another type, or the sizes contradict each other.
     """
+    # The first field of a name counts.
     fields = {field.name: field for field in reversed(cloud.fields)}
     if not all(name in fields for name in _POINT):
         raise AssertionError("Point cloud needs the fields x, y, and z for the transformation")
@@ -113,6 +114,7 @@ def _apply(
         for start in range(0, count, _BLOCK):
             part = slice(start, min(start + _BLOCK, count))
             values = block[:, : part.stop - start]
+            # A row of ones, for the translation, stays.
             for row, column in zip(values, source, strict=False):
                 row[:] = column[part]
             for column, moved in zip(target, matrix @ values, strict=True):
@@ -122,9 +124,10 @@ def _apply(
 def _rows(
     cloud: PointCloud2, data: array[int], fields: Sequence[PointField]
 ) -> Iterator[list[NDArray[Any]]]:
-    """For each run of evenly spaced points, a view into the data for each field."""
+    """Yield, for each run of evenly spaced points, a view into the data for each field."""
     width = cloud.width * cloud.point_step
     row_step = cloud.row_step or width  # many writers do not set it
+    # Rows without gaps between them are one run.
     rows, count = (
         (1, cloud.width * cloud.height)
         if cloud.height <= 1 or row_step == width

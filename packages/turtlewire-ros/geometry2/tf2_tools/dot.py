@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from turtlewire.tf.frame_tree import FrameTree, Link
+from turtlewire.tf.frame_tree import FrameLink, FrameTree
 
 __all__ = ["dot_from_tree", "generate_dot"]
 
 
 def dot_from_tree(tree: FrameTree, recorded_time: str) -> str:
-    """Graphviz text with a link for each frame, and a legend with the time of the recording."""
+    """Return Graphviz text with a link for each frame, and a legend with the recording's time."""
     if not tree.links:
         return 'digraph G { "No tf data received" }'
     legend = [
@@ -24,14 +24,14 @@ def dot_from_tree(tree: FrameTree, recorded_time: str) -> str:
 
 
 def generate_dot(data: dict[str, Any], recorded_time: float | str) -> str:
-    """Graphviz text of what the service ``tf2_frames`` answers.
+    """Return Graphviz text of an answer of the service ``tf2_frames``.
 
     Args:
         data: Its YAML, loaded: of each frame, by its name, the parent and the rates.
         recorded_time: When it was asked, for the legend.
     """
     links = [
-        Link(
+        FrameLink(
             child=str(child),
             parent=frame["parent"],
             broadcaster=frame["broadcaster"],
@@ -46,7 +46,7 @@ def generate_dot(data: dict[str, Any], recorded_time: float | str) -> str:
     return dot_from_tree(FrameTree(links), str(recorded_time))
 
 
-def _link(link: Link) -> str:
+def _link(link: FrameLink) -> str:
     fields = (
         f"Broadcaster: {_escaped(link.broadcaster)}",
         f"Average rate: {link.rate_hz:.3f}",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from turtlewire.tf.drawing import Box, Line
+from turtlewire.tf.drawing import FilledBox, Line
 from turtlewire.tf.pdf import colour_operands, pdf_file, text_operators
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ def pdf_from_drawing(drawing: Drawing) -> bytes:
 
 def _operators(shape: Shape, height: float) -> str:
     """PDF counts y upwards from the bottom of the page."""
-    if isinstance(shape, Box):
+    if isinstance(shape, FilledBox):
         corner = f"{shape.x:.2f} {height - shape.y - shape.height:.2f}"
         size = f"{shape.width:.2f} {shape.height:.2f}"
         return f"1 1 1 rg {colour_operands(shape.colour)} RG 1 w {corner} {size} re B"

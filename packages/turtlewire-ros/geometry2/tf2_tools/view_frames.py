@@ -26,9 +26,18 @@ from turtlewire.tf.tree_drawing import draw_tree
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["INTERRUPTED", "WAIT_TIME_S", "ViewFrames", "generate_dot", "main"]
+__all__ = [
+    "DEFAULT_STATIC_TF_TOPIC",
+    "DEFAULT_TF_TOPIC",
+    "INTERRUPTED",
+    "WAIT_TIME_S",
+    "ViewFrames",
+    "generate_dot",
+    "main",
+]
 
 WAIT_TIME_S = 5.0
+# A shell's status after SIGINT: 128 + 2.
 INTERRUPTED = 130
 
 
@@ -51,12 +60,13 @@ class ViewFrames(Node):
         self._topics = self.resolve_topic_name(tf_topic), self.resolve_topic_name(tf_static_topic)
 
     def listen(self, wait_time_s: float) -> FrameTree:
-        """Collect for some seconds; the tree of all transforms since construction.
+        """Collect for some seconds; return the tree of all transforms since construction.
 
         Raises:
-            ExternalShutdownException: The context was shut down meanwhile.
+            ExternalShutdownException: The context was shut down during that time.
         """
         self.get_logger().info(f"Listening to tf data for {wait_time_s} seconds...")
+        # Nothing completes the future: the spin ends by its timeout.
         rclpy.spin_until_future_complete(self, Future(), timeout_sec=wait_time_s)
         if not self.context.ok():
             raise ExternalShutdownException

@@ -1,4 +1,4 @@
-"""Base of all actions, and of those that run processes."""
+"""Base of all actions, and base of the actions that run processes."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from launch.conditions import IfCondition, UnlessCondition
 from launch.events import ExecutionComplete
 from launch.launch_description_entity import LaunchDescriptionEntity
+from turtlewire.distro import LYRICAL, since
 
 if TYPE_CHECKING:
     from launch.condition import Condition
@@ -14,6 +15,23 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
 __all__ = ["Action", "ProcessAction"]
+
+
+def _condition_in(entity: Entity, parser: Parser) -> dict[str, Any]:
+    """Return the argument ``condition`` that an entity's attributes mean, if they mean one."""
+    if_text = entity.get_attr("if", optional=True)
+    unless_text = entity.get_attr("unless", optional=True)
+    if if_text is not None and unless_text is not None:
+        raise RuntimeError("if and unless conditions can't be used simultaneously")
+    if if_text is not None:
+        return {"condition": IfCondition(predicate_expression=parser.parse_substitution(if_text))}
+    if unless_text is not None:
+        return {
+            "condition": UnlessCondition(
+                predicate_expression=parser.parse_substitution(unless_text)
+            )
+        }
+    return {}
 
 
 class Action(LaunchDescriptionEntity):
@@ -26,24 +44,21 @@ class Action(LaunchDescriptionEntity):
     def __init__(self, *, condition: Condition | None = None) -> None:
         self._condition = condition
 
-    @staticmethod
-    def parse(entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
-        """Read the attributes that all actions in XML and YAML have: ``if`` and ``unless``."""
-        if_text = entity.get_attr("if", optional=True)
-        unless_text = entity.get_attr("unless", optional=True)
-        if if_text is not None and unless_text is not None:
-            raise RuntimeError("if and unless conditions can't be used simultaneously")
-        if if_text is not None:
-            return Action, {
-                "condition": IfCondition(predicate_expression=parser.parse_substitution(if_text))
-            }
-        if unless_text is not None:
-            return Action, {
-                "condition": UnlessCondition(
-                    predicate_expression=parser.parse_substitution(unless_text)
-                )
-            }
-        return Action, {}
+    if since(LYRICAL):
+
+        @classmethod
+        def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
+            """Read the attributes that all actions in XML and YAML have: ``if`` and ``unless``."""
+            return cls, _condition_in(entity, parser)
+
+    else:
+
+        @staticmethod
+        def parse(  # type: ignore[misc]
+            entity: Entity, parser: Parser
+        ) -> tuple[type[Action], dict[str, Any]]:
+            """Read the attributes that all actions in XML and YAML have: ``if`` and ``unless``."""
+            return Action, _condition_in(entity, parser)
 
     @property
     def condition(self) -> Condition | None:
@@ -65,6 +80,7 @@ class Action(LaunchDescriptionEntity):
             return None
         try:
             return self.execute(context)
+        # As in ROS 2, also if `execute` raises.
         finally:
             self._announce_completion(context)
 

@@ -67,10 +67,12 @@ class ChildProcess:
                 started = loop.subprocess_exec(lambda: protocol, *command, **options)
             transport, _ = await started
         except BaseException:
+            # Once the child runs, `_read_terminal` owns them.
             for controller, _ in terminals.values():
                 os.close(controller)
             raise
         finally:
+            # The child alone may hold the terminals, or reading from them would never end.
             for _, terminal in terminals.values():
                 os.close(terminal)
         for fd, (controller, _) in terminals.items():
@@ -88,7 +90,7 @@ class ChildProcess:
         return not self._protocol.exited.is_set()
 
     async def wait(self, timeout: float | None = None) -> int | None:
-        """Its exit status, negative for a signal; None if it has not ended within the time."""
+        """Return its exit status, negative for a signal; None if it has not ended in time."""
         try:
             await asyncio.wait_for(self._protocol.exited.wait(), timeout)
         except asyncio.TimeoutError:
@@ -218,7 +220,7 @@ def _streams(terminals: dict[int, tuple[int, int]], inherit_stdin: bool) -> dict
 
 
 def _open_terminals() -> dict[int, tuple[int, int]]:
-    """A pseudo terminal for each output stream, as controller and terminal; none on Windows."""
+    """Open a pseudo terminal (controller, terminal) for each output stream; none on Windows."""
     return {fd: os.openpty() for fd in (1, 2)} if hasattr(os, "openpty") else {}
 
 

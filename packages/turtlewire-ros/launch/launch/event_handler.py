@@ -58,6 +58,7 @@ class BaseEventHandler:
     def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
         """React to the event; the returned entities are visited."""
         context.extend_locals({"event": event})
+        # Before the entities are visited, which may cause the next event.
         if self._handle_once:
             context.unregister_event_handler(self)
         return None
@@ -96,17 +97,15 @@ class EventHandler(BaseEventHandler):
         return "<actions>" if self._function is None else str(self._function)
 
     def describe(self) -> tuple[str, list[Any]]:
-        """Return a text, and the fixed entities."""
         return super().describe()[0], list(self._entities)
 
     def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
-        """Return the entities to visit."""
         super().handle(event, context)
         return self._entities if self._function is None else self._function(event, context)
 
 
 def entity_list(entities: SomeEntitiesType) -> list[LaunchDescriptionEntity]:
-    """One entity or several, as a list."""
+    """Return one entity or several as a list."""
     if isinstance(entities, LaunchDescriptionEntity):
         return [entities]
     items: Iterable[LaunchDescriptionEntity] = entities

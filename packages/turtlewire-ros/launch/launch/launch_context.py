@@ -126,7 +126,7 @@ class LaunchContext:
         self._run.keep_running_for(completion_future)
 
     def marked_environment(self, environment: Mapping[str, str]) -> dict[str, str]:
-        """The environment for a child process; its mark lets the launch end all descendants."""
+        """Return the environment for a child; its mark lets the launch end all descendants."""
         return self._run.marked(environment)
 
     # launch configurations, environment, locals

@@ -71,7 +71,7 @@ class LaunchDescription(LaunchDescriptionEntity):
         return self._entities
 
     def get_launch_arguments(self, conditional_inclusion: bool = False) -> list[LaunchArgument]:
-        """The arguments that this description and those it includes declare, without repetitions.
+        """Return the arguments that this description and its inclusions declare, each once.
 
         Args:
             conditional_inclusion: Whether the description itself is only included under a
@@ -103,6 +103,7 @@ def _collect_arguments(
         entity_conditional = conditional or entity.is_conditional
         argument = entity.launch_argument
         if argument is not None:
+            # As in ROS 2, the first declaration of a name counts.
             if not any(argument.name == known.name for known, _ in found):
                 argument.conditionally_included = entity_conditional
                 found.append((argument, inclusions))

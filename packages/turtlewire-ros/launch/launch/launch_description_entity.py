@@ -41,15 +41,15 @@ class LaunchDescriptionEntity:
         return False
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Entities that a visit always returns, for inspection without running."""
+        """Return the entities that a visit always returns, for inspection without running."""
         return []
 
     def describe_conditional_sub_entities(
         self,
     ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
-        """Groups of entities that a visit returns under a condition, each with its condition."""
+        """Return groups of entities that a visit returns under a condition, with the conditions."""
         return []
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
-        """A future that is done when the entity has completed; None if a visit completes it."""
+        """Return a future that is done when the entity has completed; None if a visit does it."""
         return None

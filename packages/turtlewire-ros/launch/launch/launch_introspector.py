@@ -40,7 +40,7 @@ class LaunchIntrospector:
 
 
 def format_substitutions(substitutions: Iterable[Substitution] | None) -> str:
-    """Joined descriptions."""
+    """Return the descriptions, joined."""
     return (
         "None" if substitutions is None else " + ".join(part.describe() for part in substitutions)
     )
@@ -72,7 +72,7 @@ def format_action(action: Action) -> list[str]:
 
 
 def format_entities(entities: Iterable[LaunchDescriptionEntity]) -> list[str]:
-    """Entities, each with its sub-entities below it; the first line of each is not indented."""
+    """Return the lines of entities, each with its sub-entities, indented, below it."""
     lines = []
     for entity in entities:
         if is_a(entity, Action):
@@ -88,9 +88,9 @@ def format_event_handler(event_handler: BaseEventHandler) -> list[str]:
     return [text, *_indented(format_entities(entities))]
 
 
-def indent(lines: Iterable[str], indention: str = "    ") -> list[str]:
-    """Return the lines, each behind an indention."""
-    return [f"{indention}{line}" for line in lines]
+def indent(lines: Iterable[str], indentation: str = "    ") -> list[str]:
+    """Return the lines, each with an indentation."""
+    return [f"{indentation}{line}" for line in lines]
 
 
 def tree_like_indent(lines: list[str]) -> list[str]:

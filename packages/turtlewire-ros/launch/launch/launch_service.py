@@ -16,6 +16,7 @@ from launch.event_handlers import OnIncludeLaunchDescription, OnShutdown
 from launch.events import IncludeLaunchDescription, Shutdown
 from launch.launch_context import LaunchContext
 from launch.utilities.raised_in import raised_in
+from turtlewire.terminal.signal_watch import watched
 from turtlewire_ros.workspace_hints import path_hint
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 
 __all__ = ["LaunchService"]
 
-# After this many Ctrl-C that the loop did not see, a launch file that hangs is interrupted.
+# Interrupt a hanging launch file after this many Ctrl-C that the loop did not handle.
 _PATIENCE = 3
 
 
@@ -42,6 +43,8 @@ class LaunchService:
         noninteractive: Whether no user watches it at a terminal. Children then get no SIGINT from
             a terminal, and the launch sends them one.
         debug: Log at DEBUG level.
+        log_file_name: Name of the file for the lines of this launch, and of the processes whose
+            output is ``log``.
     """
 
     def __init__(
@@ -50,7 +53,9 @@ class LaunchService:
         argv: Iterable[str] | None = None,
         noninteractive: bool = False,
         debug: bool = False,
+        log_file_name: str = "launch.log",
     ) -> None:
+        logging.launch_config.main_log_file_name = log_file_name
         logging.launch_config.level = logging.DEBUG if debug else logging.INFO
         self._run: Run[LaunchContext] = Run()
         self._context = LaunchContext(argv=argv, noninteractive=noninteractive, run=self._run)
@@ -125,6 +130,7 @@ class LaunchService:
             with self._signals_handled():
                 logging.log_launch_config(logger=self._logger)
                 await self._serve(shutdown_when_idle)
+                # Whatever the launched processes have left behind.
                 await self._run.stop_processes()
             return self._return_code
         finally:
@@ -146,6 +152,7 @@ class LaunchService:
             elif self._run.is_shutdown:
                 return
             else:
+                # As an event, so that handlers of the shutdown run as for any other reason.
                 await self._context.emit_event(Shutdown(reason="idle", due_to_sigint=False))
 
     def _process_event(self, event: Event) -> None:
@@ -200,7 +207,7 @@ class LaunchService:
 
     @contextlib.contextmanager
     def _signals_handled(self) -> Iterator[None]:
-        r"""Handle Ctrl-C, Ctrl-\\, SIGTERM and SIGHUP meanwhile; only the main thread can."""
+        r"""Handle Ctrl-C, Ctrl-\\, SIGTERM and SIGHUP in the block; only the main thread can."""
         if threading.current_thread() is not threading.main_thread():
             yield
             return
@@ -227,9 +234,13 @@ class LaunchService:
                     raise KeyboardInterrupt
             loop.call_soon_threadsafe(numbers[signal.Signals(number)])
 
+        # Not `loop.add_signal_handler`: Windows has none, and a blocked loop would never see the
+        # third Ctrl-C.
         before = {number: signal.signal(number, hand_to_loop) for number in numbers}
         try:
-            yield
+            # A loop that sleeps may miss a signal; a call from another thread wakes it.
+            with watched(numbers, lambda: loop.call_soon_threadsafe(lambda: None)):
+                yield
         finally:
             for number, handler in before.items():
                 signal.signal(number, handler)

@@ -19,7 +19,7 @@ __all__ = ["ProcessOutput"]
 
 
 class ProcessOutput:
-    """Knows where the lines of a process go, and what it has written.
+    """The destinations of a process's lines, and what it has written.
 
     File descriptors are 1 for stdout and 2 for stderr.
 
@@ -51,7 +51,9 @@ class ProcessOutput:
         chosen = self.destination
         if not isinstance(chosen, dict):
             chosen = perform_substitutions(context, chosen)
-        self._loggers = logging.get_output_loggers(name, chosen)
+        self._loggers = logging.get_output_loggers(
+            name, chosen, logging.launch_config.main_log_file_name
+        )
         self._form = form
 
     def keep(self, fd: int, data: bytes) -> None:

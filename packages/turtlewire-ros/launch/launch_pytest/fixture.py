@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 __all__ = [
-    "Options",
+    "FixtureOptions",
     "finalize_launch_service",
     "fixture",
     "get_event_loop_fixture",
@@ -28,7 +28,7 @@ _SCOPES = ("function", "class", "module", "package", "session")
 
 
 @dataclass(frozen=True)
-class Options:
+class FixtureOptions:
     """What the decorator knows of a fixture."""
 
     #: The name by which pytest knows it.
@@ -42,7 +42,10 @@ class Options:
 
 
 def finalize_launch_service(
-    launch_service: LaunchService, eprefix: str = "", auto_shutdown: bool = True
+    launch_service: LaunchService,
+    eprefix: str = "",
+    auto_shutdown: bool = True,
+    task: asyncio.Task[int] | None = None,
 ) -> None:
     """End a launch, and wait for its end.
 
@@ -50,13 +53,14 @@ def finalize_launch_service(
         launch_service: The launch.
         eprefix: Begins the text of the error.
         auto_shutdown: Whether to end it; otherwise it must end by itself.
+        task: The task that runs it, by default the one that the launch knows.
 
     Raises:
         AssertionError: The launch itself has failed.
     """
     if auto_shutdown:
         launch_service.shutdown()
-    task = launch_service.task
+    task = launch_service.task if task is None else task
     if task is None or task.get_loop().is_closed():
         return
     status = task.get_loop().run_until_complete(task)
@@ -130,10 +134,11 @@ def fixture(
     """
     scope = kwargs.get("scope", "function")
     if scope != "function":
+        # pytest looks for them in the module of the decorated function.
         _widen(sys._getframe(1).f_globals, scope)
 
     def decorate(function: Callable[..., Any]) -> Any:
-        function._launch_pytest = Options(  # type: ignore[attr-defined]
+        function._launch_pytest = FixtureOptions(  # type: ignore[attr-defined]
             name=kwargs.get("name") or function.__name__,
             scope=scope,
             shutdown_when_idle=shutdown_when_idle,

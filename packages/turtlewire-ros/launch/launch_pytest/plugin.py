@@ -22,11 +22,12 @@ if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Generator, Iterable, Iterator
 
     from launch.launch_description_entity import LaunchDescriptionEntity
-    from launch_pytest.fixture import Options
+    from launch_pytest.fixture import FixtureOptions
 
 __all__ = [
     "event_loop",
     "get_launch_test_fixture",
+    "get_launch_test_fixture_scope",
     "get_launch_test_fixturename",
     "get_ready_to_test_action",
     "has_shutdown_kwarg",
@@ -69,17 +70,19 @@ def pytest_fixture_setup(
     fixturedef: pytest.FixtureDef[Any], request: pytest.FixtureRequest
 ) -> Generator[None, Any, Any]:
     """Run what a launch fixture describes, up to its ``ReadyToTest``."""
-    options: Options | None = getattr(fixturedef.func, "_launch_pytest", None)
+    options: FixtureOptions | None = getattr(fixturedef.func, "_launch_pytest", None)
     if options is None:
         return (yield)
+    # Requested before the launch, so that they outlive it.
     loop = request.getfixturevalue("event_loop")
     service = request.getfixturevalue("launch_service")
     result = yield
     description = result[0] if isinstance(result, (tuple, list)) else result
     ready = asyncio.Event()
-    get_ready_to_test_action(description).add_callback(ready.set)
+    _ready_to_test(description).add_callback(ready.set)
     service.include_launch_description(description)
     task = loop.create_task(service.run_async(shutdown_when_idle=options.shutdown_when_idle))
+    # Before the launch runs: it must also end if it never becomes ready.
     fixturedef.addfinalizer(
         functools.partial(
             finalize_launch_service,
@@ -99,6 +102,20 @@ async def _first(task: asyncio.Task[int], ready: asyncio.Event) -> None:
     waiting = asyncio.ensure_future(ready.wait())
     await asyncio.wait({task, waiting}, return_when=asyncio.FIRST_COMPLETED)
     waiting.cancel()
+
+
+def _ready_to_test(launch_description: LaunchDescription) -> ReadyToTest:
+    """Return the one ``ReadyToTest`` of a description; without one, it is added at the end.
+
+    Raises:
+        RuntimeError: The fixture is ambiguous.
+        TypeError: The fixture returns no launch description.
+    """
+    if isinstance(launch_description, LaunchDescription) and not any(
+        iterate_ready_to_test_actions(launch_description.entities)
+    ):
+        launch_description.add_action(ReadyToTest())
+    return get_ready_to_test_action(launch_description)
 
 
 def get_ready_to_test_action(launch_description: LaunchDescription) -> ReadyToTest:
@@ -152,6 +169,12 @@ def get_launch_test_fixture(item: Any) -> Any:
     return None if mark is None else mark.kwargs.get("fixture")
 
 
+def get_launch_test_fixture_scope(fixture: Any) -> str | None:
+    """Return pytest's scope of a launch fixture; None for another function."""
+    options: FixtureOptions | None = getattr(fixture, "_launch_pytest", None)
+    return None if options is None else options.scope
+
+
 def get_launch_test_fixturename(item: Any) -> str | None:
     """Return the name by which pytest knows that fixture, or None."""
     options = _options(item)
@@ -185,8 +208,8 @@ def is_valid_test_item(obj: Any) -> bool:
     return inspect.isfunction(obj) or inspect.ismethod(obj)
 
 
-def _options(item: Any) -> Options | None:
-    found: Options | None = getattr(get_launch_test_fixture(item), "_launch_pytest", None)
+def _options(item: Any) -> FixtureOptions | None:
+    found: FixtureOptions | None = getattr(get_launch_test_fixture(item), "_launch_pytest", None)
     return found
 
 
@@ -206,7 +229,7 @@ def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> list[pytes
     ]
     if not marks:
         return None
-    options: Options | None = getattr(marks[0].kwargs.get("fixture"), "_launch_pytest", None)
+    options: FixtureOptions | None = getattr(marks[0].kwargs.get("fixture"), "_launch_pytest", None)
     if options is None:
         pytest.fail(
             f"{name}: @pytest.mark.launch needs fixture=…, a function decorated with "
@@ -220,6 +243,7 @@ def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> list[pytes
         return items
     if marks[0].kwargs.get("shutdown"):
         pytest.fail(f"{name}: a generator cannot be a shutdown test", pytrace=False)
+    # Then the launch ends with this item, which also runs the end of the generator.
     if options.scope == "function":
         return items
     return items + [_end_of(item) for item in items]
@@ -242,19 +266,20 @@ def _end_of(begin: Any) -> pytest.Item:
 def pytest_collection_modifyitems(
     session: pytest.Session, config: pytest.Config, items: list[pytest.Item]
 ) -> None:
-    """Put the tests that run after the shutdown behind all others of their launch."""
+    """Put the tests that run after the shutdown after all other tests of their launch."""
     del session, config
     places: dict[Any, list[int]] = {}
     for place, item in enumerate(items):
         if is_launch_test(item) and (options := _options(item)) is not None:
             places.setdefault(_launch_of(item, options), []).append(place)
     for group in places.values():
+        # A stable sort, so the other tests keep their order.
         ordered = sorted((items[place] for place in group), key=is_shutdown_test)
         for place, item in zip(group, ordered, strict=True):
             items[place] = item
 
 
-def _launch_of(item: Any, options: Options) -> Any:
+def _launch_of(item: Any, options: FixtureOptions) -> Any:
     """Return the key of an item's launch: fixture, scope and parameters."""
     scopes = {"class": pytest.Class, "module": pytest.Module, "package": pytest.Package}
     place = item if options.scope == "function" else item.session
@@ -319,6 +344,7 @@ def _step(loop: asyncio.AbstractEventLoop, steps: Any) -> bool:
     """Run a generator up to its next ``yield``; returns whether there is one."""
     if inspect.isasyncgen(steps):
         return bool(run_until_complete(loop, anext(steps, _END)) is not _END)
+    # In another thread, so that the launch goes on while the test blocks.
     step = loop.run_in_executor(None, next, steps, _END)
     return bool(run_until_complete(loop, step) is not _END)
 
@@ -327,6 +353,7 @@ _END = object()
 
 
 def _is_suspended(steps: Any) -> bool:
+    # A generator that has ended has no frame any more.
     frame = steps.ag_frame if inspect.isasyncgen(steps) else steps.gi_frame
     return frame is not None
 
@@ -353,4 +380,5 @@ def run_until_complete(loop: asyncio.AbstractEventLoop, future_like: Awaitable[A
 
 
 async def _awaited(future_like: Awaitable[Any]) -> Any:
+    # A coroutine, because `anext` returns only an awaitable.
     return await future_like

@@ -16,6 +16,7 @@ module                            what it holds
 `tools`                           patterns of expected output; processes that one test starts
 `util`                            finds processes by name and arguments
 `decorator`, `markers`            mark classes as post-shutdown tests; marks of descriptions
+`legacy`                          tests as actions of a launch
 `parametrize`                     runs the tests once for each set of arguments
 `ready_to_test_action_timeout`    how long a launch may take to become ready
 `ready_aggregator`                calls a function when several things are ready

@@ -34,18 +34,18 @@ class IoHandler:
         self._actions[process_io.process_name] = process_io.action
 
     def track(self, process_name: str) -> None:
-        """Know a process that has written nothing yet."""
+        """Note a process that has written nothing yet."""
         self._by_name.setdefault(process_name, [])
 
     def __iter__(self) -> Iterator[ProcessIO]:
         return iter(self._events)
 
     def processes(self) -> list[Any]:
-        """Actions of the processes that have written something."""
+        """Return the actions of the processes that have written something."""
         return list(self._actions.values())
 
     def process_names(self) -> KeysView[str]:
-        """Names of all known processes."""
+        """Return the names of all known processes."""
         return self._by_name.keys()
 
     def __getitem__(self, key: Any) -> list[ProcessIO]:
@@ -76,7 +76,7 @@ class ActiveIoHandler:
         return self._records
 
     def track(self, process_name: str) -> None:
-        """Know a process that has written nothing yet."""
+        """Note a process that has written nothing yet."""
         with self._changed:
             self._records.track(process_name)
 
@@ -88,15 +88,16 @@ class ActiveIoHandler:
 
     def __iter__(self) -> Iterator[ProcessIO]:
         with self._changed:
+            # A copy, because output may come while the caller iterates.
             return iter(list(self._records))
 
     def processes(self) -> list[Any]:
-        """Actions of the processes that have written something."""
+        """Return the actions of the processes that have written something."""
         with self._changed:
             return self._records.processes()
 
     def process_names(self) -> list[str]:
-        """Names of all known processes."""
+        """Return the names of all known processes."""
         with self._changed:
             return list(self._records.process_names())
 

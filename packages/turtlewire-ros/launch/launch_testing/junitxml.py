@@ -57,7 +57,7 @@ def unittestResultToXml(  # noqa: N802  ROS 2's name
     )
     suite.extend(unittestCaseToXml(test_result, case) for case in cases)
     if not cases and not test_result.wasSuccessful():
-        # A launch without tests that could not run is seen, too.
+        # A launch without tests that could not run must also be visible.
         case = ET.SubElement(suite, "testcase", {"classname": name, "name": "launch"})
         ET.SubElement(case, "failure", {"message": getattr(test_result, "message", "")})
         suite.set("tests", "1")

@@ -87,6 +87,7 @@ class TestRun:
             TypeError: The function returned something else.
         """
         function = self.test_description_function
+        # ROS 2's former interface: the description calls the function itself.
         if "ready_fn" in inspect.signature(function).parameters:
             return _normalized(function(ready_fn=ready_fn), function)
         description, objects = _normalized(function(), function)

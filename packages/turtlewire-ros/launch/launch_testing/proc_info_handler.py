@@ -35,11 +35,11 @@ class ProcInfoHandler:
         return iter(self._events.values())
 
     def processes(self) -> KeysView[Any]:
-        """Actions of the recorded processes."""
+        """Return the actions of the recorded processes."""
         return self._events.keys()
 
     def process_names(self) -> Iterator[str]:
-        """Names of the recorded processes."""
+        """Return the names of the recorded processes."""
         return (event.process_name for event in self._events.values())
 
     def __getitem__(self, key: Any) -> Any:
@@ -84,12 +84,12 @@ class ActiveProcInfoHandler:
             return iter(list(self._records))
 
     def processes(self) -> list[Any]:
-        """Actions of the recorded processes."""
+        """Return the actions of the recorded processes."""
         with self._changed:
             return list(self._records.processes())
 
     def process_names(self) -> list[str]:
-        """Names of the recorded processes."""
+        """Return the names of the recorded processes."""
         with self._changed:
             return list(self._records.process_names())
 

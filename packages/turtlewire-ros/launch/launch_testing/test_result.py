@@ -14,7 +14,7 @@ __all__ = ["FailResult", "SkipResult", "TestResult"]
 
 
 class TestResult(unittest.TextTestResult):
-    """Knows, beyond what unittest's result does, which tests ran and how long they took."""
+    """A result of unittest that also knows which tests ran and how long they took."""
 
     __test__ = False  # pytest does not collect it
 
@@ -34,13 +34,11 @@ class TestResult(unittest.TextTestResult):
         return self._times
 
     def startTest(self, test: unittest.TestCase) -> None:  # noqa: N802  unittest's name
-        """A test begins."""
         self._times[test] = 0.0
         self._started = time.monotonic()
         super().startTest(test)
 
     def stopTest(self, test: unittest.TestCase) -> None:  # noqa: N802  unittest's name
-        """A test has ended."""
         super().stopTest(test)
         self._times[test] = time.monotonic() - self._started
 
@@ -64,12 +62,12 @@ class FailResult(_Placeholder):
     def __init__(self, test_run: TestRun | None = None, message: str = "") -> None:
         super().__init__(test_run)
         self.message = message
+        # So that reports show each test that did not run.
         for case in () if test_run is None else test_run.all_cases():
             self._times[case] = 0.0
             self.failures.append((case, message))
 
     def wasSuccessful(self) -> bool:  # noqa: N802  unittest's name
-        """False."""
         return False
 
 

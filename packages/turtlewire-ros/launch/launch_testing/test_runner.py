@@ -142,6 +142,7 @@ class _Worker:
     def _wrapped(self, description: LaunchDescription) -> LaunchDescription:
         info, output = self._proc_info, self._proc_output
         handlers = (
+            # Tests may ask for the output of a process that has written nothing.
             OnProcessStart(on_start=lambda event, _: output.track(event.process_name)),
             OnProcessStart(on_start=lambda event, _: info.append(event)),
             OnProcessExit(on_exit=lambda event, _: info.append(event)),
@@ -196,7 +197,7 @@ class _Worker:
     # the end
 
     def _why(self) -> str:
-        """Why the tests did not end; prints what the processes that failed have written."""
+        """Return why the tests did not end; print the output of the processes that failed."""
         if self._timed_out:
             print("Timed out waiting for processes to start up")
             return "The launch did not reach its ReadyToTest action in time."
@@ -223,7 +224,7 @@ def _run_suite(tests: unittest.TestSuite) -> TestResult:
 
 
 def _merged(before: TestResult, after: TestResult) -> TestResult:
-    """Both results as one."""
+    """Merge the second result into the first one."""
     before.testTimes.update(after.testTimes)
     before.testsRun += after.testsRun
     for name in ("failures", "errors", "skipped", "expectedFailures", "unexpectedSuccesses"):

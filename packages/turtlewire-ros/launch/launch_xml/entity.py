@@ -6,7 +6,7 @@ from typing import Any
 from xml.etree.ElementTree import Element
 
 from launch.frontend import Entity as BaseEntity
-from launch.frontend.type_utils import coerce, is_entity_list, list_item_type, may_become
+from launch.frontend.type_utils import check_is_list_entity, coerce, list_item_type, may_become
 
 __all__ = ["Entity"]
 
@@ -42,11 +42,11 @@ class Entity(BaseEntity):
     @property
     def children(self) -> list[BaseEntity]:
         """The elements in it."""
+        # Then the action has read all of them.
         self._read_children |= {child.type_name for child in self._children}
         return list(self._children)
 
     def assert_entity_completely_parsed(self) -> None:
-        """Refuse attributes and children that the action did not read."""
         attributes = set(self._element.attrib) - self._read_attributes
         if attributes:
             raise ValueError(f"Unexpected attribute(s) found in `{self.type_name}`: {attributes}")
@@ -60,7 +60,7 @@ class Entity(BaseEntity):
         self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True
     ) -> Any:
         """Return the value of an attribute; a list of elements holds the children with that tag."""
-        if is_entity_list(data_type):
+        if check_is_list_entity(data_type):
             return self._children_named(name, optional)
         if name not in self._element.attrib:
             if optional:

@@ -34,7 +34,7 @@ class _Builder(ET.TreeBuilder):
 
 
 class Parser(BaseParser):
-    """Reads launch files in XML. Documents that declare entities or refer to others are refused."""
+    """Reads launch files in XML, except documents that declare entities or refer to others."""
 
     @classmethod
     def load(cls, file: str | io.TextIOBase) -> tuple[Entity, Parser]:
@@ -65,5 +65,4 @@ class Parser(BaseParser):
 
     @classmethod
     def get_file_extensions(cls) -> set[str]:
-        """Suffixes of this language."""
         return {"xml"}

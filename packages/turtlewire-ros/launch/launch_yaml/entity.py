@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from launch.frontend import Entity as BaseEntity
-from launch.frontend.type_utils import is_entity_list, list_item_type, may_become
+from launch.frontend.type_utils import check_is_list_entity, list_item_type, may_become
 
 __all__ = ["Entity"]
 
@@ -68,7 +68,6 @@ class Entity(BaseEntity):
         return children
 
     def assert_entity_completely_parsed(self) -> None:
-        """Refuse attributes that the action did not read."""
         if isinstance(self._element, dict):
             unread = set(self._element) - self._read_keys
             if unread:
@@ -86,7 +85,7 @@ class Entity(BaseEntity):
             )
         self._read_keys.add(name)
         value = self._element[name]
-        if is_entity_list(data_type):
+        if check_is_list_entity(data_type):
             return self._entities(name, value)
         if _is_of_type(value, data_type):
             return value
@@ -113,6 +112,7 @@ def _is_of_type(value: Any, data_type: Any) -> bool:
     if data_type is None:
         return True
     if data_type is float:
+        # bool is a subclass of int.
         return isinstance(value, (int, float)) and not isinstance(value, bool)
     if data_type is int:
         return isinstance(value, int) and not isinstance(value, bool)

@@ -45,7 +45,6 @@ class Parser(BaseParser):
 
     @classmethod
     def get_file_extensions(cls) -> set[str]:
-        """Suffixes of this language."""
         return {"yaml", "yml"}
 
 
@@ -65,6 +64,7 @@ def _loader() -> Any:
     def mapping(loader: Any, node: Any) -> Iterator[_Mapping]:
         made = _Mapping()
         made.line = node.start_mark.line + 1
+        # Before it is filled, because an alias in it may stand for itself.
         yield made
         made.update(loader.construct_mapping(node))
 
@@ -93,10 +93,11 @@ def _tree(file: io.TextIOBase) -> Any:
 
 
 def _size(node: Any, known: dict[int, int | None]) -> int:
-    """Number of elements with aliases written out; each node is visited once."""
+    """Return the number of elements with aliases written out; each node is visited once."""
     if not isinstance(node, (dict, list)):
         return 1
     if id(node) not in known:
+        # Marks a node whose elements are being counted.
         known[id(node)] = None
         known[id(node)] = 1 + sum(
             _size(item, known) for item in (node.values() if isinstance(node, dict) else node)

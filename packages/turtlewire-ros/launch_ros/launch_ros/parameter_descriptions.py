@@ -65,6 +65,8 @@ class ParameterValue:
                 ParameterValue(item, value_type=item_type).evaluate(context) for item in self._value
             ]
         if isinstance(self._value, (bool, int, float)):
+            # By way of text, as for substitutions: `typed` also checks that the value fits the
+            # type.
             return typed(str(self._value), self._value_type)
         return typed(
             perform_substitutions(context, normalize_to_list_of_substitutions(self._value)),
@@ -102,7 +104,7 @@ class Parameter:
         return self._value.value_type
 
     def evaluate(self, context: LaunchContext) -> tuple[str, Any]:
-        """Name and value, performed."""
+        """Return the name and value, performed."""
         name = perform_substitutions(context, self._name)
         self._evaluated = name, self._value.evaluate(context)
         return self._evaluated
@@ -160,6 +162,7 @@ class ParameterFile:
         )
         if not self._allowed:
             return path
+        # Performed as a whole, so a `$(…)` in a comment of the file counts as well.
         text = perform_substitutions(
             context, Parser().parse_substitution(path.read_text(encoding="utf-8"))
         )

@@ -85,7 +85,7 @@ class ROSAdapter:
             self._executor.spin()
 
     def shutdown(self) -> None:
-        """End node and thread; this ends the waits for services, too.
+        """End node and thread; this also ends the waits for services.
 
         Raises:
             RuntimeError: The adapter is not running.
@@ -93,6 +93,7 @@ class ROSAdapter:
         if self._thread is None:
             raise RuntimeError("Cannot shutdown a ROS adapter that is not running")
         self._executor.shutdown()
+        # Also ends the waits in `_ask`, which run on other threads.
         self._context.try_shutdown()
         self._thread.join()
         self._thread = None
@@ -100,7 +101,7 @@ class ROSAdapter:
 
 
 def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
-    """Return the adapter of a launch, made when it is first asked for; it ends with the launch."""
+    """Return the adapter of a launch. The first call makes it; it ends with the launch."""
     adapter: ROSAdapter | None = context.get_locals_as_dict().get(_KEY)
     if adapter is None:
         adapter = ROSAdapter()
@@ -124,18 +125,24 @@ async def call_service(context: LaunchContext, service_type: Any, name: str, req
         The response; None when the launch ended before.
     """
     node = get_ros_node(context)
+    # On a thread, because waiting for a service blocks.
     return await asyncio.get_running_loop().run_in_executor(
         None, _ask, node, service_type, name, request
     )
 
 
 def _ask(node: Node, service_type: Any, name: str, request: Any) -> Any:
-    client = node.create_client(service_type, name)
+    from rclpy._rclpy_pybind11 import RCLError
+
+    # Set by the response and by the end of the launch, whichever comes first.
     ended = threading.Event()
     node.context.on_shutdown(ended.set)
-    if not client.wait_for_service():
+    try:
+        client = node.create_client(service_type, name)
+        client.wait_for_service()
+        future = client.call_async(request)
+    except RCLError:  # the launch has ended
         return None
-    future = client.call_async(request)
     future.add_done_callback(lambda _: ended.set())
     ended.wait()
     if not future.done():

@@ -3,6 +3,7 @@
 ==================  =========================================================
 module              what it holds
 ==================  =========================================================
+`actions`           keep the nodes of a launch apart from all others
 `test_runner`       runs launches of ROS nodes with their tests
 `pytest`            the marker ``rostest`` of pytest
 `wait_for_topics`   waits until messages have come on topics
@@ -14,10 +15,17 @@ module              what it holds
 
 from __future__ import annotations
 
-from launch_testing_ros import tools
+from launch_testing_ros import actions, tools
 from launch_testing_ros.data_republisher import DataRepublisher
 from launch_testing_ros.message_pump import MessagePump
 from launch_testing_ros.test_runner import LaunchTestRunner
 from launch_testing_ros.wait_for_topics import WaitForTopics
 
-__all__ = ["DataRepublisher", "LaunchTestRunner", "MessagePump", "WaitForTopics", "tools"]
+__all__ = [
+    "DataRepublisher",
+    "LaunchTestRunner",
+    "MessagePump",
+    "WaitForTopics",
+    "actions",
+    "tools",
+]

@@ -7,6 +7,10 @@ module                what it holds
 `one_message_filter`  the type of callbacks that take one message
 `subscriber`          `Subscriber`: the messages of a topic
 `cache`               `Cache`: the newest messages, found by time
+`chain`               `Chain`: filters one behind the other
+`delta_filter`        messages in which fields have changed: `DeltaFilter` and others
+`input_aligner`       `InputAligner`: several inputs in the order of their stamps
+`time_sequencer`      `TimeSequencer`: messages in the order of their stamps
 `time_synchronizer`   `TimeSynchronizer`, `ApproximateTimeSynchronizer`
 `stamps`              the stamps of messages
 ====================  =================================================
@@ -15,8 +19,18 @@ module                what it holds
 from __future__ import annotations
 
 from .cache import Cache
+from .chain import Chain
 from .simple_filter import SimpleFilter
 from .subscriber import Subscriber
+from .time_sequencer import TimeSequencer
 from .time_synchronizer import ApproximateTimeSynchronizer, TimeSynchronizer
 
-__all__ = ["ApproximateTimeSynchronizer", "Cache", "SimpleFilter", "Subscriber", "TimeSynchronizer"]
+__all__ = [
+    "ApproximateTimeSynchronizer",
+    "Cache",
+    "Chain",
+    "SimpleFilter",
+    "Subscriber",
+    "TimeSequencer",
+    "TimeSynchronizer",
+]

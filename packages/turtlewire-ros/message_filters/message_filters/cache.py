@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import threading
+import warnings
 from bisect import bisect_left, bisect_right
 from collections import deque
 from typing import TYPE_CHECKING, overload
 
 from rclpy._typing import MsgT
+from turtlewire.distro import KILTED, LYRICAL, since
 
 from .one_message_filter import OneMessageFilter
 from .stamps import stamp_of
@@ -18,6 +20,8 @@ if TYPE_CHECKING:
     from .simple_filter import SimpleFilter
 
 __all__ = ["Cache"]
+
+_DEPRECATED_LASTEST_TIME = "Deprecated in favour of :py:classmethod:Cache.getLatestTime:."
 
 
 class Cache(OneMessageFilter[MsgT]):
@@ -46,7 +50,7 @@ class Cache(OneMessageFilter[MsgT]):
         self._lock = threading.Lock()
         self.cache_msgs: list[MsgT] = []
         self.cache_times: list[Time] = []
-        self._arrived: deque[tuple[Time, MsgT]] = deque()
+        self._arrived: deque[Time] = deque()
         self.cache_size = cache_size
         self.allow_headerless = allow_headerless
         if f is not None:
@@ -64,23 +68,21 @@ class Cache(OneMessageFilter[MsgT]):
         if stamp is None:
             return
         with self._lock:
+            # After equal stamps, so that these stay in the order of their arrival.
             place = bisect_right(self.cache_times, stamp)
             self.cache_times.insert(place, stamp)
             self.cache_msgs.insert(place, msg)
-            self._arrived.append((stamp, msg))
+            self._arrived.append(stamp)
             if len(self._arrived) > self.cache_size:
-                self._forget(*self._arrived.popleft())
+                self._forget(self._arrived.popleft())
+        # Outside the lock, because callbacks may ask this cache.
         self.signalMessage(msg)
 
-    def _forget(self, stamp: Time, msg: MsgT) -> None:
-        """Drop the message that arrived first.
-
-        It need not have the oldest stamp: after a clock has jumped back, the messages from before
-        have newer stamps.
-        """
+    def _forget(self, stamp: Time) -> None:
+        """Drop the message that arrived first; of equal stamps, it is the first."""
+        # Not always the oldest stamp: after a clock has jumped back, earlier messages have newer
+        # ones.
         place = bisect_left(self.cache_times, stamp)
-        while self.cache_msgs[place] is not msg:
-            place += 1
         del self.cache_times[place], self.cache_msgs[place]
 
     def getInterval(  # noqa: N802 -- ROS 2's name
@@ -109,8 +111,14 @@ class Cache(OneMessageFilter[MsgT]):
         with self._lock:
             return self.cache_times[-1] if self.cache_times else None
 
-    #: ROS 2's older, misspelt name.
-    getLastestTime = getLatestTime  # noqa: N815
+    # Lyrical has it no longer.
+    if not since(LYRICAL):
+
+        def getLastestTime(self) -> Time | None:  # noqa: N802 -- ROS 2's older, misspelt name
+            """Return the newest stamp, or None; deprecated since Kilted."""
+            if since(KILTED):
+                warnings.warn(_DEPRECATED_LASTEST_TIME, DeprecationWarning, stacklevel=2)
+            return self.getLatestTime()
 
     def getOldestTime(self) -> Time | None:  # noqa: N802 -- ROS 2's name
         """Return the oldest stamp, or None."""

@@ -20,12 +20,14 @@ class OneMessageFilter(SimpleFilter, Generic[MsgT]):
     if TYPE_CHECKING:
 
         @overload
-        def registerCallback(self, cb: Callable[[MsgT], Any]) -> int: ...
+        def registerCallback(self, callback: Callable[[MsgT], Any]) -> int: ...
 
         @overload
-        def registerCallback(self, cb: Callable[..., Any], arg: Any, /, *args: Any) -> int: ...
+        def registerCallback(
+            self, callback: Callable[..., Any], arg: Any, /, *args: Any
+        ) -> int: ...
 
         # Narrower than that of the base, which passes on any number of messages.
         def registerCallback(  # noqa: N802 -- as in the base
-            self, cb: Callable[..., Any], *args: Any
+            self, callback: Callable[..., Any], *args: Any
         ) -> int: ...

@@ -24,20 +24,27 @@ class SimpleFilter:
         self._callbacks_lock = threading.Lock()
 
     def registerCallback(  # noqa: N802 -- ROS 2's name
-        self, cb: Callable[..., Any], *args: Any
+        self, callback: Callable[..., Any], *args: Any
     ) -> int:
-        """Call ``cb(message, …, *args)`` for each message; a number for :meth:`disconnect`."""
+        """Call ``callback(message, …, *args)`` for each message; return the callback's number."""
         with self._callbacks_lock:
             number = self._next_number
             self._next_number += 1
-            self.callbacks = {**self.callbacks, number: (cb, args)}
+            # A new dictionary, because another thread may be going through the old one.
+            self.callbacks = {**self.callbacks, number: (callback, args)}
         return number
 
-    def disconnect(self, number: int) -> None:
-        """Remove the callback with this number."""
+    def unregisterCallback(self, conn: int) -> None:  # noqa: N802 -- ROS 2's name
+        """Remove a callback; do nothing if it is removed already.
+
+        A message that another thread is passing on may still reach the callback afterwards.
+
+        Args:
+            conn: The number that :meth:`registerCallback` returned.
+        """
         with self._callbacks_lock:
             self.callbacks = {
-                other: entry for other, entry in self.callbacks.items() if other != number
+                other: entry for other, entry in self.callbacks.items() if other != conn
             }
 
     def signalMessage(self, *msg: Any) -> None:  # noqa: N802 -- ROS 2's name

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from rclpy.clock import ROSClock
+from rclpy.clock import Clock, ClockType
 from rclpy.logging import get_logger
 from rclpy.time import Time
 
@@ -32,7 +32,7 @@ def stamp_of(message: Any, *, allow_headerless: bool, logger: str) -> Time | Non
     stamp = getattr(getattr(message, "header", None), "stamp", None)
     if stamp is None:
         if allow_headerless:
-            return ROSClock().now()
+            return Clock(clock_type=ClockType.ROS_TIME).now()
         get_logger(logger).warning(_HEADERLESS, throttle_duration_sec=5.0)
         return None
     return stamp if hasattr(stamp, "nanoseconds") else Time.from_msg(stamp)

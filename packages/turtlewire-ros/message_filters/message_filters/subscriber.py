@@ -9,8 +9,13 @@ from rclpy._typing import MsgT
 from .one_message_filter import OneMessageFilter
 
 if TYPE_CHECKING:
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.event_handler import SubscriptionEventCallbacks
     from rclpy.node import Node
+    from rclpy.qos import QoSProfile
+    from rclpy.qos_overriding_options import QoSOverridingOptions
     from rclpy.subscription import Subscription
+    from rclpy.subscription_content_filter_options import ContentFilterOptions
 
 __all__ = ["Subscriber"]
 
@@ -18,16 +23,19 @@ __all__ = ["Subscriber"]
 class Subscriber(OneMessageFilter[MsgT]):
     """Passes on the messages of a topic.
 
-    Type checkers know its messages: ``Subscriber[PointStamped]`` refuses callbacks of others.
+    Type checkers know its messages: ``Subscriber[PointStamped]`` rejects callbacks of others.
 
     Args:
         node: The subscribing node.
         msg_type: Class of the messages.
         topic: Name of the topic.
-        args: Further arguments of :meth:`Node.create_subscription
-            <rclpy.node.Node.create_subscription>`, after the callback.
-        qos_profile: Quality of service, or a depth; by default depth 10.
-        kwargs: Further keywords of ``create_subscription``.
+        qos_profile: Quality of service, or a depth.
+        callback_group: As in :meth:`Node.create_subscription
+            <rclpy.node.Node.create_subscription>`, like the arguments below.
+        event_callbacks: What to call on events of the quality of service.
+        qos_overriding_options: Which policies parameters may override.
+        raw: Whether the serialized bytes of the messages are passed on.
+        content_filter_options: Without effect.
 
     Attributes:
         node: The subscribing node.
@@ -36,15 +44,31 @@ class Subscriber(OneMessageFilter[MsgT]):
     """
 
     def __init__(
-        self, node: Node, msg_type: type[MsgT], topic: str, *args: Any, **kwargs: Any
+        self,
+        node: Node,
+        msg_type: type[MsgT],
+        topic: str,
+        qos_profile: QoSProfile | int = 10,
+        *,
+        callback_group: CallbackGroup | None = None,
+        event_callbacks: SubscriptionEventCallbacks | None = None,
+        qos_overriding_options: QoSOverridingOptions | None = None,
+        raw: bool = False,
+        content_filter_options: ContentFilterOptions | None = None,
     ) -> None:
         super().__init__()
-        if not args:
-            kwargs.setdefault("qos_profile", 10)
         self.node = node
         self.topic = topic
         self.sub: Subscription[MsgT] = node.create_subscription(
-            msg_type, topic, self.callback, *args, **kwargs
+            msg_type,
+            topic,
+            self.callback,
+            qos_profile,
+            callback_group=callback_group,
+            event_callbacks=event_callbacks,
+            qos_overriding_options=qos_overriding_options,
+            raw=raw,
+            content_filter_options=content_filter_options,
         )
 
     def callback(self, msg: MsgT) -> None:
@@ -52,7 +76,7 @@ class Subscriber(OneMessageFilter[MsgT]):
         self.signalMessage(msg)
 
     def getTopic(self) -> str:  # noqa: N802 -- ROS 2's name
-        """Name of the topic, as given."""
+        """Return the name of the topic, as given."""
         return self.topic
 
     def unsubscribe(self) -> None:

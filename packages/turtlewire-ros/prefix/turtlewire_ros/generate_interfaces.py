@@ -16,6 +16,7 @@ from turtlewire.msg.generate import generate_package
 from turtlewire.msg.parser import parse_type, without_comment
 from turtlewire.msg.registry import KINDS, interface_path
 from turtlewire.msg.types import AbstractNestedType, NamespacedType
+from turtlewire.package_sources import source_hint
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -81,7 +82,9 @@ def _advice(package: str, full_name: str) -> str:
     other = full_name.partition("/")[0]
     if other == package:
         return "add its file to rosidl_generate_interfaces()"
-    return f"source or install what has it, or build {other} and name it in package.xml"
+    return source_hint(other) or (
+        f"source or install what has it, or build {other} and name it in package.xml"
+    )
 
 
 if __name__ == "__main__":

@@ -1,8 +1,9 @@
 """Write what is generated from the engine's interfaces; the build of the wheel runs it.
 
 ``python -m turtlewire_ros.interface_files PREFIX MODULES`` writes definitions below ``PREFIX``,
-where programs of ROS 2 read them (``share/std_msgs/msg/String.msg`` and ``String.idl`` beside it),
-and packages to import (``std_msgs.msg`` with its type stubs) below ``MODULES``.
+where programs of ROS 2 read them (``share/std_msgs/msg/String.msg`` and ``String.idl`` next to it),
+and packages to import (``std_msgs.msg`` with its type stubs) below ``MODULES``: Jazzy's, and those
+that came later.
 """
 
 from __future__ import annotations
@@ -11,8 +12,9 @@ import sys
 from pathlib import Path
 
 from rosidl_adapter.idl import interface_to_idl
-from turtlewire.msg import interface_names, interface_path
-from turtlewire.msg.generate import write_modules
+from turtlewire.msg.bundled import bundled_folders
+from turtlewire.msg.generate import import_lines, write_modules
+from turtlewire.msg.registry import interfaces_in
 
 __all__ = ["INDEX", "write_interface_files", "write_interface_modules"]
 
@@ -21,17 +23,19 @@ INDEX = Path("share", "ament_index", "resource_index", "rosidl_interfaces")
 
 
 def write_interface_files(prefix: Path) -> None:
-    """Write the definitions of all known packages, as text and as IDL, below a prefix.
+    """Write the definitions of all bundled packages, as text and as IDL, below a prefix.
 
     Raises:
         OSError: A file cannot be written.
     """
-    for package, kinds in interface_names().items():
+    for folder in _bundled():
+        package = folder.name
+        kinds = interfaces_in(str(folder))
         share = prefix / "share" / package
         for kind, names in kinds.items():
             for name in names:
                 source = Path(kind, f"{name}.{kind}")
-                text = Path(interface_path(f"{package}/{kind}/{name}")).read_text(encoding="utf-8")
+                text = (folder / source).read_text(encoding="utf-8")
                 _write(share / source, text)
                 idl = interface_to_idl(package, source, text)
                 _write(share / source.with_suffix(".idl"), idl)
@@ -45,20 +49,24 @@ def write_interface_files(prefix: Path) -> None:
 
 
 def write_interface_modules(folder: Path) -> None:
-    """Write a package of Python modules and stubs for each known package below a folder.
+    """Write a package of Python modules and stubs for each bundled package below a folder.
 
     turtlesim, which has code of its own, gets the modules ``msg``, ``srv`` and ``action`` alone.
 
     Raises:
         OSError: A file cannot be written.
     """
-    for package, kinds in interface_names().items():
-        first = next(f"{package}/{kind}/{names[0]}" for kind, names in kinds.items() if names)
-        source = Path(interface_path(first)).parents[1]
-        write_modules(package, source, folder / package)
+    for source in _bundled():
+        package = source.name
+        imports = import_lines(write_modules(package, source, folder / package))
         if package != "turtlesim":
-            _write(folder / package / "__init__.py", f'"""Interfaces of {package}."""\n')
+            text = f'"""Interfaces of {package}."""\n\n{imports}'
+            _write(folder / package / "__init__.py", text)
             _write(folder / package / "py.typed", "")
+
+
+def _bundled() -> list[Path]:
+    return sorted(Path(bundled_folders()[-1]).iterdir())
 
 
 def _write(path: Path, text: str) -> None:

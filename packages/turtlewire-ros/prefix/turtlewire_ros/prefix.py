@@ -12,7 +12,9 @@ import sys
 from pathlib import Path
 
 __all__ = [
+    "COMPILED_TARGETS",
     "MARKERS",
+    "compiled_targets",
     "editable_source",
     "own_prefix",
     "package_names",
@@ -23,6 +25,8 @@ __all__ = [
 
 #: Folder of a prefix in which each installed package has a file of its name.
 MARKERS = os.path.join("share", "ament_index", "resource_index", "packages")
+#: Kind of the index entry in which a build here lists the C++ targets that it has left out.
+COMPILED_TARGETS = "turtlewire_compiled_targets"
 
 
 def own_prefix() -> str | None:
@@ -72,6 +76,13 @@ def package_names() -> dict[str, str]:
             for name in os.listdir(folder):
                 names.setdefault(name, prefix)
     return names
+
+
+def compiled_targets(package: str) -> list[str]:
+    """Return the C++ targets of an installed package that were left out when it was built here."""
+    prefix = _indexed_prefix(package)
+    path = Path(prefix or os.devnull, os.path.dirname(MARKERS), COMPILED_TARGETS, package)
+    return path.read_text(encoding="utf-8").splitlines() if path.is_file() else []
 
 
 def editable_source(package: str) -> str | None:

@@ -1,7 +1,7 @@
 """The guardian of a :class:`~turtlewire_ros.process_family.ProcessFamily`: a script of its own.
 
 It waits until its stdin ends, which happens when the process that started it ends, by SIGKILL too,
-and then stops every process of the family. It runs beside each `ros2 run` and `ros2 launch`, so it
+and then stops every process of the family. It runs next to each `ros2 run` and `ros2 launch`, so it
 imports only what it needs to start fast and stay small.
 """
 
@@ -40,7 +40,7 @@ def guard(family: str) -> None:
 def _members(family: str) -> list[int]:
     """Return the processes of the family that have not ended."""
     # A process is missed if it begins while /proc is read, or if it has no environment because it
-    # is executing another program. The family has ended when a second search finds none, too.
+    # is executing another program. The family has ended when a second search also finds none.
     return _search(family) or _search(family)
 
 
@@ -55,7 +55,7 @@ def _families(process: str) -> list[str]:
     try:
         with open(f"/proc/{process}/environ", "rb") as file:
             variables = file.read().split(b"\0")
-    except OSError:  # it has ended meanwhile, or belongs to another user
+    except OSError:  # it has just ended, or belongs to another user
         return []
     for variable in variables:
         if variable.startswith(head):

@@ -14,12 +14,13 @@ __all__ = ["pytest_launch_collect_makemodule"]
 
 @pytest.hookspec(firstresult=True)
 def pytest_launch_collect_makemodule(
-    path: Path, parent: pytest.Collector, entrypoint: Any
+    module_path: Path, path: Path, parent: pytest.Collector, entrypoint: Any
 ) -> pytest.Collector | None:
     """Make the collector of a launch test.
 
     Args:
-        path: The file.
+        module_path: The file; plugins for Jazzy and Kilted do not take it.
+        path: The same.
         parent: The collector above.
         entrypoint: The file's function ``generate_test_description``.
 

@@ -8,15 +8,16 @@ import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from turtlewire import package_sources
 from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire_ros.executables import executable_paths
-from turtlewire_ros.prefix import MARKERS, package_names, package_prefix
+from turtlewire_ros.prefix import MARKERS, compiled_targets, package_names, package_prefix
 from turtlewire_ros.rqt import equivalent
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["executable_hint", "file_hint", "package_hint", "path_hint"]
+__all__ = ["executable_hint", "file_hint", "package_hint", "path_hint", "source_hint"]
 
 #: colcon leaves this file in the folder of what it installs.
 _LAYOUT = ".colcon_install_layout"
@@ -36,9 +37,8 @@ def package_hint(package: str) -> str:
     Workspaces are looked for in the current folder, its parents and the folders in it; about one
     that is elsewhere, the hint says how to source it.
     """
-    for workspace in _workspaces():
-        if hint := _not_sourced(workspace, package) or _not_built(workspace, package):
-            return hint
+    if hint := source_hint(package):
+        return hint
     other = _OTHER_NAMES.get(package)
     if other and package_prefix(other):
         return f"The nodes of this tutorial are here in the package {other}"
@@ -50,8 +50,28 @@ def package_hint(package: str) -> str:
     )
 
 
+def source_hint(package: str) -> str:
+    """Say where the source of a package that is not installed is: in a workspace, or on the web.
+
+    The string is empty if unknown.
+    """
+    for workspace in _workspaces():
+        if hint := _not_sourced(workspace, package) or _not_built(workspace, package):
+            return hint
+    return package_sources.source_hint(package)
+
+
 def executable_hint(package: str, executable: str) -> str:
-    """Say why a package has no such executable: not installed or misspelt; empty if unknown."""
+    """Say why a package has no such executable; empty if unknown.
+
+    It may be compiled from C++, not installed, or misspelt.
+    """
+    compiled = compiled_targets(package)
+    if executable in compiled:
+        return (
+            f"{executable} is a C++ program, which turtlewire does not compile. Run it on a "
+            "computer with ROS 2: the nodes there and here see each other"
+        )
     script = Path(package_prefix(package) or os.devnull, "bin", executable)
     if script.is_file():
         return (
@@ -62,7 +82,7 @@ def executable_hint(package: str, executable: str) -> str:
     if source and (hint := _executable_in(source, executable)):
         return hint
     known = [os.path.basename(path) for path in executable_paths(package) or []]
-    return did_you_mean(executable, known)
+    return did_you_mean(executable, [*known, *compiled])
 
 
 def file_hint(package: str, name: str) -> str:

@@ -34,7 +34,8 @@ module                                      what it holds
 `qos_overriding_options`                    QoS set by parameters
 `event_handler`                             events: incompatible QoS, deadlines, matches
 `qos_event`                                 the former name of `event_handler`
-`topic_endpoint_info`, `type_hash`          what the graph shows of an endpoint
+`endpoint_info`, `type_hash`                what the graph shows of an endpoint
+`topic_endpoint_info`                       the same, under Jazzy's names
 `logging`                                   loggers
 `impl`                                      their outputs and formats; ROS arguments; hints
 `logging_service`                           the services of a node's log levels
@@ -51,7 +52,7 @@ module                                      what it holds
 `validate_full_topic_name`                  checks of full topic names
 `validate_namespace`, `validate_node_name`  checks of names of nodes
 `validate_parameter_name`                   checks of names of parameters
-`constants`, `experimental`                 names and modules that ROS 2 has, too
+`constants`, `experimental`                 further names and modules of ROS 2
 `_typing`                                   type variables of `Publisher`, `Client` and others
 `_rclpy_pybind11`                           the few names of ROS 2's extension that programs use
 ==========================================  ========================================================
@@ -61,11 +62,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-# First: an early Ctrl-C, too, ends without a traceback.
+# First, so that an early Ctrl-C also ends without a traceback.
 from .impl import excepthooks as _excepthooks  # noqa: F401
 from .signals import SignalHandlerOptions, install_signal_handlers, uninstall_signal_handlers
-from .utilities import get_default_context, ok, try_shutdown
+from .utilities import get_default_context, ok
 from .utilities import shutdown as _shutdown
+from .utilities import try_shutdown as _try_shutdown
 
 if TYPE_CHECKING:
     from types import ModuleType, TracebackType
@@ -74,6 +76,7 @@ if TYPE_CHECKING:
     from .executors import Executor
     from .node import Node
     from .parameter import Parameter
+    from .qos import QoSProfile, qos_profile_rosout_default
     from .task import Future
 
 __all__ = [
@@ -81,6 +84,7 @@ __all__ = [
     "Future",
     "InitContextManager",
     "Parameter",
+    "QoSProfile",
     "SignalHandlerOptions",
     "create_node",
     "get_default_context",
@@ -89,6 +93,7 @@ __all__ = [
     "init",
     "install_signal_handlers",
     "ok",
+    "qos_profile_rosout_default",
     "shutdown",
     "spin",
     "spin_once",
@@ -101,13 +106,28 @@ _global_executor: Executor | None = None
 
 
 class InitContextManager:
-    """What :func:`init` returns.
+    """The context manager that :func:`init` returns.
 
     ``with rclpy.init(): …`` shuts the context down at the end of the block.
     """
 
-    def __init__(self, context: Context) -> None:
-        self.context = context
+    def __init__(
+        self,
+        args: list[str] | None,
+        context: Context | None,
+        domain_id: int | None,
+        signal_handler_options: SignalHandlerOptions | None,
+    ) -> None:
+        is_default = context is None or context is get_default_context()
+        self.context = get_default_context() if context is None else context
+        # As in ROS 2, a library with a context of its own leaves the signals to the program.
+        if signal_handler_options is None:
+            signal_handler_options = (
+                SignalHandlerOptions.ALL if is_default else SignalHandlerOptions.NO
+            )
+        self.context.init(args, domain_id=domain_id)
+        # Last: if the domain cannot be joined, the program keeps its own handlers.
+        install_signal_handlers(signal_handler_options)
 
     def __enter__(self) -> Context:
         return self.context
@@ -115,9 +135,10 @@ class InitContextManager:
     def __exit__(
         self,
         exc_type: type[BaseException] | None,
-        exc: BaseException | None,
-        traceback: TracebackType | None,
+        exc_val: BaseException | None,
+        exc_tb: TracebackType | None,
     ) -> None:
+        # The signal handlers serve every context: only the default one takes them along.
         if self.context is get_default_context():
             try_shutdown()
             uninstall_signal_handlers()
@@ -149,13 +170,7 @@ def init(
         UnknownROSArgsError, RCLInvalidROSArgsError: The command line is wrong.
         WireError: The middleware is not available, or the domain cannot be joined.
     """
-    is_default = context is None or context is get_default_context()
-    context = get_default_context() if context is None else context
-    if signal_handler_options is None:
-        signal_handler_options = SignalHandlerOptions.ALL if is_default else SignalHandlerOptions.NO
-    context.init(args, domain_id=domain_id)
-    install_signal_handlers(signal_handler_options)
-    return InitContextManager(context)
+    return InitContextManager(args, context, domain_id, signal_handler_options)
 
 
 def get_global_executor() -> Executor:
@@ -198,6 +213,16 @@ def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None 
         uninstall_signal_handlers()
 
 
+def try_shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
+    """Leave the domain unless that has happened; see :func:`shutdown`.
+
+    Only with ``uninstall_handlers`` signals get their former handlers back.
+    """
+    _try_shutdown(context=context)
+    if uninstall_handlers:
+        uninstall_signal_handlers()
+
+
 def create_node(
     node_name: str,
     *,
@@ -206,14 +231,19 @@ def create_node(
     namespace: str | None = None,
     use_global_arguments: bool = True,
     enable_rosout: bool = True,
+    rosout_qos_profile: QoSProfile | int | None = None,
     start_parameter_services: bool = True,
     parameter_overrides: list[Parameter] | None = None,
     allow_undeclared_parameters: bool = False,
     automatically_declare_parameters_from_overrides: bool = False,
     enable_logger_service: bool = False,
 ) -> Node:
-    """Make a node; see :class:`rclpy.node.Node` for the arguments."""
+    """Make a node; see :class:`rclpy.node.Node` for the arguments.
+
+    ``rosout_qos_profile`` None takes ROS 2's default.
+    """
     from .node import Node
+    from .qos import qos_profile_rosout_default
 
     return Node(
         node_name,
@@ -222,6 +252,9 @@ def create_node(
         namespace=namespace,
         use_global_arguments=use_global_arguments,
         enable_rosout=enable_rosout,
+        rosout_qos_profile=qos_profile_rosout_default
+        if rosout_qos_profile is None
+        else rosout_qos_profile,
         start_parameter_services=start_parameter_services,
         parameter_overrides=parameter_overrides,
         allow_undeclared_parameters=allow_undeclared_parameters,
@@ -241,6 +274,7 @@ def spin_once(
         timeout_sec: How long to wait; None or negative: without limit, 0: not at all.
     """
     executor = get_global_executor() if executor is None else executor
+    # False for a node that is in the executor already: it stays there afterwards.
     added = executor.add_node(node)
     try:
         executor.spin_once(timeout_sec=timeout_sec)
@@ -299,7 +333,9 @@ _ALSO_HERE = {
     "Context": "context",
     "Future": "task",
     "Parameter": "parameter",
+    "QoSProfile": "qos",
     "get_rmw_implementation_identifier": "utilities",
+    "qos_profile_rosout_default": "qos",
 }
 
 
@@ -310,6 +346,8 @@ def __getattr__(name: str) -> ModuleType | Any:
 
     if name in _ALSO_HERE:
         return getattr(importlib.import_module(f"{__name__}.{_ALSO_HERE[name]}"), name)
+    # Tools probe for names such as `__path__` and `__wrapped__`. A module is searched first instead
+    # of catching ImportError: an import that fails within an existing module has to show.
     if name.startswith("__") or importlib.util.find_spec(f"{__name__}.{name}") is None:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return importlib.import_module(f"{__name__}.{name}")

@@ -67,5 +67,6 @@ class rmw_qos_policy_kind_t(IntEnum):  # noqa: N801  ROS 2's name, which its tex
     RMW_QOS_POLICY_AVOID_ROS_NAMESPACE_CONVENTIONS = 512
 
     def __str__(self) -> str:
-        """Name of the enumeration and of the value."""
+        """Return the name of the enumeration and of the value."""
+        # pybind11's text; since Python 3.11, an IntEnum prints its number.
         return f"{type(self).__name__}.{self.name}"

@@ -37,15 +37,13 @@ class CallbackGroup(ABC):
         return weakref.ref(entity) in self.entities
 
     def _rclpy_note_wait(self, scheduler: _Scheduler) -> None:
-        """Have :meth:`_rclpy_wake_schedulers` wake this scheduler from now on."""
+        """Let :meth:`_rclpy_wake_schedulers` wake this scheduler."""
         self._rclpy_schedulers.add(weakref.ref(scheduler, self._rclpy_schedulers.discard))
 
     def _rclpy_wake_schedulers(self) -> None:
-        """Wake all schedulers that found the group busy, to check it again.
-
-        A node that moves to another executor leaves a running callback behind: the scheduler that
-        ends it is then not the one that has entities of this group.
-        """
+        """Wake all schedulers that found the group busy, to check it again."""
+        # All, because a node that moves to another executor leaves a running callback behind: the
+        # scheduler that ends it is then not the one that has entities of this group.
         for reference in tuple(self._rclpy_schedulers):
             scheduler = reference()
             if scheduler is not None:
@@ -68,11 +66,9 @@ class ReentrantCallbackGroup(CallbackGroup):
     """Lets callbacks run at the same time, also several of one entity."""
 
     def can_execute(self, entity: object) -> bool:  # noqa: ARG002
-        """Always."""
         return True
 
     def beginning_execution(self, entity: object) -> bool:  # noqa: ARG002
-        """Always."""
         return True
 
     def ending_execution(self, entity: object) -> None:

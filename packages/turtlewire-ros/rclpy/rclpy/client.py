@@ -5,12 +5,14 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING, Any, Generic, overload
 
+from turtlewire.distro import KILTED, since
 from turtlewire.errors import CdrError, UncallableServiceError, WireError
 from turtlewire.msg import deserialize, serialize
 from turtlewire.wire.services import require_callable
 
-from ._execution.blocking import Call, wait_for_response
+from ._execution.blocking import BlockingCall, wait_for_response
 from ._execution.futures import call_when_done, run_callbacks_on
+from ._node.checks import check_valid
 from ._rclpy_pybind11 import RCLError
 from ._typing import RequestT, ResponseT, SrvT_co, T
 from ._typing import RequestT as SrvTypeRequest
@@ -29,17 +31,11 @@ if TYPE_CHECKING:
     from .callback_groups import CallbackGroup
     from .qos import QoSProfile
 
-__all__ = ["Client", "SrvType", "SrvTypeRequest", "SrvTypeResponse"]
+__all__ = ["BaseClient", "Client", "SrvType", "SrvTypeRequest", "SrvTypeResponse"]
 
 
-class Client(IntrospectedEndpoint, Generic[SrvT_co]):
-    """Calls a service; made by :meth:`Node.create_client <rclpy.node.Node.create_client>`.
-
-    Thread-safe.
-
-    Responses are handed to their futures whatever the callback group is doing: a callback that
-    awaits a response, or blocks for it in :meth:`call` while another thread spins, never waits for
-    itself.
+class BaseClient(IntrospectedEndpoint, Generic[SrvT_co]):
+    """Sends requests and takes their responses.
 
     Attributes:
         srv_type: The service class.
@@ -47,10 +43,145 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
         qos_profile: Quality of service of requests and responses.
     """
 
+    _wire: base.Client
+
+    def __init__(
+        self,
+        wire: base.Client,
+        srv_type: type[SrvT_co],
+        srv_name: str,
+        qos_profile: QoSProfile,
+        callback_group: CallbackGroup | None,
+        core: NodeState,
+    ) -> None:
+        super().__init__(wire, core, srv_type, callback_group)
+        self.srv_name = srv_name
+        self.qos_profile = qos_profile
+        self._context = core.context
+        self._lock = threading.Lock()
+        self._pending: dict[int, Future] = {}
+        self._said_why_not_called = False
+
+    def _request(self, request: Any) -> Future[Any]:
+        """Send a request.
+
+        Returns:
+            A future of the response. It has an exception at once if a server of the service runs on
+            a middleware that would misread the request.
+
+        Raises:
+            TypeError: ``request`` is not a ``srv_type.Request``.
+            InvalidHandle: The client was destroyed, perhaps by another thread during the call.
+            RCLError: The context was shut down.
+        """
+        self._check_usable()
+        if not isinstance(request, self.srv_type.Request):
+            raise TypeError(
+                f"A request of service '{self._wire.service}' is a "
+                f"{self.srv_type.__name__}.Request(), not {described(request)}"
+            )
+        future = Future()
+        try:
+            # The response may arrive before `_send` returns, and has to find the future.
+            with self._lock:
+                sequence_number = self._send(serialize(request))
+                self._pending[sequence_number] = future
+        except UncallableServiceError as error:
+            self._say_why_not_called(error)
+            future.set_exception(error)
+            return future
+        if self._events is not None:
+            self._events.publish(
+                EventType.REQUEST_SENT, self._wire.client_id, sequence_number, request=request
+            )
+        # A future that the program cancels needs no response any more.
+        call_when_done(future, lambda: self._pending.pop(sequence_number, None))
+        return future
+
+    def _send(self, cdr: bytes) -> int:
+        try:
+            return self._wire.send_request(cdr)
+        except WireError:
+            self._check_usable()  # raises if another thread has destroyed the client
+            if self._context.is_open():
+                raise
+            raise RCLError("failed to send request: client's context is invalid") from None
+
+    def _forget(self, future: Future) -> None:
+        """Forget a request: its response will be ignored."""
+        with self._lock:
+            for sequence_number, pending in list(self._pending.items()):
+                if pending is future:
+                    del self._pending[sequence_number]
+                    return
+
+    def service_is_ready(self) -> bool:
+        """Return True if a server is there.
+
+        Raises:
+            InvalidHandle: The client was destroyed.
+            RCLError: The context was shut down.
+        """
+        self._check_usable()
+        failure = "failed to check service availability"
+        check_valid(self._context, failure)
+        try:
+            return self._wire.is_ready()
+        except WireError:
+            check_valid(self._context, failure)
+            raise
+
+    def _look_for_server(self) -> bool:
+        """Return True if a server is there; logs once why one that is there is not called."""
+        if self.service_is_ready():
+            return True
+        try:
+            require_callable(self._context.wire.graph, self._wire.service)
+        except UncallableServiceError as error:
+            self._say_why_not_called(error)
+        return False
+
+    def _say_why_not_called(self, error: UncallableServiceError) -> None:
+        if not self._said_why_not_called:
+            self._said_why_not_called = True
+            self._logger.warning(error.in_one_line())
+
+    def _take(self) -> Work | None:
+        for sequence_number, cdr in self._wire.take(1):
+            with self._lock:
+                future = self._pending.pop(sequence_number, None)
+            if future is None:
+                # The program has given the request up.
+                return None
+            try:
+                response = deserialize(self.srv_type.Response, cdr)
+            except CdrError as error:
+                # It is the caller's error; raised here, it would end the spin.
+                return future.set_exception, (error,)
+            if self._events is not None:
+                self._events.publish(
+                    EventType.RESPONSE_RECEIVED,
+                    self._wire.client_id,
+                    sequence_number,
+                    response=response,
+                )
+            run_callbacks_on(self._serving_host(), future)
+            return future.set_result, (response,)
+        return None
+
+
+class Client(BaseClient[SrvT_co]):
+    """Calls a service; made by :meth:`Node.create_client <rclpy.node.Node.create_client>`.
+
+    Thread-safe.
+
+    Responses are handed to their futures whatever the callback group is doing: a callback that
+    awaits a response, or blocks for it in :meth:`call` while another thread spins, never waits for
+    itself.
+    """
+
     _ORDER = 3
     _GATED = False
-
-    _wire: base.Client
 
     def __init__(
         self,
@@ -61,14 +192,8 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
         callback_group: CallbackGroup,
         core: NodeState,
     ) -> None:
-        super().__init__(wire, core, srv_type, callback_group)
-        self.srv_name = srv_name
-        self.qos_profile = qos_profile
-        self._context = core.context
-        self._lock = threading.Lock()
-        self._pending: dict[int, Future] = {}
+        super().__init__(wire, srv_type, srv_name, qos_profile, callback_group, core)
         self._blocking: set[Future] = set()
-        self._said_why_not_called = False
 
     def call_async(
         self: Client[ServiceClass[RequestT, ResponseT]], request: RequestT
@@ -81,39 +206,10 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
 
         Raises:
             TypeError: ``request`` is not a ``srv_type.Request``.
-            InvalidHandle: It was destroyed, perhaps meanwhile and by another thread.
+            InvalidHandle: The client was destroyed, perhaps by another thread during the call.
             RCLError: The context was shut down.
         """
-        self._check_usable()
-        if not isinstance(request, self.srv_type.Request):
-            raise TypeError(
-                f"A request of service '{self._wire.service}' is a "
-                f"{self.srv_type.__name__}.Request(), not {described(request)}"
-            )
-        future = Future()
-        try:
-            with self._lock:  # the response may be faster than we are: it has to find the future
-                sequence_number = self._send(serialize(request))
-                self._pending[sequence_number] = future
-        except UncallableServiceError as error:
-            self._say_why_not_called(error)
-            future.set_exception(error)
-            return future
-        if self._events is not None:
-            self._events.publish(
-                EventType.REQUEST_SENT, self._wire.client_id, sequence_number, request=request
-            )
-        call_when_done(future, lambda: self._pending.pop(sequence_number, None))
-        return future
-
-    def _send(self, cdr: bytes) -> int:
-        try:
-            return self._wire.send_request(cdr)
-        except WireError:
-            self._check_usable()  # another thread may have destroyed it meanwhile
-            if self._context.is_open():
-                raise
-            raise RCLError("failed to send request: client's context is invalid") from None
+        return self._request(request)
 
     @overload
     def call(
@@ -132,20 +228,25 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
     ) -> ResponseT | None:
         """Send a request and block until its response is here.
 
-        Another thread may spin the node; in a callback of the executor itself only responses are
-        served meanwhile, nothing else.
+        Another thread may spin the node. In a callback of the executor itself, only responses are
+        served during the call.
 
         Returns:
-            The response; None if none came within ``timeout_sec``.
+            The response; in Jazzy, None if none came within ``timeout_sec``.
 
         Raises:
+            TimeoutError: None came within ``timeout_sec``; in Kilted and later.
             TypeError: ``request`` is not a ``srv_type.Request``.
             RuntimeError: The service is in the executor that is blocked by this call: it could
                 never answer.
-            InvalidHandle: Another thread destroyed it meanwhile.
+            InvalidHandle: Another thread destroyed the client during the call.
             ExternalShutdownException, ShutdownException: The context or the executor was shut down.
         """
-        return self._block_for(self.call_async(request), timeout_sec)
+        future = self.call_async(request)
+        response = self._block_for(future, timeout_sec)
+        if not future.done() and since(KILTED):
+            raise TimeoutError
+        return response
 
     def _block_for(self, future: Future[T], timeout_sec: float | None) -> T | None:
         """Block until ``future``, which follows from a request of this client, is done.
@@ -155,12 +256,15 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
         """
         self._blocking.add(future)
         try:
+            # After `add`: if the client is destroyed from here on, `_close` cancels the future.
             self._check_usable()
-            call = Call(self._wire.service, self._context, self._logger, self._serving_host())
+            call = BlockingCall(
+                self._wire.service, self._context, self._logger, self._serving_host()
+            )
             wait_for_response(future, call, timeout_sec)
         finally:
             self._blocking.discard(future)
-            self.remove_pending_request(future)
+            self._forget(future)
         if future.cancelled():
             self._check_usable()
         return future.result() if future.done() else None
@@ -175,31 +279,7 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
 
     def remove_pending_request(self, future: Future) -> None:
         """Forget a request: its response will be ignored."""
-        with self._lock:
-            for sequence_number, pending in list(self._pending.items()):
-                if pending is future:
-                    del self._pending[sequence_number]
-                    return
-
-    def service_is_ready(self) -> bool:
-        """Return True if a server is there."""
-        self._check_usable()
-        return self._wire.is_ready()
-
-    def _look_for_server(self) -> bool:
-        """Return True if a server is there; logs once why one that is there is not called."""
-        if self.service_is_ready():
-            return True
-        try:
-            require_callable(self._context.wire.graph, self._wire.service)
-        except UncallableServiceError as error:
-            self._say_why_not_called(error)
-        return False
-
-    def _say_why_not_called(self, error: UncallableServiceError) -> None:
-        if not self._said_why_not_called:
-            self._said_why_not_called = True
-            self._logger.warning(error.in_one_line())
+        self._forget(future)
 
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
         """Block until a server is there (no polling).
@@ -208,13 +288,14 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
         says so.
 
         Args:
-            timeout_sec: None or negative waits until the context is shut down.
+            timeout_sec: None or negative waits without a limit.
 
         Returns:
-            Whether a server is there.
+            True if a server is there, False after the timeout.
 
         Raises:
-            InvalidHandle: It was destroyed, perhaps meanwhile and by another thread.
+            InvalidHandle: The client was destroyed, before or during the wait.
+            RCLError: The context was shut down, before or during the wait.
         """
         timeout_ns = None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1e9)
         return self._context.wait_for_graph(self._look_for_server, timeout_ns)
@@ -224,24 +305,3 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
         for future in list(self._blocking):
             future.cancel()
         self._context.wake_waits()  # for wait_for_service()
-
-    def _take(self) -> Work | None:
-        for sequence_number, cdr in self._wire.take(1):
-            with self._lock:
-                future = self._pending.pop(sequence_number, None)
-            if future is None:
-                return None
-            try:
-                response = deserialize(self.srv_type.Response, cdr)
-            except CdrError as error:
-                return future.set_exception, (error,)
-            if self._events is not None:
-                self._events.publish(
-                    EventType.RESPONSE_RECEIVED,
-                    self._wire.client_id,
-                    sequence_number,
-                    response=response,
-                )
-            run_callbacks_on(self._serving_host(), future)
-            return future.set_result, (response,)
-        return None

@@ -8,15 +8,20 @@ from __future__ import annotations
 
 import threading
 import time
+import warnings
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
+from turtlewire.distro import LYRICAL, since
 from turtlewire.wake_up import WakeUp
 
+from ._execution.handle import Handle
+from ._rclpy_pybind11 import RCLError
 from .clock_type import ClockType
 from .constants import S_TO_NS
 from .duration import Duration
 from .exceptions import NotInitializedException
+from .impl.hints import with_hint
 from .time import Time
 
 if TYPE_CHECKING:
@@ -28,6 +33,7 @@ if TYPE_CHECKING:
     from .context import Context
 
 __all__ = [
+    "BaseClock",
     "Clock",
     "ClockChange",
     "ClockType",
@@ -53,7 +59,7 @@ class JumpThreshold:
     Args:
         min_forward: Smallest jump forwards; None for no such jump.
         min_backward: Smallest jump backwards, a negative duration; None for no such jump.
-        on_clock_change: Whether to tell when ROS time starts or stops to follow ``/clock``.
+        on_clock_change: Whether it counts when ROS time starts or stops to follow ``/clock``.
 
     Raises:
         ValueError: A duration has the wrong sign, or nothing is asked for.
@@ -77,7 +83,7 @@ class JumpThreshold:
         self.on_clock_change = on_clock_change
 
     def is_crossed_by(self, jump: TimeJump) -> bool:
-        """Return True if ``jump`` is one of those that were asked for."""
+        """Return True if ``jump`` crosses one of the thresholds."""
         if self.on_clock_change and jump.clock_change in (
             ClockChange.ROS_TIME_ACTIVATED,
             ClockChange.ROS_TIME_DEACTIVATED,
@@ -114,7 +120,7 @@ class JumpHandle:
     def __init__(
         self,
         *,
-        clock: Clock,
+        clock: BaseClock,
         threshold: JumpThreshold,
         pre_callback: Callable[[], None] | None,
         post_callback: Callable[[TimeJump], None] | None,
@@ -125,7 +131,7 @@ class JumpHandle:
             raise ValueError("pre_callback must be callable if given")
         if post_callback is not None and not callable(post_callback):
             raise ValueError("post_callback must be callable if given")
-        self._clock: Clock | None = clock
+        self._clock: BaseClock | None = clock
         self._threshold = threshold
         self._pre_callback = pre_callback
         self._post_callback = post_callback
@@ -148,7 +154,7 @@ class JumpHandle:
             self._post_callback(jump)
 
     def wants(self, jump: TimeJump) -> bool:
-        """Return True if the callbacks are to run for ``jump``."""
+        """Return True if the callbacks should run for ``jump``."""
         return self._threshold.is_crossed_by(jump)
 
     def __enter__(self) -> Self:
@@ -163,28 +169,26 @@ class JumpHandle:
         self.unregister()
 
 
-class Clock:
-    """A clock of one type.
+class BaseClock:
+    """A clock: a time, and callbacks around its jumps.
 
-    ``Clock(clock_type=ClockType.ROS_TIME)`` makes a :class:`ROSClock`.
+    A clock of ROS time may show the time of a simulation.
     """
 
+    _override_ns = 0
+    _override_is_active = False
     _clock_type: ClockType
     _jump_handles: list[JumpHandle]
     _lock: threading.Lock
 
-    # It may make a subclass.
-    def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> Clock:  # noqa: PYI034
-        """Choose the class by the clock type."""
+    def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> Self:
+        """Make a clock of one type."""
         if not isinstance(clock_type, ClockType):
             raise TypeError("Clock type must be a ClockType enum")
-        self = super().__new__(ROSClock if clock_type is ClockType.ROS_TIME else cls)
+        self = super().__new__(cls)
         self._clock_type = clock_type
         self._jump_handles = []
         self._lock = threading.Lock()
-        if isinstance(self, ROSClock):
-            self._override_ns = 0
-            self._override_is_active = False
         return self
 
     @property
@@ -192,10 +196,24 @@ class Clock:
         """Type of the clock."""
         return self._clock_type
 
-    def __repr__(self) -> str:
-        return f"Clock(clock_type={self._clock_type.name})"
+    @property
+    def handle(self) -> Handle:
+        """A stand-in for ROS 2's C object."""
+        return Handle(self)
+
+    @property
+    def ros_time_is_active(self) -> bool:
+        """True if the time comes from :meth:`set_ros_time_override` rather than from the system.
+
+        Raises:
+            RCLError: The clock is not one of ROS time.
+        """
+        self._require_ros_time("get ROS time override status", "query override state")
+        return self._override_is_active
 
     def _now_ns(self) -> int:
+        if self._override_is_active:
+            return self._override_ns
         return time.monotonic_ns() if self._clock_type is ClockType.STEADY_TIME else time.time_ns()
 
     def now(self) -> Time:
@@ -222,6 +240,79 @@ class Clock:
         return JumpHandle(
             clock=self, threshold=threshold, pre_callback=pre_callback, post_callback=post_callback
         )
+
+    def add_jump_handle(self, handle: JumpHandle) -> None:
+        """Register ``handle`` for jumps; :meth:`create_jump_callback` makes one."""
+        with self._lock:
+            self._jump_handles.append(handle)
+
+    def remove_jump_handle(self, handle: JumpHandle) -> None:
+        """Undo :meth:`add_jump_handle`."""
+        with self._lock:
+            self._jump_handles.remove(handle)
+
+    def _set_ros_time_is_active(self, enabled: bool) -> None:
+        """Follow the time that is set (it is 0 until then), or the system's."""
+        if enabled == self._override_is_active:
+            return
+        change = ClockChange.ROS_TIME_ACTIVATED if enabled else ClockChange.ROS_TIME_DEACTIVATED
+
+        def switch() -> None:
+            self._override_is_active = enabled
+
+        self._move(TimeJump(change, Duration()), switch)
+
+    def set_ros_time_override(self, time: Time) -> None:
+        """Set the time that is shown while ROS time is active.
+
+        Raises:
+            TypeError: ``time`` is not a Time.
+            RCLError: The clock is not one of ROS time.
+        """
+        self._require_ros_time("set ROS time override", "set time override")
+        if not isinstance(time, Time):
+            raise TypeError("Time must be specified as rclpy.time.Time.")
+
+        def switch() -> None:
+            self._override_ns = time.nanoseconds
+
+        if self._override_is_active:
+            delta = Duration(nanoseconds=time.nanoseconds - self._override_ns)
+            self._move(TimeJump(ClockChange.ROS_TIME_NO_CHANGE, delta), switch)
+        else:
+            switch()
+
+    def _move(self, jump: TimeJump, switch: Callable[[], None]) -> None:
+        with self._lock:
+            handles = [handle for handle in self._jump_handles if handle.wants(jump)]
+        for handle in handles:
+            handle.before()
+        switch()
+        for handle in handles:
+            handle.after(jump)
+
+    def _require_ros_time(self, goal: str, step: str) -> None:
+        if self._clock_type is not ClockType.ROS_TIME:
+            raise with_hint(
+                RCLError(f"failed to {goal}: Clock is not of type RCL_ROS_TIME, cannot {step}."),
+                "Make the clock with Clock(clock_type=ClockType.ROS_TIME), or take the node's",
+            )
+
+
+class Clock(BaseClock):
+    """A clock of one type.
+
+    Up to Kilted, ``Clock(clock_type=ClockType.ROS_TIME)`` makes a :class:`ROSClock`.
+    """
+
+    # It may make a subclass.
+    def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> Clock:  # noqa: PYI034
+        """Choose the class by the clock type."""
+        kind = ROSClock if clock_type is ClockType.ROS_TIME and not since(LYRICAL) else cls
+        return BaseClock.__new__(kind, clock_type=clock_type)
+
+    def __repr__(self) -> str:
+        return f"Clock(clock_type={self._clock_type.name})"
 
     def sleep_until(self, until: Time, context: Context | None = None) -> bool:
         """Wait until this clock shows ``until``.
@@ -252,78 +343,33 @@ class Clock:
         """Wait for ``rel_time`` on this clock; see :meth:`sleep_until`."""
         return self.sleep_until(self.now() + rel_time, context)
 
-    def add_jump_handle(self, handle: JumpHandle) -> None:
-        """Tell ``handle`` of jumps; :meth:`create_jump_callback` makes one."""
-        with self._lock:
-            self._jump_handles.append(handle)
-
-    def remove_jump_handle(self, handle: JumpHandle) -> None:
-        """Undo :meth:`add_jump_handle`."""
-        with self._lock:
-            self._jump_handles.remove(handle)
-
     def _remaining_s(self, until_ns: int) -> float | None:
-        """Seconds until the clock shows ``until_ns`` by itself.
+        """Return the seconds until the clock shows ``until_ns`` by itself.
 
         None when only a message can move it.
         """
+        if self._override_is_active:
+            return None
         return max(0, until_ns - self._now_ns()) / S_TO_NS
 
 
 class ROSClock(Clock):
-    """ROS time: the system's time, or that of a simulation while it is active."""
+    """ROS time: the system's time, or that of a simulation while it is active.
 
-    _override_ns: int
-    _override_is_active: bool
+    Lyrical deprecates it in favour of ``Clock(clock_type=ClockType.ROS_TIME)``.
+    """
 
     def __new__(cls) -> Self:
         """Make a clock of ROS time."""
-        return Clock.__new__(cls, clock_type=ClockType.ROS_TIME)  # type: ignore[return-value]
+        if since(LYRICAL):
+            warnings.warn(
+                "Use Clock(clock_type=ClockType.ROS_TIME) instead", DeprecationWarning, stacklevel=2
+            )
+        return BaseClock.__new__(cls, clock_type=ClockType.ROS_TIME)
 
-    @property
-    def ros_time_is_active(self) -> bool:
-        """True if the time comes from :meth:`set_ros_time_override` rather than from the system."""
-        return self._override_is_active
-
-    def _now_ns(self) -> int:
-        return self._override_ns if self._override_is_active else time.time_ns()
-
-    def _remaining_s(self, until_ns: int) -> float | None:
-        return None if self._override_is_active else super()._remaining_s(until_ns)
-
-    def _set_ros_time_is_active(self, enabled: bool) -> None:
-        """Follow the time that is set (it is 0 until then), or the system's."""
-        if enabled == self._override_is_active:
-            return
-        change = ClockChange.ROS_TIME_ACTIVATED if enabled else ClockChange.ROS_TIME_DEACTIVATED
-
-        def switch() -> None:
-            self._override_is_active = enabled
-
-        self._move(TimeJump(change, Duration()), switch)
-
-    def set_ros_time_override(self, time: Time) -> None:
-        """Set the time that is shown while ROS time is active."""
-        if not isinstance(time, Time):
-            raise TypeError("Time must be specified as rclpy.time.Time.")
-
-        def switch() -> None:
-            self._override_ns = time.nanoseconds
-
-        if self._override_is_active:
-            delta = Duration(nanoseconds=time.nanoseconds - self._override_ns)
-            self._move(TimeJump(ClockChange.ROS_TIME_NO_CHANGE, delta), switch)
-        else:
-            switch()
-
-    def _move(self, jump: TimeJump, switch: Callable[[], None]) -> None:
-        with self._lock:
-            handles = [handle for handle in self._jump_handles if handle.wants(jump)]
-        for handle in handles:
-            handle.before()
-        switch()
-        for handle in handles:
-            handle.after(jump)
+    def __repr__(self) -> str:
+        kind = "ROSClock" if since(LYRICAL) else "Clock"
+        return f"{kind}(clock_type={self._clock_type.name})"
 
 
 class _Sleep:
@@ -337,7 +383,9 @@ class _Sleep:
         self._source_changed = False
 
     def run(self) -> bool:
+        # Held weakly: nothing has to be undone when the sleep is over.
         self._context.on_shutdown(self._wake)
+        # Every move forwards may reach the time; a jump backwards cannot.
         smallest = Duration(nanoseconds=1)
         threshold = JumpThreshold(min_forward=smallest, min_backward=None, on_clock_change=True)
         with self._clock.create_jump_callback(threshold, post_callback=self._on_jump):

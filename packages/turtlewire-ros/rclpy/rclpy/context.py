@@ -7,8 +7,10 @@ import sys
 import threading
 import time
 import weakref
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Protocol
 
+from turtlewire.distro import KILTED, since
 from turtlewire.wake_up import WakeUp
 
 from . import signals
@@ -16,7 +18,7 @@ from ._rclpy_pybind11 import RCLError
 from .exceptions import NotInitializedException
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
     from types import TracebackType
 
     from typing_extensions import Self
@@ -38,6 +40,22 @@ class _Scheduler(Protocol):
         ...
 
 
+class _Wait(Protocol):
+    """What a context ends."""
+
+    def set(self) -> None:
+        """End the wait."""
+        ...
+
+
+class _Node(Protocol):
+    """What a context knows of a node."""
+
+    def destroy_node(self) -> None:
+        """Leave the graph."""
+        ...
+
+
 class Context:
     """Participates in a domain between :meth:`init` and :meth:`shutdown`.
 
@@ -54,10 +72,12 @@ class Context:
         self._arguments: Arguments | None = None
         self._valid = False
         self.ended_by_signal = False
+        self.signal: int | None = None
         self.ended_at_exit = False
         self._callbacks: list[Callable[[], Callable[[], None] | None]] = []
-        self.waits: set[WakeUp] = set()
+        self.waits: set[_Wait] = set()
         self._schedulers: weakref.WeakSet[_Scheduler] = weakref.WeakSet()
+        self._nodes: weakref.WeakSet[_Node] = weakref.WeakSet()
 
     def init(
         self,
@@ -94,19 +114,18 @@ class Context:
             try:
                 self._wire = open_context(domain_id)
             except WireError as error:
+                # The settings are at fault: the excepthook shows one line instead of a traceback.
                 error.is_of_environment = True
                 raise
-            _ = (
-                self._wire.graph
-            )  # discovery begins here, so that the first question about the graph finds it known
+            # Discovery begins here, so that the first question about the graph finds answers.
+            _ = self._wire.graph
             self._valid = True
             _open_contexts.add(self)
             atexit.unregister(_close_open_contexts)
             atexit.register(_close_open_contexts)  # again: must run before the middleware ends
             signals.listeners.add(self)
-            if (
-                initialize_logging and len(_open_contexts) == 1
-            ):  # the first context's command line decides, as in ROS 2
+            # As in ROS 2, the first context's command line decides.
+            if initialize_logging and len(_open_contexts) == 1:
                 self._arguments.configure_logging()
 
     def note_scheduler(self, scheduler: _Scheduler) -> None:
@@ -116,6 +135,14 @@ class Context:
     def schedulers(self) -> list[_Scheduler]:
         """Return the schedulers of all executors of this context."""
         return list(self._schedulers)
+
+    def track_node(self, node: _Node) -> None:
+        """Have a shutdown destroy a node, as in Kilted and later; held weakly."""
+        self._nodes.add(node)
+
+    def untrack_node(self, node: _Node) -> None:
+        """Leave a node alone at a shutdown."""
+        self._nodes.discard(node)
 
     def ok(self) -> bool:
         """Return True if it is initialized and has not been shut down."""
@@ -175,22 +202,27 @@ class Context:
         self.try_shutdown()
 
     def try_shutdown(self) -> None:
-        """:meth:`shutdown` unless it is not initialized or was shut down before."""
+        """Shut down, unless the context is not initialized or was shut down before."""
         with self._lock:
             if not self._valid and not self.ended_by_signal:
                 return
             end = self._invalidate(by_signal=False)
+        # Without the lock, because shutdown callbacks use the context; before the middleware is
+        # closed, because they may send messages.
+        if since(KILTED):
+            for node in list(self._nodes):
+                node.destroy_node()
         end()
         _open_contexts.discard(self)
         if self._wire is not None:
             self._wire.close()
 
-    # All handled signals mean the same here.
-    def on_signal(self, signum: int) -> None:  # noqa: ARG002
+    def on_signal(self, signum: int) -> None:
         """Shut down because of a signal; the middleware stays open for the program's last words."""
         with self._lock:
             if not self._valid:
                 return
+            self.signal = signum
             end = self._invalidate(by_signal=True)
         end()
 
@@ -232,33 +264,43 @@ class Context:
         """
         deadline = None if timeout_ns is None else time.monotonic() + timeout_ns / 1e9
         changed = WakeUp()
-        with self._lock:
-            self.waits.add(changed)
-        remove_listener = self.wire.graph.add_listener(changed.set)
-        try:
+        # Before the first look: a change between the look and the wait must not be missed.
+        with self.waking_at_changes(changed):
             while True:
+                # Before the deadline is checked: with a timeout of 0, there is still one look.
                 if predicate():
                     return True
                 remaining = None if deadline is None else deadline - time.monotonic()
                 if not self._valid or (remaining is not None and remaining <= 0):
                     return False
                 changed.wait(remaining)
+
+    @contextmanager
+    def waking_at_changes(self, wait: _Wait) -> Iterator[None]:
+        """Within the block, call ``wait.set()`` at each change of the graph, and at a shutdown."""
+        with self._lock:
+            self.waits.add(wait)
+        remove_listener = self.wire.graph.add_listener(wait.set)
+        try:
+            yield
         finally:
             remove_listener()
             with self._lock:
-                self.waits.discard(changed)
+                self.waits.discard(wait)
 
     def on_shutdown(self, callback: Callable[[], None]) -> None:
-        """Call ``callback()`` once when it shuts down, at once when it has been already.
+        """Call ``callback()`` once when it shuts down; at once if it is shut down already.
 
         Methods are held weakly.
 
         After a signal the callback runs on the thread that watches signals.
         """
         if not callable(callback):
+            # ROS 2's error, with its forgotten `format`.
             raise TypeError("callback should be a callable, got {}", type(callback))
         with self._lock:
             if self._valid:
+                # Executors and sleeps come and go: references to finished ones must not pile up.
                 self._callbacks = [
                     reference for reference in self._callbacks if reference() is not None
                 ]

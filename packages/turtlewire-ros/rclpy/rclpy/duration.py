@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 from .constants import S_TO_NS
@@ -59,6 +60,25 @@ class Duration:
         if not isinstance(msg, DurationMsg):
             raise TypeError("Must pass a builtin_interfaces.msg.Duration object")
         return cls(seconds=msg.sec, nanoseconds=msg.nanosec)
+
+    def __add__(self, other: Duration) -> Duration:
+        if not isinstance(other, Duration):
+            return NotImplemented
+        return Duration(nanoseconds=self._nanoseconds + other.nanoseconds)
+
+    def __sub__(self, other: Duration) -> Duration:
+        if not isinstance(other, Duration):
+            return NotImplemented
+        return Duration(nanoseconds=self._nanoseconds - other.nanoseconds)
+
+    def __mul__(self, factor: float) -> Duration:
+        if not isinstance(factor, (int, float)):
+            return NotImplemented
+        if math.isnan(factor) or factor == -math.inf:
+            raise ValueError(f"Can't multiply duration with {factor}")
+        if factor == math.inf:
+            return Infinite
+        return Duration(nanoseconds=int(self._nanoseconds * factor))
 
     def __repr__(self) -> str:
         return f"Duration(nanoseconds={self._nanoseconds})"

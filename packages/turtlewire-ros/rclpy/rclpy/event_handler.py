@@ -8,10 +8,11 @@ from __future__ import annotations
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any
 
+from turtlewire.distro import LYRICAL, since
 from turtlewire.errors import WireError
 from turtlewire.wire.base import EventKind
 
-from ._execution.entity import Entity, Host
+from ._execution.entity import Entity, EntityHost
 from ._qos.events import (
     IncompatibleTypeInfo,
     QoSDeadlineOfferedInfo,
@@ -19,9 +20,11 @@ from ._qos.events import (
     QoSLivelinessChangedInfo,
     QoSLivelinessLostInfo,
     QoSMessageLostInfo,
+    QoSOfferedDeadlineMissedInfo,
     QoSOfferedIncompatibleQoSInfo,
     QoSPublisherEventType,
     QoSPublisherMatchedInfo,
+    QoSRequestedDeadlineMissedInfo,
     QoSRequestedIncompatibleQoSInfo,
     QoSSubscriptionEventType,
     QoSSubscriptionMatchedInfo,
@@ -53,9 +56,11 @@ __all__ = [
     "QoSLivelinessChangedInfo",
     "QoSLivelinessLostInfo",
     "QoSMessageLostInfo",
+    "QoSOfferedDeadlineMissedInfo",
     "QoSOfferedIncompatibleQoSInfo",
     "QoSPublisherEventType",
     "QoSPublisherMatchedInfo",
+    "QoSRequestedDeadlineMissedInfo",
     "QoSRequestedIncompatibleQoSInfo",
     "QoSSubscriptionEventType",
     "QoSSubscriptionMatchedInfo",
@@ -71,10 +76,10 @@ class _Event(Entity):
         super().__init__(None)
         self._wire = wire
 
-    def _attach(self, host: Host) -> None:
+    def _attach(self, host: EntityHost) -> None:
         host.wait.watch(self._wire, self)
 
-    def _detach(self, host: Host) -> None:
+    def _detach(self, host: EntityHost) -> None:
         host.wait.unwatch(self._wire)
 
     def _take(self) -> None:
@@ -116,15 +121,12 @@ class EventHandler(Waitable):
         self._part = _Event(self._event)
 
     def get_num_entities(self) -> NumberOfEntities:
-        """One event."""
         return NumberOfEntities(num_events=1)
 
     def add_to_wait_set(self, wait_set: WaitSet) -> None:
-        """Wait for the event."""
         self._index = wait_set.add_event(self._part)
 
     def is_ready(self, wait_set: WaitSet) -> bool:
-        """Return True if the event has happened."""
         return wait_set.is_ready("event", self._index)
 
     def take_data(self) -> Any:
@@ -145,18 +147,21 @@ class EventHandler(Waitable):
         super()._close()
 
 
-class QoSEventHandler(EventHandler):
-    """The former name of :class:`EventHandler`, of which making one warns."""
+# Lyrical has it no longer.
+if not since(LYRICAL):
 
-    def __init__(self, *args: Any, **kwargs: Any) -> None:
-        import warnings
+    class QoSEventHandler(EventHandler):
+        """The former name of :class:`EventHandler`; creating one warns."""
 
-        warnings.warn(
-            "QoSEventHandler is deprecated, use EventHandler instead",
-            DeprecationWarning,
-            stacklevel=2,
-        )
-        super().__init__(*args, **kwargs)
+        def __init__(self, *args: Any, **kwargs: Any) -> None:
+            import warnings
+
+            warnings.warn(
+                "QoSEventHandler is deprecated, use EventHandler instead",
+                DeprecationWarning,
+                stacklevel=2,
+            )
+            super().__init__(*args, **kwargs)
 
 
 #: Callbacks by event, None where the program wants none.

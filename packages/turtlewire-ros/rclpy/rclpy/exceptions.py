@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ._rclpy_pybind11 import InvalidHandle
+from ._rclpy_pybind11 import InvalidHandle, TimerCancelledError
 from .impl.hints import with_hint
 
 if TYPE_CHECKING:
@@ -35,6 +35,8 @@ __all__ = [
     "ParameterNotDeclaredException",
     "ParameterUninitializedException",
     "ROSInterruptException",
+    "TimeSourceChangedError",
+    "TimerCancelledError",
 ]
 
 
@@ -156,7 +158,7 @@ class InvalidParameterTypeException(ParameterException):
 
 
 class InvalidParameterValueException(ParameterException):
-    """A value is out of range or was refused by a callback."""
+    """A value is out of range or was rejected by a callback."""
 
     def __init__(self, parameter: str, value: Any, reason: str) -> None:
         text = f"Invalid parameter value ({value}) for parameter"
@@ -175,6 +177,10 @@ class ParameterUninitializedException(ParameterException):
 
     def __init__(self, parameter_name: Any, *args: object) -> None:
         super().__init__("The parameter is not initialized", parameter_name, *args)
+
+
+class TimeSourceChangedError(Exception):
+    """A clock began or ended to follow ``/clock`` during a sleep."""
 
 
 class ROSInterruptException(Exception):

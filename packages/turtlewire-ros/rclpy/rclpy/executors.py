@@ -16,7 +16,8 @@ from ._execution.exceptions import (
 from ._execution.futures import call_when_done
 from ._execution.pool import PoolScheduler
 from ._execution.scheduler import Scheduler
-from .impl.hints import described
+from .impl.hints import described, with_hint
+from .impl.reexports import reexports
 from .task import Future, Task
 
 if TYPE_CHECKING:
@@ -40,6 +41,23 @@ __all__ = [
     "await_or_execute",
 ]
 
+__getattr__ = reexports(
+    __name__,
+    {
+        "rclpy.client": ("Client",),
+        "rclpy.clock": ("Clock", "ClockType"),
+        "rclpy.context": ("Context",),
+        "rclpy.exceptions": ("InvalidHandle", "TimerCancelledError"),
+        "rclpy.guard_condition": ("GuardCondition",),
+        "rclpy.node": ("Node",),
+        "rclpy.service": ("Service",),
+        "rclpy.subscription": ("Subscription",),
+        "rclpy.timer": ("Timer",),
+        "rclpy.utilities": ("get_default_context", "timeout_sec_to_nsec"),
+        "rclpy.waitable": ("NumberOfEntities", "Waitable"),
+    },
+)
+
 
 class Executor:
     """Base of the executors. All methods are thread-safe; one thread spins at a time.
@@ -57,6 +75,8 @@ class Executor:
         self._context = get_default_context() if context is None else context
         self._nodes: dict[Node, int] = {}
         self._nodes_made = 0
+        #: One entry for each loop that runs callbacks; between two callbacks nothing else tells.
+        self._spins: list[None] = []
         self._rclpy_scheduler = self._make_scheduler(self._context)
 
     def _make_scheduler(self, context: Context) -> Scheduler:
@@ -81,7 +101,7 @@ class Executor:
     # Nodes
 
     def add_node(self, node: Node) -> bool:
-        """Serve ``node`` from now on; it leaves the executor that served it before.
+        """Serve ``node``; it leaves the executor that served it before.
 
         Returns:
             False when this executor serves it already.
@@ -125,7 +145,16 @@ class Executor:
         """
         return self._rclpy_scheduler.create_task(callback, *args, **kwargs)
 
+    def create_future(self) -> Future[Any]:
+        """Return a future whose done-callbacks run as tasks of this executor."""
+        return Future(executor=self)
+
     # Spinning
+
+    @property
+    def is_spinning(self) -> bool:
+        """True while a thread spins."""
+        return bool(self._spins) or self._rclpy_scheduler.is_spun()
 
     def spin(self) -> None:
         """Run callbacks until the executor or its context is shut down.
@@ -138,18 +167,20 @@ class Executor:
         """
         scheduler = self._rclpy_scheduler
         outer, scheduler.serves_endlessly = scheduler.serves_endlessly, True
+        self._spins.append(None)
         try:
             while self._context.ok() and not scheduler.is_shutdown:
                 self.spin_once()
         except ExternalShutdownException:
-            if not self._context.ended_at_exit:  # a daemon thread's; nothing is left to notify
+            if not self._context.ended_at_exit:  # in a daemon thread, nothing is left to notify
                 raise
         finally:
+            self._spins.pop()
             scheduler.serves_endlessly = outer
         self._after_spin()
 
     def _after_spin(self) -> None:
-        """A signal between two waits leaves ``spin`` as one during a wait does."""
+        """Raise for a signal between two waits, as for a signal during a wait."""
         if self._context.ended_by_signal:
             raise ExternalShutdownException
 
@@ -174,17 +205,23 @@ class Executor:
 
         It also ends when the executor or its context is shut down.
         """
+        # Before the first look: another thread may finish the future at any moment.
         self._wake_when_done(future)
         deadline = (
             None if timeout_sec is None or timeout_sec < 0 else time.monotonic() + timeout_sec
         )
         remaining = timeout_sec
-        while self._context.ok() and not future.done() and not self._rclpy_scheduler.is_shutdown:
-            self._spin_once(remaining, future.done)
-            if deadline is not None:
-                remaining = deadline - time.monotonic()
-                if remaining <= 0:
-                    return
+        scheduler = self._rclpy_scheduler
+        self._spins.append(None)
+        try:
+            while self._context.ok() and not future.done() and not scheduler.is_shutdown:
+                self._spin_once(remaining, future.done)
+                if deadline is not None:
+                    remaining = deadline - time.monotonic()
+                    if remaining <= 0:
+                        return
+        finally:
+            self._spins.pop()
 
     def spin_once_until_future_complete(
         self, future: Future[Any], timeout_sec: float | None = None
@@ -208,6 +245,7 @@ class Executor:
     ) -> None:
         try:
             self._rclpy_scheduler.spin_once(_nanoseconds(timeout_sec), condition)
+        # As in ROS 2, these end a single spin without an error.
         except (ShutdownException, TimeoutException, ConditionReachedException):
             return
 
@@ -247,7 +285,7 @@ class Executor:
         return entity.callback_group.can_execute(entity)
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:
-        """Run no further callbacks, and wait for those that run in other threads.
+        """Run no further callbacks, and wait for callbacks that run in other threads.
 
         Returns:
             False when they did not end within ``timeout_sec`` (None or negative: no limit).
@@ -267,11 +305,13 @@ def _node_of(node: Any) -> Node:
     Raises:
         TypeError: The argument is not a node.
     """
-    from .node import Node
+    from .node import BaseNode, Node
 
     found = node if isinstance(node, Node) else getattr(node, "node", None)
     if not isinstance(found, Node):
-        raise TypeError(f"An executor serves nodes, such as Node('name'), not {described(node)}")
+        error = TypeError(f"An executor serves nodes, such as Node('name'), not {described(node)}")
+        is_asynchronous = isinstance(node, BaseNode)
+        raise with_hint(error, "Serve it in asyncio: await node.run()" if is_asynchronous else "")
     return found
 
 
@@ -302,17 +342,34 @@ class MultiThreadedExecutor(Executor):
                 "Use the SingleThreadedExecutor instead.",
                 stacklevel=2,
             )
+        # Before the base's constructor, which calls `_make_scheduler`.
         self._executor = ThreadPoolExecutor(self._num_threads)
         super().__init__(context=context)
 
     def _make_scheduler(self, context: Context) -> Scheduler:
-        return PoolScheduler(context, self._executor, self._num_threads)
+        self._pool_scheduler = PoolScheduler(context, self._executor, self._num_threads)
+        return self._pool_scheduler
+
+    def shutdown(self, timeout_sec: float | None = None, *, wait_for_threads: bool = True) -> bool:
+        """Run no further callbacks, and wait for callbacks that run in other threads.
+
+        Args:
+            timeout_sec: How long to wait for the callbacks; None or negative: no limit.
+            wait_for_threads: Whether to wait also until the threads of the pool have ended, once
+                the callbacks have.
+
+        Returns:
+            False when the callbacks did not end within ``timeout_sec``.
+        """
+        self._pool_scheduler.waits_for_threads = wait_for_threads
+        return super().shutdown(timeout_sec)
 
     def _spin_once(
         self, timeout_sec: float | None, condition: Callable[[], bool] | None = None
     ) -> None:
         try:
             super()._spin_once(timeout_sec, condition)
+        # As in ROS 2, and unlike in the single-threaded executor.
         except ExternalShutdownException:
             return
 
@@ -322,12 +379,13 @@ class MultiThreadedExecutor(Executor):
 
 def _processors() -> int:
     if hasattr(os, "sched_getaffinity"):
+        # A container or `taskset` may allow fewer than `cpu_count` gives.
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
 
 
 def _nanoseconds(timeout_sec: float | None) -> int | None:
-    """None for a wait without limit."""
+    """Convert a timeout; None for a wait without limit."""
     return None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1_000_000_000)
 
 

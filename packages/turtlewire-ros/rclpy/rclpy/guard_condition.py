@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ._execution.entity import Entity, Host, Work
+from ._execution.entity import Entity, EntityHost, Work
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -44,11 +44,11 @@ class GuardCondition(Entity):
         if host is not None:
             host.wait.notify(self)
 
-    def _attach(self, host: Host) -> None:
+    def _attach(self, host: EntityHost) -> None:
         if self._triggered:
             host.wait.notify(self)
 
-    def _detach(self, host: Host) -> None:
+    def _detach(self, host: EntityHost) -> None:
         """A trigger stays stored until an executor comes."""
 
     def _take(self) -> Work | None:

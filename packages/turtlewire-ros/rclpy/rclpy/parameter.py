@@ -143,7 +143,7 @@ class Parameter:
         return f"Parameter(name={self._name!r}, type_={self._type_}, value={self._value!r})"
 
 
-# bool comes before int, of which Python makes it a kind.
+# bool comes before int, because it is a subclass of int.
 _SCALARS: tuple[tuple[type, str], ...] = (
     (bool, "BOOL"),
     (int, "INTEGER"),
@@ -189,7 +189,7 @@ def get_parameter_value(string_value: str) -> rcl_interfaces.msg.ParameterValue:
 
     try:
         value = yaml.safe_load(string_value)
-    except (yaml.YAMLError, ValueError, RecursionError):  # the latter: no date, nested too deeply
+    except (yaml.YAMLError, ValueError, RecursionError):  # also impossible dates, deep nesting
         value = string_value
     return _value_from_yaml(value, string_value)
 
@@ -247,10 +247,12 @@ def parameter_dict_from_yaml_file(
     )
     for node in nodes:
         if node not in content:
+            # ROS 2's text, blanks included.
             raise RuntimeError(
                 f"Param file does not contain parameters for {node},only for nodes: "
                 f"{list(content)} "
             )
+    # First, so that the nodes' own values replace the wildcard's.
     if use_wildcard and "/**" in content:
         nodes.insert(0, "/**")
     if not nodes:

@@ -169,7 +169,8 @@ class AsyncParameterClient:
     def delete_parameters(
         self, names: list[str], callback: Callable[[Future], None] | None = None
     ) -> Future:
-        """Undeclare parameters; only those whose type may change can be."""
+        """Undeclare parameters, which is possible if their types may change."""
+        # A parameter that is set to NOT_SET is undeclared.
         return self.set_parameters([Parameter(name) for name in names], callback)
 
     def load_parameter_file(
@@ -207,10 +208,10 @@ class AsyncParameterClient:
         qos_overriding_options: QoSOverridingOptions | None = None,
         raw: bool = False,
     ) -> Subscription[rcl_interfaces.msg.ParameterEvent]:
-        """Have ``callback`` called with the parameter events of all nodes.
+        """Call ``callback`` with the parameter events of all nodes.
 
-        Arguments are as in :meth:`rclpy.node.Node.create_subscription`, and so is what is
-        returned; the events of other nodes than ``remote_node_name`` come, too.
+        Arguments and return value are as in :meth:`rclpy.node.Node.create_subscription`. Events of
+        nodes other than ``remote_node_name`` are included.
         """
         from rcl_interfaces.msg import ParameterEvent
 

@@ -1,4 +1,4 @@
-"""Tells of changes of parameters, of all nodes or of one parameter."""
+"""Callbacks for changes of parameters: of all nodes, or of one parameter."""
 
 from __future__ import annotations
 
@@ -91,8 +91,20 @@ class ParameterEventHandler:
         )
 
     def destroy(self) -> None:
-        """Listen no longer."""
+        """End the subscription."""
         self.node.destroy_subscription(self.parameter_event_subscription)
+
+    def configure_nodes_filter(
+        self,
+        node_names: list[str] | None = None,  # noqa: ARG002 - no middleware here filters
+    ) -> bool:
+        """Ask the middleware for the events of some nodes only; without names, of all nodes.
+
+        Returns:
+            True if it filters. No middleware here does: the events of all nodes arrive, and
+            callbacks for one parameter get only that.
+        """
+        return self.parameter_event_subscription.is_cft_supported
 
     @staticmethod
     def get_parameter_from_event(

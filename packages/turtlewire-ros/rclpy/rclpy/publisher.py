@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING, Any, Generic
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol
 
 from turtlewire.errors import WireError
-from turtlewire.msg import encode
+from turtlewire.msg.cdr import encode
 from turtlewire.wire.qos import BEST_AVAILABLE_NS
 
 from ._execution.handle import Handle
@@ -24,19 +24,47 @@ if TYPE_CHECKING:
     from turtlewire.wire import base
 
     from ._node.state import NodeState
+    from .callback_groups import CallbackGroup
     from .qos import QoSProfile
 
-__all__ = ["MsgType", "Publisher"]
+__all__ = ["BasePublisher", "MsgType", "Publisher", "PublisherImpl"]
 
 
 _SLICE_NS = 100_000_000
 _NO_LIMIT = Duration(seconds=-1)
 
 
-class Publisher(Generic[MsgT]):
-    """Sends messages to a topic.
+class PublisherImpl(NamedTuple):
+    """A publisher of the middleware and its node, for the constructors of publishers.
 
-    Made by :meth:`Node.create_publisher <rclpy.node.Node.create_publisher>`. Thread-safe.
+    Attributes:
+        wire: The middleware's side of it.
+        core: The state of the node.
+    """
+
+    wire: base.Publisher
+    core: NodeState
+
+
+class _EventCallbacks(Protocol):
+    """The part of :class:`rclpy.event_handler.PublisherEventCallbacks` that is used here."""
+
+    def create_event_handlers(
+        self, callback_group: CallbackGroup, publisher: Publisher[Any], topic_name: str, /
+    ) -> list[Any]:
+        """Make a handler for each callback."""
+        ...
+
+
+class BasePublisher(Generic[MsgT]):
+    """Sends messages to a topic. Thread-safe.
+
+    Args:
+        publisher_impl: From the node.
+        msg_type: Class of its messages.
+        topic: Name of the topic, as it was given.
+        qos_profile: Its quality of service.
+        on_destroy: Called with the publisher when it was destroyed.
 
     Attributes:
         msg_type: Class of its messages.
@@ -44,12 +72,18 @@ class Publisher(Generic[MsgT]):
     """
 
     def __init__(
-        self, wire: base.Publisher, msg_type: type[MsgT], qos_profile: QoSProfile, core: NodeState
+        self,
+        publisher_impl: PublisherImpl,
+        msg_type: type[MsgT],
+        topic: str,  # noqa: ARG002 - the implementation knows the full name
+        qos_profile: QoSProfile,
+        *,
+        on_destroy: Callable[[Any], None] | None = None,
     ) -> None:
+        wire, core = publisher_impl
         self.msg_type = msg_type
         self.qos_profile = qos_profile
         self.topic = wire.topic
-        self.event_handlers: list[Any] = []
         self._wire = wire
         self._core = core
         self._context = core.context
@@ -59,23 +93,24 @@ class Publisher(Generic[MsgT]):
             or 0 < qos_profile.deadline.nanoseconds < BEST_AVAILABLE_NS
         )
         self._destroyed = False
-        self._on_destroy: Callable[[Any], None] | None = None
+        self._on_destroy = on_destroy
 
     def publish(self, msg: MsgT | bytes) -> None:
         """Send a message, or bytes that are one in CDR already.
 
-        It is not encoded while nobody is there to receive it.
+        It is not encoded while the topic has no subscription.
 
         Raises:
             TypeError: ``msg`` is neither a ``msg_type`` nor ``bytes``.
             CdrError: A field holds what its type cannot.
-            InvalidHandle: It was destroyed, perhaps meanwhile and by another thread.
-            RCLError: The context was shut down, or the middleware refused it.
+            InvalidHandle: The publisher was destroyed, perhaps by another thread during the call.
+            RCLError: The context was shut down, or the middleware reported an error.
         """
         if self._destroyed:
             self._check_usable()
         if isinstance(msg, self.msg_type):
             if not (self._sends_always or self._wire.is_heard()):
+                # After a shutdown, publishing is an error even if nothing would be sent.
                 self._check_context()
                 return
             cdr = encode(msg)
@@ -86,7 +121,7 @@ class Publisher(Generic[MsgT]):
         try:
             self._wire.publish(cdr)
         except WireError as error:
-            self._check_usable()  # another thread may have destroyed it meanwhile
+            self._check_usable()  # raises if another thread has destroyed the publisher
             self._check_context()
             raise RCLError(f"Failed to publish: {error}") from error
 
@@ -112,7 +147,7 @@ class Publisher(Generic[MsgT]):
 
     @property
     def handle(self) -> Handle:
-        """Stands for the C object that it has in ROS 2."""
+        """A stand-in for ROS 2's C object."""
         self._check_usable()
         return Handle(self)
 
@@ -126,33 +161,11 @@ class Publisher(Generic[MsgT]):
         self._check_usable()
         self._wire.assert_liveliness()
 
-    def wait_for_all_acked(self, timeout: Duration = _NO_LIMIT) -> bool:
-        """Block until all reliable subscriptions have received all messages.
-
-        Args:
-            timeout: Negative waits until the context is shut down.
-
-        Returns:
-            False when the time was over, or the context was shut down, before.
-        """
-        self._check_usable()
-        deadline_ns = None if timeout.nanoseconds < 0 else time.monotonic_ns() + timeout.nanoseconds
-        while True:  # in slices: the middleware's wait hears neither of signals nor of a shutdown
-            remaining_ns = (
-                _SLICE_NS if deadline_ns is None else max(0, deadline_ns - time.monotonic_ns())
-            )
-            if self._wire.wait_for_acknowledgments(min(remaining_ns, _SLICE_NS)):
-                return True
-            if remaining_ns == 0 or not self._context.ok():
-                return False
-
     def destroy(self) -> None:
         """Close it; further use raises ``InvalidHandle``. Idempotent."""
         if self._destroyed:
             return
         self._destroyed = True
-        for handler in self.event_handlers:
-            handler.destroy()
         self._wire.close()
         if self._on_destroy is not None:
             self._on_destroy(self)
@@ -164,5 +177,65 @@ class Publisher(Generic[MsgT]):
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, *exception: object) -> None:
+    def __exit__(self, exc_type: object, exc_val: object, exc_tb: object) -> None:
         self.destroy()
+
+
+class Publisher(BasePublisher[MsgT]):
+    """Sends messages to a topic.
+
+    Made by :meth:`Node.create_publisher <rclpy.node.Node.create_publisher>`, which takes a derived
+    class, too. Thread-safe.
+
+    Args:
+        publisher_impl: From the node.
+        msg_type: Class of its messages.
+        topic: Name of the topic, as it was given.
+        qos_profile: Its quality of service.
+        event_callbacks: What to call on events of the quality of service.
+        callback_group: The group in which they are called.
+        on_destroy: Called with the publisher when it was destroyed.
+    """
+
+    def __init__(
+        self,
+        publisher_impl: PublisherImpl,
+        msg_type: type[MsgT],
+        topic: str,
+        qos_profile: QoSProfile,
+        event_callbacks: _EventCallbacks | None = None,
+        callback_group: CallbackGroup | None = None,
+        *,
+        on_destroy: Callable[[Any], None] | None = None,
+    ) -> None:
+        super().__init__(publisher_impl, msg_type, topic, qos_profile, on_destroy=on_destroy)
+        self.event_handlers: list[Any] = []
+        if event_callbacks is not None and callback_group is not None:
+            # ROS 2 names the topic in its warnings as it was given.
+            self.event_handlers = event_callbacks.create_event_handlers(callback_group, self, topic)
+
+    def wait_for_all_acked(self, timeout: Duration = _NO_LIMIT) -> bool:
+        """Block until all reliable subscriptions have received all messages.
+
+        Args:
+            timeout: Negative waits until the context is shut down.
+
+        Returns:
+            False when the time was over, or the context was shut down, before.
+        """
+        self._check_usable()
+        deadline_ns = None if timeout.nanoseconds < 0 else time.monotonic_ns() + timeout.nanoseconds
+        while True:  # in slices: neither a signal nor a shutdown ends the middleware's wait
+            remaining_ns = (
+                _SLICE_NS if deadline_ns is None else max(0, deadline_ns - time.monotonic_ns())
+            )
+            if self._wire.wait_for_acknowledgments(min(remaining_ns, _SLICE_NS)):
+                return True
+            if remaining_ns == 0 or not self._context.ok():
+                return False
+
+    def destroy(self) -> None:
+        """Close it; further use raises ``InvalidHandle``. Idempotent."""
+        for handler in self.event_handlers:
+            handler.destroy()
+        super().destroy()

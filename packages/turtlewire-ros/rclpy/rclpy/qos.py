@@ -5,6 +5,7 @@ from __future__ import annotations
 from enum import Enum, IntEnum
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from turtlewire.distro import KILTED, since
 from turtlewire.wire import qos as wire_qos
 
 from ._qos.policies import (
@@ -46,6 +47,7 @@ __all__ = [
     "qos_profile_default",
     "qos_profile_parameter_events",
     "qos_profile_parameters",
+    "qos_profile_rosout_default",
     "qos_profile_sensor_data",
     "qos_profile_services_default",
     "qos_profile_system_default",
@@ -56,8 +58,9 @@ __all__ = [
 class InvalidQoSProfileException(Exception):
     """A profile has no value for a required policy."""
 
-    def __init__(self, *args: object) -> None:
-        super().__init__("Invalid QoSProfile", *args)
+    def __init__(self, message: str = "") -> None:
+        # Kilted dropped the words before the reason.
+        super().__init__(*((message,) if since(KILTED) else ("Invalid QoSProfile", message)))
 
 
 _UNSPECIFIED = Duration()
@@ -138,6 +141,7 @@ class QoSProfile:
             )
         if "history" not in kwargs and "depth" not in kwargs:
             raise InvalidQoSProfileException("History and/or depth settings are required.")
+        # Before the depth, whose check depends on it.
         self.history = kwargs.get("history", HistoryPolicy.KEEP_LAST)
         if self.history == HistoryPolicy.KEEP_LAST and "depth" not in kwargs:
             raise InvalidQoSProfileException("History set to KEEP_LAST without a depth setting.")
@@ -315,6 +319,10 @@ qos_profile_best_available = QoSProfile(
     liveliness=LivelinessPolicy.BEST_AVAILABLE,
     liveliness_lease_duration=_BEST_AVAILABLE,
 )
+#: A tool that starts late still gets the last ten seconds.
+qos_profile_rosout_default = QoSProfile(
+    depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL, lifespan=Duration(seconds=10)
+)
 qos_profile_action_status_default = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -330,6 +338,8 @@ class QoSPresetProfiles(Enum):
     PARAMETER_EVENTS = qos_profile_parameter_events
     BEST_AVAILABLE = qos_profile_best_available
     ACTION_STATUS_DEFAULT = qos_profile_action_status_default
+    if since(KILTED):
+        ROSOUT_DEFAULT = qos_profile_rosout_default
 
     @classmethod
     def short_keys(cls) -> list[str]:
@@ -364,7 +374,7 @@ class QoSCheckCompatibleResult(NamedTuple):
 def qos_check_compatible(
     publisher_qos: QoSProfile, subscription_qos: QoSProfile
 ) -> QoSCheckCompatibleResult:
-    """Tell whether a publisher and a subscription with these profiles would match.
+    """Check whether a publisher and a subscription with these profiles would match.
 
     Returns:
         ``(compatibility, reason)``; the reason is empty when they do, and a WARNING means that a

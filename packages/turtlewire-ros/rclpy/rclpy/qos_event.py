@@ -1,8 +1,16 @@
-"""The former home of what is in :mod:`rclpy.event_handler` now; importing it warns."""
+"""The former home of what is in :mod:`rclpy.event_handler` now; importing it warns.
+
+Lyrical has it no longer.
+"""
 
 from __future__ import annotations
 
 import warnings
+
+from turtlewire.distro import LYRICAL, since
+
+if since(LYRICAL):
+    raise ModuleNotFoundError(f"No module named '{__name__}'", name=__name__)
 
 from .event_handler import (
     PublisherEventCallbacks,
@@ -12,8 +20,10 @@ from .event_handler import (
     QoSLivelinessChangedInfo,
     QoSLivelinessLostInfo,
     QoSMessageLostInfo,
+    QoSOfferedDeadlineMissedInfo,
     QoSOfferedIncompatibleQoSInfo,
     QoSPublisherEventType,
+    QoSRequestedDeadlineMissedInfo,
     QoSRequestedIncompatibleQoSInfo,
     QoSSubscriptionEventType,
     SubscriptionEventCallbacks,
@@ -28,8 +38,10 @@ __all__ = [
     "QoSLivelinessChangedInfo",
     "QoSLivelinessLostInfo",
     "QoSMessageLostInfo",
+    "QoSOfferedDeadlineMissedInfo",
     "QoSOfferedIncompatibleQoSInfo",
     "QoSPublisherEventType",
+    "QoSRequestedDeadlineMissedInfo",
     "QoSRequestedIncompatibleQoSInfo",
     "QoSSubscriptionEventType",
     "SubscriptionEventCallbacks",

@@ -28,7 +28,7 @@ __all__ = [
 
 
 class InvalidQosOverridesError(Exception):
-    """The callback of :class:`QoSOverridingOptions` refused the profile."""
+    """The callback of :class:`QoSOverridingOptions` rejected the profile."""
 
 
 class QoSOverridingOptions:
@@ -79,7 +79,7 @@ class QoSOverridingOptions:
 
 
 def __getattr__(name: str) -> Any:
-    """``QosCallbackResult`` names a message class, which is made when it is asked for."""
+    """Return the message class ``QosCallbackResult``, which is made when it is first used."""
     if name != "QosCallbackResult":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from rcl_interfaces.msg import SetParametersResult
@@ -97,6 +97,7 @@ def overridden_profile(
     """Return a copy of the profile with what parameters say, where ``options`` lets them."""
     import copy
 
+    # Presets such as `qos_profile_sensor_data` are shared.
     qos = copy.copy(qos)
     declare_qos_parameters(entity_type, parameters, topic_name, qos, options)
     return qos
@@ -119,8 +120,8 @@ def declare_qos_parameters(
         options: Which policies.
 
     Raises:
-        InvalidQosOverridesError: The callback refused the profile.
-        ValueError: A parameter has a value that its policy has not.
+        InvalidQosOverridesError: The callback rejected the profile.
+        ValueError: A parameter has a value that its policy does not have.
     """
     prefix = f"qos_overrides.{topic_name}.{entity_type}" + (
         f"_{options.entity_id}" if options.entity_id is not None else ""
@@ -157,6 +158,7 @@ def _declare(node: NodeParameters, name: str, default: Any, what: str) -> Any:
     try:
         return node.declare_parameter(name, _to_parameter(default), descriptor).value
     except ParameterAlreadyDeclaredException:
+        # As in ROS 2, a second endpoint of the topic uses the parameters of the first.
         return node.get_parameter(name).value
 
 

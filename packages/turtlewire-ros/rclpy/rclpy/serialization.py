@@ -30,7 +30,7 @@ def deserialize_message(serialized_message: bytes, message_type: type[M]) -> M:
     """Decode CDR bytes as a message of ``message_type``.
 
     Raises:
-        CdrError: The bytes are no such message.
+        CdrError: The bytes are not such a message.
     """
     check_for_type_support(message_type)
     return msg.deserialize(message_type, serialized_message)

@@ -26,11 +26,11 @@ if TYPE_CHECKING:
     from .callback_groups import CallbackGroup
     from .qos import QoSProfile
 
-__all__ = ["Service", "SrvType", "SrvTypeRequest", "SrvTypeResponse"]
+__all__ = ["BaseService", "Service", "SrvType", "SrvTypeRequest", "SrvTypeResponse"]
 
 
-class Service(IntrospectedEndpoint, Generic[SrvT_co]):
-    """Answers requests; made by :meth:`Node.create_service <rclpy.node.Node.create_service>`.
+class BaseService(IntrospectedEndpoint, Generic[SrvT_co]):
+    """Answers requests.
 
     The callback is called with a request and an empty response, and returns the response.
 
@@ -41,15 +41,13 @@ class Service(IntrospectedEndpoint, Generic[SrvT_co]):
         qos_profile: Quality of service of requests and responses.
     """
 
-    _ORDER = 4
-
     def __init__(
         self,
         wire: base.Service,
         srv_type: type[SrvT_co],
         srv_name: str,
         callback: Callable[[Any, Any], Any],
-        callback_group: CallbackGroup,
+        callback_group: CallbackGroup | None,
         qos_profile: QoSProfile,
         core: NodeState,
     ) -> None:
@@ -67,16 +65,18 @@ class Service(IntrospectedEndpoint, Generic[SrvT_co]):
         """
         self._check_usable()
         if not isinstance(response, self.srv_type.Response):
-            raise TypeError(
-                f"The callback of service '{self._wire.service}' has to return its second "
-                "argument, "
-                f"or another {self.srv_type.__name__}.Response; it returned {described(response)}"
-            )
+            raise self._wrong_response(response)
         self._wire.send_response(header, serialize(response))
         if self._events is not None:
             self._events.publish(
                 EventType.RESPONSE_SENT, header.client_id, header.sequence_number, response=response
             )
+
+    def _wrong_response(self, response: Any) -> TypeError:
+        return TypeError(
+            f"The callback of service '{self._wire.service}' has to return its second argument, "
+            f"or another {self.srv_type.__name__}.Response; it returned {described(response)}"
+        )
 
     def _serves(self, service: str) -> bool:
         return bool(self._wire.service == service)
@@ -93,6 +93,7 @@ class Service(IntrospectedEndpoint, Generic[SrvT_co]):
             try:
                 request = deserialize(self.srv_type.Request, cdr)
             except CdrError as error:
+                # A foreign client's mistake; raised here, it would end the spin.
                 self._logger.error(  # noqa: TRY400 - a ROS logger
                     f"Ignoring a malformed request to service '{self._wire.service}': {error}",
                     throttle_duration_sec=5.0,
@@ -119,13 +120,16 @@ class Service(IntrospectedEndpoint, Generic[SrvT_co]):
         self._send_unless_destroyed(await outcome, header)
 
     def _send_unless_destroyed(self, response: Any, header: base.RequestId) -> None:
-        """Send the response.
-
-        Another thread may destroy the service, or shut the context down, while it answers: then
-        nobody gets the answer.
-        """
+        """Send the response unless the service or the context is gone."""
         try:
             self.send_response(response, header)
         except (InvalidHandle, WireError):
+            # Another thread may destroy the service, or shut the context down, during the callback.
             if not self._destroyed and self._context.is_open():
                 raise
+
+
+class Service(BaseService[SrvT_co]):
+    """Answers requests; made by :meth:`Node.create_service <rclpy.node.Node.create_service>`."""
+
+    _ORDER = 4

@@ -1,6 +1,6 @@
-"""Watching a service.
+"""Service introspection: clients and servers publish what they send and receive.
 
-Clients and servers publish what they send and receive on ``<service>/_service_event``.
+The events go to ``<service>/_service_event``.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtlewire.msg import serialize, type_name
 
-from ._execution.entity import Entity, Host
+from ._execution.entity import ClosingEntity, EntityHost
 from .type_support import type_id
 
 if TYPE_CHECKING:
@@ -43,14 +43,14 @@ class EventType(IntEnum):
     RESPONSE_RECEIVED = 3
 
 
-class IntrospectedEndpoint(Entity):
+class IntrospectedEndpoint(ClosingEntity):
     """What clients and services have in common: an endpoint on the wire, and introspection events.
 
     Args:
         wire: Its side on the wire.
         core: The core of the node that owns it and publishes the events.
         srv_type: The service class.
-        callback_group: Its callback group.
+        callback_group: Its callback group, if it has one.
     """
 
     srv_type: Any
@@ -60,7 +60,7 @@ class IntrospectedEndpoint(Entity):
         wire: base.Client | base.Service,
         core: NodeState,
         srv_type: Any,
-        callback_group: CallbackGroup,
+        callback_group: CallbackGroup | None,
     ) -> None:
         super().__init__(callback_group)
         self.srv_type = srv_type
@@ -91,10 +91,11 @@ class IntrospectedEndpoint(Entity):
         Args:
             clock: Gives the stamps.
             service_event_qos_profile: Quality of service of the events.
-            introspection_state: Whether nothing, the circumstances, or the contents too are
+            introspection_state: Whether nothing, only the metadata, or also the contents are
                 published.
         """
         self._check_usable()
+        # Unset before it is closed, because calls in other threads use it.
         former, self._events = self._events, None
         if former is not None:
             former.wire.close()
@@ -111,10 +112,10 @@ class IntrospectedEndpoint(Entity):
                 introspection_state == ServiceIntrospectionState.CONTENTS,
             )
 
-    def _attach(self, host: Host) -> None:
+    def _attach(self, host: EntityHost) -> None:
         host.wait.watch(self._wire, self)
 
-    def _detach(self, host: Host) -> None:
+    def _detach(self, host: EntityHost) -> None:
         host.wait.unwatch(self._wire)
 
     def _close(self) -> None:
@@ -147,5 +148,6 @@ class _EventPublisher(NamedTuple):
         event.info.sequence_number = sequence_number
         if self.with_contents:
             for part, message in content.items():
+                # Both fields are sequences, which stay empty without contents.
                 setattr(event, part, [message])
         self.wire.publish(serialize(event))

@@ -56,7 +56,7 @@ class SignalHandlerOptions(IntEnum):
 
 
 class SignalListener(Protocol):
-    """What wants to know of signals: a context."""
+    """A receiver of signals: a context."""
 
     def on_signal(self, signum: int) -> None:
         """Shut down.
@@ -65,7 +65,7 @@ class SignalListener(Protocol):
         """
 
 
-#: Told of each signal; a context enters itself.
+#: Called at each signal; a context adds itself.
 listeners: weakref.WeakSet[SignalListener] = weakref.WeakSet()
 
 
@@ -77,6 +77,7 @@ class _Watcher:
         self._interrupted_at = self._terminated_at = -REPEATED_INTERRUPT_S
         self._is_deferred = False
         self._read_fd, self._write_fd = os.pipe()
+        # The C handler must not block on a full pipe, which holds enough wake-ups anyway.
         if sys.platform != "win32":
             os.set_blocking(self._write_fd, False)
         self._previous_wakeup_fd = signal.set_wakeup_fd(self._write_fd, warn_on_full_buffer=False)
@@ -89,6 +90,7 @@ class _Watcher:
         """Put the former handlers back, end the thread and join it."""
         for signum, previous in self._previous.items():
             if signal.getsignal(signum) == self._handle and not self._is_needed_for(signum):
+                # None stands for a handler that was not installed from Python.
                 signal.signal(signum, previous if previous is not None else signal.SIG_DFL)
         signal.set_wakeup_fd(self._previous_wakeup_fd)
         write_fd, self._write_fd = self._write_fd, -1
@@ -102,6 +104,7 @@ class _Watcher:
             for byte in os.read(self._read_fd, 64):
                 if byte == _STOP:
                     return
+                # Only bytes of the C handler also belong to the descriptor's previous owner.
                 if not byte & _FROM_HANDLER:
                     self._forward(byte)
                 if byte & ~_FROM_HANDLER in self._previous:
@@ -110,7 +113,7 @@ class _Watcher:
                         listener.on_signal(byte & ~_FROM_HANDLER)
 
     def _forward(self, signum: int) -> None:
-        """Tell who watched signals before us (asyncio, for example)."""
+        """Pass a signal on to the descriptor's previous owner, for example asyncio."""
         if self._previous_wakeup_fd >= 0:
             os.write(self._previous_wakeup_fd, bytes([signum]))
 
@@ -130,6 +133,7 @@ class _Watcher:
             os.write(self._write_fd, bytes([signum | _FROM_HANDLER]))
         if signum == signal.SIGINT:
             is_shut_down = self._write_fd < 0
+            # Then this signal repeats the KeyboardInterrupt that Python dropped.
             if excepthooks.take_dropped():
                 self._interrupted_at = -REPEATED_INTERRUPT_S
             if _is_fresh(self._interrupted_at) or (is_shut_down and _is_fresh(self._terminated_at)):
@@ -143,6 +147,7 @@ class _Watcher:
         if previous is signal.default_int_handler and loop is not None and not self._is_deferred:
             # In asyncio's own code KeyboardInterrupt could lose a callback that is about to be
             # called, and a task would wait for it without end. Raised by a callback, it loses none.
+            # Beside asynchronous nodes, it must not come out of one of their callbacks.
             self._is_deferred = True
             loop.call_soon_threadsafe(self._interrupt, signum, frame)
         elif callable(previous):
@@ -212,6 +217,7 @@ def uninstall_signal_handlers() -> None:
         if _watcher is None or threading.current_thread() is not threading.main_thread():
             return
         watcher, _watcher, _options = _watcher, None, SignalHandlerOptions.NO
+    # Without the lock: this joins a thread that runs shutdown callbacks.
     watcher.close()
 
 
@@ -246,11 +252,10 @@ def _after_fork_in_child() -> None:
 
 
 def _end() -> None:
-    """Python's own end puts the default of SIGINT back.
-
-    The second signal of the same Ctrl-C, or one after SIGTERM, would kill a process that ends well.
-    """
+    """Restore the handlers at the end of the process, but ignore SIGINT after a stop."""
     uninstall_signal_handlers()
+    # Python's own end restores the default of SIGINT: the second signal of the same Ctrl-C, or one
+    # after SIGTERM, would kill a process that ends well.
     if _stopped:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
 

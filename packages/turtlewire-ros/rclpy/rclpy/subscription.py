@@ -5,12 +5,15 @@ from __future__ import annotations
 from enum import Enum
 from typing import TYPE_CHECKING, Any, Generic
 
+from turtlewire.distro import LYRICAL, since
 from turtlewire.errors import CdrError
 from turtlewire.msg import deserialize
 
-from ._execution.entity import Entity, Host, Work
+from ._execution.entity import ClosingEntity, EntityHost, Work
+from ._rclpy_pybind11 import RCLError
 from ._typing import MsgT
 from ._typing import MsgT as MsgType
+from .impl.hints import with_hint
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -20,18 +23,23 @@ if TYPE_CHECKING:
     from ._node.state import NodeState
     from .callback_groups import CallbackGroup
     from .qos import QoSProfile
+    from .subscription_content_filter_options import ContentFilterOptions
 
-__all__ = ["MessageInfo", "MsgType", "Subscription"]
+__all__ = ["BaseSubscription", "MessageInfo", "MsgType", "Subscription"]
 
 
-#: Second argument of a callback that takes two: what is known of the message beside its content.
+#: Second argument of a callback that takes two: facts about the message in addition to its content.
 MessageInfo = dict[str, Any]
 
 
-class Subscription(Entity, Generic[MsgT]):
-    """Receives the messages of a topic.
+_CALLBACK_SHAPES = (  # ROS 2's text, to the byte
+    "callback should be either be callable with one argument"
+    "(to get only the message) or two (to get message and message info)"
+)
 
-    Made by :meth:`Node.create_subscription <rclpy.node.Node.create_subscription>`.
+
+class BaseSubscription(ClosingEntity, Generic[MsgT]):
+    """Receives the messages of a topic.
 
     Attributes:
         msg_type: Class of its messages.
@@ -40,7 +48,7 @@ class Subscription(Entity, Generic[MsgT]):
         qos_profile: Its quality of service.
     """
 
-    _ORDER = 1
+    _WRONG_CALLBACK = f"Subscription {_CALLBACK_SHAPES}"
 
     class CallbackType(Enum):
         """How many arguments the callback takes."""
@@ -53,7 +61,7 @@ class Subscription(Entity, Generic[MsgT]):
         wire: base.Subscription,
         msg_type: type[MsgT],
         callback: Callable[..., Any],
-        callback_group: CallbackGroup,
+        callback_group: CallbackGroup | None,
         qos_profile: QoSProfile,
         raw: bool,
         core: NodeState,
@@ -76,8 +84,8 @@ class Subscription(Entity, Generic[MsgT]):
 
     @callback.setter
     def callback(self, value: Callable[..., Any]) -> None:
-        self._callback_type = _callback_type(value)
-        self._with_info = self._callback_type is Subscription.CallbackType.WithMessageInfo
+        self._callback_type = _callback_type(value, self._WRONG_CALLBACK)
+        self._with_info = self._callback_type is BaseSubscription.CallbackType.WithMessageInfo
         self._callback = value
 
     @property
@@ -101,23 +109,54 @@ class Subscription(Entity, Generic[MsgT]):
         """True if the middleware filters by content: it does not."""
         return False
 
-    def _attach(self, host: Host) -> None:
+    @property
+    def is_cft_supported(self) -> bool:
+        """True if the middleware could filter by content: it could not."""
+        return False
+
+    def set_content_filter(
+        self,
+        filter_expression: str,  # noqa: ARG002 - no middleware here filters
+        expression_parameters: list[str],  # noqa: ARG002
+    ) -> None:
+        """Ask the middleware to leave out messages.
+
+        Raises:
+            RCLError: The middleware cannot filter, as ``is_cft_enabled`` says.
+        """
+        raise self._no_content_filter("set")
+
+    def get_content_filter(self) -> ContentFilterOptions:
+        """Return the filter of the middleware.
+
+        Raises:
+            RCLError: The middleware cannot filter, as ``is_cft_enabled`` says.
+        """
+        raise self._no_content_filter("get")
+
+    def _no_content_filter(self, verb: str) -> RCLError:
+        self._check_usable()
+        return with_hint(
+            RCLError(f"cannot {verb} the content filter: the middleware does not filter messages"),
+            f"All messages of '{self.topic}' arrive: filter them in the callback",
+        )
+
+    def _attach(self, host: EntityHost) -> None:
         host.wait.watch(self._wire, self)
 
-    def _detach(self, host: Host) -> None:
+    def _detach(self, host: EntityHost) -> None:
         host.wait.unwatch(self._wire)
 
     def take_message(
         self, _msg_type: Any = None, _raw: bool | None = None
     ) -> tuple[Any, MessageInfo] | None:
-        """For waitables and programs that look by themselves.
+        """Return the next message and its info, or None; raise CdrError if it is malformed.
 
-        The next message and its info, or None; CdrError when it is malformed.
-
-        ROS 2's handles want to be told class and rawness, which ours know.
+        For waitables, and for programs that look for messages themselves. ROS 2's handles need
+        class and rawness as arguments, which ours know.
         """
         for cdr, info in self._wire.take(1):
-            return (cdr if self.raw else deserialize(self.msg_type, cdr)), _message_info(info)
+            return (cdr if self.raw else deserialize(self.msg_type, cdr)), self._info(info)
         return None
 
     def _take(self) -> Work | None:
@@ -125,15 +164,22 @@ class Subscription(Entity, Generic[MsgT]):
             try:
                 message = cdr if self.raw else deserialize(self.msg_type, cdr)
             except CdrError as error:
+                # A foreign publisher's mistake; raised here, it would end the spin.
                 self._logger.error(  # noqa: TRY400 - a ROS logger
                     f"Ignoring a malformed message on topic '{self.topic}': {error}",
                     throttle_duration_sec=5.0,
                 )
                 return None
-            return self._callback, (
-                (message, _message_info(info)) if self._with_info else (message,)
-            )
+            return self._callback, ((message, self._info(info)) if self._with_info else (message,))
         return None
+
+    def _info(self, info: base.MessageInfo) -> MessageInfo:
+        return {
+            "source_timestamp": info.source_timestamp_ns,
+            "received_timestamp": info.received_timestamp_ns,
+            "publication_sequence_number": info.publication_number,
+            "reception_sequence_number": None,
+        }
 
     def _close(self) -> None:
         for handler in self.event_handlers:
@@ -141,42 +187,41 @@ class Subscription(Entity, Generic[MsgT]):
         self._wire.close()
 
 
-def _message_info(info: base.MessageInfo) -> MessageInfo:
-    return {
-        "source_timestamp": info.source_timestamp_ns,
-        "received_timestamp": info.received_timestamp_ns,
-        "publication_sequence_number": None,
-        "reception_sequence_number": None,
-    }
+class Subscription(BaseSubscription[MsgT]):
+    """Receives the messages of a topic.
+
+    Made by :meth:`Node.create_subscription <rclpy.node.Node.create_subscription>`.
+    """
+
+    _ORDER = 1
+    if not since(LYRICAL):
+        _WRONG_CALLBACK = f"Subscription.__init__(): {_CALLBACK_SHAPES}"
 
 
-def _callback_type(callback: Callable[..., Any]) -> Subscription.CallbackType:
+def _callback_type(callback: Callable[..., Any], failure: str) -> BaseSubscription.CallbackType:
     """Return the number of a callback's arguments, one or two.
 
     Raises:
-        RuntimeError: The callback accepts neither.
+        RuntimeError: The callback accepts neither; ``failure`` is the text.
     """
-    code = getattr(
-        callback, "__code__", None
-    )  # a plain function or method, without importing inspect
+    # A plain function or method is checked without importing inspect.
+    code = getattr(callback, "__code__", None)
+    # The flags 0x0C mean `*args` and `**kwargs`.
     if code is not None and not code.co_flags & 0x0C and not hasattr(callback, "__wrapped__"):
         count = code.co_argcount - (1 if hasattr(callback, "__self__") else 0)
         required = count - len(callback.__defaults__ or ())
         if required == count and not code.co_kwonlyargcount and count in (1, 2):
-            return Subscription.CallbackType(count - 1)
+            return BaseSubscription.CallbackType(count - 1)
     import inspect
 
     try:
         signature = inspect.signature(callback)
     except ValueError:  # a built-in function without one, such as `print` in Python 3.10
-        return Subscription.CallbackType.MessageOnly
+        return BaseSubscription.CallbackType.MessageOnly
     for count in (1, 2):
         try:
             signature.bind(*(None,) * count)
         except TypeError:
             continue
-        return Subscription.CallbackType(count - 1)
-    raise RuntimeError(
-        "Subscription.__init__(): callback should be either be callable with one argument"
-        "(to get only the message) or two (to get message and message info)"
-    )
+        return BaseSubscription.CallbackType(count - 1)
+    raise RuntimeError(failure)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import sys
 import threading
 import weakref
+from enum import Enum
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any, Generic, Protocol
 
@@ -21,7 +22,15 @@ from ._typing import T
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
 
-__all__ = ["Future", "Task"]
+__all__ = ["Future", "FutureState", "Task"]
+
+
+class FutureState(Enum):
+    """What can be said of a future."""
+
+    PENDING = "PENDING"
+    CANCELLED = "CANCELLED"
+    FINISHED = "FINISHED"
 
 
 class _TaskRunner(Protocol):
@@ -40,11 +49,13 @@ class Future(Generic[T]):
             the future.
     """
 
+    #: Of the class, because `__del__` also runs when a signal has interrupted `__init__`.
+    _exception: BaseException | None = None
+
     def __init__(self, *, executor: _TaskRunner | None = None) -> None:
         self._done = False
         self._cancelled = False
         self._result: T | None = None
-        self._exception: BaseException | None = None
         self._exception_fetched = False
         self._callbacks: list[Callable[[Future[T]], Any]] = []
         self._waiters: list[Callable[[], object]] = []
@@ -61,7 +72,9 @@ class Future(Generic[T]):
     def __await__(self) -> Generator[Any, None, T]:
         if self._pending():
             loop = running_loop()
+            # A loop that already ran around the executor does not drive this coroutine.
             if loop is None or loop is _steps.loop_outside:
+                # A task may be resumed before the future is done.
                 while self._pending():
                     yield self
             else:
@@ -134,7 +147,7 @@ class Future(Generic[T]):
             executor.create_task(callback, self)
 
     def remove_done_callback(self, callback: Callable[[Future[T]], Any]) -> bool:
-        """Forget a done-callback that has not been called yet; whether there was one."""
+        """Forget a done-callback that has not been called yet; return True if there was one."""
         with self._lock:
             if callback not in self._callbacks:
                 return False
@@ -145,6 +158,7 @@ class Future(Generic[T]):
         self, *, result: Any = None, exception: BaseException | None = None, cancelled: bool = False
     ) -> None:
         with self._lock:
+            # As in ROS 2, a later result replaces an earlier one, but a cancellation does not.
             if cancelled and not self._pending():
                 return
             self._result = result
@@ -154,6 +168,7 @@ class Future(Generic[T]):
             self._done = not cancelled
             waiters, self._waiters = self._waiters, []
             callbacks, self._callbacks = self._callbacks, []
+        # Without the lock, because both kinds may use the future.
         for waiter in waiters:
             waiter()
         if callbacks:
@@ -167,7 +182,7 @@ class Future(Generic[T]):
                 continue
             try:
                 callback(self)
-            # A done-callback must not break who finishes the future; ROS 2 warns as well.
+            # A callback must not break the thread that finishes the future; ROS 2 warns as well.
             except Exception as error:  # noqa: BLE001
                 import warnings
 
@@ -249,6 +264,7 @@ class Task(Future[T]):
             self._complete(exception=error)
 
     def _complete(self, **outcome: Any) -> None:
+        # A finished task may be kept for its result; the objects of its callback need not be.
         self._handler = self._awaited = None
         self._args, self._kwargs = (), {}
         self._finish(**outcome)
@@ -259,6 +275,7 @@ class Task(Future[T]):
         if isinstance(awaited, Future):
             awaited._add_waiter(resume)
         else:
+            # Anything else, such as a bare `yield`, is resumed in the next cycle.
             resume()
 
     def executing(self) -> bool:
@@ -279,7 +296,7 @@ class Task(Future[T]):
 
 
 class _Steps(threading.local):
-    """Tells an asyncio loop that spins an executor from one that a task runs itself.
+    """Distinguishes an asyncio loop that spins an executor from one that a task runs itself.
 
     Attributes:
         loop_outside: The loop that was running when this thread's innermost task made a step.

@@ -9,6 +9,8 @@ from .constants import S_TO_NS
 from .duration import Duration
 
 if TYPE_CHECKING:
+    from datetime import datetime
+
     import builtin_interfaces.msg
 
 __all__ = ["S_TO_NS", "Time"]
@@ -56,6 +58,18 @@ class Time:
         """Nanoseconds since the epoch."""
         return self._nanoseconds
 
+    def to_datetime(self) -> datetime:
+        """Convert to local time without a time zone, to microseconds.
+
+        Raises:
+            TypeError: The clock is steady; its origin is unknown.
+        """
+        from datetime import datetime
+
+        if self._clock_type not in (ClockType.ROS_TIME, ClockType.SYSTEM_TIME):
+            raise TypeError("Time object's clock type should be either ROS_TIME or SYSTEM_TIME")
+        return datetime.fromtimestamp(self._nanoseconds / S_TO_NS)  # noqa: DTZ006 - as in ROS 2
+
     def seconds_nanoseconds(self) -> tuple[int, int]:
         """Split into whole seconds and the nanoseconds beyond them."""
         return divmod(self._nanoseconds, S_TO_NS)
@@ -66,7 +80,7 @@ class Time:
         return self._clock_type
 
     def to_msg(self) -> builtin_interfaces.msg.Time:
-        """Convert to the message type, which does not tell the clock type."""
+        """Convert to the message type, which has no clock type."""
         from builtin_interfaces.msg import Time as TimeMsg
 
         seconds, nanoseconds = divmod(self._nanoseconds, S_TO_NS)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import weakref
 from typing import TYPE_CHECKING, Any
 
-from .clock import ROSClock
+from .clock import BaseClock
 from .clock_type import ClockType
 from .parameter import Parameter
 from .qos import QoSProfile, ReliabilityPolicy
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from rcl_interfaces.msg import SetParametersResult
 
     from ._node.views import TimeSourceOwner
-    from .clock import Clock
 
 __all__ = ["CLOCK_TOPIC", "USE_SIM_TIME_NAME", "TimeSource"]
 
@@ -30,13 +29,13 @@ class TimeSource:
     It is 0 until the first message.
 
     Args:
-        node: The node whose parameter decides and who subscribes; more can be said by
+        node: The node whose parameter decides and who subscribes; another one can be set with
             :meth:`attach_node`.
     """
 
     def __init__(self, *, node: TimeSourceOwner | None = None) -> None:
         self._node: weakref.ref[TimeSourceOwner] | None = None
-        self._clocks: set[ROSClock] = set()
+        self._clocks: set[BaseClock] = set()
         self._clock_subscription: Any = None
         self._last_time_ns = 0
         self._ros_time_is_active = False
@@ -85,14 +84,15 @@ class TimeSource:
             node.remove_on_set_parameters_callback(self._decide_on_parameters)
         self._node = None
 
-    def attach_clock(self, clock: Clock) -> None:
+    def attach_clock(self, clock: BaseClock) -> None:
         """Let a clock follow.
 
         Raises:
             ValueError: The clock does not use ROS time.
         """
-        if not isinstance(clock, ROSClock) or clock.clock_type is not ClockType.ROS_TIME:
+        if not isinstance(clock, BaseClock) or clock.clock_type is not ClockType.ROS_TIME:
             raise ValueError("Only clocks with type ROS_TIME can be attached.")
+        # Before the clock becomes active, so that it never shows 0 in between.
         clock.set_ros_time_override(self._last_time())
         clock._set_ros_time_is_active(self._ros_time_is_active)
         self._clocks.add(clock)
@@ -106,19 +106,19 @@ class TimeSource:
             return
         from rosgraph_msgs.msg import Clock as ClockMsg
 
+        # As in ROS 2: only the newest time matters.
         profile = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
         self._clock_subscription = node.create_subscription(
             ClockMsg, CLOCK_TOPIC, self.clock_callback, profile
         )
 
     def _unsubscribe(self) -> None:
-        node, subscription = self._attached_node(), self._clock_subscription
-        self._clock_subscription = None
-        if node is not None and subscription is not None:
-            node.destroy_subscription(subscription)
+        subscription, self._clock_subscription = self._clock_subscription, None
+        if subscription is not None:
+            subscription.destroy()
 
     def clock_callback(self, msg: rosgraph_msgs.msg.Clock) -> None:
-        """Take the time of a message over to all clocks."""
+        """Set all clocks to the time of a message."""
         stamp = msg.clock
         if stamp.sec < 0:  # no ROS time; the publisher's mistake must not end this program
             self._warn_of_negative_time(stamp.sec)
@@ -151,6 +151,7 @@ class TimeSource:
                         reason=f"{USE_SIM_TIME_NAME} parameter set to something besides a bool",
                     )
                 wanted = parameter.value
+        # After the loop: a list that is rejected must change nothing.
         if wanted is not None:
             self.ros_time_is_active = wanted
         return SetParametersResult(successful=True)

@@ -3,24 +3,60 @@
 from __future__ import annotations
 
 import threading
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from ._execution.entity import Entity, Host, Work
+from turtlewire.wake_up import WakeUp
+
+from ._execution.entity import ClosingEntity, EntityHost, Work
 from .clock_type import ClockType
 from .exceptions import ROSInterruptException
 from .impl.hints import with_hint
+from .time import Time
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from .callback_groups import CallbackGroup
-    from .clock import Clock, TimeJump
+    from .clock import BaseClock, TimeJump
     from .context import Context
 
-__all__ = ["Rate", "Timer"]
+__all__ = ["BaseTimer", "Rate", "Timer", "TimerInfo"]
 
 
-class Timer(Entity):
+class TimerInfo:
+    """The times of a call of a timer: when it was due, and when it was made.
+
+    A callback of a timer gets one for the parameter that is annotated with this class.
+
+    Args:
+        expected_call_time: Time at which the call was due, in nanoseconds.
+        actual_call_time: Time at which it was made, in nanoseconds.
+        clock_type: The clock of both.
+    """
+
+    def __init__(
+        self,
+        *,
+        expected_call_time: int = 0,
+        actual_call_time: int = 0,
+        clock_type: ClockType = ClockType.SYSTEM_TIME,
+    ) -> None:
+        self._expected_call_time = Time(nanoseconds=expected_call_time, clock_type=clock_type)
+        self._actual_call_time = Time(nanoseconds=actual_call_time, clock_type=clock_type)
+
+    @property
+    def expected_call_time(self) -> Time:
+        """Time at which the call was due."""
+        return self._expected_call_time
+
+    @property
+    def actual_call_time(self) -> Time:
+        """Time at which the call was made."""
+        return self._actual_call_time
+
+
+class BaseTimer(ClosingEntity):
     """Calls ``callback()`` once per period of ``clock``, for the first time after one period.
 
     When a call comes late, the following ones keep the old rhythm; periods that were missed
@@ -28,14 +64,12 @@ class Timer(Entity):
     follows simulated time, its stops and jumps included.
     """
 
-    _ORDER = 0
-
     def __init__(
         self,
         callback: Callable[[], Any] | None,
         callback_group: CallbackGroup | None,
         timer_period_ns: int,
-        clock: Clock,
+        clock: BaseClock,
         *,
         context: Context | None = None,
         autostart: bool = True,
@@ -57,7 +91,7 @@ class Timer(Entity):
         self._jump_handle = self._follow_jumps() if clock.clock_type == ClockType.ROS_TIME else None
 
     @property
-    def clock(self) -> Clock:
+    def clock(self) -> BaseClock:
         """The clock that it follows."""
         return self._clock
 
@@ -109,7 +143,7 @@ class Timer(Entity):
         return self._clock._now_ns()
 
     def _follows_clock_topic(self) -> bool:
-        return self._jump_handle is not None and bool(self._clock.ros_time_is_active)  # type: ignore[attr-defined]
+        return self._jump_handle is not None and self._clock.ros_time_is_active
 
     def _delay_ns(self) -> int | None:
         """Time on the monotonic clock until a look at the timer makes sense.
@@ -121,6 +155,7 @@ class Timer(Entity):
         delay_ns = self._next_call_ns - self._now_ns()
         if delay_ns <= 0:
             return 0
+        # A message on `/clock` reschedules the timer in `_after_jump`.
         return None if self._follows_clock_topic() else delay_ns
 
     def _reschedule(self) -> None:
@@ -128,10 +163,10 @@ class Timer(Entity):
         if host is not None:
             host.wait.timers.schedule(self, self._delay_ns())
 
-    def _attach(self, host: Host) -> None:
+    def _attach(self, host: EntityHost) -> None:
         host.wait.timers.schedule(self, self._delay_ns())
 
-    def _detach(self, host: Host) -> None:
+    def _detach(self, host: EntityHost) -> None:
         host.wait.timers.discard(self)
 
     def _take(self) -> Work | None:
@@ -141,17 +176,32 @@ class Timer(Entity):
         if self._next_call_ns > now_ns:  # its clock went back or stands still
             self._reschedule()
             return None
-        self._last_call_ns = now_ns
+        due_ns, self._last_call_ns = self._next_call_ns, now_ns
+        # From the planned time, so that a late call does not shift the rhythm.
         self._next_call_ns += self._period_ns
         if self._next_call_ns < now_ns:
             self._skip_missed_periods(now_ns)
         self._reschedule()
-        return (_missing_callback if self.callback is None else self.callback), ()
+        if self.callback is None:
+            return _missing_callback, ()
+        parameter = _parameter_for_info(self.callback)
+        if not parameter:
+            return self.callback, ()
+        return partial(self.callback, **{parameter: self._info(due_ns)}), ()
+
+    def _info(self, due_ns: int) -> TimerInfo:
+        """Return the times of the call that was just taken."""
+        return TimerInfo(
+            expected_call_time=due_ns,
+            actual_call_time=self._last_call_ns,
+            clock_type=self._clock.clock_type,
+        )
 
     def _skip_missed_periods(self, now_ns: int) -> None:
         if self._period_ns == 0:
             self._next_call_ns = now_ns
         else:
+            # As in rcl: forward to the next multiple of the period.
             behind_ns = now_ns - self._next_call_ns
             self._next_call_ns += (1 + (behind_ns - 1) // self._period_ns) * self._period_ns
 
@@ -176,9 +226,11 @@ class Timer(Entity):
 
         now_ns = self._now_ns()
         if jump.clock_change in (ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED):
+            # As in rcl, the timer keeps its remaining time; 0 means that no time has arrived yet.
             if now_ns != 0:
                 self._next_call_ns = now_ns + self._remaining_ns
                 self._last_call_ns = self._next_call_ns - self._period_ns
+        # As in rcl, a jump to before the last call starts a whole period.
         elif now_ns < self._last_call_ns:
             self._last_call_ns = now_ns
             self._next_call_ns = now_ns + self._period_ns
@@ -189,6 +241,28 @@ class Timer(Entity):
             self._on_closing()
         if self._jump_handle is not None:
             self._jump_handle.unregister()
+
+
+class Timer(BaseTimer):
+    """Calls a callback periodically.
+
+    Made by :meth:`Node.create_timer <rclpy.node.Node.create_timer>`; see :class:`BaseTimer` for the
+    rhythm.
+    """
+
+    _ORDER = 0
+
+
+def _parameter_for_info(callback: Callable[..., Any]) -> str:
+    """Return the parameter that is annotated with `TimerInfo`; empty without one.
+
+    Annotations may be texts. They are read at each call, as in rclpy.
+    """
+    notes: dict[str, object] = getattr(callback, "__annotations__", None) or {}
+    for name, note in notes.items():
+        if name != "return" and (note is TimerInfo or str(note).endswith("TimerInfo")):
+            return name
+    return ""
 
 
 def _missing_callback() -> None:
@@ -204,9 +278,9 @@ class Rate:
 
     def __init__(self, timer: Timer, *, context: Context) -> None:
         self._timer = timer
-        self._changed = threading.Condition()
+        self._lock = threading.RLock()
+        self._sleeps: set[WakeUp] = set()
         self._has_ticked = False
-        self._sleepers = 0
         self._interrupted = False
         self._destroyed = False
         timer.callback = self._tick
@@ -220,8 +294,8 @@ class Rate:
 
         Raises:
             ROSInterruptException: The context was shut down.
-            RuntimeError: The rate was destroyed, or this thread is the one that spins: nobody would
-                end the sleep.
+            RuntimeError: The rate was destroyed, or this thread is the one that spins: no thread
+                would end the sleep.
         """
         host = self._timer._serving_host()
         if host is not None and host.is_spun_by_this_thread():
@@ -229,29 +303,39 @@ class Rate:
                 "Rate cannot sleep in a callback of the executor that serves its timer: it would "
                 "never wake up"
             )
-        with self._changed:
-            self._sleepers += 1
-            self._changed.wait_for(lambda: self._has_ticked or self._interrupted or self._destroyed)
-            self._sleepers -= 1
-            if self._sleepers == 0:
-                self._has_ticked = False
-            if self._interrupted:
-                raise ROSInterruptException
-            if self._destroyed:
-                raise RuntimeError("Rate cannot sleep because it has been destroyed")
+        end = WakeUp()
+        try:
+            with self._lock:
+                self._sleeps.add(end)
+                if self._has_ticked or self._interrupted or self._destroyed:
+                    end.set()
+            end.wait()
+        finally:
+            with self._lock:
+                self._sleeps.discard(end)
+                if not self._sleeps:
+                    self._has_ticked = False
+        if self._interrupted:
+            raise ROSInterruptException
+        if self._destroyed:
+            raise RuntimeError("Rate cannot sleep because it has been destroyed")
 
     def destroy(self) -> None:
         """End all sleeps."""
-        with self._changed:
+        with self._lock:
             self._destroyed = True
-            self._changed.notify_all()
+            self._end_sleeps()
 
     def _tick(self) -> None:
-        with self._changed:
+        with self._lock:
             self._has_ticked = True
-            self._changed.notify_all()
+            self._end_sleeps()
 
     def _interrupt(self) -> None:
-        with self._changed:
+        with self._lock:
             self._interrupted = True
-            self._changed.notify_all()
+            self._end_sleeps()
+
+    def _end_sleeps(self) -> None:
+        for sleep in self._sleeps:
+            sleep.set()

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from turtlewire import msg
 from turtlewire.errors import InterfaceError
+from turtlewire.msg.registry import interface_path
 
 from .qos import qos_profile_services_default
 from .validate_topic_name import TOPIC_SEPARATOR_STRING
@@ -49,7 +50,7 @@ class TypeDescriptionService:
         )
 
     def destroy(self) -> None:
-        """Serve it no longer. Idempotent."""
+        """Close the service. Idempotent."""
         if self._service is not None:
             self._service.destroy()
 
@@ -96,11 +97,11 @@ def _describe(type_name: str) -> IndividualTypeDescription:
 
 
 def _source(type_name: str) -> TypeSource:
-    """The definition's text; parts of services and actions are implied by theirs and have none."""
+    """Return the definition's text; a part of a service or action has none of its own."""
     from type_description_interfaces.msg import TypeSource
 
     try:
-        path = msg.interface_path(type_name)
+        path = interface_path(type_name)
     except InterfaceError:
         return TypeSource(type_name=type_name, encoding="implicit")
     with open(path, encoding="utf-8") as file:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from turtlewire import msg
 from turtlewire.wire.base import ServiceTypes, TypeId
@@ -11,12 +11,74 @@ from .exceptions import NoTypeSupportImportedException
 from .impl.hints import described, with_hint
 
 __all__ = [
+    "EventMessage",
+    "FeedbackMessage",
+    "GetResultServiceRequest",
+    "GetResultServiceResponse",
+    "SendGoalServiceRequest",
+    "SendGoalServiceResponse",
     "check_for_type_support",
     "check_is_valid_msg_type",
     "check_is_valid_srv_type",
     "service_types",
     "type_id",
 ]
+
+if TYPE_CHECKING:
+    from builtin_interfaces.msg import Time
+    from service_msgs.msg import ServiceEventInfo
+    from unique_identifier_msgs.msg import UUID
+
+_GoalT = TypeVar("_GoalT")
+_ResultT = TypeVar("_ResultT")
+_FeedbackT = TypeVar("_FeedbackT")
+
+
+class EventMessage(msg.Message):
+    """Annotates an event of a service, such as ``SetBool.Event``."""
+
+    if TYPE_CHECKING:
+        info: ServiceEventInfo
+
+
+class SendGoalServiceRequest(msg.Message, Generic[_GoalT]):
+    """Annotates the request that sends a goal, of an action's ``Impl.SendGoalService``."""
+
+    if TYPE_CHECKING:
+        goal_id: UUID
+        goal: _GoalT
+
+
+class SendGoalServiceResponse(msg.Message):
+    """Annotates the response to a goal, of an action's ``Impl.SendGoalService``."""
+
+    if TYPE_CHECKING:
+        accepted: bool
+        stamp: Time
+
+
+class GetResultServiceRequest(msg.Message):
+    """Annotates the request for a result, of an action's ``Impl.GetResultService``."""
+
+    if TYPE_CHECKING:
+        goal_id: UUID
+
+
+class GetResultServiceResponse(msg.Message, Generic[_ResultT]):
+    """Annotates the response with a result, of an action's ``Impl.GetResultService``."""
+
+    if TYPE_CHECKING:
+        status: int
+        result: _ResultT
+
+
+class FeedbackMessage(msg.Message, Generic[_FeedbackT]):
+    """Annotates a message of an action's feedback topic, its ``Impl.FeedbackMessage``."""
+
+    if TYPE_CHECKING:
+        goal_id: UUID
+        feedback: _FeedbackT
+
 
 _ROS_1_HINT = (
     " This might be a ROS 1 message type but it should be a ROS 2 message type."
@@ -34,6 +96,7 @@ def check_for_type_support(msg_or_srv_type: Any) -> None:
     if not isinstance(msg_or_srv_type, type) or not issubclass(
         msg_or_srv_type, (msg.Message, msg.Service, msg.Action)
     ):
+        # ROS 2's generator puts this attribute into a metaclass.
         if hasattr(type(msg_or_srv_type), "_TYPE_SUPPORT"):
             raise with_hint(
                 NoTypeSupportImportedException(),
@@ -78,7 +141,7 @@ def check_is_valid_srv_type(srv_type: Any) -> None:
 
 
 def type_id(name: str) -> TypeId:
-    """``turtlesim/msg/Pose`` with its hash."""
+    """Return a name, such as ``turtlesim/msg/Pose``, with its hash."""
     return TypeId(name, msg.type_hash(name))
 
 

@@ -62,7 +62,7 @@ def try_shutdown(*, context: Context | None = None) -> None:
 
 
 def remove_ros_args(args: list[str] | None = None) -> list[str]:
-    """``args`` (None: ``sys.argv``) without its ``--ros-args`` blocks.
+    """Return ``args`` (None: ``sys.argv``) without its ``--ros-args`` blocks.
 
     The first entry, the program, stays.
     """
@@ -74,7 +74,7 @@ def remove_ros_args(args: list[str] | None = None) -> list[str]:
 
 
 def get_rmw_implementation_identifier() -> str:
-    """The middleware in use: ``rmw_cyclonedds_cpp`` unless ``RMW_IMPLEMENTATION`` names another."""
+    """Return the middleware: ``rmw_cyclonedds_cpp`` unless ``RMW_IMPLEMENTATION`` names another."""
     from turtlewire.wire.environment import middleware_name
 
     return middleware_name()
@@ -88,5 +88,5 @@ def get_available_rmw_implementations() -> set[str]:
 
 
 def timeout_sec_to_nsec(timeout_sec: float | None) -> int:
-    """Seconds to nanoseconds; None and negative values, which mean "no limit", to -1."""
+    """Convert seconds to nanoseconds; None and negative values ("no limit") to -1."""
     return -1 if timeout_sec is None or timeout_sec < 0 else int(float(timeout_sec) * S_TO_NS)

@@ -40,9 +40,8 @@ def wait_for_message(
         Whether a message came, and the message or None.
     """
     came = Future()
-    group = (
-        MutuallyExclusiveCallbackGroup()
-    )  # the node's own may be held by the callback that waits here
+    # The node's own group may be held by the callback that waits here.
+    group = MutuallyExclusiveCallbackGroup()
     subscription = endpoints_of(node).make_subscription(
         msg_type, topic, came.set_result, qos_profile, group
     )

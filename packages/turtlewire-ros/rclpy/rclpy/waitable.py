@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ._execution.entity import Entity, Host, Work
+from ._execution.entity import Entity, EntityHost, Work
 from ._execution.futures import run_callbacks_on
 from .subscription import Subscription
 from .timer import Timer
@@ -77,19 +77,19 @@ class WaitSet:
         self._ready: set[Entity] = set()
 
     def add_guard_condition(self, guard_condition: GuardCondition) -> int:
-        """Wait for a guard condition, too; its index for :meth:`is_ready`."""
+        """Also wait for a guard condition; return its index for :meth:`is_ready`."""
         return self._add("guard_condition", guard_condition)
 
     def add_subscription(self, subscription: Subscription) -> int:
-        """Wait for a subscription, too; its index for :meth:`is_ready`."""
+        """Also wait for a subscription; return its index for :meth:`is_ready`."""
         return self._add("subscription", subscription)
 
     def add_timer(self, timer: Timer) -> int:
-        """Wait for a timer, too; its index for :meth:`is_ready`."""
+        """Also wait for a timer; return its index for :meth:`is_ready`."""
         return self._add("timer", timer)
 
     def add_event(self, event: Entity) -> int:
-        """Wait for an event of the middleware, too; its index for :meth:`is_ready`."""
+        """Also wait for an event of the middleware; return its index for :meth:`is_ready`."""
         return self._add("event", event)
 
     def _add(self, entity_type: str, entity: Entity) -> int:
@@ -106,11 +106,11 @@ class WaitSet:
         return self._entities[entity_type][index] in self._ready
 
     def mark_ready(self, entity: Entity) -> None:
-        """Say that this entity, and no other, is ready."""
+        """Mark this entity, and no other, as ready."""
         self._ready = {entity}
 
     def entities(self) -> list[Entity]:
-        """Return all of them."""
+        """Return all entities."""
         return [entity for group in self._entities.values() for entity in group]
 
 
@@ -140,7 +140,7 @@ class Waitable(Entity):
         raise NotImplementedError
 
     async def execute(self, taken_data: Any) -> Any:
-        """Run; a function that is not ``async`` does as well."""
+        """Run; may also be an ordinary function."""
         raise NotImplementedError
 
     def get_num_entities(self) -> NumberOfEntities:
@@ -158,6 +158,7 @@ class Waitable(Entity):
         wait_set = self._wait_set
         if wait_set is None:
             return None  # it was never attached
+        # A subscription keeps its message for the program's `take_data`.
         advanced = None if isinstance(part, Subscription) else part._take()
         if advanced is None and isinstance(part, Timer):
             return None  # cancelled, or its clock went back
@@ -165,14 +166,15 @@ class Waitable(Entity):
         return (self.execute, (self.take_data(),)) if self.is_ready(wait_set) else None
 
     def add_future(self, future: Future) -> None:
-        """Have the done-callbacks of ``future`` run on the executor that serves this waitable."""
+        """Run the done-callbacks of ``future`` on the executor that serves this waitable."""
         run_callbacks_on(self._serving_host(), future)
 
     def remove_future(self, future: Future) -> None:
         """Undo :meth:`add_future`: the done-callbacks run in the thread that finishes it."""
         run_callbacks_on(None, future)
 
-    def _attach(self, host: Host) -> None:
+    def _attach(self, host: EntityHost) -> None:
+        # Once: a waitable that moves to another executor keeps its parts.
         if self._wait_set is None:
             self._wait_set = WaitSet()
             self.add_to_wait_set(self._wait_set)
@@ -183,7 +185,7 @@ class Waitable(Entity):
         for part in self._parts:
             host.adopt(part)
 
-    def _detach(self, host: Host) -> None:
+    def _detach(self, host: EntityHost) -> None:
         for part in self._parts:
             host.release(part)
 

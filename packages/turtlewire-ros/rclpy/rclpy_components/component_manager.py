@@ -22,10 +22,11 @@ __all__ = ["ComponentManager"]
 class ComponentManager(Node):
     """Offers ROS 2's services that load, unload and list components (``~/_container/load_node`` …).
 
-    A component is a class of nodes, given as ``package.module.Class``. It is constructed without
-    arguments, as its own ``main()`` would do it; name, namespace, parameters and remappings of the
-    request apply to it like a command line's. Components do not wait for each other: each
-    runs in a thread of its own.
+    A component is a class of nodes, given as ``package.module.Class``; the name of a component of
+    C++, ``package::Class``, stands for ``package.Class``. It is constructed without arguments, as
+    its own ``main()`` would do it; name, namespace, parameters and remappings of the request apply
+    to it like a command line's. Components do not wait for each other: each runs in a thread of its
+    own.
     """
 
     def __init__(self, node_name: str = "ComponentManager", **options: Any) -> None:
@@ -46,8 +47,17 @@ class ComponentManager(Node):
         """Load a component, as the service ``load_node`` does; returns the filled response."""
         try:
             node = _construct(request)
+        except _UnknownPluginError as error:
+            self.get_logger().error(printable(error.reason))
+            response.error_message = str(error)
+            return response
         except Exception as error:  # noqa: BLE001  components are other people's code
-            response.error_message = self._told(error, request)
+            self.get_logger().error(
+                printable_lines(
+                    f"Component constructor threw an exception: {error}\n{traceback.format_exc()}"
+                )
+            )
+            response.error_message = f"{type(error).__name__}: {error}"
             return response
         self._last_id += 1
         self._components[self._last_id] = _Component(node, self.context)
@@ -55,20 +65,6 @@ class ComponentManager(Node):
         response.full_node_name = node.get_fully_qualified_name()
         response.unique_id = self._last_id
         return response
-
-    def _told(self, error: Exception, request: Any) -> str:
-        """Log why a component was not loaded; returns the text of the response."""
-        if isinstance(error, ModuleNotFoundError) and "::" in request.plugin_name:
-            self.get_logger().error(
-                printable(f"'{request.plugin_name}' is a component of C++: {error}")
-            )
-            return "Could not find requested resource in ament index"
-        self.get_logger().error(
-            printable_lines(
-                f"Component constructor threw an exception: {error}\n{traceback.format_exc()}"
-            )
-        )
-        return f"{type(error).__name__}: {error}"
 
     def _on_unload(self, request: Any, response: Any) -> Any:
         component = self._components.pop(request.unique_id, None)
@@ -104,25 +100,59 @@ class _Component:
         except (ExternalShutdownException, ShutdownException):
             pass
         except Exception:  # noqa: BLE001  the other components of the process go on
-            if self.node.context.ok():  # otherwise it failed because the process ends meanwhile
+            if self.node.context.ok():  # otherwise it failed because the process ends
                 self.node.get_logger().fatal(
-                    f"The component ends, for a callback failed:\n{traceback.format_exc()}"
+                    f"The component ends because a callback failed:\n{traceback.format_exc()}"
                 )
 
     def unload(self) -> None:
         self._executor.shutdown()
+        # The thread ends before the node, which its callbacks may use.
         self._thread.join()
         self.node.destroy_node()
 
 
-def _construct(request: Any) -> Node:
-    module_name, _, class_name = request.plugin_name.replace(":", ".").rpartition(".")
+class _UnknownPluginError(Exception):
+    """No class here has the name of this component of C++.
+
+    Args:
+        message: ROS 2's text for a library that is not installed, or does not have the component.
+        reason: What the log says.
+    """
+
+    def __init__(self, message: str, reason: str) -> None:
+        super().__init__(message)
+        self.reason = reason
+
+
+def _component_class(plugin: str, package: str) -> Any:
+    module_name, _, class_name = plugin.replace("::", ".").replace(":", ".").rpartition(".")
     if not module_name:
         raise ValueError(
-            f"'{request.plugin_name}' is not a component of {request.package_name}; "
-            "expected 'package.module.Class'"
+            f"'{plugin}' is not a component of {package}; expected 'package.module.Class'"
         )
-    node_class = getattr(importlib.import_module(module_name), class_name)
+    if "::" not in plugin:
+        return getattr(importlib.import_module(module_name), class_name)
+    try:
+        module = importlib.import_module(module_name)
+    except ModuleNotFoundError as error:
+        raise _UnknownPluginError(
+            "Could not find requested resource in ament index",
+            f"'{plugin}' is a component of C++, and no class of Python has its name: {error}. "
+            "Load a class of nodes in Python: 'package.module.Class'",
+        ) from error
+    if not hasattr(module, class_name):
+        names = ", ".join(getattr(module, "__all__", ())) or "no components"
+        raise _UnknownPluginError(
+            "Failed to find class with the requested plugin name.",
+            f"'{plugin}' is a component of C++, and no class of Python has its name: "
+            f"{module_name} has {names}",
+        )
+    return getattr(module, class_name)
+
+
+def _construct(request: Any) -> Node:
+    node_class = _component_class(request.plugin_name, request.package_name)
     token = component_arguments.set(_words(request))
     try:
         node = node_class()
@@ -149,7 +179,9 @@ def _words(request: Any) -> list[str]:
         words += ["-r", rule]
     for parameter in request.parameters:
         value = parameter_value_to_python(parameter.value)
+        # YAML has no `array.array`.
         value = list(value) if hasattr(value, "typecode") else value
+        # On one line; after a plain scalar, PyYAML appends a document end.
         text = (
             yaml.safe_dump(value, default_flow_style=True, width=10**6, allow_unicode=True)
             .removesuffix("...\n")

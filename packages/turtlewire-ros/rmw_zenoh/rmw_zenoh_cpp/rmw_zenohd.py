@@ -15,7 +15,7 @@ __all__ = ["main"]
 
 
 def main() -> int:
-    """Route until Ctrl-C; the exit status."""
+    """Route until Ctrl-C; returns the exit status."""
     try:
         require_zenoh()
         from turtlewire.wire.zenoh.router import route

@@ -6,15 +6,16 @@ import math
 from typing import TYPE_CHECKING, NamedTuple
 from xml.etree.ElementTree import ParseError
 
-from joint_state_publisher.joints import FreeJoint, JointSet, Mimic
+from joint_state_publisher.joints import FreeJoint, JointSet, MimicRule
 from turtlewire.urdf.faults import XACRO_LEFT
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from xml.etree.ElementTree import Element
 
-__all__ = ["DescriptionError", "Options", "read_joints"]
+__all__ = ["DescriptionError", "JointOptions", "read_joints"]
 
+# As in ROS 2, left out: they do not move, or need more than one number.
 _SKIPPED_IN_URDF = frozenset({"fixed", "floating", "planar"})
 _SKIPPED_IN_SDF = frozenset({"gearbox", "revolute2", "ball", "screw", "universal", "fixed"})
 
@@ -23,7 +24,7 @@ class DescriptionError(ValueError):
     """The description cannot be used; the text says why."""
 
 
-class Options(NamedTuple):
+class JointOptions(NamedTuple):
     """What parameters say about joints.
 
     Attributes:
@@ -37,7 +38,7 @@ class Options(NamedTuple):
     """
 
     zeros: Mapping[str, float]
-    mimics: Mapping[str, Mimic]
+    mimics: Mapping[str, MimicRule]
     use_mimic_tags: bool = True
     use_smallest_limits: bool = True
     positions: bool = True
@@ -45,7 +46,7 @@ class Options(NamedTuple):
     efforts: bool = False
 
 
-def read_joints(text: str, options: Options, warn: Callable[[str], None]) -> JointSet:
+def read_joints(text: str, options: JointOptions, warn: Callable[[str], None]) -> JointSet:
     """Return the joints of a description that move.
 
     Args:
@@ -65,6 +66,7 @@ def read_joints(text: str, options: Options, warn: Callable[[str], None]) -> Joi
         raise DescriptionError(f"the robot description is not well-formed XML: {error}") from error
     if root.tag == "sdf":
         return _read_sdf(root, options)
+    # As in ROS 2, the robot may lie within another element.
     robot = root if root.tag == "robot" else root.find(".//robot")
     if robot is None:
         raise DescriptionError('URDF must have a "robot" tag')
@@ -77,12 +79,13 @@ def read_joints(text: str, options: Options, warn: Callable[[str], None]) -> Joi
     return joints
 
 
-def _add_urdf_joint(joints: JointSet, element: Element, options: Options) -> None:
+def _add_urdf_joint(joints: JointSet, element: Element, options: JointOptions) -> None:
     name = element.get("name", "")
     joints.order.append(name)
     mimics = element.findall("mimic")
+    # As in ROS 2, several `mimic` elements count as none.
     if options.use_mimic_tags and len(mimics) == 1:
-        joints.mimics[name] = Mimic(
+        joints.mimics[name] = MimicRule(
             mimics[0].get("joint", ""),
             _number(mimics[0].get("multiplier", "1"), f"multiplier of mimic joint {name!r}"),
             _number(mimics[0].get("offset", "0"), f"offset of mimic joint {name!r}"),
@@ -93,10 +96,11 @@ def _add_urdf_joint(joints: JointSet, element: Element, options: Options) -> Non
         joints.free[name] = _urdf_free_joint(element, options)
 
 
-def _urdf_free_joint(element: Element, options: Options) -> FreeJoint:
+def _urdf_free_joint(element: Element, options: JointOptions) -> FreeJoint:
     name, kind = element.get("name", ""), element.get("type", "")
     limit = element.find("limit")
     if kind == "continuous":
+        # It has no limits, but a slider needs some: one turn.
         low, high = -math.pi, math.pi
     elif limit is None:
         raise DescriptionError(f'Limits must be specified for joint "{name}" of type "{kind}"')
@@ -116,10 +120,13 @@ def _urdf_free_joint(element: Element, options: Options) -> FreeJoint:
     return joint
 
 
-def _free_joint(name: str, kind: str, limits: tuple[float, float], options: Options) -> FreeJoint:
+def _free_joint(
+    name: str, kind: str, limits: tuple[float, float], options: JointOptions
+) -> FreeJoint:
     low, high = limits
     if name in options.zeros:
         zero = options.zeros[name]
+    # Zero lies outside the limits.
     elif low > 0 or high < 0:
         zero = (high + low) / 2
     else:
@@ -137,9 +144,9 @@ def _free_joint(name: str, kind: str, limits: tuple[float, float], options: Opti
 
 
 def _free_mimics_of_nothing(
-    joints: JointSet, robot: Element, options: Options, warn: Callable[[str], None]
+    joints: JointSet, robot: Element, options: JointOptions, warn: Callable[[str], None]
 ) -> None:
-    """Mimic joints of joints that are not here, or do not move, are free."""
+    """Free the mimic joints of joints that are not here or do not move."""
     elements = {element.get("name", ""): element for element in robot.findall("joint")}
     known = {*joints.free, *joints.mimics}
     for name, mimic in list(joints.mimics.items()):
@@ -153,6 +160,7 @@ def _free_mimics_of_nothing(
 
 
 def _warn_of_oddities(joints: JointSet, root: Element, warn: Callable[[str], None]) -> None:
+    # A name in xacro's namespace means that xacro has not run.
     if any(element.tag.partition("}")[0].endswith("/xacro") for element in root.iter()):
         warn(XACRO_LEFT)
     for joint in joints.free.values():
@@ -163,7 +171,7 @@ def _warn_of_oddities(joints: JointSet, root: Element, warn: Callable[[str], Non
             )
 
 
-def _read_sdf(root: Element, options: Options) -> JointSet:
+def _read_sdf(root: Element, options: JointOptions) -> JointSet:
     model = root.find(".//model")
     if model is None:
         raise DescriptionError('SDF must have a "model" tag')

@@ -8,8 +8,8 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 import rclpy
-from joint_state_publisher.description import DescriptionError, Options, read_joints
-from joint_state_publisher.joints import JointSet, Mimic, MimicLoopError, State
+from joint_state_publisher.description import DescriptionError, JointOptions, read_joints
+from joint_state_publisher.joints import JointSet, MimicLoopError, MimicRule, State
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -63,6 +63,7 @@ class JointStatePublisher(Node):
         if description_file is not None:
             self._load(description_file)
         self._publisher = self.create_publisher(JointState, "joint_states", _DEPTH)
+        # Like the publisher's: the description was sent before this node subscribed.
         latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self.create_subscription(String, "robot_description", self._on_description, latched)
         for topic in sources:
@@ -124,12 +125,12 @@ class JointStatePublisher(Node):
             self.declare_parameter(name, Parameter.Type.STRING_ARRAY)
         return self.get_parameter_or(name).value or []
 
-    def _read_options(self) -> Options:
+    def _read_options(self) -> JointOptions:
         zeros = {
             name: _as_number(f"zeros.{name}", parameter.value)
             for name, parameter in self.get_parameters_by_prefix("zeros").items()
         }
-        return Options(
+        return JointOptions(
             zeros,
             _dependent_joints(self.get_parameters_by_prefix("dependent_joints")),
             use_mimic_tags=self._switch("use_mimic_tags", True),
@@ -159,6 +160,8 @@ class JointStatePublisher(Node):
         """
         joints = read_joints(text, self._options, self._warn)
         try:
+            # Raises if joints mimic each other in a circle; the joints in use are replaced only
+            # below.
             joints.state()
         except MimicLoopError as error:
             self.get_logger().error(str(error))
@@ -190,7 +193,7 @@ class JointStatePublisher(Node):
         self.values_changed()
 
 
-def _dependent_joints(parameters: dict[str, Any]) -> dict[str, Mimic]:
+def _dependent_joints(parameters: dict[str, Any]) -> dict[str, MimicRule]:
     settings: dict[str, dict[str, Any]] = {}
     for full_name, parameter in parameters.items():
         joint, _, key = full_name.rpartition(".")
@@ -203,7 +206,7 @@ def _dependent_joints(parameters: dict[str, Any]) -> dict[str, Mimic]:
     if any("parent" not in setting for setting in settings.values()):
         raise SettingError("All dependent_joints must at least have a parent")
     return {
-        joint: Mimic(
+        joint: MimicRule(
             str(setting["parent"]),
             _as_number(f"dependent_joints.{joint}.factor", setting.get("factor", 1)),
             _as_number(f"dependent_joints.{joint}.offset", setting.get("offset", 0)),
@@ -213,6 +216,7 @@ def _dependent_joints(parameters: dict[str, Any]) -> dict[str, Mimic]:
 
 
 def _as_number(name: str, value: object) -> float:
+    # In Python, a bool is an int.
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise SettingError(f"the parameter '{name}' must be a number, got {value!r}")
     return float(value)
@@ -233,6 +237,7 @@ def run(
     )
     if add_options is not None:
         add_options(parser)
+    # `rclpy.init` reads the ROS arguments; argparse would reject them.
     argv = remove_ros_args(sys.argv if args is None else ["", *args])
     options = parser.parse_args(argv[1:])
     with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["FreeJoint", "JointSet", "Mimic", "MimicLoopError", "State"]
+__all__ = ["FreeJoint", "JointSet", "MimicLoopError", "MimicRule", "State"]
 
 
 class MimicLoopError(ValueError):
@@ -69,7 +69,7 @@ class FreeJoint:
                 self.forward = True
 
 
-class Mimic(NamedTuple):
+class MimicRule(NamedTuple):
     """How a joint follows another: ``factor * parent + offset``."""
 
     parent: str
@@ -101,10 +101,10 @@ class JointSet:
     robot: str = ""
     order: list[str] = field(default_factory=list)
     free: dict[str, FreeJoint] = field(default_factory=dict)
-    mimics: dict[str, Mimic] = field(default_factory=dict)
+    mimics: dict[str, MimicRule] = field(default_factory=dict)
     lock: threading.RLock = field(default_factory=threading.RLock, repr=False, compare=False)
 
-    def source_of(self, name: str) -> tuple[FreeJoint, Mimic]:
+    def source_of(self, name: str) -> tuple[FreeJoint, MimicRule]:
         """Return the free joint that a joint follows in the end, and by which formula.
 
         A free joint follows itself.
@@ -119,10 +119,11 @@ class JointSet:
                 raise MimicLoopError(
                     f"Found an infinite recursive mimic chain: {[*chain, mimic.parent]}"
                 )
+            # The formulas are nested: f * (g * x + h) + o = (f * g) * x + (f * h + o).
             offset += factor * mimic.offset
             factor *= mimic.factor
             chain.append(mimic.parent)
-        return self.free[chain[-1]], Mimic(chain[-1], factor, offset)
+        return self.free[chain[-1]], MimicRule(chain[-1], factor, offset)
 
     def sweep(self, step: float) -> None:
         """Move each free joint by ``step`` between its limits."""
@@ -169,8 +170,10 @@ class JointSet:
                 joint, (_, factor, offset) = self.source_of(name)
                 state.positions.append((joint.position or 0.0) * factor + offset)
                 state.velocities.append((joint.velocity or 0.0) * factor)
+                # As in ROS 2, the factor does not apply to efforts.
                 state.efforts.append(joint.effort or 0.0)
             free = list(self.free.values())
+            # As in ROS 2, an array has a value for every joint or is empty.
             return State(
                 state.names,
                 state.positions if any(joint.position is not None for joint in free) else [],

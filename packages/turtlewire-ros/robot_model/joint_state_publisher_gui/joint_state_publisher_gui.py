@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from joint_state_publisher.joint_state_publisher import JointStatePublisher, run
 from joint_state_publisher_gui.page_commands import Center, Randomize
-from joint_state_publisher_gui.screen import Screen
+from joint_state_publisher_gui.screen import SliderScreen
 from joint_state_publisher_gui.sliders import Sliders
 from turtlewire.web.desktop import open_browser, wanted_lan, wanted_port
 from turtlewire.web.lan import invite
@@ -27,7 +27,7 @@ class JointStatePublisherGui(JointStatePublisher):
 
     Args:
         description_file: As for :class:`JointStatePublisher`.
-        lan: Whether to serve the page to other devices of the network, too.
+        lan: Whether to serve the page to other devices of the network as well.
         **options: As for :class:`rclpy.node.Node`.
 
     Attributes:
@@ -37,11 +37,14 @@ class JointStatePublisherGui(JointStatePublisher):
     def __init__(
         self, description_file: str | None = None, *, lan: bool = False, **options: Any
     ) -> None:
-        self._screen: Screen | None = None
+        # Set first: with a file, the base's constructor calls `joints_changed`.
+        self._screen: SliderScreen | None = None
         self._sliders: Sliders | None = None
         super().__init__(description_file, **options)
         self._sliders = Sliders(self.joints)
-        self._screen = Screen(self.get_fully_qualified_name(), self._sliders, self._obey, lan=lan)
+        self._screen = SliderScreen(
+            self.get_fully_qualified_name(), self._sliders, self._obey, lan=lan
+        )
         self.url = self._screen.url
         self.get_logger().info(f"The joints' sliders are at {self.url}")
         if lan:
@@ -83,6 +86,7 @@ class JointStatePublisherGui(JointStatePublisher):
 def main(args: list[str] | None = None) -> int:
     """Publish joint states and serve the page until Ctrl-C."""
     try:
+        # Only to report a wrong number in one line, before the node starts.
         wanted_port()
     except ValueError as error:
         print(error, file=sys.stderr)  # noqa: T201 - there is no node yet that could log it

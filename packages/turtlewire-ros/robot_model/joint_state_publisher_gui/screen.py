@@ -1,8 +1,6 @@
 """Serves the page with the sliders.
 
-What goes to a browser, as JSON texts: ``joints`` when there is another description, ``state`` when
-positions changed, ``error`` when it sent something that is not a command. What comes back:
-:mod:`joint_state_publisher_gui.page_commands`.
+A browser gets ``joints`` when there is another description, and ``state`` when positions changed.
 """
 
 from __future__ import annotations
@@ -11,8 +9,8 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from joint_state_publisher_gui.page_commands import JointCommandError, parse_command
-from turtlewire.web import Server
+from joint_state_publisher_gui.page_commands import READER
+from turtlewire.web import CommandSession, Server
 from turtlewire.web.desktop import wanted_port
 
 if TYPE_CHECKING:
@@ -21,19 +19,19 @@ if TYPE_CHECKING:
     from joint_state_publisher_gui.page_commands import Command
     from joint_state_publisher_gui.sliders import Sliders, Snapshot
 
-__all__ = ["Screen"]
+__all__ = ["SliderScreen"]
 
 _PAGE = Path(__file__).parent / "page"
 
 
-class Screen:
+class SliderScreen:
     """The page of one node.
 
     Args:
         node: Fully qualified name of the node.
         sliders: What the page shows.
         on_command: Called on the server's thread for each command; must return at once.
-        lan: Whether to serve the devices of the network, too.
+        lan: Whether to serve the devices of the network as well.
 
     Attributes:
         url: The page's address.
@@ -66,20 +64,18 @@ class Screen:
         self._server.notify()
 
 
-class _Session:
+class _Session(CommandSession):
     """One browser that shows the page."""
 
-    def __init__(self, screen: Screen) -> None:
+    def __init__(self, screen: SliderScreen) -> None:
+        super().__init__(READER)
         self._screen = screen
         self._shown: Snapshot | None = None
-        self._errors: list[str] = []
 
-    def outgoing(self) -> list[str | bytes]:
-        messages: list[str | bytes] = [
-            json.dumps({"type": "error", "text": text}) for text in self._errors
-        ]
-        self._errors.clear()
+    def news(self) -> list[str | bytes]:
+        messages: list[str | bytes] = []
         sliders = self._screen._sliders
+        # Held for both, so that the description is that of the snapshot's version.
         with sliders.lock:
             snapshot = sliders.snapshot()
             if self._shown is None or snapshot.version != self._shown.version:
@@ -90,13 +86,5 @@ class _Session:
             self._shown = snapshot
         return messages
 
-    def receive(self, message: str | bytes) -> None:
-        try:
-            command = parse_command(message)
-        except JointCommandError as error:
-            self._errors.append(str(error))
-            return
+    def obey(self, command: Command) -> None:
         self._screen._obey(command)
-
-    def closed(self) -> None:
-        """Nothing is kept for a browser that is gone."""

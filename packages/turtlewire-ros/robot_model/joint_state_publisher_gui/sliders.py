@@ -49,6 +49,7 @@ class Sliders:
 
     def obey(self, command: Command) -> None:
         """Carry out a command of the page; one for a joint that is gone does nothing."""
+        # The joints' lock as well: the node's thread moves and publishes the same joints.
         with self.lock, self._joints.lock:
             if isinstance(command, Play):
                 self._playing = command.on
@@ -74,7 +75,7 @@ class Sliders:
             return Snapshot(self._version, tuple(positions), self._playing)
 
     def description(self) -> dict[str, Any]:
-        """Names, limits and formulas, for the page."""
+        """Return names, limits and formulas, for the page."""
         with self.lock:
             return {
                 "version": self._version,
@@ -108,4 +109,5 @@ def _position_after(command: Randomize | Center, joint: FreeJoint) -> float:
 def _speed(joint: FreeJoint) -> float:
     """Return the speed of a playing joint [rad/s or m/s], at most its limit."""
     speed = (joint.maximum - joint.minimum) / _SWEEP_S
+    # Many descriptions give 0 for a limit that nobody knows.
     return min(speed, joint.max_velocity) if joint.max_velocity else speed

@@ -5,33 +5,35 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from turtlewire.urdf import UrdfError, parse_urdf
+from turtlewire.urdf import Robot, UrdfError
 from turtlewire.urdf.faults import log_lines
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from turtlewire.urdf import Joint, Robot
+    from turtlewire.urdf import Joint
 
-__all__ = ["DescriptionError", "oddities", "parse_description", "static_joints"]
+__all__ = ["RobotDescriptionError", "oddities", "parse_description", "static_joints"]
 
 
-class DescriptionError(RuntimeError):
+class RobotDescriptionError(RuntimeError):
     """The description is not a robot; the message is ROS 2's."""
 
 
 def parse_description(text: str) -> Robot:
-    """The robot; what urdfdom logs goes to stderr, with the line and element of the description.
+    """Return the robot. What urdfdom logs goes to stderr, with line and element.
 
     Raises:
-        DescriptionError: urdfdom refuses the description.
+        RobotDescriptionError: urdfdom rejects the description.
     """
     try:
-        robot = parse_urdf(text)
+        robot = Robot.from_xml(text)
     except UrdfError as error:
         _print(*log_lines(error))
         _print("Failed to parse robot description using: urdf_xml_parser/URDFXMLParser")
-        raise DescriptionError("Unable to initialize urdf::model from robot description") from error
+        raise RobotDescriptionError(
+            "Unable to initialize urdf::model from robot description"
+        ) from error
     for warning in robot.warnings:
         _print(*log_lines(warning))
     return robot
@@ -60,6 +62,7 @@ def static_joints(robot: Robot) -> list[Joint]:
 
 
 def _in_depth(robot: Robot) -> Iterator[Joint]:
+    # Reversed, because the last item is popped first: the order is kdl_parser's, depth first.
     left = list(reversed(robot.child_joints[robot.root]))
     while left:
         joint = left.pop()

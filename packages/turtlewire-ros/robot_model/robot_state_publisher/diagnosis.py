@@ -49,7 +49,7 @@ class Diagnosis:
                 self._node.get_logger().info(_floating(joint))
 
     def received(self, names: Iterable[str], knows_a_joint: bool) -> None:
-        """A joint state came; ``knows_a_joint`` tells whether one of its joints is the robot's."""
+        """Note a joint state; ``knows_a_joint`` says if one of its joints is the robot's."""
         if self.is_settled:
             return
         if knows_a_joint:
@@ -57,13 +57,15 @@ class Diagnosis:
             self._cancel()
             return
         for name in names:
+            # One more than are listed, for "and others".
             if len(self._unknown) <= _MOST_NAMES:
                 self._unknown[name] = None
+        # Waits, because several nodes may each publish a part of the joints.
         if self._timer is None and self._unknown:
             self._timer = self._node.create_timer(_PATIENCE, self._tell_of_unknown_joints)
 
     def skipped(self, stamp: int, last: int, interval_ms: int, frequency: float) -> None:
-        """A joint state was not published, because the stamp is too near to the last one."""
+        """Log, once, that a joint state was skipped: its stamp is too near to the last one."""
         if not self.tells_of_skipping:
             return
         self.tells_of_skipping = False
@@ -77,13 +79,14 @@ class Diagnosis:
                 f" publish_frequency is {frequency:g}"
             )
             more = "publish_frequency 1000.0", "To publish more of them"
+            # 1000 Hz is the highest frequency that the parameter allows.
             (setting, purpose) = more if frequency < 1000.0 else ignore
         name = self._node.get_fully_qualified_name()
         text = f"Skipping joint states {what}. {purpose}: ros2 param set {name} {setting}"
         self._node.get_logger().info(text)
 
     def frequency_changed(self) -> None:
-        """Skipping is worth a line again."""
+        """Log the next skipped joint state again."""
         self.tells_of_skipping = True
 
     def _tell_of_unknown_joints(self) -> None:

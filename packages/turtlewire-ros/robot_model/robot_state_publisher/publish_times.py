@@ -26,19 +26,20 @@ class PublishTimes:
         self._last_call = 0
 
     def moved_back(self, now: int) -> bool:
-        """Return True if the clock is behind the time of the last joint state; notes the time."""
+        """Return True if the clock is behind the time of the last call; notes the time."""
         last, self._last_call = self._last_call, now
         return now < last
 
     def earliest(self, names: Sequence[str], now: int) -> int:
         """Return the smallest stamp of these joints, 0 for a new one; ``now`` if all are later."""
+        # The usual case, and a fast one: layouts are kept, so the same robot gives the same object.
         if names is self._names:
             return min(now, self._time) if names else now
         self._remember()
         return min((now, *(self._times.get(name, 0) for name in names)))
 
     def published(self, names: Sequence[str], stamp: int) -> None:
-        """A joint state of these joints was published."""
+        """Note that a joint state of these joints was published."""
         if names is not self._names:
             self._remember()
             self._names = names

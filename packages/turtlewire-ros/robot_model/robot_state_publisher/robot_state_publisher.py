@@ -25,7 +25,7 @@ parameters: robot_description   the URDF; what `xacro FILE` prints
 
 
 def main(args: list[str] | None = None) -> int:
-    """Publish until stopped; the exit status."""
+    """Publish until stopped; returns the exit status."""
     argv = sys.argv if args is None else args
     words = remove_ros_args(argv)[1:]
     if {"-h", "--help"} & {*words}:

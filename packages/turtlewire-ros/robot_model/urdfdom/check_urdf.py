@@ -24,6 +24,8 @@ def tree_lines(robot: Robot) -> Iterator[str]:
     """Yield the tree in the words of urdfdom's check_urdf, children sorted by their joints."""
     children = robot.child_joints[robot.root]
     yield f"root Link: {printable(robot.root)} has {len(children)} child(ren)"
+    # A stack and no recursion: a robot may be a long chain. Reversed, as the last one is popped
+    # first.
     left = [(1, number, joint) for number, joint in reversed([*enumerate(children, 1)])]
     while left:
         level, number, joint = left.pop()
@@ -34,13 +36,14 @@ def tree_lines(robot: Robot) -> Iterator[str]:
 
 @program
 def main(args: list[str] | None = None) -> int:
-    """Check a file; the exit status: 0 for a robot, 1 for none, -1 (255) without a file."""
+    """Check a file; returns 0 for a robot, 1 for none, -1 (255) without a file."""
     words = sys.argv[1:] if args is None else args[1:]
     if words in (["-h"], ["--help"]):
         print(f"usage: check_urdf FILE\n\n{_USAGE}")  # noqa: T201
         return 0
     if not words:
         print(_USAGE, file=sys.stderr)  # noqa: T201
+        # urdfdom returns -1, which a shell sees as 255.
         return 255
     try:
         robot = read_robot(words[0])

@@ -13,7 +13,7 @@ __all__ = ["dot_from_robot"]
 
 
 def dot_from_robot(robot: Robot) -> str:
-    """Graphviz text: links are boxes, joints are blue ellipses with their origins on the arrows."""
+    """Return Graphviz text: links as boxes, joints as blue ellipses with origins on the arrows."""
     joints = list(_in_depth(robot))
     links = [robot.root, *(joint.child for joint in joints)]
     return "\n".join(

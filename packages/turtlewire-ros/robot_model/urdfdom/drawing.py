@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from turtlewire.tf.drawing import Box, Drawing, Line, Text, text_width
+from turtlewire.tf.drawing import Drawing, FilledBox, Line, Text, text_width
 from turtlewire.tf.tidy_tree import tidy_positions
 
 if TYPE_CHECKING:
@@ -27,6 +27,7 @@ def draw_robot(robot: Robot) -> Drawing:
         link: [joint.child for joint in joints] for link, joints in robot.child_joints.items()
     }
     places = tidy_positions([robot.root], children, widths, _GAP)
+    # Kept apart, so that the lines lie below the boxes that they touch.
     lines: list[Shape] = []
     cards: list[Shape] = []
     for link, (middle, row) in places.items():
@@ -35,7 +36,7 @@ def draw_robot(robot: Robot) -> Drawing:
             end = places[child][0] + _MARGIN, y + _ROW - 2 * _LINE
             lines.append(Line(((x, y + _HEIGHT), end), _BORDER))
         left = x - widths[link] / 2
-        cards.append(Box(left, y, widths[link], _HEIGHT, _BORDER))
+        cards.append(FilledBox(left, y, widths[link], _HEIGHT, _BORDER))
         cards.append(Text(left + _PADDING, y + 19.0, link, _NAME_SIZE, _INK, bold=True))
         for number, note in enumerate(reversed(notes.get(link, ()))):
             size = text_width(note, _NOTE_SIZE)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 
-from turtlewire.urdf import Robot, UrdfError, load_urdf, parse_urdf
+from turtlewire.urdf import Robot, UrdfError
 from turtlewire.urdf.faults import log_lines
 
 __all__ = ["read_robot"]
@@ -15,10 +15,10 @@ def read_robot(path: str) -> Robot:
 
     Raises:
         OSError: The file cannot be read.
-        UrdfError: urdfdom refuses the description.
+        UrdfError: urdfdom rejects the description.
     """
     try:
-        robot = parse_urdf(sys.stdin.buffer.read()) if path == "-" else load_urdf(path)
+        robot = Robot.from_xml(sys.stdin.buffer.read()) if path == "-" else Robot.load(path)
     except UrdfError as error:
         print(*log_lines(error), sep="\n", file=sys.stderr)  # noqa: T201
         raise

@@ -21,7 +21,7 @@ _USAGE = """Usage: urdf_to_graphviz input.xml [OUTPUT]
 
 @program
 def main(args: list[str] | None = None) -> int:
-    """Write both files; the exit status: 0, 1 for what cannot be read or written, 255 for usage.
+    """Write both files; returns 0, 1 for what cannot be read or written, or 255 for usage.
 
     The PDF is drawn here; Graphviz is not needed.
     """

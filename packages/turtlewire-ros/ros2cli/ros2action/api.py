@@ -16,6 +16,7 @@ __all__ = [
     "ActionTypeCompleter",
     "action_name_completer",
     "action_type_completer",
+    "get_action_class",
     "get_action_clients_and_servers",
     "get_action_names",
     "get_action_names_and_types",
@@ -43,26 +44,57 @@ def get_action_clients_and_servers(
     )
 
 
+def get_action_class(node: Any, action_name: str) -> Any:
+    """Return the class of an action.
+
+    Args:
+        node: The node that looks.
+        action_name: Full name of the action.
+
+    Raises:
+        RuntimeError: The action does not exist, or it has several types, or one that is not
+            installed.
+    """
+    from ros2cli.suggestion import did_you_mean, source_meant
+    from rosidl_runtime_py.utilities import get_action
+
+    known = dict(get_action_names_and_types(node=node))
+    types = known.get(action_name)
+    if not types:
+        meant = did_you_mean(action_name, known)
+        raise RuntimeError(f"Cannot find type for '{action_name}'{meant}")
+    if len(types) > 1:
+        raise RuntimeError(
+            f"The action '{action_name}' has more than one type: [{', '.join(types)}]"
+        )
+    try:
+        return get_action(types[0])
+    except (AttributeError, ModuleNotFoundError, ValueError):
+        raise RuntimeError(
+            f"The action type '{types[0]}' is invalid{source_meant(types[0])}"
+        ) from None
+
+
 def get_action_names_and_types(*, node: Any) -> list[tuple[str, list[str]]]:
-    """Names and types of the actions that a node sees, sorted by name."""
+    """Return the names and types of the actions that a node sees, sorted by name."""
     from rclpy.action import get_action_names_and_types as ask
 
     return ask(getattr(node, "node", node))
 
 
 def get_action_names(*, node: Any) -> list[str]:
-    """Names of the actions that a node sees, sorted."""
+    """Return the names of the actions that a node sees, sorted."""
     return [name for name, _ in get_action_names_and_types(node=node)]
 
 
 def action_name_completer(prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
-    """Names of the actions there are now."""
+    """Return the names of the actions there are now."""
     with DirectNode(parsed_args) as node:
         return get_action_names(node=node)
 
 
 def action_type_completer(**kwargs: Any) -> list[str]:
-    """Full names of all actions' types."""
+    """Return the full names of all actions' types."""
     return interface_names("action")
 
 

@@ -12,11 +12,15 @@ module                             what it holds
 `completion`                       what TAB offers
 `discovery`                        joins a domain long enough to discover its nodes
 `graph`, `listing`                 nodes and topics; the verbs ``list``, ``find``, ``type``
-`qos_options`                      QoS on the command line
+`qos`                              QoS on the command line
+`message_text`                     messages as YAML or CSV; the options of ``echo``
+`json_lines`                       the option ``--json``
+`endpoint_data`                    publishers, servers and so on as plain data
 `interface_names`                  installed interfaces
 `values`                           YAML values on the command line
 `output`                           printing without control characters of other processes
 `suggestion`                       the nearest names to a wrong one
+`selection`                        choosing from a list in the terminal
 `cli`, `helpers`                   ``ros2`` called by programs; functions for extensions
 `command`, `verb`                  ROS 2's classes of commands and verbs
 `builtin`                          makes these classes of our commands and verbs

@@ -4,13 +4,22 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from ros2cli.values import positive_float
+
 if TYPE_CHECKING:
     import argparse
     from collections.abc import Callable, Iterable
 
     Completer = Callable[..., list[str]]
 
-__all__ = ["Argument", "Exclusive", "add_arguments", "argument", "exclusive"]
+__all__ = [
+    "Argument",
+    "Exclusive",
+    "add_arguments",
+    "argument",
+    "exclusive",
+    "timeout_argument",
+]
 
 
 # Plain classes: a NamedTuple takes half a millisecond of each command to make.
@@ -45,8 +54,24 @@ def argument(*names: str, completer: Completer | None = None, **options: Any) ->
 
 
 def exclusive(*members: Argument, required: bool = False) -> Exclusive:
-    """Arguments of which one may be given at most; exactly one if it is ``required``."""
+    """Return the arguments of which one may be given at most; exactly one if it is ``required``."""
     return Exclusive(members, required=required)
+
+
+def timeout_argument(default: float | None = None) -> Argument:
+    """Return the option ``--timeout`` of verbs that wait for the answer of a node.
+
+    Args:
+        default: Seconds; None waits as long as the node is there.
+    """
+    shown = "no limit" if default is None else default
+    return argument(
+        "--timeout",
+        metavar="N",
+        type=positive_float,
+        default=default,
+        help=f"Wait at most N seconds for each answer (default: {shown})",
+    )
 
 
 def add_arguments(

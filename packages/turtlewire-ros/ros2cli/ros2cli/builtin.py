@@ -18,7 +18,7 @@ __all__ = ["command_of_module", "verb_of_module"]
 
 
 def verb_of_module(cls: Class) -> Class:
-    """Give a class the ``ARGUMENTS`` and the ``main`` of its module."""
+    """Give a class the ``ARGUMENTS`` of its module, and the ``main`` unless it has its own."""
     module = sys.modules[cls.__module__]
 
     def add_arguments(self: Any, parser: argparse.ArgumentParser, cli_name: str) -> None:
@@ -32,7 +32,8 @@ def verb_of_module(cls: Class) -> Class:
         return module.main(args)
 
     cls.add_arguments = add_arguments
-    cls.main = main
+    if "main" not in vars(cls):
+        cls.main = main
     return cls
 
 

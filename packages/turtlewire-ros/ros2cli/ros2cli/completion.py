@@ -41,84 +41,84 @@ _TAKES_FRAMES = {("tf2_ros", "tf2_echo"), ("tf2_ros", "tf2_monitor")}
 
 
 def packages(**_: Any) -> list[str]:
-    """Names of installed packages."""
+    """Return the names of installed packages."""
     from turtlewire_ros.prefix import package_names
 
     return sorted(package_names())
 
 
 def executables(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
-    """Names of the executables of the package on the command line."""
+    """Return the names of the executables of the package on the command line."""
     return executables_of(parsed_args.package_name)
 
 
 def executables_of(package: str) -> list[str]:
-    """Names of the executables of a package; empty if there is no such package."""
+    """Return the names of the executables of a package; empty if there is no such package."""
     from turtlewire_ros.executables import executable_paths
 
     return [os.path.basename(path) for path in executable_paths(package) or ()]
 
 
 def interface_packages(**_: Any) -> list[str]:
-    """Names of the packages that have interfaces."""
+    """Return the names of the packages that have interfaces."""
     from turtlewire import msg
 
-    return sorted(msg.interface_names())
+    return sorted(msg.interfaces())
 
 
 def interfaces(**_: Any) -> list[str]:
-    """Full names of all interfaces."""
+    """Return the full names of all interfaces."""
     return interface_names()
 
 
 def message_types(**_: Any) -> list[str]:
-    """Full names of all messages."""
+    """Return the full names of all messages."""
     return interface_names("msg")
 
 
 def topic_names(**_: Any) -> list[str]:
-    """Names of the topics there are now."""
+    """Return the names of the topics there are now."""
     return [name for name, _ in _ask("topics")]
 
 
 def service_names(**_: Any) -> list[str]:
-    """Names of the services there are now."""
+    """Return the names of the services there are now."""
     return [name for name, _ in _ask("services")]
 
 
 def action_names(**_: Any) -> list[str]:
-    """Names of the actions there are now."""
+    """Return the names of the actions there are now."""
     return [name for name, _ in _ask("actions")]
 
 
 def node_names(**_: Any) -> list[str]:
-    """Full names of the nodes there are now."""
+    """Return the full names of the nodes there are now."""
     names: list[str] = _ask("node_names")
     return names
 
 
 def frame_names(**_: Any) -> list[str]:
-    """Names of the frames that are published now."""
+    """Return the names of the frames that are published now."""
     from turtlewire.doctor.tf_traffic import frame_names
 
     return frame_names()
 
 
 def arguments_of_executable(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
-    """Arguments of an executable: frames for tools of tf2_ros that take them."""
+    """Return the arguments of an executable: frames for tools of tf2_ros that take them."""
     executable = (parsed_args.package_name, parsed_args.executable_name)
     return frame_names() if executable in _TAKES_FRAMES else []
 
 
 def files(prefix: str, **_: Any) -> list[str]:
-    """Files and folders."""
+    """Return the files and folders."""
     from argcomplete.completers import FilesCompleter
 
     return list(FilesCompleter()(prefix))
 
 
 def folders(prefix: str, **_: Any) -> list[str]:
-    """Folders."""
+    """Return the folders."""
     from argcomplete.completers import DirectoriesCompleter
 
     return list(DirectoriesCompleter()(prefix))
@@ -155,6 +155,7 @@ def prototype(kind: str, type_name: str) -> list[str]:
             message = utilities.get_action(type_name).Goal()
         else:
             message = utilities.get_message(type_name)()
+    # A completion must not print an error between the user's words.
     except (AttributeError, ModuleNotFoundError, ValueError):
         return []
     return [_on_one_line(message_to_ordereddict(message))]
@@ -166,6 +167,7 @@ def _on_one_line(values: OrderedDict[str, Any]) -> str:
     class Dumper(yaml.SafeDumper):
         """Writes the fields in their order."""
 
+    # On a class of its own, because this changes the class.
     Dumper.add_representer(OrderedDict, Dumper.represent_dict)
     text: str = yaml.dump(
         values,
@@ -179,19 +181,19 @@ def _on_one_line(values: OrderedDict[str, Any]) -> str:
 
 
 def topic_types(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
-    """Type of the topic on the command line, or all messages."""
+    """Return the type of the topic on the command line, or all messages."""
     types = dict(_ask("topics")).get(getattr(parsed_args, "topic_name", None))
     return types or interface_names("msg")
 
 
 def service_types(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
-    """Type of the service on the command line, or all services."""
+    """Return the type of the service on the command line, or all services."""
     types = dict(_ask("services")).get(getattr(parsed_args, "service_name", None))
     return types or interface_names("srv")
 
 
 def action_types(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
-    """Type of the action on the command line, or all actions."""
+    """Return the type of the action on the command line, or all actions."""
     types = dict(_ask("actions")).get(getattr(parsed_args, "action_name", None))
     return types or interface_names("action")
 

@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from ros2cli.helpers import check_discovery_configuration
 from turtlewire.wake_up import WakeUp
 from turtlewire.wire.environment import Range, discovery
 
@@ -25,12 +26,13 @@ __all__ = [
     "wait_until_discovered",
 ]
 
-# Other hosts are given so much time to answer; participants of this host are counted. Measured on
+# Other hosts have this much time to answer; participants of this host are counted. Measured on
 # two cores: the last of 50 participants answers 70 ms after the first question.
 _ANSWER_S = 0.15
 # Fast DDS repeats every three seconds what got lost.
 _PATIENCE_S = 4.0
 
+# With their hashes, so that no definition has to be read.
 _NODE_TOPICS = (
     (
         "/rosout",
@@ -83,8 +85,10 @@ def wait_until_discovered(graph: Graph, spin_time: float | None = None) -> None:
         and not discovery().static_peers
     )
     answer_time = 0.0 if only_this_host else _ANSWER_S
+    check_discovery_configuration()
     changed = WakeUp()
     stop_listening = graph.add_listener(changed.set)
+    # After the listener is added, so that no answer is missed.
     graph.hurry()
     started = last_change = time.monotonic()
     try:

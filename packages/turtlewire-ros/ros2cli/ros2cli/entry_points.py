@@ -35,7 +35,7 @@ def get_all_entry_points() -> dict[str, dict[str, tuple[Distribution, EntryPoint
 
 
 def get_entry_points(group_name: str) -> dict[str, EntryPoint]:
-    """Entry points of a group by name, this distribution's first."""
+    """Return the entry points of a group by name, this distribution's first."""
     from importlib.metadata import EntryPoint
 
     found = declared(group_name)
@@ -53,5 +53,5 @@ def load_entry_points(
 
 
 def get_first_line_doc(any_type: Any) -> str:
-    """First line of the documentation of a class or an object, without the period."""
+    """Return the first line of the documentation of a class or an object, without the period."""
     return first_line(any_type)

@@ -17,7 +17,7 @@ __all__ = ["define_extension", "define_options", "extensions_of_others"]
 class _Runner:
     """Stands for the module of a verb: `main` runs the extension."""
 
-    #: As ROS 2 does: the extension answers for its output.
+    #: As in ROS 2, extensions are responsible for their own output.
     PASSES_COLOURS_ON = True
 
     def __init__(self, extension: Any, parser: argparse.ArgumentParser) -> None:
@@ -36,7 +36,7 @@ class _Runner:
 def extensions_of_others(
     group: str, entries: dict[str, Entry], chosen: str | None
 ) -> dict[str, Any]:
-    """Return extensions by name; those that cannot be loaded are one line each on stderr.
+    """Return extensions by name; print one line on stderr for each that cannot be loaded.
 
     Args:
         group: For example ``ros2topic.verb``.
@@ -70,7 +70,7 @@ def define_options(
         group: Group of their entry points, for example ``ros2launch.option``.
         parser: Parser of the command.
         prog: The words before.
-        words: The words behind ``prog``.
+        words: The words after ``prog``.
     """
     if not declared(group):
         return

@@ -60,7 +60,7 @@ def actions(graph: Graph) -> NamesAndTypes:
 
 
 def node_names(graph: Graph, *, hidden: bool = False) -> list[str]:
-    """Full names of all nodes, sorted; nodes of one name are listed each."""
+    """Return the full names of all nodes, sorted; nodes of one name are listed each."""
     nodes = map(_printable_node, graph.nodes())
     found = [names.fully_qualified_node_name(node.name, node.namespace) for node in nodes]
     return sorted(name for name in found if hidden or not is_hidden_node(name))
@@ -105,32 +105,32 @@ def endpoints_of_topic(graph: Graph, topic: str, kind: str) -> list[EndpointInfo
 
 
 def publishers(graph: Graph, full_name: str, *, hidden: bool = False) -> NamesAndTypes:
-    """Topics that a node publishes."""
+    """Return the topics that a node publishes."""
     return _of_node(graph, full_name, "publisher", _topic, hidden=hidden)
 
 
 def subscribers(graph: Graph, full_name: str, *, hidden: bool = False) -> NamesAndTypes:
-    """Topics that a node subscribes to."""
+    """Return the topics that a node subscribes to."""
     return _of_node(graph, full_name, "subscription", _topic, hidden=hidden)
 
 
 def service_servers(graph: Graph, full_name: str, *, hidden: bool = False) -> NamesAndTypes:
-    """Services that a node offers: it reads the requests."""
+    """Return the services that a node offers: it reads the requests."""
     return _of_node(graph, full_name, "subscription", _service, hidden=hidden)
 
 
 def service_clients(graph: Graph, full_name: str, *, hidden: bool = False) -> NamesAndTypes:
-    """Services that a node may call: it writes the requests."""
+    """Return the services that a node may call: it writes the requests."""
     return _of_node(graph, full_name, "publisher", _service, hidden=hidden)
 
 
 def action_servers(graph: Graph, full_name: str) -> NamesAndTypes:
-    """Actions that a node offers: it publishes the feedback."""
+    """Return the actions that a node offers: it publishes the feedback."""
     return _actions(publishers(graph, full_name, hidden=True))
 
 
 def action_clients(graph: Graph, full_name: str) -> NamesAndTypes:
-    """Actions that a node may start: it subscribes to the feedback."""
+    """Return the actions that a node may start: it subscribes to the feedback."""
     return _actions(subscribers(graph, full_name, hidden=True))
 
 
@@ -176,6 +176,7 @@ def foreign_middlewares(graph: Graph, full_name: str) -> list[str]:
         server.middleware
         for server in graph.foreign_servers()
         if server.node is not None
+        and not server.is_rival
         and names.fully_qualified_node_name(*_printable_node(server.node)[:2]) == full_name
     }
     return sorted(found)

@@ -11,22 +11,43 @@ from typing import TYPE_CHECKING, Any
 from ros2cli.values import unsigned_int as _unsigned_int
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
 __all__ = [
     "before_invocation",
     "bind",
+    "check_discovery_configuration",
     "collect_stdin",
     "get_ros_domain_id",
+    "interactive_select",
     "pretty_print_call",
     "unsigned_int",
     "wait_for",
 ]
 
 
+_NO_DISCOVERY = """\
+Warning: ROS_AUTOMATIC_DISCOVERY_RANGE=OFF with no ROS_STATIC_PEERS configured.
+No discovery mechanism is available. Results will be empty.
+Either:
+  - Set ROS_STATIC_PEERS to specify peers explicitly, or
+  - Change ROS_AUTOMATIC_DISCOVERY_RANGE to LOCALHOST or SUBNET"""
+
+
 def get_ros_domain_id() -> int:
-    """Number of the domain, from ``ROS_DOMAIN_ID``; 0 by default."""
+    """Return the number of the domain, from ``ROS_DOMAIN_ID``; 0 by default."""
     return int(os.environ.get("ROS_DOMAIN_ID") or 0)
+
+
+@functools.cache
+def check_discovery_configuration() -> None:
+    """Warn, once in a process, if its nodes can discover none of other processes."""
+    from ros2cli.output import tell
+    from turtlewire.wire.environment import Range, discovery
+
+    chosen = discovery()
+    if chosen.range == Range.OFF and not chosen.static_peers:
+        tell(_NO_DISCOVERY)
 
 
 def before_invocation(func: Callable[..., Any], hook: Callable[..., Any]) -> Callable[..., Any]:
@@ -56,6 +77,39 @@ def collect_stdin() -> str:
     return "".join(sys.stdin)
 
 
+def interactive_select(items: Iterable[str], prompt: str = "Select an item:") -> str | None:
+    """Let the user choose one of several texts in the terminal, with ``fzf``.
+
+    Without a terminal or ``fzf``, a line on stderr says so.
+
+    Args:
+        items: The texts, each of one line.
+        prompt: Text in front of the user's input.
+
+    Returns:
+        The chosen text, or None.
+    """
+    import subprocess
+
+    from ros2cli.output import tell
+
+    if sys.stdin is None or not sys.stdin.isatty():
+        tell("Error: Interactive selection requires a TTY terminal.")
+        return None
+    words = ["fzf", "--prompt", f"{prompt} ", "--height", "40%", "--reverse"]
+    try:
+        done = subprocess.run(  # noqa: S603  the words are constant but for the prompt
+            words, input="\n".join(items), stdout=subprocess.PIPE, text=True, check=False
+        )
+    except FileNotFoundError:
+        tell(
+            "Error: fzf is not installed. Install it to choose from a list (apt install fzf), or"
+            " type the name."
+        )
+        return None
+    return done.stdout.rstrip("\n") or None
+
+
 def unsigned_int(string: str) -> int:
     """Return a whole number from zero, for argparse.
 
@@ -66,7 +120,7 @@ def unsigned_int(string: str) -> int:
 
 
 def wait_for(predicate: Callable[[], bool], timeout: float, period: float = 0.1) -> bool:
-    """Ask a predicate again and again; for conditions that nothing announces.
+    """Poll a predicate, for conditions that no event announces.
 
     Args:
         predicate: The condition.
@@ -80,6 +134,7 @@ def wait_for(predicate: Callable[[], bool], timeout: float, period: float = 0.1)
     while not predicate():
         rest = deadline - time.monotonic()
         if rest <= 0:
+            # Asked once more: it may have become true during the last sleep.
             return predicate()
         time.sleep(min(period, rest))
     return True

@@ -11,7 +11,7 @@ def interface_names(kind: str = "") -> list[str]:
 
     return sorted(
         f"{package}/{part}/{name}"
-        for package, parts in msg.interface_names().items()
+        for package, parts in msg.interfaces().items()
         for part, names in parts.items()
         if part == kind or not kind
         for name in names

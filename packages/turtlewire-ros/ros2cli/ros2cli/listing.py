@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
+from ros2cli.json_lines import print_json, print_json_list, with_types
 
 if TYPE_CHECKING:
     import argparse
@@ -29,7 +30,7 @@ HIDDEN_NODES = "Include nodes whose name starts with an underscore"
 
 
 def count_argument(kind: str) -> Argument:
-    """The option ``--count-topics`` for the kind ``topic``, and so on; its value is ``count``."""
+    """Return the option ``--count-topics`` for the kind ``topic``, and so on, as ``count``."""
     return argument(
         "-c",
         f"--count-{kind}s",
@@ -51,7 +52,7 @@ def hidden_argument(kind: str) -> Argument:
 def print_names_of_type(
     found: NamesAndTypes, type_name: str, kind: str, args: argparse.Namespace
 ) -> None:
-    """Print the names of those that have a type, or how many there are.
+    """Print the names that have a type, or how many there are.
 
     Without results, stderr says which interfaces of the kind (``msg`` or ``srv``) are meant.
     """
@@ -69,13 +70,24 @@ def print_names(names: list[str], args: argparse.Namespace) -> None:
         print(line)
 
 
-def print_names_and_types(found: NamesAndTypes, args: argparse.Namespace) -> None:
-    """Print the names, with their types if asked for, or how many there are."""
+def print_names_and_types(kind: str, found: NamesAndTypes, args: argparse.Namespace) -> None:
+    """Print the topics, services or actions, with types if asked for, or how many there are.
+
+    Args:
+        kind: ``topic``, ``service`` or ``action``.
+        found: The names and their types.
+        args: The command line.
+    """
+    if args.json:
+        print_json_list(with_types(kind, found), args)
+        return
     shown = [f"{name} [{', '.join(types)}]" if args.show_types else name for name, types in found]
     print_names(shown, args)
 
 
-def print_types(kind: str, name: str, known: Mapping[str, list[str]]) -> int:
+def print_types(
+    kind: str, name: str, known: Mapping[str, list[str]], *, as_json: bool = False
+) -> int:
     """Print the types of a topic, service or action.
 
     Returns:
@@ -86,6 +98,9 @@ def print_types(kind: str, name: str, known: Mapping[str, list[str]]) -> int:
     if name not in known:
         say_what_there_is(kind, name, known)
         return 1
+    if as_json:
+        print_json({kind: name, "types": known[name]})
+        return 0
     for type_name in known[name]:
         print(type_name)
     return 0

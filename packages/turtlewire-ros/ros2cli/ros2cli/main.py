@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from ros2cli.installed import declared, first_line, summary
 from turtlewire.program import program
-from turtlewire.terminal.parser import INVALID_CHOICE, Parser
+from turtlewire.terminal.parser import INVALID_CHOICE, SuggestingParser
 
 if TYPE_CHECKING:
     import argparse
@@ -27,22 +27,30 @@ _EXIT_INTERRUPTED = 2  # the number of SIGINT
 
 #: Commands of ROS 2 that are not here, and what does their work.
 _NOT_HERE = {
-    "control": "ros2_control is C++, and not part of this distribution.",
     "plugin": "Plugins of C++ are not part of this distribution.",
     "security": "Keys for DDS Security are not part of this distribution; Zenoh encrypts with TLS: "
     "RMW_IMPLEMENTATION=rmw_zenoh_cpp.",
 }
 
 
-class _Parser(Parser):
+class _Parser(SuggestingParser):
     """A parser that names what ROS 2 has and this distribution has not."""
 
     def error(self, message: str) -> NoReturn:
         """Print usage and message as argparse does, and a hint."""
         match = INVALID_CHOICE.search(message)
-        if match and self.prog == "ros2" and match[1] in _NOT_HERE:
-            self.exit(2, f"ros2 {match[1]}: {_NOT_HERE[match[1]]}\n")
+        if match and self.prog == "ros2" and (told := _told_instead(match[1])):
+            self.exit(2, f"ros2 {match[1]}: {told}\n")
         super().error(message)
+
+
+def _told_instead(command: str) -> str:
+    """Say where a command of ROS 2 is, or what does its work; empty for unknown commands."""
+    if command != "control":
+        return _NOT_HERE.get(command, "")
+    from turtlewire_ros.workspace_hints import source_hint
+
+    return source_hint("ros2controlcli")
 
 
 @program
@@ -57,6 +65,7 @@ def main(argv: list[str] | None = None) -> int:
     """
     words = sys.argv[1:] if argv is None else argv
     with suppress(ValueError):  # only the main thread may set handlers
+        # Verbs end at SIGTERM as at Ctrl-C: they leave the domain.
         signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         args = _parse(words)
@@ -81,12 +90,14 @@ def _parse(words: list[str]) -> argparse.Namespace:
         no_files = SuppressCompleter()  # the arguments that are files say so
         argcomplete.autocomplete(parser, exclude=["-h", "--help"], default_completer=no_files)
     args, unknown = parser.parse_known_args(words)
+    # Reported by the chosen verb, so that its usage is shown instead of that of `ros2`.
     if unknown:
         chosen = getattr(args, "parser", parser)
         chosen.error(f"unrecognized arguments: {' '.join(unknown)}")
     if isinstance(sys.stdout, io.TextIOWrapper):  # it is None if it was closed at the start
         # A character that the encoding of a pipe or terminal does not have must not end a verb.
         sys.stdout.reconfigure(errors="backslashreplace")
+        # As in ROS 2, a reader at a pipe gets each line at once.
         if not args.use_python_default_buffering:
             sys.stdout.reconfigure(line_buffering=True)
     return args
@@ -99,7 +110,8 @@ def make_parser(words: list[str]) -> argparse.ArgumentParser:
         words: The words after ``ros2``.
     """
     parser = _Parser(
-        prog="ros2", description="Run, inspect and control ROS 2 nodes.", allow_abbrev=False
+        prog="ros2",
+        description="Run, inspect and control ROS 2 nodes.",
     )
     parser.add_argument(
         "--use-python-default-buffering",
@@ -138,7 +150,10 @@ def _add_choices(
     )
     for name, text in sorted(summaries.items()):
         sub = group.add_parser(
-            name, help=text, description=text, prog=f"{prog} {name}", allow_abbrev=False
+            name,
+            help=text,
+            description=text,
+            prog=f"{prog} {name}",
         )
         if name != chosen:
             continue
@@ -152,12 +167,10 @@ def _add_choices(
 
 
 def _parser_class(choices: Container[str], chosen: str | None) -> type[_Parser]:
-    """Return the parser class of each choice; choices that cannot be called share one.
-
-    Two dozen parsers would take a tenth of the time of ``ros2 --help``.
-    """
+    """Return the parser class of each choice; choices that cannot be called share one."""
     if chosen is not None and chosen not in choices:
         return _Parser
+    # Two dozen parsers would take a tenth of the time of `ros2 --help`.
     shared = _Parser(add_help=False)
     return lambda **options: (  # type: ignore[return-value]  # argparse only calls it
         _Parser(**options) if options["prog"].rpartition(" ")[2] == chosen else shared
@@ -170,7 +183,7 @@ def define(parser: argparse.ArgumentParser, prog: str, words: list[str], module_
     Args:
         parser: Its parser.
         prog: The words before, for example ``ros2 topic``.
-        words: The words behind ``prog``.
+        words: The words after ``prog``.
         module_name: Its module, for example ``ros2topic.command.topic``.
     """
     from ros2cli.arguments import add_arguments

@@ -12,7 +12,7 @@ from turtlewire.terminal.printable import printable_lines
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-__all__ = ["escaped_output", "print_set_results", "tell", "tell_failed_call"]
+__all__ = ["clear_terminal", "escaped_output", "print_set_results", "tell", "tell_failed_call"]
 
 
 def tell(text: str) -> None:
@@ -48,25 +48,35 @@ def print_set_results(parameters: Iterable[Any], results: Iterable[Any]) -> None
             tell(f"Set parameter {parameter.name} failed{reason}")
 
 
+def clear_terminal() -> None:
+    """Clear the terminal and put the cursor into its first line, although stdout is escaped."""
+    # Without the line feed that would flush a pipe.
+    print("\x1b[H\x1b[2J", end="", file=getattr(sys.stdout, "unescaped", None), flush=True)
+
+
 class _EscapingStream:
-    """A text stream that escapes control characters other than line feeds and tabs."""
+    """A text stream that escapes control characters other than line feeds and tabs.
+
+    Its attribute ``unescaped`` is the stream below it.
+    """
 
     def __init__(self, stream: Any) -> None:
-        self._stream = stream
+        self.unescaped = stream
 
     def write(self, text: str) -> int:
         """Write the escaped text; returns the length of ``text``."""
-        self._stream.write(printable_lines(text))
+        self.unescaped.write(printable_lines(text))
         return len(text)
 
     def __getattr__(self, name: str) -> Any:
-        return getattr(self._stream, name)
+        return getattr(self.unescaped, name)
 
 
 @contextlib.contextmanager
 def escaped_output() -> Iterator[None]:
     """Escape stdout within this context: names, strings and log lines may come from any peer."""
     stream = sys.stdout
+    # Python leaves it None if it was closed at the start.
     if stream is None:
         yield
         return

@@ -37,7 +37,7 @@ def instantiate_extensions(
     exclude_names: Iterable[str] | None = None,
     unique_instance: bool = False,
 ) -> dict[str, Any]:
-    """Instances of the extensions of a group by name; one that fails is one line on stderr.
+    """Instantiate the extensions of a group, by name; print a failure as one line on stderr.
 
     Args:
         group_name: Name of the group, for example ``ros2topic.verb``.
@@ -63,7 +63,7 @@ def instantiate_extensions(
 
 
 def named_extensions(group_name: str, exclude_names: Iterable[str] | None = None) -> dict[str, Any]:
-    """`instantiate_extensions`, each of which knows its name."""
+    """Return the extensions of `instantiate_extensions`, with the ``NAME`` of each set."""
     extensions = instantiate_extensions(group_name, exclude_names=exclude_names)
     for name, extension in extensions.items():
         extension.NAME = name

@@ -19,6 +19,7 @@ __all__ = [
     "say_what_there_is",
     "say_what_was_meant",
     "say_why_to_wait",
+    "source_meant",
     "warn_of_other_type",
 ]
 
@@ -40,7 +41,7 @@ def field_meant(error: BaseException | None) -> str:
 
 
 def package_meant(name: str) -> str:
-    """A line that says why there is no such package, to append to a message; may be empty."""
+    """Return a line that says why there is no such package, or an empty string."""
     from turtlewire_ros.workspace_hints import package_hint
 
     line = package_hint(name)
@@ -51,12 +52,14 @@ def interface_meant(name: str, kind: str = "") -> str:
     """`did_you_mean` for an interface; ``kind`` limits the names to msg, srv or action.
 
     A name without a package, as ``Twist`` or misspelt ``Twits``, means all interfaces that are
-    called so.
+    called so. If the package is missing and its source is known, the line says what to do.
     """
     import difflib
 
     from ros2cli.interface_names import interface_names
 
+    if line := source_meant(name):
+        return line
     known = interface_names(kind)
     short = {full: full.rpartition("/")[2] for full in known}
     if "/" in name:
@@ -64,6 +67,20 @@ def interface_meant(name: str, kind: str = "") -> str:
     near = difflib.get_close_matches(name, set(short.values()), n=1)
     meant = [full for full in known if short[full] in near]
     return f"\nDid you mean: {', '.join(meant)}" if meant else ""
+
+
+def source_meant(name: str) -> str:
+    """Return a line about the source of an interface's package, if that is not installed.
+
+    Args:
+        name: Name of the interface, or of the package.
+    """
+    from turtlewire.msg import interfaces
+    from turtlewire_ros.workspace_hints import source_hint
+
+    package = name.partition("/")[0]
+    line = "" if package in interfaces() else source_hint(package)
+    return f"\n{line}" if line else ""
 
 
 def say_interface_meant(name: str, kind: str) -> None:

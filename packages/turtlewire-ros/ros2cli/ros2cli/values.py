@@ -3,19 +3,26 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeVar
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
 
 __all__ = [
     "assignment",
+    "positive",
     "positive_float",
     "positive_int",
+    "read_documents",
     "read_values",
     "regular_expression",
     "shortened",
     "unsigned_int",
 ]
 
-#: How many values YAML aliases may add to those that are written out.
+_Number = TypeVar("_Number", int, float)
+
+#: How many values YAML aliases may add to the values that are written out.
 _MOST_COPIES = 100_000
 _LONGEST_ERROR = 1000
 
@@ -26,26 +33,41 @@ def read_values(text: str) -> dict[str, Any]:
     Raises:
         RuntimeError: The text is not a mapping, contains an invalid date, or is too large because
             of aliases or nesting.
+        yaml.YAMLError: The text is not YAML, or has several documents.
+    """
+    import yaml
+
+    return next(_mappings(text, lambda: [yaml.safe_load(text)]), {})
+
+
+def read_documents(text: str) -> list[dict[str, Any]]:
+    """Return the mappings in a stream of YAML documents, without empty documents.
+
+    Raises:
+        RuntimeError: As in `read_values`, for any of them.
         yaml.YAMLError: The text is not YAML.
     """
     import yaml
 
+    return list(_mappings(text, lambda: list(yaml.safe_load_all(text))))
+
+
+def _mappings(text: str, load: Callable[[], list[Any]]) -> Iterator[dict[str, Any]]:
     try:
-        values = yaml.safe_load(text)
-        size = _size(values, {})
+        documents = load()
+        size = _size(documents, {})
     except RecursionError:
         raise RuntimeError("The passed value is nested too deeply") from None
     except ValueError as error:
         raise RuntimeError(f"The passed value holds what looks like a date: {error}") from None
-    if size > len(text) + _MOST_COPIES:  # each value that is written out has a character of its own
+    # Each value that is written out has a character of its own; the list of documents has none.
+    if size - 1 > len(text) + _MOST_COPIES:
         raise RuntimeError("The aliases of the passed value expand to too many values")
-    if values is None:
-        return {}
-    if not isinstance(values, dict):
-        raise RuntimeError(  # noqa: TRY004  what the commands print as one line
-            "The passed value needs to be a dictionary in YAML format"
-        )
-    return values
+    for values in documents:
+        if isinstance(values, dict):
+            yield values
+        elif values is not None:
+            raise RuntimeError("The passed value needs to be a dictionary in YAML format")
 
 
 def _size(value: Any, known: dict[int, float]) -> float:
@@ -66,7 +88,7 @@ def shortened(error: object) -> str:
 
 
 def assignment(text: str) -> tuple[str, str]:
-    """Name and value of ``name:=value``, for argparse."""
+    """Return the name and value of ``name:=value``, for argparse."""
     name, separator, value = text.partition(":=")
     if not separator or not name:
         raise argparse.ArgumentTypeError(f"'{text}' is not of the form name:=value")
@@ -85,7 +107,7 @@ def regular_expression(text: str) -> str:
     """Return a regular expression on the command line.
 
     Raises:
-        argparse.ArgumentTypeError: It is none.
+        argparse.ArgumentTypeError: The text is not a regular expression.
     """
     import re
 
@@ -96,17 +118,30 @@ def regular_expression(text: str) -> str:
     return text
 
 
-def positive_int(string: str) -> int:
-    """Return a whole number above zero, for argparse."""
-    value = int(string)
-    if value <= 0:
-        raise argparse.ArgumentTypeError("value must be positive")
-    return value
+def positive(type_: Callable[[str], _Number]) -> Callable[[str], _Number]:
+    """Return a function that reads a number above zero, for argparse.
+
+    Args:
+        type_: ``int`` or ``float``.
+    """
+
+    def number(string: str) -> _Number:
+        value = type_(string)
+        if not value > 0:
+            raise argparse.ArgumentTypeError("value must be positive")
+        return value
+
+    # argparse names the function in its error for other texts.
+    number.__name__ = f"positive_{getattr(type_, '__name__', 'number')}"
+    return number
 
 
-def unsigned_int(text: str) -> int:
+positive_int = positive(int)
+
+
+def unsigned_int(inval: str) -> int:
     """Return a whole number from zero, for argparse."""
-    value = int(text)
+    value = int(inval)
     if value < 0:
         raise argparse.ArgumentTypeError("value must be non-negative integer")
     return value

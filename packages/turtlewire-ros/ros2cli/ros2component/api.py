@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros2cli.node.direct import DirectNode
+from ros2component.containers import LIST_TIMEOUT_S
 
 if TYPE_CHECKING:
     import argparse
@@ -42,14 +43,14 @@ class ComponentInfo(NamedTuple):
 
 
 def get_package_names_with_component_types() -> list[str]:
-    """Names of the packages that register components."""
+    """Return the names of the packages that register components."""
     from ament_index_python import get_resources
 
     return list(get_resources(COMPONENTS_RESOURCE_TYPE))
 
 
 def get_package_component_types(*, package_name: str | None = None) -> list[str]:
-    """Names of the components that a package registers.
+    """Return the names of the components that a package registers.
 
     Raises:
         LookupError: The package registers no components.
@@ -57,11 +58,12 @@ def get_package_component_types(*, package_name: str | None = None) -> list[str]
     from ament_index_python import get_resource
 
     text = get_resource(COMPONENTS_RESOURCE_TYPE, package_name or "")[0]
+    # A line is `class;library`.
     return [line.partition(";")[0] for line in text.splitlines()]
 
 
 def get_registered_component_types() -> list[tuple[str, list[str]]]:
-    """Names of all packages with components, each with its components."""
+    """Return the names of all packages with components, each with its components."""
     return [
         (name, get_package_component_types(package_name=name))
         for name in get_package_names_with_component_types()
@@ -77,9 +79,15 @@ def find_container_node_names(*, node: Any, node_names: Sequence[NodeName]) -> l
 
 
 def get_components_in_container(
-    *, node: Any, remote_container_node_name: str
+    *, node: Any, remote_container_node_name: str, timeout: float | None = LIST_TIMEOUT_S
 ) -> tuple[bool, list[ComponentInfo] | str]:
-    """Return the nodes in a container: true and a list, or false and the reason."""
+    """Return the nodes in a container: true and a list, or false and the reason.
+
+    Args:
+        node: The node that asks.
+        remote_container_node_name: Full name of the container.
+        timeout: Seconds to wait for its answer; None waits as long as it is there.
+    """
     from composition_interfaces.srv import ListNodes
     from ros2component.containers import ask
 
@@ -90,6 +98,7 @@ def get_components_in_container(
             "list_nodes",
             ListNodes,
             ListNodes.Request(),
+            timeout,
         )
     except RuntimeError as error:
         return False, str(error)
@@ -98,11 +107,16 @@ def get_components_in_container(
 
 
 def get_components_in_containers(
-    *, node: Any, remote_containers_node_names: Sequence[str]
+    *,
+    node: Any,
+    remote_containers_node_names: Sequence[str],
+    timeout: float | None = LIST_TIMEOUT_S,
 ) -> dict[str, tuple[bool, list[ComponentInfo] | str]]:
-    """`get_components_in_container` of each container, by name."""
+    """Return `get_components_in_container` of each container, by name."""
     return {
-        name: get_components_in_container(node=node, remote_container_node_name=name)
+        name: get_components_in_container(
+            node=node, remote_container_node_name=name, timeout=timeout
+        )
         for name in remote_containers_node_names
     }
 
@@ -119,8 +133,9 @@ def load_component_into_container(
     remap_rules: Sequence[str] | None = None,
     parameters: Sequence[Any] | None = None,
     extra_arguments: Sequence[Any] | None = None,
+    timeout: float | None = None,
 ) -> tuple[int, str]:
-    """Load a component; the number and full name of its node.
+    """Load a component; return the number and full name of its node.
 
     Args:
         node: The node that asks.
@@ -133,6 +148,7 @@ def load_component_into_container(
         remap_rules: Remappings, as ``from:=to``.
         parameters: ``rcl_interfaces/msg/Parameter`` messages.
         extra_arguments: The same, for the container.
+        timeout: Seconds to wait for its answer; None waits as long as it is there.
 
     Raises:
         RuntimeError: The container cannot load it, or does not answer.
@@ -151,16 +167,26 @@ def load_component_into_container(
         extra_arguments=list(extra_arguments or ()),
     )
     direct = DirectNode.around(node)
-    answer = ask(direct, remote_container_node_name, "load_node", LoadNode, request)
+    answer = ask(direct, remote_container_node_name, "load_node", LoadNode, request, timeout)
     if not answer.success:
         raise RuntimeError(f"Failed to load component: {answer.error_message}")
     return answer.unique_id, answer.full_node_name
 
 
 def unload_component_from_container(
-    *, node: Any, remote_container_node_name: str, component_uids: Sequence[int]
+    *,
+    node: Any,
+    remote_container_node_name: str,
+    component_uids: Sequence[int],
+    timeout: float | None = None,
 ) -> Iterator[tuple[int, bool, str]]:
     """Unload nodes; yields the number, whether it failed, and why, after each of them.
+
+    Args:
+        node: The node that asks.
+        remote_container_node_name: Full name of the container.
+        component_uids: Numbers of the nodes.
+        timeout: Seconds to wait for each answer; None waits as long as the container is there.
 
     Raises:
         RuntimeError: The container does not answer.
@@ -171,7 +197,9 @@ def unload_component_from_container(
     direct = DirectNode.around(node)
     for uid in component_uids:
         request = UnloadNode.Request(unique_id=uid)
-        answer = ask(direct, remote_container_node_name, "unload_node", UnloadNode, request)
+        answer = ask(
+            direct, remote_container_node_name, "unload_node", UnloadNode, request, timeout
+        )
         yield uid, not answer.success, answer.error_message
 
 
@@ -203,7 +231,7 @@ def run_standalone_container(*, container_node_name: str) -> subprocess.Popen[by
 def container_node_name_completer(
     prefix: str, parsed_args: argparse.Namespace, **kwargs: Any
 ) -> list[str]:
-    """Full names of the containers there are now."""
+    """Return the full names of the containers there are now."""
     from ros2component.containers import container_names
 
     with DirectNode(parsed_args) as node:
@@ -213,7 +241,7 @@ def container_node_name_completer(
 def package_with_components_name_completer(
     prefix: str, parsed_args: argparse.Namespace, **kwargs: Any
 ) -> list[str]:
-    """Names of the packages that register components."""
+    """Return the names of the packages that register components."""
     return get_package_names_with_component_types()
 
 
@@ -228,6 +256,6 @@ class ComponentTypeNameCompleter:
         self.package_name_key = package_name_key
 
     def __call__(self, prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
-        """Names of the components."""
+        """Return the names of the components."""
         package = getattr(parsed_args, self.package_name_key or "", None) or ""
         return get_package_component_types(package_name=package)

@@ -8,15 +8,18 @@ if TYPE_CHECKING:
     from ros2cli.node.direct import DirectNode
     from turtlewire.wire.base import Graph
 
-__all__ = ["ask", "container_names", "require_container"]
+__all__ = ["LIST_TIMEOUT_S", "ask", "container_names", "require_container"]
 
 _SERVICE = "/_container/load_node"
 _TYPE = "composition_interfaces/srv/LoadNode"
-_TIMEOUT_S = 30.0  # a component may import and open a great deal before it answers
+_DISCOVERY_S = 30.0
+
+#: Seconds to wait for the list of a container's nodes.
+LIST_TIMEOUT_S = 5.0
 
 
 def container_names(graph: Graph) -> list[str]:
-    """Full names of the nodes that load components, sorted."""
+    """Return the full names of the nodes that load components, sorted."""
     from ros2cli.graph import services
 
     return [
@@ -41,7 +44,14 @@ def require_container(graph: Graph, name: str) -> str:
     return full_name
 
 
-def ask(direct: DirectNode, container: str, verb: str, service_class: Any, request: Any) -> Any:
+def ask(
+    direct: DirectNode,
+    container: str,
+    verb: str,
+    service_class: Any,
+    request: Any,
+    timeout: float | None = None,
+) -> Any:
     """Call one of a container's services.
 
     Args:
@@ -50,16 +60,20 @@ def ask(direct: DirectNode, container: str, verb: str, service_class: Any, reque
         verb: ``load_node``, ``unload_node`` or ``list_nodes``.
         service_class: Class of the service.
         request: The request.
+        timeout: Seconds to wait for the answer; None waits as long as the container is there.
 
     Raises:
         RuntimeError: The container does not answer, or would misread the request.
     """
     client = direct.node.create_client(service_class, f"{container}/_container/{verb}")
-    if not direct.wait_for_server(client.service_name, client.service_is_ready, _TIMEOUT_S):
+    if not direct.wait_for_server(client.service_name, client.service_is_ready, _DISCOVERY_S):
         raise RuntimeError(f"The service {client.srv_name} is not available")
     server = f"service '{client.srv_name}'"
     try:
         future = client.call_async(request)
-        return direct.answer(future, server, client.service_is_ready, _TIMEOUT_S)
+        return direct.answer(future, server, client.service_is_ready, timeout)
     except TimeoutError as error:
-        raise RuntimeError(f"'{container}' did not answer within {_TIMEOUT_S} s") from error
+        raise RuntimeError(
+            f"Timed out waiting for {verb} response from '{container}' container"
+            f" (timeout: {timeout}s)"
+        ) from error

@@ -49,7 +49,7 @@ COMPONENT_ARGUMENTS = (
 
 
 def container_node_names(**_: Any) -> list[str]:
-    """Full names of the containers there are now."""
+    """Return the full names of the containers there are now."""
     from ros2cli.discovery import discovered_graph
     from ros2component.containers import container_names
 
@@ -71,6 +71,7 @@ def load_request(args: argparse.Namespace) -> Any:
         plugin_name=args.plugin_name,
         node_name=args.node_name,
         node_namespace=args.node_namespace,
+        # rclpy's severities are multiples of ten.
         log_level=_LEVELS.index(args.log_level or "unknown") * 10,
         remap_rules=args.remap_rules,
         parameters=messages(args.parameters),

@@ -1,11 +1,10 @@
 """The command ``ros2 doctor``, and its functions for programs and extensions.
 
-===============  ========================================
-module           what it holds
-===============  ========================================
-`api`            checks and reports, own ones and others'
-`command`        the command ``ros2 doctor``
-`verb`           its verbs
-`system_report`  ``ros2 doctor --report``
-===============  ========================================
+=========  ==========================================
+module     what it holds
+=========  ==========================================
+`api`      checks and reports, own ones and others'
+`command`  the command ``ros2 doctor``
+`verb`     its verbs
+=========  ==========================================
 """

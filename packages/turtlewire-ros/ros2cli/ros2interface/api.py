@@ -5,9 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 from ros2cli import completion
-from ros2cli.interface_names import prototype
+from ros2cli.interface_names import interface_names, prototype
 
-__all__ = ["interface_to_yaml", "package_name_completer", "type_completer"]
+__all__ = [
+    "get_all_interface_names",
+    "interface_to_yaml",
+    "package_name_completer",
+    "type_completer",
+]
 
 
 def interface_to_yaml(identifier: str) -> str:
@@ -24,11 +29,16 @@ def interface_to_yaml(identifier: str) -> str:
     return prototype(identifier)
 
 
+def get_all_interface_names() -> list[str]:
+    """Return the full names of all interfaces."""
+    return interface_names()
+
+
 def package_name_completer(**kwargs: Any) -> list[str]:
-    """Names of the packages that have interfaces."""
+    """Return the names of the packages that have interfaces."""
     return completion.interface_packages(**kwargs)
 
 
 def type_completer(**kwargs: Any) -> list[str]:
-    """Full names of all interfaces."""
+    """Return the full names of all interfaces."""
     return completion.interfaces(**kwargs)

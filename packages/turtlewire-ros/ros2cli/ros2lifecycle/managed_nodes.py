@@ -13,15 +13,23 @@ if TYPE_CHECKING:
     from ros2cli.node.direct import DirectNode
     from turtlewire.wire.base import Graph
 
-__all__ = ["HIDDEN_ARGUMENT", "ask", "managed_node_names", "managed_nodes", "require_managed_node"]
+__all__ = [
+    "DEFAULT_TIMEOUT_S",
+    "HIDDEN_ARGUMENT",
+    "ask",
+    "managed_node_names",
+    "managed_nodes",
+    "require_managed_node",
+]
 
 _SERVICE = "/get_state"
 _TYPE = "lifecycle_msgs/srv/GetState"
-_TIMEOUT_S = 5.0
+
+DEFAULT_TIMEOUT_S = 5.0
 
 
 def managed_nodes(graph: Graph, *, hidden: bool = False) -> list[str]:
-    """Full names of the nodes that offer to tell their state, sorted."""
+    """Return the full names of the nodes that have lifecycle services, sorted."""
     from ros2cli.graph import is_hidden_node, services
 
     names = [
@@ -33,7 +41,7 @@ def managed_nodes(graph: Graph, *, hidden: bool = False) -> list[str]:
 
 
 def managed_node_names(**_: Any) -> list[str]:
-    """Full names of the managed nodes there are now."""
+    """Return the full names of the managed nodes there are now."""
     from ros2cli.discovery import discovered_graph
 
     with discovered_graph() as known:
@@ -63,16 +71,33 @@ def require_managed_node(graph: Graph, args: argparse.Namespace) -> str:
     return full_name
 
 
-def ask(direct: DirectNode, service_class: Any, service: str, request: Any) -> Any:
+def ask(
+    direct: DirectNode,
+    service_class: Any,
+    service: str,
+    request: Any,
+    timeout: float | None = DEFAULT_TIMEOUT_S,
+) -> Any:
     """Call a service of a managed node.
+
+    Args:
+        direct: The node that asks.
+        service_class: Class of the service.
+        service: Full name of the service.
+        request: The request.
+        timeout: Seconds to wait for the answer; None waits as long as the service is there.
 
     Raises:
         RuntimeError: The server does not answer, or would misread the request.
     """
     client = direct.node.create_client(service_class, service)
-    if not direct.wait_for_server(client.service_name, client.service_is_ready, _TIMEOUT_S):
+    if not direct.wait_for_server(client.service_name, client.service_is_ready, DEFAULT_TIMEOUT_S):
         raise RuntimeError(f"The service {service} is not available")
+    future, server = client.call_async(request), f"service '{client.srv_name}'"
     try:
-        return direct.result(client.call_async(request), _TIMEOUT_S)
+        return direct.answer(future, server, client.service_is_ready, timeout)
     except TimeoutError as error:
-        raise RuntimeError(f"The service {service} did not answer within {_TIMEOUT_S} s") from error
+        name = service.rpartition("/")[2]
+        raise RuntimeError(
+            f"Timed out waiting for {name} response (timeout: {timeout}s)"
+        ) from error

@@ -8,6 +8,7 @@ import socket
 import sys
 from argparse import ArgumentTypeError
 from contextlib import suppress
+from functools import cache
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["DEFAULT_GROUP", "DEFAULT_PORT", "GROUP_ARGUMENTS", "MulticastSocket", "receive", "send"]
 
+# ROS 2's group and port.
 DEFAULT_GROUP = "225.0.0.1"
 DEFAULT_PORT = 49150
 
@@ -42,7 +44,7 @@ class MulticastSocket:
         self._ttl = ttl
 
     def __enter__(self) -> MulticastSocket:  # noqa: PYI034  Self is not in Python 3.10
-        """Open the sockets; those that receive share the port."""
+        """Open the sockets; receivers share the port."""
         group, port = self._target
         self._sender = socket.socket(socket.AF_INET, socket.SOCK_DGRAM, socket.IPPROTO_UDP)
         self._receiver = socket.socket(socket.AF_INET, socket.SOCK_DGRAM, socket.IPPROTO_UDP)
@@ -76,10 +78,7 @@ class MulticastSocket:
         except OSError as error:
             if error.errno not in _NO_ROUTE:
                 raise
-            print(
-                f"no route leads to the group {self._target[0]}: the datagrams stay on this host",
-                file=sys.stderr,
-            )
+            _tell_of_missing_route(self._target[0])
             self._receiver.setsockopt(*join, group + loopback)
             self._sender.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, loopback)
 
@@ -88,7 +87,7 @@ class MulticastSocket:
         self._sender.sendto(data, self._target)
 
     def receive(self, timeout: float | None = None) -> tuple[bytes, tuple[str, int]]:
-        """Wait for a datagram; its bytes, and the address of its sender.
+        """Wait for a datagram; return its bytes and the address of its sender.
 
         Args:
             timeout: Seconds to wait; None waits without a limit.
@@ -107,10 +106,15 @@ class MulticastSocket:
                 yield self._receiver.recvfrom(_LONGEST)
 
 
+@cache  # a program may open several sockets
+def _tell_of_missing_route(group: str) -> None:
+    print(f"no route leads to the group {group}: the datagrams stay on this host", file=sys.stderr)
+
+
 def receive(
     *, group: str = DEFAULT_GROUP, port: int = DEFAULT_PORT, timeout: float | None = None
 ) -> tuple[bytes, tuple[str, int]]:
-    """Wait for a datagram; its bytes, and host and port of its sender.
+    """Wait for a datagram; return its bytes, and host and port of its sender.
 
     Args:
         group: Address of the group.

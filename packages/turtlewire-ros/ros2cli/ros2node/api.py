@@ -57,7 +57,7 @@ def get_absolute_node_name(node_name: str) -> str | None:
 
 
 def parse_node_name(node_name: str) -> NodeName:
-    """Name and namespace of a full name; ``turtlesim`` is taken for ``/turtlesim``."""
+    """Return name and namespace of a full name; ``turtlesim`` means ``/turtlesim``."""
     full_name = graph.full_node_name(node_name)
     namespace, _, name = full_name.rpartition("/")
     return NodeName(name, namespace or "/", full_name)
@@ -69,7 +69,7 @@ def has_duplicates(values: Collection[Any]) -> bool:
 
 
 def get_node_names(*, node: Any, include_hidden_nodes: bool = False) -> list[NodeName]:
-    """Names of the nodes that a node sees, itself included."""
+    """Return the names of the nodes that a node sees, itself included."""
     names = [
         NodeName(name, namespace, f"{namespace.rstrip('/')}/{name}")
         for name, namespace in node.get_node_names_and_namespaces()
@@ -126,37 +126,38 @@ def get_topics(
 def get_subscriber_info(
     *, node: Any, remote_node_name: str, include_hidden: bool = False
 ) -> list[TopicInfo]:
-    """Topics to which a node subscribes."""
+    """Return the topics to which a node subscribes."""
     return _info(node.get_subscriber_names_and_types_by_node, remote_node_name, include_hidden)
 
 
 def get_publisher_info(
     *, node: Any, remote_node_name: str, include_hidden: bool = False
 ) -> list[TopicInfo]:
-    """Topics that a node publishes."""
+    """Return the topics that a node publishes."""
     return _info(node.get_publisher_names_and_types_by_node, remote_node_name, include_hidden)
 
 
 def get_service_client_info(
     *, node: Any, remote_node_name: str, include_hidden: bool = False
 ) -> list[TopicInfo]:
-    """Services that a node may call."""
+    """Return the services that a node may call."""
     return _info(node.get_client_names_and_types_by_node, remote_node_name, include_hidden)
 
 
 def get_service_server_info(
     *, node: Any, remote_node_name: str, include_hidden: bool = False
 ) -> list[TopicInfo]:
-    """Services that a node offers."""
+    """Return the services that a node offers."""
     return _info(node.get_service_names_and_types_by_node, remote_node_name, include_hidden)
 
 
 def get_action_server_info(
     *, node: Any, remote_node_name: str, include_hidden: bool = False
 ) -> list[TopicInfo]:
-    """Actions that a node offers."""
+    """Return the actions that a node offers."""
     from rclpy.action import get_action_server_names_and_types_by_node as ask
 
+    # ROS 2's tools pass a `DirectNode` or the like, which wraps the node that is needed here.
     real = getattr(node, "node", node)
     return _info(
         lambda name, namespace: ask(real, name, namespace), remote_node_name, include_hidden
@@ -166,7 +167,7 @@ def get_action_server_info(
 def get_action_client_info(
     *, node: Any, remote_node_name: str, include_hidden: bool = False
 ) -> list[TopicInfo]:
-    """Actions that a node may start."""
+    """Return the actions that a node may start."""
     from rclpy.action import get_action_client_names_and_types_by_node as ask
 
     real = getattr(node, "node", node)
@@ -192,7 +193,7 @@ class NodeNameCompleter:
         self.include_hidden_nodes_key = include_hidden_nodes_key
 
     def __call__(self, prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
-        """Full names of the nodes there are now."""
+        """Return the full names of the nodes there are now."""
         hidden = getattr(parsed_args, self.include_hidden_nodes_key or "", False)
         with DirectNode(parsed_args) as node:
             found = get_node_names(node=node, include_hidden_nodes=hidden)

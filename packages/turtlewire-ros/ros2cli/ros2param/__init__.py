@@ -8,5 +8,6 @@ module        what it holds
 `verb`        its verbs
 `options`     options that its verbs share
 `parameters`  calls to parameter services
+`all_nodes`   the same call to many nodes
 ============  ======================================
 """

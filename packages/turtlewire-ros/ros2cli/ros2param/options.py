@@ -17,13 +17,13 @@ __all__ = ["NAME_ARGUMENT", "node_arguments", "parameter_names"]
 _TIMEOUT_S = 5.0
 
 
-def node_arguments(*, optional: bool = False) -> tuple[Argument, ...]:
+def node_arguments(*, nargs: str | None = None) -> tuple[Argument, ...]:
     """Return the arguments that all verbs of ``ros2 param`` have."""
     return (
         *STRATEGY_ARGUMENTS,
         argument(
             "node_name",
-            nargs="?" if optional else None,
+            nargs=nargs,
             help="Full name of the node, for example /turtlesim",
             completer=node_names,
         ),
@@ -34,6 +34,7 @@ def node_arguments(*, optional: bool = False) -> tuple[Argument, ...]:
         ),
         argument(
             "--timeout",
+            "--service-timeout",
             metavar="N",
             type=float,
             default=_TIMEOUT_S,
@@ -43,7 +44,7 @@ def node_arguments(*, optional: bool = False) -> tuple[Argument, ...]:
 
 
 def parameter_names(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
-    """Names of the parameters of the node on the command line."""
+    """Return the names of the parameters of the node on the command line."""
     from ros2cli.node.direct import DirectNode
     from ros2param.parameters import RemoteParameters
 

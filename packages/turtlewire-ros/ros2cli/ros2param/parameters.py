@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
     from ros2cli.node.direct import DirectNode
 
-__all__ = ["TYPE_NAMES", "Question", "RemoteParameters"]
+__all__ = ["TYPE_NAMES", "ParameterCall", "RemoteParameters", "timed_out"]
 
 #: By the numbers of ``rcl_interfaces/msg/ParameterType``.
 TYPE_NAMES = {
@@ -27,7 +27,7 @@ TYPE_NAMES = {
 }
 
 
-class Question:
+class ParameterCall:
     """A call of one of a node's parameter services.
 
     The client is made at once and :meth:`send` waits for its service, so that the services of
@@ -48,6 +48,7 @@ class Question:
 
         service_class = getattr(srv, service.title().replace("_", ""))
         self._node_name = node_name
+        self._service = service
         self._direct = direct
         self._timeout = timeout
         self._request = service_class.Request(**fields)
@@ -55,7 +56,7 @@ class Question:
         self._answer: Any = None
         self._deadline = 0.0
 
-    def send(self) -> Question:
+    def send(self) -> ParameterCall:
         """Send the request as soon as the service is there.
 
         Raises:
@@ -83,11 +84,16 @@ class Question:
                 self._answer, server, self._client.service_is_ready, max(rest, 0.0)
             )
         except TimeoutError as error:
-            raise RuntimeError(
-                f"The node '{self._node_name}' did not answer within {self._timeout} s"
-            ) from error
+            raise timed_out(self._service, self._node_name, self._timeout) from error
         finally:
             self._direct.node.destroy_client(self._client)
+
+
+def timed_out(service: str, node_name: str, timeout: float | None) -> RuntimeError:
+    """Return ROS 2's error for a node that did not answer in time."""
+    return RuntimeError(
+        f"Timed out waiting for {service} response from node {node_name} (timeout: {timeout}s)"
+    )
 
 
 class RemoteParameters:
@@ -110,7 +116,9 @@ class RemoteParameters:
 
     def _ask(self, service: str, **fields: Any) -> Any:
         return (
-            Question(self._direct, self.node_name, service, self._timeout, **fields).send().answer()
+            ParameterCall(self._direct, self.node_name, service, self._timeout, **fields)
+            .send()
+            .answer()
         )
 
     def meant(self, name: str) -> str:
@@ -121,23 +129,27 @@ class RemoteParameters:
         return "" if name in known else did_you_mean(name, known)
 
     def names(self) -> list[str]:
-        """Names of all parameters, sorted."""
+        """Return the names of all parameters, sorted."""
         return sorted(self._ask("list_parameters").result.names)
 
     def values(self, names: list[str]) -> list[Any]:
-        """``rcl_interfaces/msg/ParameterValue`` messages."""
+        """Return ``rcl_interfaces/msg/ParameterValue`` messages."""
         return list(self._ask("get_parameters", names=names).values)
 
     def descriptors(self, names: list[str]) -> list[Any]:
-        """``rcl_interfaces/msg/ParameterDescriptor`` messages."""
+        """Return ``rcl_interfaces/msg/ParameterDescriptor`` messages."""
         return list(self._ask("describe_parameters", names=names).descriptors)
 
     def set(self, parameters: list[Any]) -> list[Any]:
-        """Set ``rcl_interfaces/msg/Parameter`` messages; the results."""
+        """Set ``rcl_interfaces/msg/Parameter`` messages; return the results."""
         return list(self._ask("set_parameters", parameters=parameters).results)
 
+    def set_atomically(self, parameters: list[Any]) -> Any:
+        """Set all ``rcl_interfaces/msg/Parameter`` messages or none; return the result."""
+        return self._ask("set_parameters_atomically", parameters=parameters).result
+
     def delete(self, names: list[str]) -> list[Any]:
-        """Delete parameters: a value without a type stands for none. Returns the results."""
+        """Delete parameters, by values without a type; return the results."""
         from rcl_interfaces.msg import Parameter
 
         return self.set([Parameter(name=name) for name in names])

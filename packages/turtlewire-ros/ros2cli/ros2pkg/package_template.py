@@ -97,7 +97,7 @@ def python_files(
     dependencies: Sequence[str],
     node_name: str | None,
 ) -> dict[str, str]:
-    """Contents of an ament_python package by path within its folder, in the order of making.
+    """Return the files of an ament_python package by path in its folder, in the order of making.
 
     Args:
         name: Name of the package.
@@ -142,7 +142,7 @@ def cmake_files(
     maintainer: tuple[str, str],
     dependencies: Sequence[str],
 ) -> dict[str, str]:
-    """Contents of an ament_cmake package of interfaces or data; the rest as `python_files`."""
+    """Return the files of an ament_cmake package of interfaces or data, like `python_files`."""
     tags = [("buildtool_depend", "ament_cmake"), *(("depend", each) for each in dependencies)]
     return {
         "package.xml": _manifest(

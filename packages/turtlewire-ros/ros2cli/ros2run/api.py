@@ -37,7 +37,7 @@ class MultipleExecutables(Exception):
 
 
 def get_executable_path(*, package_name: str, executable_name: str) -> str | None:
-    """Path of an executable; None if the package has none of that name.
+    """Return the path of an executable; None if the package has none of that name.
 
     Raises:
         PackageNotFound: There is no such package.
@@ -76,6 +76,6 @@ class ExecutableNameCompleter:
         self.package_name_key = package_name_key
 
     def __call__(self, prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
-        """Names of the executables."""
+        """Return the names of the executables."""
         package = getattr(parsed_args, self.package_name_key or "", None) or ""
         return completion.executables_of(package)

@@ -10,6 +10,7 @@ import sys
 import threading
 from typing import TYPE_CHECKING
 
+from turtlewire.distro import KILTED, since
 from turtlewire_ros.process_family import ProcessFamily
 
 if TYPE_CHECKING:
@@ -55,6 +56,7 @@ def _run_in_family(command: list[str], environment: dict[str, str]) -> int:
 def _run_and_pass_on_signals(command: list[str], environment: dict[str, str]) -> int:
     if sys.platform != "linux":
         raise OSError("only Linux reports the sender of a signal")
+    # Blocked, so that `sigwaitinfo` gets them together with their sender.
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGCHLD, *_PASSED_ON})
     try:
         process = subprocess.Popen(  # noqa: S603
@@ -65,12 +67,23 @@ def _run_and_pass_on_signals(command: list[str], environment: dict[str, str]) ->
         )
         while (status := process.poll()) is None:
             arrived = signal.sigwaitinfo({signal.SIGCHLD, *_PASSED_ON})
+            # The kernel is the sender if a key was pressed: then the program has got the signal as
+            # well.
             typed = arrived.si_signo == signal.SIGINT and arrived.si_pid == 0
             if arrived.si_signo != signal.SIGCHLD and not typed:
                 process.send_signal(arrived.si_signo)
+            _tell(arrived.si_signo)
         return status
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _tell(number: int) -> None:
+    """Print which signal has arrived, as ROS 2 does from Kilted on."""
+    if number in (signal.SIGINT, signal.SIGTERM) and since(KILTED):
+        with contextlib.suppress(BrokenPipeError):  # the reader of a pipe may have ended before
+            # ROS 2 has two blanks here.
+            print(f"[ros2run]: Received signal:  {signal.strsignal(number)}", flush=True)
 
 
 def _run(
@@ -82,23 +95,25 @@ def _run(
         if children is not None:
             children.append(process)
         while process.returncode is None:
-            with contextlib.suppress(KeyboardInterrupt):  # the program decides what Ctrl-C means
+            try:
                 process.wait()
+            except KeyboardInterrupt:  # noqa: PERF203  the program decides what Ctrl-C means
+                _tell(signal.SIGINT)
     return process.returncode
 
 
 @contextlib.contextmanager
 def _passed_on_by_handlers() -> Iterator[list[subprocess.Popen[bytes]]]:
-    """Pass SIGTERM and SIGHUP on to the processes that are put into the list.
-
-    Not SIGINT: here nothing tells Ctrl-C, which the program has got as well, from a single signal.
-    """
+    """Pass SIGTERM and SIGHUP on to the processes that are put into the list."""
     children: list[subprocess.Popen[bytes]] = []
 
     def handle(number: int, _frame: object) -> None:
         for process in children:
             process.send_signal(number)
+        _tell(number)
 
+    # Not SIGINT: here, Ctrl-C, which the program has got as well, looks like a signal to this
+    # process.
     before = {number: signal.signal(number, handle) for number in _PASSED_ON - {signal.SIGINT}}
     try:
         yield children

@@ -25,7 +25,7 @@ __all__ = [
 def get_service_names_and_types(
     *, node: Any, include_hidden_services: bool = False
 ) -> list[tuple[str, list[str]]]:
-    """Names and types of the services that a node sees, sorted by name."""
+    """Return the names and types of the services that a node sees, sorted by name."""
     from turtlewire.wire.names import is_hidden
 
     found: list[tuple[str, list[str]]] = node.get_service_names_and_types()
@@ -33,13 +33,13 @@ def get_service_names_and_types(
 
 
 def get_service_names(*, node: Any, include_hidden_services: bool = False) -> list[str]:
-    """Names of the services that a node sees, sorted."""
+    """Return the names of the services that a node sees, sorted."""
     found = get_service_names_and_types(node=node, include_hidden_services=include_hidden_services)
     return [name for name, _ in found]
 
 
 def get_service_class(node: Any, service_name: str, include_hidden_services: bool) -> Any:
-    """Class of a service; None if there is no such service.
+    """Return the class of a service; None if there is no such service.
 
     Raises:
         RuntimeError: The service has several types, or one that is not installed.
@@ -58,7 +58,11 @@ def get_service_class(node: Any, service_name: str, include_hidden_services: boo
     try:
         return get_service(types[0])
     except (AttributeError, ModuleNotFoundError, ValueError):
-        raise RuntimeError(f"The service type '{types[0]}' is invalid") from None
+        from ros2cli.suggestion import source_meant
+
+        raise RuntimeError(
+            f"The service type '{types[0]}' is invalid{source_meant(types[0])}"
+        ) from None
 
 
 class ServiceNameCompleter:
@@ -72,7 +76,7 @@ class ServiceNameCompleter:
         self.include_hidden_services_key = include_hidden_services_key
 
     def __call__(self, prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
-        """Names of the services there are now."""
+        """Return the names of the services there are now."""
         hidden = getattr(parsed_args, self.include_hidden_services_key or "", False)
         with DirectNode(parsed_args) as node:
             return get_service_names(node=node, include_hidden_services=hidden)
@@ -112,5 +116,5 @@ class ServicePrototypeCompleter:
 
 
 def service_type_completer(**kwargs: Any) -> list[str]:
-    """Full names of all services."""
+    """Return the full names of all services."""
     return interface_names("srv")

@@ -5,6 +5,7 @@ module     what it holds
 =========  ==================================================
 `api`      topics and their message classes, QoS, completions
 `command`  the command ``ros2 topic``
+`several`  several topics for ``hz`` and ``bw``
 `verb`     its verbs
 =========  ==================================================
 """

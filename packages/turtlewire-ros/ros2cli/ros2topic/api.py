@@ -4,21 +4,28 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ros2cli import completion
+from ros2cli import completion, qos
+from ros2cli.json_lines import remark_printer
 from ros2cli.node.direct import DirectNode
 from ros2cli.output import tell
+from ros2cli.qos import (
+    add_qos_arguments,
+    choose_qos,
+    profile_configure_short_keys,
+    qos_profile_from_short_keys,
+)
 from ros2cli.values import positive_float, positive_int
+from turtlewire.distro import KILTED, since
 
 if TYPE_CHECKING:
     import argparse
-
-    from rclpy.qos import QoSProfile
 
 __all__ = [
     "TopicMessagePrototypeCompleter",
     "TopicNameCompleter",
     "TopicTypeCompleter",
     "add_qos_arguments",
+    "choose_qos",
     "get_msg_class",
     "get_topic_names",
     "get_topic_names_and_types",
@@ -35,7 +42,7 @@ __all__ = [
 def get_topic_names_and_types(
     *, node: Any, include_hidden_topics: bool = False
 ) -> list[tuple[str, list[str]]]:
-    """Names and types of the topics that a node sees, sorted by name."""
+    """Return the names and types of the topics that a node sees, sorted by name."""
     from turtlewire.wire.names import is_hidden
 
     found: list[tuple[str, list[str]]] = node.get_topic_names_and_types()
@@ -43,7 +50,7 @@ def get_topic_names_and_types(
 
 
 def get_topic_names(*, node: Any, include_hidden_topics: bool = False) -> list[str]:
-    """Names of the topics that a node sees, sorted."""
+    """Return the names of the topics that a node sees, sorted."""
     found = get_topic_names_and_types(node=node, include_hidden_topics=include_hidden_topics)
     return [name for name, _ in found]
 
@@ -54,7 +61,7 @@ def get_msg_class(
     blocking: bool = False,
     include_hidden_topics: bool = False,
 ) -> Any:
-    """Message class of a topic; None if there is no such topic.
+    """Return the message class of a topic; None if there is no such topic.
 
     Args:
         node: The node that looks.
@@ -87,13 +94,16 @@ def message_class(type_name: str) -> Any:
         ) from None
 
 
-def type_of_topic(direct: DirectNode, topic: str, *, blocking: bool = False) -> Any:
+def type_of_topic(
+    direct: DirectNode, topic: str, *, blocking: bool = False, as_json: bool = False
+) -> Any:
     """Return the message class of a topic that has publishers or subscriptions.
 
     Args:
         direct: The node that asks.
         topic: Full name of the topic.
         blocking: Wait for the topic to appear.
+        as_json: Print ROS 2's warning about an unknown topic to stderr instead of stdout.
 
     Returns:
         The class, or None if there is no such topic.
@@ -104,11 +114,13 @@ def type_of_topic(direct: DirectNode, topic: str, *, blocking: bool = False) -> 
     graph = direct.graph
     types = graph.topic_names_and_types().get(topic, [])
     if not types:
-        print(f"WARNING: topic [{topic}] does not appear to be published yet")
+        remark = remark_printer(as_json=as_json)
+        remark(f"WARNING: topic [{topic}] does not appear to be published yet")
         from ros2cli.suggestion import did_you_mean
         from turtlewire.doctor.network import other_domains_hint
 
         near = did_you_mean(topic, graph.topic_names_and_types()).lstrip("\n")
+        # Without a similar name, the publisher may be in another domain.
         hint = near or other_domains_hint(direct.node.context.get_domain_id())
         if hint:
             tell(hint)
@@ -117,13 +129,18 @@ def type_of_topic(direct: DirectNode, topic: str, *, blocking: bool = False) -> 
         direct.wait_for(lambda: bool(graph.topic_names_and_types().get(topic)))
         types = graph.topic_names_and_types()[topic]
     if len(types) > 1:
+        # ROS 2's text, for all verbs and not only `echo`.
         raise RuntimeError(
             f"Cannot echo topic '{topic}', as it contains more than one type: [{', '.join(types)}]"
         )
     try:
         return message_class(types[0])
     except RuntimeError:
-        raise RuntimeError(f"The message type '{types[0]}' is invalid") from None
+        from ros2cli.suggestion import source_meant
+
+        raise RuntimeError(
+            f"The message type '{types[0]}' is invalid{source_meant(types[0])}"
+        ) from None
 
 
 class TopicNameCompleter:
@@ -137,7 +154,7 @@ class TopicNameCompleter:
         self.include_hidden_topics_key = include_hidden_topics_key
 
     def __call__(self, prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
-        """Names of the topics there are now."""
+        """Return the names of the topics there are now."""
         hidden = getattr(parsed_args, self.include_hidden_topics_key or "", False)
         with DirectNode(parsed_args) as node:
             return get_topic_names(node=node, include_hidden_topics=hidden)
@@ -177,69 +194,20 @@ class TopicMessagePrototypeCompleter:
 
 
 def message_type_completer(**kwargs: Any) -> list[str]:
-    """Full names of all messages."""
+    """Return the full names of all messages."""
     return completion.message_types(**kwargs)
 
 
-def add_qos_arguments(
-    parser: argparse.ArgumentParser,
-    subscribe_or_publish: str,
-    default_profile_str: str,
-) -> None:
-    """Add ``--qos-profile``, ``--qos-depth`` and the other policies.
+if not since(KILTED):
 
-    Args:
-        parser: The parser.
-        subscribe_or_publish: What the policies are for, for the help.
-        default_profile_str: Name of the profile that is used without options, for the help.
-    """
-    from ros2cli.arguments import add_arguments
-    from ros2cli.qos_options import QOS_ARGUMENTS
+    def add_qos_arguments(  # type: ignore[misc]  # Jazzy's parameters
+        parser: argparse.ArgumentParser, subscribe_or_publish: str, default_profile_str: str
+    ) -> None:
+        """Add ``--qos-profile``, ``--qos-depth`` and the other policies.
 
-    title = f"QoS to {subscribe_or_publish} with (default: {default_profile_str})"
-    add_arguments(parser.add_argument_group(title), QOS_ARGUMENTS)
-
-
-def profile_configure_short_keys(
-    profile: QoSProfile | None = None,
-    reliability: str | None = None,
-    durability: str | None = None,
-    depth: int | None = None,
-    history: str | None = None,
-    liveliness: str | None = None,
-    liveliness_lease_duration_s: float | None = None,
-) -> None:
-    """Change a profile by the names of policies on a command line.
-
-    Raises:
-        ValueError: ``profile`` is None, or a policy has no such value.
-    """
-    from ros2cli.qos_options import configure
-
-    if profile is None:
-        raise ValueError("expected a profile to change, got None")
-    texts = {"reliability": reliability, "durability": durability, "history": history}
-    configure(profile, {**texts, "liveliness": liveliness}, depth, liveliness_lease_duration_s)
-
-
-def qos_profile_from_short_keys(
-    preset_profile: str,
-    reliability: str | None = None,
-    durability: str | None = None,
-    depth: int | None = None,
-    history: str | None = None,
-    liveliness: str | None = None,
-    liveliness_lease_duration_s: float | None = None,
-) -> QoSProfile:
-    """Return a named profile, changed by the names of policies on a command line.
-
-    Raises:
-        ValueError: A profile or policy value does not exist.
-    """
-    from ros2cli.qos_options import preset
-
-    profile = preset(preset_profile)
-    profile_configure_short_keys(
-        profile, reliability, durability, depth, history, liveliness, liveliness_lease_duration_s
-    )
-    return profile
+        Args:
+            parser: The parser.
+            subscribe_or_publish: ``"subscribe"`` or ``"publish"``, for the help.
+            default_profile_str: Name of the profile that is used without options, for the help.
+        """
+        qos.add_qos_arguments(parser, subscribe_or_publish, default_profile_str)

@@ -158,7 +158,7 @@ def interpret_dict_as_qos_profile(qos_profile_dict: dict[str, Any]) -> QoSProfil
 
 
 def convert_yaml_to_qos_profile(qos_profile_dict: dict[str, Any]) -> dict[str, QoSProfile]:
-    """Profiles by topic from the words of YAML.
+    """Return the profiles by topic from the words of YAML.
 
     Raises:
         ValueError: A key or a word is not known.

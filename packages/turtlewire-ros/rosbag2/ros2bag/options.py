@@ -65,7 +65,7 @@ def bag_path(text: str) -> str:
     """Return an existing path.
 
     Raises:
-        argparse.ArgumentTypeError: There is nothing.
+        argparse.ArgumentTypeError: The path does not exist.
     """
     if not os.path.exists(text):
         raise argparse.ArgumentTypeError(f"Bag path '{text}' does not exist!")
@@ -108,7 +108,7 @@ REMAP = argument(
 
 
 def bag_topics(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
-    """Names of the topics in the bag on the command line."""
+    """Return the names of the topics in the bag on the command line."""
     from turtlewire.bag import open_bag
     from turtlewire.errors import BagError
 
@@ -130,7 +130,7 @@ def absolute(name: str) -> str:
 
 
 def remap_words(rules: list[str]) -> list[str]:
-    """Remapping rules as words of a command line.
+    """Return remapping rules as words of a command line.
 
     Raises:
         RuntimeError: A rule has no ``:=``.
@@ -142,7 +142,7 @@ def remap_words(rules: list[str]) -> list[str]:
 
 
 def custom_data(text: str) -> tuple[str, str]:
-    """``KEY=VALUE`` as two texts.
+    """Split ``KEY=VALUE`` into two strings.
 
     Raises:
         argparse.ArgumentTypeError: There is no ``=``.

@@ -1,4 +1,4 @@
-"""rosbag2's own compression of a bag, beside that of its storage."""
+"""rosbag2's own compression of a bag, in addition to the compression of its storage."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ class Info:
     """Reads the metadata of bags."""
 
     def read_metadata(self, uri: str, _storage_id: str = "") -> BagMetadata:
-        """Metadata of a bag, from ``metadata.yaml`` or from its files.
+        """Return the metadata of a bag, from ``metadata.yaml`` or from its files.
 
         Raises:
             RuntimeError: The bag does not exist or cannot be read.

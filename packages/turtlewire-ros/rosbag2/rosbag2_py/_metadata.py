@@ -8,7 +8,10 @@ from typing import TYPE_CHECKING
 
 from rclpy.duration import Duration
 from rclpy.time import Time
+from rosbag2_transport.action_topics import ACTION_PARTS, ActionTopic, action_topic
 from turtlewire.bag import metadata as engine
+from turtlewire.bag.times import size_text
+from turtlewire.distro import KILTED, since
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -21,13 +24,13 @@ __all__ = [
     "FileInformation",
     "TopicInformation",
     "TopicMetadata",
+    "action_of",
     "info",
     "is_service_event",
     "service_of",
 ]
 
 _EVENT_TOPIC, _EVENT_TYPE = "/_service_event", "_Event"
-_UNITS = ("B", "KiB", "MiB", "GiB", "TiB")
 _LABEL_WIDTH, _SERVICE_WIDTH = 19, 21
 
 
@@ -117,16 +120,23 @@ def info(metadata: BagMetadata, counts: Mapping[str, tuple[int, int]] | None = N
     """
     topics: list[TopicInformation] = []
     services: list[TopicInformation] = []
+    actions: dict[str, dict[str, TopicInformation]] = {}
     for item in metadata.topics_with_message_count:
-        is_event = is_service_event(item.topic_metadata.name, item.topic_metadata.type)
-        (services if is_event else topics).append(item)
+        topic = item.topic_metadata
+        if action := action_of(topic.name, topic.type):
+            actions.setdefault(action.action, {})[action.part] = item
+        elif is_service_event(topic.name, topic.type):
+            services.append(item)
+        else:
+            topics.append(item)
     start = metadata.starting_time.nanoseconds
     duration = metadata.duration.nanoseconds
-    messages = metadata.message_count - sum(item.message_count for item in services)
+    # As in ROS 2, neither service events nor actions count.
+    messages = sum(item.message_count for item in topics)
     lines = [
         "",
         _labelled("Files:", metadata.relative_file_paths, _LABEL_WIDTH),
-        _labelled("Bag size:", [_size(metadata.bag_size)], _LABEL_WIDTH),
+        _labelled("Bag size:", [size_text(metadata.bag_size)], _LABEL_WIDTH),
         _labelled("Storage id:", [metadata.storage_identifier], _LABEL_WIDTH),
         _labelled("ROS Distro:", [metadata.ros_distro or "unknown"], _LABEL_WIDTH),
         _labelled("Duration:", [f"{_seconds(duration)}s"], _LABEL_WIDTH),
@@ -134,12 +144,46 @@ def info(metadata: BagMetadata, counts: Mapping[str, tuple[int, int]] | None = N
         _labelled("End:", [_date(start + duration)], _LABEL_WIDTH),
         _labelled("Messages:", [str(messages)], _LABEL_WIDTH),
         _labelled("Topic information:", [_topic(item) for item in topics], _LABEL_WIDTH),
-        _labelled("Service:", [str(len(services))], _LABEL_WIDTH),
+        _labelled("Services:" if since(KILTED) else "Service:", [str(len(services))], _LABEL_WIDTH),
         _labelled(
             "Service information:", [_service(item, counts) for item in services], _SERVICE_WIDTH
         ),
     ]
-    return "\n".join(lines) + ("\n" if services else "")
+    if since(KILTED):
+        lines += _actions(actions, counts)
+    return "\n".join(lines) + ("\n" if services or actions else "")
+
+
+def _actions(
+    actions: Mapping[str, Mapping[str, TopicInformation]],
+    counts: Mapping[str, tuple[int, int]] | None,
+) -> list[str]:
+    """Return the lines about actions, from Kilted on."""
+    lines = [_labelled("Actions:", [str(len(actions))], _LABEL_WIDTH), "Action information:"]
+    for name, parts in actions.items():
+        topics = {part: item.topic_metadata for part, item in parts.items()}
+        known = (action_of(topic.name, topic.type) for topic in topics.values())
+        type_name = next((each.type for each in known if each and each.type), "")
+        formats = next(topic.serialization_format for topic in topics.values())
+        lines.append(
+            f"  Action: {name} | Type: {type_name} | Topics: 2 | Service: 3 | "
+            f"Serialization Format: {formats}"
+        )
+        for part in ACTION_PARTS:
+            count = parts[part].message_count if part in parts else 0
+            if part in {"feedback", "status"}:
+                lines.append(f"    Topic: {part} | Count: {count}")
+            else:
+                numbers = _events(f"{name}/_action/{part}", count, counts)
+                lines.append(f"    Service: {part} | {numbers}")
+    return lines
+
+
+def _events(service: str, events: int, counts: Mapping[str, tuple[int, int]] | None) -> str:
+    if counts is None:
+        return f"Event Count: {events}"
+    requests, responses = counts.get(service, (0, 0))
+    return f"Request Count: {requests} | Response Count: {responses}"
 
 
 def _labelled(label: str, values: list[str], width: int) -> str:
@@ -157,23 +201,11 @@ def _topic(item: TopicInformation) -> str:
 def _service(item: TopicInformation, counts: Mapping[str, tuple[int, int]] | None) -> str:
     topic = item.topic_metadata
     name, type_name = service_of(topic.name, topic.type)
-    if counts is None:
-        count = f"Event Count: {item.message_count}"
-    else:
-        requests, responses = counts.get(name, (0, 0))
-        count = f"Request Count: {requests} | Response Count: {responses}"
+    count = _events(name, item.message_count, counts)
     return (
         f"Service: {name} | Type: {type_name} | {count} | "
         f"Serialization Format: {topic.serialization_format}"
     )
-
-
-def _size(count: int) -> str:
-    size, unit = float(count), 0
-    while size >= 1024 and unit < len(_UNITS) - 1:
-        size /= 1024
-        unit += 1
-    return f"{size:.1f} {_UNITS[unit]}" if unit else f"{count} B"
 
 
 def _seconds(nanoseconds: int) -> str:
@@ -182,8 +214,14 @@ def _seconds(nanoseconds: int) -> str:
 
 def _date(nanoseconds: int) -> str:
     local = time.localtime(nanoseconds // 1_000_000_000)
+    # The day has a space in front and not a zero, as in ROS 2; Windows has no `%e` for it.
     date = f"{time.strftime('%b', local)} {local.tm_mday:2d} {time.strftime('%Y %H:%M:%S', local)}"
     return f"{date}.{nanoseconds % 1_000_000_000:09d} ({_seconds(nanoseconds)})"
+
+
+def action_of(topic: str, type_name: str) -> ActionTopic | None:
+    """Return the action of a topic and its part; None for other topics, and up to Jazzy."""
+    return action_topic(topic, type_name) if since(KILTED) else None
 
 
 def is_service_event(topic: str, type_name: str) -> bool:
@@ -192,5 +230,5 @@ def is_service_event(topic: str, type_name: str) -> bool:
 
 
 def service_of(topic: str, type_name: str) -> tuple[str, str]:
-    """Name and type of the service whose events a topic carries."""
+    """Return the name and type of the service whose events a topic carries."""
     return topic.removesuffix(_EVENT_TOPIC), type_name.removesuffix(_EVENT_TYPE)

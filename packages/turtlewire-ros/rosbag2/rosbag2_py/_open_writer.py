@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from rclpy.logging import get_logger
 from turtlewire.bag import BagWriter
 from turtlewire.bag.qos_yaml import load_yaml
+from turtlewire.distro import current_distro
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 
 __all__ = ["PRESETS", "make_writer"]
 
+# rosbag2's limits in bytes.
 _SMALLEST_SPLIT = {"mcap": 1024, "sqlite3": 86_016}
 
 #: What the presets of MCAP mean.
@@ -26,7 +28,7 @@ PRESETS: dict[str, dict[str, Any]] = {
     "zstd_fast": {"compression": "zstd", "level": -5, "checksums": False},
     "zstd_small": {"compression": "zstd", "level": 19, "chunk_bytes": 4 << 20},
 }
-#: Those of sqlite3: its files always survive a killed process.
+#: The presets of sqlite3, whose files always survive a killed process.
 _SQLITE_PRESETS = ("", "none", "resilient")
 
 _MESSAGE_COMPRESSION = (
@@ -70,8 +72,9 @@ def make_writer(storage_options: StorageOptions, compression_mode: str) -> BagWr
             compression_mode=compression_mode,
             max_file_bytes=size,
             max_file_ns=storage_options.max_bagfile_duration * 1_000_000_000,
+            max_files=storage_options.max_bag_files,
             custom_data=storage_options.custom_data,
-            ros_distro=os.environ.get("ROS_DISTRO", "jazzy"),
+            ros_distro=str(current_distro()),
             **(_mcap_options(storage_options) if storage == "mcap" else {}),
         )
     except FileExistsError as error:

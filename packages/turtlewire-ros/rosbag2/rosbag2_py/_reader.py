@@ -97,6 +97,7 @@ class SequentialReader:
         if self._order.reverse:
             # Without a seek the reader stands at the first message, before which no other lies.
             before = bag.messages(names, end_ns=position_ns)
+            # The engine reads forwards only.
             self._messages = reversed(list(before))
         else:
             self._messages = bag.messages(names, start_ns=position_ns)
@@ -116,6 +117,7 @@ class SequentialReader:
             listed, excluded = wanted.topics, wanted.exclude_topics
         if topic.name in excluded or _matches(wanted.regex_to_exclude, topic.name):
             return False
+        # As in ROS 2, a name passes by the pattern or by the list.
         if wanted.regex:
             return _matches(wanted.regex, topic.name) or topic.name in listed
         return not listed or topic.name in listed
@@ -126,7 +128,9 @@ class SequentialReader:
         return self._next is not None
 
     def read_next(self) -> tuple[str, bytes, int]:
-        """Topic, CDR bytes and log time [ns] of the next message.
+        """Return topic, CDR bytes and log time [ns] of the next message.
+
+        If the bag defines the type otherwise, the bytes follow the installed definition.
 
         Raises:
             RuntimeError: No message is left, or the bag is damaged.
@@ -135,11 +139,12 @@ class SequentialReader:
         if message is None:
             raise RuntimeError("Bag is at end. No next message.")
         self._last = message
+        # One message is read ahead, because `has_next` has to know it.
         self._advance()
-        return message.topic, message.data, message.log_time_ns
+        return message.topic, message.upgraded_data(), message.log_time_ns
 
     def get_metadata(self) -> BagMetadata:
-        """Topics, times and files of the bag."""
+        """Return topics, times and files of the bag."""
         bag = self._opened()
         return from_engine(bag.metadata, folder_size(bag.path))
 
@@ -166,11 +171,12 @@ class SequentialReader:
         self.set_filter(StorageFilter())
 
     def _continue(self) -> None:
-        """Go on behind the message that was read last."""
+        """Go on after the message that was read last."""
         last = self._last
         if last is None:
             self._start(self._position_ns)
             return
+        # A log time is all that a reader can go to, and several messages may have it.
         self._start(last.log_time_ns)
         passed: list[BagMessage] = []
         while self._next is not None and self._next.log_time_ns == last.log_time_ns:

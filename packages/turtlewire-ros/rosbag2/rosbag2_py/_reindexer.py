@@ -39,4 +39,4 @@ class Reindexer:
             for problem in damaged:
                 logger.warning(printable(problem))
             kept = f"{found.message_count:,} messages in {len(found.paths)} file(s)"
-            logger.warning(f"The bag is damaged; what is kept are {kept}.")
+            logger.warning(f"The bag is damaged; kept: {kept}.")

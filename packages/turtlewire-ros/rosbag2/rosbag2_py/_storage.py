@@ -65,6 +65,8 @@ class StorageOptions:
         start_time_ns: Log time of the first message that is converted; negative for all.
         end_time_ns: Log time of the last message that is converted; negative for all.
         custom_data: Texts kept in the metadata.
+        max_bag_files: The oldest file is removed when there would be more than this number; 0 keeps
+            all.
     """
 
     uri: str
@@ -78,6 +80,7 @@ class StorageOptions:
     start_time_ns: int = -1
     end_time_ns: int = -1
     custom_data: dict[str, str] = field(default_factory=dict)
+    max_bag_files: int = 0
 
 
 @dataclass(slots=True)
@@ -129,7 +132,7 @@ class ReadOrderSortBy(NumberedEnum):
 
 @dataclass(slots=True)
 class ReadOrder:
-    """In which order a reader returns messages."""
+    """The order in which a reader returns messages."""
 
     sort_by: ReadOrderSortBy = ReadOrderSortBy.ReceivedTimestamp
     reverse: bool = False
@@ -149,7 +152,7 @@ class MetadataIo:
     """Reads and writes ``metadata.yaml``."""
 
     def read_metadata(self, uri: str) -> BagMetadata:
-        """Metadata of a bag's folder.
+        """Return the metadata of a bag's folder.
 
         Raises:
             RuntimeError: The metadata is missing or invalid.
@@ -175,7 +178,7 @@ class MetadataIo:
         return engine.dump_metadata(to_engine(metadata))
 
     def deserialize_metadata(self, serialized_metadata: str) -> BagMetadata:
-        """Metadata from YAML.
+        """Return the metadata in YAML.
 
         Raises:
             RuntimeError: The metadata are invalid.
@@ -184,13 +187,14 @@ class MetadataIo:
 
         try:
             content = load_yaml(serialized_metadata, "the metadata")
+            # A text has no files, so the size is unknown.
             return from_engine(engine.parse_metadata(content, "the metadata"), 0)
         except BagError as error:
             raise RuntimeError(str(error)) from error
 
 
 def to_rclcpp_qos_vector(qos_profiles: str, _version: int) -> list[QoSProfile]:
-    """Profiles from the YAML that bags hold; its policies may be words or numbers, by version."""
+    """Return the profiles in a bag's YAML; its policies may be words or numbers, by version."""
     return [profile_of(qos) for qos in profiles_from_yaml(qos_profiles, "the QoS profiles")]
 
 
@@ -205,7 +209,7 @@ def profile_of(qos: QoS) -> QoSProfile:
 
 
 def folder_size(path: str) -> int:
-    """Bytes of a file, or of all files in a folder."""
+    """Return the bytes of a file, or of all files in a folder."""
     if not os.path.isdir(path):
         return os.path.getsize(path)
     return sum(entry.stat().st_size for entry in os.scandir(path) if entry.is_file())
@@ -222,6 +226,7 @@ def from_engine(metadata: engine.BagMetadata, size: int) -> BagMetadata:
             FileInformation(
                 file.path,
                 Time(nanoseconds=file.start_ns),
+                # As in rosbag2, whose durations of files have no nanoseconds.
                 timedelta(microseconds=file.duration_ns // 1000),
                 file.message_count,
             )
@@ -254,7 +259,7 @@ def topic_of(number: int, topic: engine.TopicInfo) -> TopicMetadata:
 
 
 def to_engine(metadata: BagMetadata) -> engine.BagMetadata:
-    """rosbag2's metadata as the engine's class."""
+    """Return rosbag2's metadata as the engine's class."""
     return engine.BagMetadata(
         storage=metadata.storage_identifier,
         paths=list(metadata.relative_file_paths),

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import atexit
 from typing import TYPE_CHECKING
-from weakref import WeakSet
 
 from rosbag2_py._compression_options import CompressionMode, CompressionOptions
 from rosbag2_py._open_writer import make_writer
@@ -36,18 +34,8 @@ def get_registered_compressors() -> set[str]:
 
 
 def get_registered_serializers() -> set[str]:
-    """Serialization formats other than cdr: none exist."""
+    """Return the serialization formats other than cdr: none exist."""
     return set()
-
-
-_open_writers: WeakSet[SequentialWriter] = WeakSet()
-
-
-@atexit.register
-def _close_writers() -> None:
-    """Finish the bags of a program that ends; when ``__del__`` comes, it is too late for files."""
-    for writer in list(_open_writers):
-        writer.close()
 
 
 class SequentialWriter:
@@ -56,9 +44,6 @@ class SequentialWriter:
     def __init__(self) -> None:
         self._writer: BagWriter | None = None
         self._mode = ""
-
-    def __del__(self) -> None:
-        self.close()
 
     def open(
         self, storage_options: StorageOptions, converter_options: ConverterOptions | None = None
@@ -73,7 +58,6 @@ class SequentialWriter:
             check_format(converter_options.input_serialization_format)
             check_format(converter_options.output_serialization_format)
         self._writer = make_writer(storage_options, self._mode)
-        _open_writers.add(self)
 
     def _opened(self) -> BagWriter:
         if self._writer is None:
@@ -142,7 +126,6 @@ class SequentialWriter:
         if self._writer is not None:
             self._writer.close()
             self._writer = None
-            _open_writers.discard(self)
 
 
 class SequentialCompressionWriter(SequentialWriter):

@@ -13,6 +13,8 @@ module                 what it holds
 `recorder_notices`     what was asked for and is not there
 `recorder_qos`         which QoS receives from all publishers of a topic
 `topic_filter`         which topics are recorded or converted
+`action_topics`        which topics belong to an action
+`static_topics`        topics that are recorded from the start
 `player`               `Player`: time, order, and what pauses, seeks or ends it
 `player_outputs`       its publishers
 `player_requests`      recorded requests, sent to services again

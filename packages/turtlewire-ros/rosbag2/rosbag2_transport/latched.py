@@ -1,4 +1,4 @@
-"""Latched messages of a bag: those that a listener needs wherever a playback begins."""
+"""Latched messages of a bag, which a listener needs wherever a playback begins."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ if TYPE_CHECKING:
 
 __all__ = ["Latched"]
 
-#: A bag of sqlite3 does not tell when a message was sent. What a recorder receives within this
+#: A bag of sqlite3 does not say when a message was sent. What a recorder receives within this
 #: time of its start was sent before.
 _SQLITE_NS = 1_000_000_000
 
 
 class Latched:
-    """Knows which latched messages have been sent, and finds those that are missing at a time.
+    """The latched messages that have been sent, and that are missing at a time.
 
     Args:
         bag: The bag; another object than the one that is played.
@@ -36,8 +36,8 @@ class Latched:
 
         Args:
             time_ns: The time; messages of that log time are still to come.
-            look_ahead: Whether what was sent, but not received, before that time counts, too: while
-                a playback is paused nothing else would bring it.
+            look_ahead: Whether messages that were sent before that time and received later also
+                count: nothing else would bring them while a playback is paused.
 
         Returns:
             The messages from before that listeners do not have as their newest.
@@ -67,13 +67,13 @@ class Latched:
         return topic in self._passed and self._passed[topic] < self._sent[topic]
 
     def pass_by(self, topic: str) -> None:
-        """Go on behind the next message of a topic, which listeners have now."""
+        """Go past the next message of a topic, which listeners have now."""
         if topic in self._passed:
             self._passed[topic] += 1
             self._sent[topic] = max(self._sent[topic], self._passed[topic])
 
     def _before(self, time_ns: int) -> dict[str, tuple[int, deque[BagMessage]]]:
-        """Number and newest messages of each topic before a time."""
+        """Return the number and newest messages of each topic before a time."""
         found: dict[str, tuple[int, deque[BagMessage]]] = {
             topic: (0, deque(maxlen=depth)) for topic, depth in self._depths.items()
         }
@@ -85,7 +85,7 @@ class Latched:
         return found
 
     def _extend(self, wanted: dict[str, tuple[int, deque[BagMessage]]], time_ns: int) -> None:
-        """Add those that were sent before a time and received after it."""
+        """Add messages that were sent before a time and received after it."""
         is_sqlite = self._bag.metadata.storage == "sqlite3"
         open_topics = set(self._depths)
         for message in self._bag.messages(self._depths, start_ns=time_ns):

@@ -1,6 +1,6 @@
 """What recorder and player are asked to do.
 
-As ROS 2's classes, the options refuse attributes that they do not have.
+As ROS 2's classes, the options reject attributes that they do not have.
 """
 
 from __future__ import annotations
@@ -41,13 +41,20 @@ class RecordOptions:
         topics: Names of topics.
         topic_types: Types whose topics are recorded.
         services: Names of the event topics of services (``/add/_service_event``).
+        all_actions: Record all actions.
+        actions: Names of actions.
+        exclude_actions: Names of actions that are left out.
         exclude_topics: Names of topics that are left out.
         exclude_topic_types: Types whose topics are left out.
         exclude_service_events: Names of event topics that are left out.
         rmw_serialization_format: Only ``cdr``, or an empty string for it.
         topic_polling_interval: How long changes of the graph are collected before the next look.
+        repeat_transient_local_messages: How many messages of a latched topic are written again into
+            each further file and each snapshot, by topic.
+        repeat_all_transient_local_depth: The same number for all latched topics; 0 for none.
+        static_topics_uri: A YAML file with topics that are subscribed to at once, or empty.
         regex: A pattern; topics and services in whose name it is found are recorded.
-        exclude_regex: A pattern; what it is found in is left out.
+        exclude_regex: A pattern; topics and services in whose name it is found are left out.
         node_prefix: Put in front of the node's name.
         compression_mode: ``file``, ``message``, ``none`` or empty.
         compression_format: ``zstd``, or empty.
@@ -69,11 +76,17 @@ class RecordOptions:
     topics: list[str] = field(default_factory=list)
     topic_types: list[str] = field(default_factory=list)
     services: list[str] = field(default_factory=list)
+    all_actions: bool = False
+    actions: list[str] = field(default_factory=list)
+    exclude_actions: list[str] = field(default_factory=list)
     exclude_topics: list[str] = field(default_factory=list)
     exclude_topic_types: list[str] = field(default_factory=list)
     exclude_service_events: list[str] = field(default_factory=list)
     rmw_serialization_format: str = ""
     topic_polling_interval: timedelta = timedelta(milliseconds=100)
+    repeat_transient_local_messages: dict[str, int] = field(default_factory=dict)
+    repeat_all_transient_local_depth: int = 0
+    static_topics_uri: str = ""
     regex: str = ""
     exclude_regex: str = ""
     node_prefix: str = ""
@@ -101,6 +114,10 @@ class PlayOptions:
         rate: Bag seconds in one second.
         topics_to_filter: Names of the topics to play; empty for all.
         services_to_filter: Names of the service event topics to play; empty for all.
+        actions_to_filter: Names of the actions to play; empty for all.
+        exclude_actions_to_filter: Names of actions that are left out.
+        send_actions_as_client: Send recorded goals, requests to cancel and requests of results to
+            action servers, instead of publishing the topics of actions.
         regex_to_filter: A pattern that matches whole names of what is played.
         exclude_regex_to_filter: A pattern that matches whole names of what is left out.
         exclude_topics_to_filter: Names of topics that are left out.
@@ -120,6 +137,9 @@ class PlayOptions:
         wait_acked_timeout: How long to wait at the end until all reliable subscriptions have all
             messages [ms]; 0 without limit.
         disable_loan_message: Accepted as in ROS 2; messages are never loaned.
+        progress_bar_update_rate: How often the line with the progress is drawn [Hz]; 0 for never,
+            negative for as often as a terminal shows.
+        progress_bar_separation_lines: Accepted as in ROS 2; the line needs none.
         publish_service_requests: Send recorded requests to services instead of their events.
         service_requests_source: Whose record of a request is sent.
     """
@@ -129,6 +149,9 @@ class PlayOptions:
     rate: float = 1.0
     topics_to_filter: list[str] = field(default_factory=list)
     services_to_filter: list[str] = field(default_factory=list)
+    actions_to_filter: list[str] = field(default_factory=list)
+    exclude_actions_to_filter: list[str] = field(default_factory=list)
+    send_actions_as_client: bool = False
     regex_to_filter: str = ""
     exclude_regex_to_filter: str = ""
     exclude_topics_to_filter: list[str] = field(default_factory=list)
@@ -147,5 +170,7 @@ class PlayOptions:
     disable_keyboard_controls: bool = False
     wait_acked_timeout: int = -1
     disable_loan_message: bool = False
+    progress_bar_update_rate: int = 3
+    progress_bar_separation_lines: int = 2
     publish_service_requests: bool = False
     service_requests_source: ServiceRequestsSource = ServiceRequestsSource.SERVICE_INTROSPECTION

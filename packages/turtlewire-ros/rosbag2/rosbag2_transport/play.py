@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import sqlite3
 import threading
 from typing import TYPE_CHECKING
 
-from rosbag2_transport.player import Player
+from rosbag2_transport.player import BagPlayer
 from rosbag2_transport.player_clock import ClockPublisher
 from rosbag2_transport.player_services import PlayerServices
 from rosbag2_transport.progress import ProgressLine, time_text
@@ -15,13 +16,12 @@ from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
     import queue
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from rosbag2_transport.options import PlayOptions
 
-__all__ = ["burst", "play"]
+__all__ = ["burst", "play", "served_player"]
 
-_NAME = "rosbag2_player"
 _RATE_STEP = 0.1
 _SECOND = 1_000_000_000
 _KEYS = (
@@ -67,38 +67,54 @@ def _with_player(
     path: str,
     options: PlayOptions,
     stop: queue.SimpleQueue[None],
-    first: Callable[[Player], object],
+    first: Callable[[BagPlayer], object],
 ) -> None:
-    words = [word for word in options.topic_remapping_options if ":=" in word]
-    name = options.node_prefix + _NAME
     failures: list[Exception] = []
     try:
         with (
             stopped_by_signals(stop),
-            BagSession(name, remap=tuple(words)) as session,
+            served_player(path, options) as (player, session),
+            handle_keys(_bindings(player, session, options), not options.disable_keyboard_controls),
+            ProgressLine(lambda: _progress(player), options.progress_bar_update_rate),
         ):
-            player = Player(session.node, path, options)
-            try:
-                PlayerServices(session.node, player)
-                bindings = _bindings(player, session, options)
-                with (
-                    handle_keys(bindings, not options.disable_keyboard_controls),
-                    ClockPublisher(session.node, player, options),
-                    ProgressLine(lambda: _progress(player)),
-                ):
-                    _run(player, stop, first, failures)
-            finally:
-                player.close()
+            _run(player, stop, first, failures)
     except (BagError, OSError) as error:
         raise RuntimeError(str(error)) from error
     if failures:
         raise RuntimeError(str(failures[0])) from failures[0]
 
 
+@contextlib.contextmanager
+def served_player(
+    path: str, options: PlayOptions, node_name: str = "rosbag2_player"
+) -> Iterator[tuple[BagPlayer, BagSession]]:
+    """Open a bag to play, on a node with the player's services and clock.
+
+    Args:
+        path: The bag.
+        options: What is played, and how.
+        node_name: Name of the node.
+
+    Raises:
+        BagError: The bag cannot be read.
+        FileNotFoundError: The bag does not exist.
+        RuntimeError: An option is invalid.
+    """
+    words = [word for word in options.topic_remapping_options if ":=" in word]
+    with BagSession(options.node_prefix + node_name, remap=tuple(words)) as session:
+        player = BagPlayer(session.node, path, options)
+        try:
+            PlayerServices(session.node, player)
+            with ClockPublisher(session.node, player, options):
+                yield player, session
+        finally:
+            player.close()
+
+
 def _run(
-    player: Player,
+    player: BagPlayer,
     stop: queue.SimpleQueue[None],
-    first: Callable[[Player], object],
+    first: Callable[[BagPlayer], object],
     failures: list[Exception],
 ) -> None:
     """Play on a thread, so that this one can be interrupted."""
@@ -109,10 +125,12 @@ def _run(
         except (BagError, OSError, sqlite3.Error) as error:
             failures.append(error)
         finally:
+            # Ends the wait below, whether the bag is over or has failed.
             stop.put(None)
 
     thread = threading.Thread(target=play_all, name="bag-player", daemon=True)
     thread.start()
+    # On a thread of its own: a burst waits for the player, and this thread for `stop`.
     starter = threading.Thread(target=first, args=(player,), name="bag-burst", daemon=True)
     starter.start()
     stop.get()
@@ -122,7 +140,7 @@ def _run(
 
 
 def _bindings(
-    player: Player, session: BagSession, options: PlayOptions
+    player: BagPlayer, session: BagSession, options: PlayOptions
 ) -> dict[bytes, Callable[[], object]]:
     """Return the action of each key, and print the keys."""
     if not options.disable_keyboard_controls:
@@ -131,12 +149,13 @@ def _bindings(
     return {
         b" ": player.toggle_paused,
         b"\x1b[C": player.play_next,
+        # Rounded, because steps of 0.1 would add up to rates such as 1.2000000000000002.
         b"\x1b[A": lambda: player.set_rate(round(player.clock.rate + _RATE_STEP, 9)),
         b"\x1b[B": lambda: player.set_rate(round(player.clock.rate - _RATE_STEP, 9)),
     }
 
 
-def _progress(player: Player) -> str:
+def _progress(player: BagPlayer) -> str:
     with player.changed:
         now_ns = min(max(player.clock.now_ns(), player.start_ns), player.end_ns)
         rate, is_paused = player.clock.rate, player.clock.is_paused

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from rosbag2_transport.action_topics import action_topic
 from rosbag2_transport.topic_filter import EVENT_TOPIC, is_service_event, pattern
-from turtlewire.bag.encodings import is_cdr, not_in_cdr
+from turtlewire.bag.encodings import is_decodable, not_in_cdr
+from turtlewire.distro import KILTED, since
 from turtlewire.terminal.suggestion import did_you_mean
 
 if TYPE_CHECKING:
@@ -20,37 +22,52 @@ _SECOND = 1_000_000_000
 
 
 def played_topics(bag: Bag, options: PlayOptions) -> list[str]:
-    """Names of the topics to play, which must be in CDR; patterns match whole names.
+    """Return the names of the topics to play, which must be decodable; patterns match whole names.
 
     As in rosbag2, names of topics do not hold back service events, nor the other way round.
 
     Raises:
         RuntimeError: A pattern is not a regular expression.
     """
-    return [name for name in _selected(bag, options) if is_cdr(bag.topics[name])]
+    return [name for name in _selected(bag, options) if is_decodable(bag.topics[name])]
 
 
 def _selected(bag: Bag, options: PlayOptions) -> list[str]:
-    """Names of the topics that the options leave."""
+    """Return the names of the topics that the options leave."""
     regex, exclude = pattern(options.regex_to_filter), pattern(options.exclude_regex_to_filter)
     own_clock = options.clock_publish_frequency > 0 or options.clock_publish_on_topic_publish
     names = []
     for name, topic in bag.topics.items():
-        if is_service_event(name, topic.type):
+        action = action_topic(name, topic.type) if _knows_actions(options) else None
+        plain_name = name if action is None else action.action
+        if action is not None:
+            listed, excluded = options.actions_to_filter, options.exclude_actions_to_filter
+        elif is_service_event(name, topic.type):
             listed = options.services_to_filter
             excluded = options.exclude_service_events_to_filter
         else:
             listed, excluded = options.topics_to_filter, options.exclude_topics_to_filter
-        if name in excluded or (exclude and exclude.fullmatch(name)):
+        if plain_name in excluded or (exclude and exclude.fullmatch(plain_name)):
             continue
+        # The player's own time replaces the recorded one.
         if name == "/clock" and (own_clock or options.clock_trigger_topics):
             continue
         if regex:
-            if regex.fullmatch(name) or name in listed:
+            if regex.fullmatch(plain_name) or plain_name in listed:
                 names.append(name)
-        elif not listed or name in listed:
+        elif not listed or plain_name in listed:
             names.append(name)
     return names
+
+
+def _knows_actions(options: PlayOptions) -> bool:
+    """Return whether actions are played as such; in Jazzy, only if an option names them."""
+    asked = (
+        options.actions_to_filter,
+        options.exclude_actions_to_filter,
+        options.send_actions_as_client,
+    )
+    return since(KILTED) or any(asked)
 
 
 def mistakes(bag: Bag, options: PlayOptions) -> list[str]:
@@ -60,6 +77,7 @@ def mistakes(bag: Bag, options: PlayOptions) -> list[str]:
         *filter(None, [foreign]),
         *_unknown_topics(bag, options),
         *_unknown_services(bag, options),
+        *_unknown_actions(bag, options),
     ] or [f"Nothing is played: {why}" for why in _emptiness(bag, options)]
 
 
@@ -92,8 +110,18 @@ def _unknown_services(bag: Bag, options: PlayOptions) -> Iterator[str]:
             yield f"The bag has no events of a service '{name}'. {hint}"
 
 
+def _unknown_actions(bag: Bag, options: PlayOptions) -> Iterator[str]:
+    found = (action_topic(name, topic.type) for name, topic in bag.topics.items())
+    actions = sorted({each.action for each in found if each is not None})
+    named = (*options.actions_to_filter, *options.exclude_actions_to_filter)
+    for name in dict.fromkeys(named):
+        if name not in actions:
+            known = f"Its actions are {', '.join(actions)}." if actions else "It has none at all."
+            yield f"The bag has no action '{name}'. {did_you_mean(name, actions) or known}"
+
+
 def _emptiness(bag: Bag, options: PlayOptions) -> Iterator[str]:
-    """Why nothing is played of a bag, if that is so."""
+    """Yield why nothing of a bag is played, if that is so."""
     lasts_ns = bag.end_ns - bag.start_ns
     if not bag.topics:
         yield "the bag is empty."
@@ -102,4 +130,4 @@ def _emptiness(bag: Bag, options: PlayOptions) -> Iterator[str]:
     elif options.start_offset * _SECOND > lasts_ns:
         yield f"the bag ends after {lasts_ns / _SECOND:g} s, before the start offset."
     elif 0 <= options.playback_until_timestamp < bag.start_ns and options.playback_duration < 0:
-        yield f"the bag begins at {bag.start_ns} ns, behind the time at which to end."
+        yield f"the bag begins at {bag.start_ns} ns, after the time at which to end."

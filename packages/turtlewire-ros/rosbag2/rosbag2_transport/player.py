@@ -1,4 +1,4 @@
-"""Plays a bag: its messages at their times, paused, faster, from another place, message by message.
+"""Plays a bag at its own pace, paused, faster, from another position, or message by message.
 
 All times of the bag are log times in nanoseconds. One thread plays; commands come from any other.
 The playing thread waits for a deadline or a command; a command wakes it.
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from rosbag2_transport.options import PlayOptions
     from turtlewire.bag import BagMessage
 
-__all__ = ["Player"]
+__all__ = ["BagPlayer"]
 
 _SECOND = 1_000_000_000
 _FOREVER = 1 << 62
@@ -36,7 +36,7 @@ _LAST_MESSAGES_NS = _SECOND
 _ACKNOWLEDGED_NS = _SECOND // 10
 
 
-class Player:
+class BagPlayer:
     """Plays one bag. Thread-safe, except that one thread plays at a time.
 
     Args:
@@ -61,6 +61,7 @@ class Player:
         self._logger = node.get_logger()
         self._options = options
         self._bag = Bag(path)
+        # Latched messages are looked up while the other one is read ahead by a thread.
         self._side_bag = Bag(path)
         self.start_ns, self.end_ns = self._bag.start_ns, self._bag.end_ns
         self._topics = played_topics(self._bag, options)
@@ -82,6 +83,7 @@ class Player:
         self._logger.info(f"Playback until timestamp: {self._until_ns}")
 
     def _clamped(self, time_ns: int) -> int:
+        # After the last message, nothing is left to play.
         return max(self.start_ns, min(time_ns, self.end_ns + 1))
 
     def _play_until(self) -> int:
@@ -89,11 +91,12 @@ class Player:
         options = self._options
         until = options.playback_until_timestamp
         if options.playback_duration >= 0:
+            # As in rosbag2, the later of the two limits counts.
             until = max(until, self._first_ns + int(options.playback_duration * _SECOND))
         return until if until >= 0 else -1
 
     def files(self) -> list[tuple[int, str]]:
-        """Log time of the first message and path of each file of the bag, in their order."""
+        """Return the log time of the first message, and the path, of each file in order."""
         folder = self._bag.path
         return [
             (file.start_ns, os.path.join(folder, file.path)) for file in self._bag.metadata.files
@@ -116,10 +119,24 @@ class Player:
         Raises:
             BagError: The bag is damaged; after what can be read.
         """
+        if self.begin():
+            self.run()
+
+    def begin(self) -> bool:
+        """Prepare :meth:`run`, so that a `stop` in between also counts.
+
+        Returns:
+            False if it plays already.
+        """
         with self.changed:
             if self._playing:
-                return
+                return False
             self._playing, self._stopped, self._ready = True, False, False
+            self._failure = None
+            return True
+
+    def run(self) -> None:
+        """Play as :meth:`play` does, after :meth:`begin`."""
         try:
             self._outputs.wait_for_listeners()
             while self._play_once() and self._options.loop:
@@ -162,7 +179,7 @@ class Player:
                 self._publish(message)
 
     def _sleep(self) -> None:
-        """The delay before each round; the clock runs meanwhile, as in ROS 2."""
+        """Wait for the delay before each round; the clock runs during it, as in ROS 2."""
         if self._options.delay <= 0:
             return
         delay_ns = int(self._options.delay * _SECOND)
@@ -200,6 +217,7 @@ class Player:
         messages = self._bag.messages(self._topics, start_ns=time_ns)
         self._source = ReadAhead(messages, self._options.read_ahead_queue_size)
         self._source.wait_until_ready()  # or the first messages would be late
+        # Last, so that time begins when the messages are ready.
         self.clock.jump(time_ns)
 
     def _close_source(self) -> None:
@@ -210,6 +228,7 @@ class Player:
     def _wait_for_acknowledgments(self) -> None:
         """Wait for what the option asks, or a moment; `stop` ends it."""
         asked = self._options.wait_acked_timeout
+        # As in ROS 2, 0 means no limit.
         timeout_ns = _LAST_MESSAGES_NS if asked < 0 else asked * 1_000_000 or _FOREVER
         end_ns = time.monotonic_ns() + timeout_ns
         while not self._stopped:
@@ -310,6 +329,11 @@ class Player:
                     done += 1
             self._logger.info(f"Burst {done} messages.")
             return done
+
+    def wait_until_started(self, timeout: float | None) -> bool:
+        """Wait for the first message's turn; False if the time is over before."""
+        with self.changed:
+            return self.changed.wait_for(lambda: self._ready, timeout)
 
     def _wait_until_ready(self) -> None:
         """Wait for the end of the delay."""

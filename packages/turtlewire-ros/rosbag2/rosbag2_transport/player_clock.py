@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from rclpy.node import Node
     from rosbag2_transport.options import PlayOptions
-    from rosbag2_transport.player import Player
+    from rosbag2_transport.player import BagPlayer
     from turtlewire.bag import BagMessage
 
 __all__ = ["ClockPublisher"]
@@ -32,7 +32,7 @@ class ClockPublisher:
         options: When to publish; perhaps never.
     """
 
-    def __init__(self, node: Node, player: Player, options: PlayOptions) -> None:
+    def __init__(self, node: Node, player: BagPlayer, options: PlayOptions) -> None:
         self._player = player
         self._frequency = options.clock_publish_frequency
         self._triggers = set(options.clock_trigger_topics)
@@ -68,6 +68,7 @@ class ClockPublisher:
             with self._player.changed:
                 now_ns = self._player.clock.now_ns()
             self._publish(now_ns)
+            # After a delay, at most one message is made up for.
             due = max(due + period, time.monotonic() - period)
 
     def _publish_with(self, message: BagMessage) -> None:

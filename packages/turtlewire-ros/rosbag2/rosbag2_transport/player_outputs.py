@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
+from rosbag2_transport.action_topics import action_topic
 from rosbag2_transport.player_qos import publisher_qos
 from rosbag2_transport.player_requests import ServiceRequests
 from rosbag2_transport.topic_filter import is_service_event
@@ -51,7 +52,12 @@ class PlayerOutputs:
         self.latched: dict[str, int] = {}
         for name in topics:
             topic = bag.topics[name]
-            if options.publish_service_requests and is_service_event(name, topic.type):
+            is_event = is_service_event(name, topic.type)
+            if options.send_actions_as_client and action_topic(name, topic.type):
+                if is_event:  # servers publish feedback and status themselves
+                    bag.learn_types()
+                    self._send[name] = self._requests.sender(topic)
+            elif options.publish_service_requests and is_event:
                 bag.learn_types()
                 self._send[name] = self._requests.sender(topic)
             else:
@@ -66,11 +72,9 @@ class PlayerOutputs:
             qos, warning = publisher_qos(topic)
             if warning is not None:
                 self._logger.warning(warning)
-        if not topic.type:
-            self._logger.warning(f"{topic.name} is not played: the bag does not contain its type")
-            return
-        type_id = TypeId(topic.type, topic.type_hash or _known_hash(topic.type))
+        type_id = TypeId(topic.type, _known_hash(topic.type) or topic.type_hash)
         name = self._node.resolve_topic_name(topic.name)
+        # Below rclpy's publishers, because the bytes need no message class.
         publisher = self._node._rclpy_wire.create_publisher(name, type_id, qos)
         self._publishers[topic.name] = publisher
         self._send[topic.name] = publisher.publish
@@ -84,6 +88,7 @@ class PlayerOutputs:
     def _is_matched(self) -> bool:
         if not self._graph.is_complete():
             return False
+        # Servers on another middleware never match.
         uncallable = {server.service for server in self._graph.foreign_servers()}
         if not self._requests.are_matched(
             self._graph.service_names_and_types().keys() - uncallable
@@ -101,7 +106,7 @@ class PlayerOutputs:
         if send is None:
             return
         try:
-            send(message.data)
+            send(message.upgraded_data())
         except WireError as error:
             if message.topic not in self._refused:
                 self._refused.add(message.topic)

@@ -1,4 +1,4 @@
-"""With which QoS a player publishes."""
+"""The QoS with which a player publishes."""
 
 from __future__ import annotations
 

@@ -10,7 +10,7 @@ from rosbag2_interfaces.msg import ReadSplitEvent
 
 if TYPE_CHECKING:
     from rclpy.node import Node
-    from rosbag2_transport.player import Player
+    from rosbag2_transport.player import BagPlayer
     from turtlewire.bag import BagMessage
 
 __all__ = ["PlayerServices"]
@@ -24,7 +24,7 @@ class PlayerServices:
         player: What is steered.
     """
 
-    def __init__(self, node: Node, player: Player) -> None:
+    def __init__(self, node: Node, player: BagPlayer) -> None:
         self._node = node
         self._player = player
         self._files = player.files()
@@ -47,7 +47,7 @@ class PlayerServices:
             node.create_service(type_, f"~/{name}", callback)
 
     def _report_split(self, message: BagMessage) -> None:
-        """Tell other nodes when the playback goes on to the next file."""
+        """Report when the playback goes on to the next file."""
         following = self._file + 1
         while following < len(self._files) and message.log_time_ns >= self._files[following][0]:
             closed, opened = self._files[self._file][1], self._files[following][1]

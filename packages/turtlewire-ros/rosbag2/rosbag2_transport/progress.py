@@ -13,11 +13,11 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-__all__ = ["ProgressLine", "bytes_text", "time_text"]
+__all__ = ["ProgressLine", "time_text"]
 
 _REDRAW_SECONDS = 0.5
+_FASTEST_HZ = 30
 _COLUMNS = 80
-_UNITS = ("B", "KiB", "MiB", "GiB", "TiB")
 
 
 class ProgressLine:
@@ -27,15 +27,21 @@ class ProgressLine:
 
     Args:
         text: Returns the line, or an empty string.
+        rate: How often it is drawn [Hz]: 0 for never, negative for as often as a terminal shows;
+            None for every half second.
     """
 
-    def __init__(self, text: Callable[[], str]) -> None:
+    def __init__(self, text: Callable[[], str], rate: float | None = None) -> None:
         self._text = text
+        self._is_drawn = rate != 0
+        self._seconds = _REDRAW_SECONDS
+        if rate is not None:
+            self._seconds = 1 / (min(rate, _FASTEST_HZ) if rate > 0 else _FASTEST_HZ)
         self._ended = threading.Event()
         self._thread = threading.Thread(target=self._draw, name="progress", daemon=True)
 
     def __enter__(self) -> Self:
-        if sys.stderr is not None and sys.stderr.isatty():
+        if self._is_drawn and sys.stderr is not None and sys.stderr.isatty():
             self._thread.start()
         return self
 
@@ -51,7 +57,7 @@ class ProgressLine:
             self._print("")
 
     def _draw(self) -> None:
-        while not self._ended.wait(_REDRAW_SECONDS):
+        while not self._ended.wait(self._seconds):
             columns = os.get_terminal_size(sys.stderr.fileno()).columns or _COLUMNS
             self._print(self._text()[: columns - 1])  # a line that wraps could not be replaced
 
@@ -60,16 +66,7 @@ class ProgressLine:
 
 
 def time_text(seconds: float) -> str:
-    """``1:02:03.4``; without hours below an hour."""
+    """Format a time as ``1:02:03.4``, without hours below an hour."""
     minutes, rest = divmod(max(0.0, seconds), 60)
     hours, minutes = divmod(int(minutes), 60)
     return f"{hours}:{minutes:02d}:{rest:04.1f}" if hours else f"{minutes}:{rest:04.1f}"
-
-
-def bytes_text(count: int) -> str:
-    """``12.3 MiB``."""
-    size, unit = float(count), 0
-    while size >= 1024 and unit < len(_UNITS) - 1:
-        size /= 1024
-        unit += 1
-    return f"{size:.1f} {_UNITS[unit]}" if unit else f"{count} B"

@@ -74,6 +74,7 @@ def qos_profile(topic: str, policies: Mapping[str, Any]) -> QoSProfile:
             lines = f"Unexpected key `{key}` for QoS profile."
             raise RuntimeError(f"{lines}\n{hint}" if hint else lines)
         values[key] = _value(topic, key, value)
+    # rmw's default depth.
     if "history" not in values and "depth" not in values:
         values["depth"] = 10
     if values.get("history") == HistoryPolicy.KEEP_LAST and "depth" not in values:
@@ -91,4 +92,4 @@ def _value(topic: str, key: str, value: Any) -> Any:
     except (AttributeError, KeyError, TypeError, ValueError):
         choices = _POLICIES[key].short_keys() if key in _POLICIES else ()
         known = f"; choose from {', '.join(choices)}" if choices else ""
-        raise RuntimeError(f"{topic}: {value!r} is no {key}{known}") from None
+        raise RuntimeError(f"{topic}: {value!r} is not a valid {key}{known}") from None

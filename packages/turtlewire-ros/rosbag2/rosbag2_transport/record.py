@@ -9,13 +9,15 @@ import time
 from typing import TYPE_CHECKING
 
 from rclpy.logging import get_logger
-from rosbag2_transport.progress import ProgressLine, bytes_text, time_text
-from rosbag2_transport.recorder import Recorder
+from rosbag2_transport.progress import ProgressLine, time_text
+from rosbag2_transport.recorder import BagRecorder
 from rosbag2_transport.recorder_services import RecorderServices
 from rosbag2_transport.session import BagSession, handle_keys, stopped_by_signals
+from rosbag2_transport.static_topics import read_static_topics
 from rosbag2_transport.topic_filter import EVENT_TOPIC, check_patterns
 from turtlewire.bag.metadata import METADATA_FILE
 from turtlewire.bag.recording import Recording
+from turtlewire.bag.times import size_text
 from turtlewire.wire.names import validate_node_name, validate_topic_name
 
 if TYPE_CHECKING:
@@ -36,6 +38,7 @@ def record(
     node_name: str = "rosbag2_recorder",
     cache_bytes: int = 0,
     snapshot: bool = False,
+    on_start: Callable[[BagRecorder], object] = lambda _recorder: None,
 ) -> None:
     """Record until ``stop`` holds an item, SIGINT or SIGTERM comes, or the disk is full.
 
@@ -46,12 +49,15 @@ def record(
         node_name: Name of the recorder's node.
         cache_bytes: How many bytes may wait for the disk; 0 for no limit.
         snapshot: Whether only snapshots are written.
+        on_start: Called with the recorder when it has started.
 
     Raises:
         RuntimeError: An option is wrong, or the bag could not be written any more.
     """
+    # All checks come before the bag's folder is made.
     check_patterns(options)
     _check_names(options)
+    static = read_static_topics(options.static_topics_uri) if options.static_topics_uri else {}
     if snapshot and not cache_bytes:
         raise RuntimeError("Max cache size must be greater than 0 when snapshot mode is enabled")
     name = options.node_prefix + node_name
@@ -67,12 +73,20 @@ def record(
             writer, cache_bytes=cache_bytes, snapshot=snapshot, on_failure=lambda _: stop.put(None)
         )
         at_end.callback(_finish, recording, writer)
-        _run(session, recording, writer, options, stop, snapshot)
+        recorder = BagRecorder(session.node, recording, options, static)
+        services = RecorderServices(session.node, recorder, recording, snapshot=snapshot)
+        writer.on_split = lambda closed, opened: _split(services, closed, opened)
+        writer.on_compress = _say_that_it_compresses
+        _run(session, recorder, recording, options, stop, on_start)
 
 
 def _check_names(options: RecordOptions) -> None:
-    """Refuse what no topic or service can be called; it would be waited for in vain."""
-    for kind, names in (("topic", options.topics), ("service", options.services)):
+    """Reject names that no topic or service can have; they would be waited for in vain."""
+    for kind, names in (
+        ("topic", options.topics),
+        ("service", options.services),
+        ("action", options.actions),
+    ):
         for name in (each.removesuffix(EVENT_TOPIC) for each in names):
             if fault := validate_topic_name(name):
                 text = fault.message.replace("topic", kind, 1)
@@ -98,17 +112,13 @@ def _finish(recording: Recording, writer: BagWriter) -> None:
 
 def _run(
     session: BagSession,
+    recorder: BagRecorder,
     recording: Recording,
-    writer: BagWriter,
     options: RecordOptions,
     stop: queue.SimpleQueue[None],
-    snapshot: bool,
+    on_start: Callable[[BagRecorder], object],
 ) -> None:
     logger = session.node.get_logger()
-    recorder = Recorder(session.node, recording, options)
-    services = RecorderServices(session.node, recorder, recording, snapshot=snapshot)
-    writer.on_split = lambda closed, opened: _split(services, closed, opened)
-    writer.on_compress = _say_that_it_compresses
     with handle_keys({b" ": recorder.toggle_paused}, not options.disable_keyboard_controls):
         if not options.disable_keyboard_controls:
             logger.info("Press SPACE for pausing/resuming")
@@ -117,6 +127,7 @@ def _run(
         recorder.start()
         paused = "Wait for recording: Press SPACE to start."
         logger.info(paused if options.start_paused else "Recording...")
+        on_start(recorder)
         started = time.monotonic()
         with ProgressLine(lambda: _progress(recorder, recording, time.monotonic() - started)):
             stop.get()
@@ -142,13 +153,13 @@ def _say_that_it_compresses(path: str) -> None:
     get_logger("rosbag2_compression").info(f"Compressing file: {path}")
 
 
-def _progress(recorder: Recorder, recording: Recording, seconds: float) -> str:
+def _progress(recorder: BagRecorder, recording: Recording, seconds: float) -> str:
     status = recording.status
     lost = f", {status.lost} lost" if status.lost else ""
     state = "paused" if recorder.is_paused else "recording"
     return (
         f"{state} {time_text(seconds)}: {recorder.topics} topics, {status.messages} messages, "
-        f"{bytes_text(status.data_bytes)}{lost}"
+        f"{size_text(status.data_bytes)}{lost}"
     )
 
 

@@ -14,12 +14,13 @@ from rosbag2_transport.recorder_qos import misses, refusal, subscription_qos
 from rosbag2_transport.topic_filter import TopicFilter
 from turtlewire.errors import BagError, InterfaceError, WireError
 from turtlewire.msg import type_hash
+from turtlewire.package_sources import source_hint
 from turtlewire.terminal.printable import printable
 from turtlewire.wire.base import Subscription, TypeId
 from turtlewire.wire.qos import Durability
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
     from rclpy.clock import TimeJump
     from rclpy.node import Node
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
     from turtlewire.wire.base import EndpointInfo, Entity
     from turtlewire.wire.qos import QoS
 
-__all__ = ["Recorder"]
+__all__ = ["BagRecorder"]
 
 #: How long the first look at the graph may wait for it to be complete.
 _DISCOVERY_NS = 1_000_000_000
@@ -37,7 +38,7 @@ _BATCH = 1000
 _MOST_BATCHES = 100
 
 
-class Recorder:
+class BagRecorder:
     """Subscribes to topics as they appear and writes their messages.
 
     One thread looks for topics whenever the graph changes, another takes messages. Latched messages
@@ -47,16 +48,24 @@ class Recorder:
         node: The node whose subscriptions it uses.
         recording: The bag.
         options: What is recorded.
+        static: Types of the topics that are subscribed to at once, by topic.
 
     Raises:
         RuntimeError: A pattern is not a regular expression.
     """
 
-    def __init__(self, node: Node, recording: Recording, options: RecordOptions) -> None:
+    def __init__(
+        self,
+        node: Node,
+        recording: Recording,
+        options: RecordOptions,
+        static: Mapping[str, str] | None = None,
+    ) -> None:
         self._node = node
         self._logger = node.get_logger()
         self._recording = recording
         self._options = options
+        self._static = static or {}
         self._filter = TopicFilter(options, self._complain)
         self._graph = node.context.wire.graph
         self._wait_set = node.context.wire.create_wait_set()
@@ -94,6 +103,7 @@ class Recorder:
                 post_callback=self._say_that_the_clock_runs,
             )
         self._remove_listener = self._graph.add_listener(self._graph_changed.set)
+        # The first look needs no change.
         self._graph_changed.set()
         self._seeker.start()
         self._taker.start()
@@ -118,7 +128,7 @@ class Recorder:
             self._is_closed = True
 
     def pause(self) -> None:
-        """Drop messages from now on."""
+        """Drop messages until :meth:`resume`."""
         with self._taking:
             if self._paused:
                 return
@@ -127,7 +137,7 @@ class Recorder:
         self._logger.info("Pausing recording.")
 
     def resume(self) -> None:
-        """Record again, with the latched messages that arrived meanwhile."""
+        """Record again, with the latched messages that arrived during the pause."""
         with self._taking:
             if not self._paused:
                 return
@@ -144,11 +154,14 @@ class Recorder:
     # -- topics
 
     def _seek(self) -> None:
+        for topic, type_name in self._static.items():
+            self._subscribe(topic, type_name, [])
         self._graph.wait_for(self._is_settled, _DISCOVERY_NS)
         self._subscribe_to_new()
         for text in missing(self._options, self._graph, self._subscriptions.keys()):
             self._logger.warning(text)
         while not self._stopped.is_set():
+            # Before the look, so that no change is missed.
             self._graph_changed.clear()
             self._subscribe_to_new()
             if self._options.is_discovery_disabled:
@@ -167,7 +180,12 @@ class Recorder:
     def _has_all_requested(self) -> bool:
         options = self._options
         by_name_only = not (
-            options.all_topics or options.all_services or options.regex or options.topic_types
+            options.all_topics
+            or options.all_services
+            or options.all_actions
+            or options.actions
+            or options.regex
+            or options.topic_types
         )
         wanted = {*options.topics, *options.services}
         return by_name_only and bool(wanted) and wanted == self._subscriptions.keys()
@@ -178,6 +196,7 @@ class Recorder:
         for endpoint in self._graph.endpoints():
             if endpoint.kind == "publisher":
                 publishers.setdefault(endpoint.topic, []).append(endpoint)
+            # The recorder's own subscription is not a listener.
             elif endpoint.node is None or endpoint.node.name != self._node.get_name():
                 heard.add(endpoint.topic)
         for topic, types in self._graph.topic_names_and_types().items():
@@ -199,6 +218,8 @@ class Recorder:
     def _subscribe(self, topic: str, type_name: str, publishers: list[EndpointInfo]) -> None:
         offered = [publisher.qos for publisher in publishers]
         qos = self._qos(topic, offered)
+        # The publishers' hash first, because this installation may have another version of the
+        # type.
         their_hash = next((each.type_hash for each in publishers if each.type_hash), "")
         known_hash = _known_hash(type_name)
         type_id = TypeId(type_name, their_hash or known_hash)
@@ -213,12 +234,24 @@ class Recorder:
         self._known_publishers.update(publisher.gid for publisher in publishers)
         self._requested[topic] = qos
         self._subscriptions[topic] = subscription
+        self._repeat_if_latched(topic, qos)
         self._wait_set.attach(subscription)
         self._logger.info(f"Subscribed to topic '{topic}'")
         if not known_hash:
             self._logger.warning(
                 f"The type {type_name} of topic '{topic}' is not installed: its messages are "
-                "recorded without a definition"
+                f"recorded without a definition. {source_hint(type_name)}".rstrip(". ")
+            )
+
+    def _repeat_if_latched(self, topic: str, qos: QoS) -> None:
+        """Have latched messages repeated in further files, if that is asked for."""
+        by_name = self._options.repeat_transient_local_messages
+        depth = by_name.get(topic, self._options.repeat_all_transient_local_depth)
+        if depth and qos.durability == Durability.TRANSIENT_LOCAL:
+            self._recording.repeat(topic, depth)
+        elif topic in by_name:
+            self._logger.warning(
+                f"Topic '{topic}' is not transient local: its messages are not repeated"
             )
 
     def _opened(self, topic: str, type_id: TypeId, qos: QoS, offered: list[QoS]) -> Subscription:
@@ -234,7 +267,7 @@ class Recorder:
         return subscription
 
     def _qos(self, topic: str, offered: list[QoS]) -> QoS:
-        """With which QoS to subscribe; warns of messages that are lost by it."""
+        """Return the QoS to subscribe with; warn of messages that are lost by it."""
         override = self._options.topic_qos_profile_overrides.get(topic)
         if override is None:
             qos, warnings = subscription_qos(topic, offered)

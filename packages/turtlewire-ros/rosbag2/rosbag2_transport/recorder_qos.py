@@ -1,4 +1,4 @@
-"""With which QoS a recorder subscribes, so that it receives from all publishers of a topic."""
+"""The QoS with which a recorder subscribes, so that all publishers of a topic match."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def subscription_qos(topic: str, offered: Sequence[QoS]) -> tuple[QoS, list[str]
 
 
 def misses(topic: str, requested: QoS, offered: QoS) -> str | None:
-    """Why the messages of a new publisher are not received; None if they are."""
+    """Return why the messages of a new publisher are not received; None if they are."""
     if (
         requested.durability == Durability.TRANSIENT_LOCAL
         and offered.durability == Durability.VOLATILE
@@ -83,7 +83,7 @@ def misses(topic: str, requested: QoS, offered: QoS) -> str | None:
 
 
 def refusal(requested: QoSProfile, offered: Iterable[QoS]) -> str:
-    """Why a publisher does not send to a subscription; empty if all do."""
+    """Return why a publisher does not send to a subscription; empty if all do."""
     for qos in offered:
         found = qos_check_compatible(QoSProfile.from_wire(qos), requested)
         if found.compatibility == QoSCompatibility.ERROR:

@@ -11,7 +11,7 @@ from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
     from rclpy.node import Node
-    from rosbag2_transport.recorder import Recorder
+    from rosbag2_transport.recorder import BagRecorder
     from turtlewire.bag.recording import Recording
 
 __all__ = ["RecorderServices"]
@@ -28,7 +28,7 @@ class RecorderServices:
     """
 
     def __init__(
-        self, node: Node, recorder: Recorder, recording: Recording, *, snapshot: bool
+        self, node: Node, recorder: BagRecorder, recording: Recording, *, snapshot: bool
     ) -> None:
         self._node = node
         self._recorder = recorder
@@ -42,7 +42,7 @@ class RecorderServices:
             node.create_service(srv.Snapshot, "~/snapshot", self._snapshot)
 
     def report_split(self, closed_file: str, opened_file: str) -> None:
-        """Tell other nodes that a new file has begun."""
+        """Report to other nodes that a new file has begun."""
         name = self._node.get_fully_qualified_name()
         self._splits.publish(
             WriteSplitEvent(closed_file=closed_file, opened_file=opened_file, node_name=name)
@@ -63,7 +63,7 @@ class RecorderServices:
     def _split(self, _request: Any, response: Any) -> Any:
         try:
             self.report_split(*self._recording.split())
-        except (BagError, OSError, sqlite3.Error) as error:  # the recording ends, and tells why
+        except (BagError, OSError, sqlite3.Error) as error:  # the recording ends and reports why
             self._node.get_logger().error(f"The bag file cannot be split: {error}")
         return response
 

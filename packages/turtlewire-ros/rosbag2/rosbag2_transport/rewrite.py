@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 from rclpy.logging import get_logger
 from rosbag2_transport.progress import ProgressLine, time_text
 from rosbag2_transport.topic_filter import TopicFilter
+from turtlewire.bag.encodings import is_decodable, not_in_cdr
+from turtlewire.terminal.printable import printable
 from turtlewire.terminal.suggestion import did_you_mean
 
 if TYPE_CHECKING:
@@ -39,12 +41,17 @@ class Output:
     end_ns: int = -1
 
 
-def rewrite(inputs: Sequence[Bag], outputs: Sequence[Output]) -> None:
+def rewrite(inputs: Sequence[Bag], outputs: Sequence[Output]) -> list[str]:
     """Write all messages of some bags, in order of their log times, into others.
 
     Args:
         inputs: Open bags.
-        outputs: They are closed at the end; Ctrl-C removes them, because half a bag looks whole.
+        outputs: They are closed at the end. They are removed if nothing was written before an
+            error, and by Ctrl-C, because half a bag looks whole.
+
+    Returns:
+        What is left out, one sentence for each topic: topics that are not in CDR, and messages
+        without bytes.
 
     Raises:
         RuntimeError: A pattern is not a regular expression.
@@ -53,46 +60,89 @@ def rewrite(inputs: Sequence[Bag], outputs: Sequence[Output]) -> None:
     """
     done = 0
     started = time.monotonic()
+    left_out: dict[str, str] = {}
     try:
-        chosen = [_add_topics(inputs, output) for output in outputs]
+        disputed = _disputed_types(inputs)
+        chosen = [_add_topics(inputs, output, disputed, left_out) for output in outputs]
         wanted = set().union(*chosen)
-        streams = [bag.messages([name for name in bag.topics if name in wanted]) for bag in inputs]
         recorded = (topic for bag in inputs for topic in bag.metadata.topics)
         expected = sum(topic.message_count for topic in recorded if topic.name in wanted)
         with ProgressLine(lambda: _progress(done, expected, time.monotonic() - started)):
-            for message in heapq.merge(*streams, key=_log_time):
+            for message in _messages(inputs, wanted, disputed, left_out):
                 for output, topics in zip(outputs, chosen, strict=True):
                     if message.topic in topics and _is_in_time(output, message.log_time_ns):
                         output.writer.write(*_fields(message))
                 done += 1
     except KeyboardInterrupt:
-        _discard(outputs, done)
+        _discard(outputs)
+        paths = ", ".join(output.writer.path for output in outputs)
+        get_logger("rosbag2_transport").warning(
+            f"Interrupted after {done} messages: what was converted is incomplete and removed "
+            f"({paths})"
+        )
         raise
+    except Exception:
+        if not done:
+            _discard(outputs)
+        raise
+    else:
+        if left_out and not wanted:
+            _discard(outputs)
     finally:
         for output in outputs:
             output.writer.close()
+    return list(left_out.values())
 
 
-def _discard(outputs: Sequence[Output], done: int) -> None:
-    """Remove the bags of an interrupted conversion, and log it."""
+def _messages(
+    inputs: Sequence[Bag], wanted: set[str], disputed: set[str], left_out: dict[str, str]
+) -> Iterator[BagMessage]:
+    """Yield the messages to write, in order; disputed types follow our definition."""
+    streams = [bag.messages([name for name in bag.topics if name in wanted]) for bag in inputs]
+    # Each bag is in order already, so one message of each is enough in memory.
+    for message in heapq.merge(*streams, key=_log_time):
+        if not message.data:
+            text = f"Messages of {message.topic} have no bytes: left out."
+            left_out[message.topic] = printable(text)
+        elif message.type in disputed:
+            yield message._replace(data=message.upgraded_data())
+        else:
+            yield message
+
+
+def _discard(outputs: Sequence[Output]) -> None:
+    """Remove the bags of a conversion."""
     for output in outputs:
         output.writer.close()
         shutil.rmtree(output.writer.path)
-    paths = ", ".join(output.writer.path for output in outputs)
-    get_logger("rosbag2_transport").warning(
-        f"Interrupted after {done} messages: what was converted is incomplete and removed ({paths})"
-    )
 
 
 def _progress(done: int, expected: int, seconds: float) -> str:
     if not done or not expected:
         return "converting"
+    # The metadata of a damaged bag may count too few messages.
     share = min(1.0, done / expected)
     return f"converting: {share:4.0%}, {time_text(seconds * (1 - share) / share)} left"
 
 
-def _add_topics(inputs: Sequence[Bag], output: Output) -> set[str]:
-    """Add the topics that an output chooses to it; returns their names."""
+def _disputed_types(inputs: Sequence[Bag]) -> set[str]:
+    """Return the types that the bags define differently; an output has one definition of each."""
+    found: dict[str, str] = {}
+    disputed = set()
+    for bag in inputs:
+        for name, (_, text) in bag.definitions().items():
+            if found.setdefault(name, text) != text:
+                disputed.add(name)
+    return disputed
+
+
+def _add_topics(
+    inputs: Sequence[Bag], output: Output, disputed: set[str], left_out: dict[str, str]
+) -> set[str]:
+    """Add the topics that an output chooses to it; returns their names.
+
+    Those that cannot be decoded go to ``left_out``: rosbag2 would take their bytes for CDR.
+    """
     logger = get_logger("rosbag2_transport")
 
     def complain(severity: str, text: str) -> None:
@@ -104,15 +154,19 @@ def _add_topics(inputs: Sequence[Bag], output: Output) -> set[str]:
         definitions = bag.definitions()
         for topic in bag.metadata.topics:
             if topics.takes(topic.name, [topic.type], published=True, heard=True):
+                if not is_decodable(topic):
+                    left_out[topic.name] = not_in_cdr([topic], "left out")
+                    continue
                 names.add(topic.name)
                 output.writer.add_topic(
                     topic.name,
                     topic.type,
                     qos=topic.qos,
-                    hash_of_type=topic.type_hash or None,
-                    definition=definitions.get(topic.type),
+                    hash_of_type=None if topic.type in disputed else topic.type_hash or None,
+                    definition=None if topic.type in disputed else definitions.get(topic.type),
                 )
-    for text in _mistakes({name for bag in inputs for name in bag.topics}, names, output):
+    chosen = names | left_out.keys()
+    for text in _mistakes({name for bag in inputs for name in bag.topics}, chosen, output):
         logger.warning(text)
     return names
 

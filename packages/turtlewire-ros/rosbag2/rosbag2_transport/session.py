@@ -1,4 +1,4 @@
-"""What one command needs around its work: a context, a node that is served, keys, interrupts."""
+"""The surroundings of one command: a context, a node that is served, keys, interrupts."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ class BagSession:
 def stopped_by_signals(stop: queue.SimpleQueue[None]) -> Iterator[None]:
     """Put an item into ``stop`` at SIGINT, SIGTERM and SIGHUP; nothing in a thread.
 
-    SIGHUP comes when the terminal is closed: a recording is finished then, too, unless ``nohup``
+    SIGHUP comes when the terminal is closed: a recording is also finished then, unless ``nohup``
     lets it go on.
     """
     if threading.current_thread() is not threading.main_thread():
@@ -131,6 +131,7 @@ def handle_keys(bindings: Mapping[bytes, Callable[[], object]], enabled: bool) -
 def _read_keys(keyboard: Keyboard, bindings: Mapping[bytes, Callable[[], object]]) -> None:
     key = b""
     while byte := keyboard.read():
+        # A cursor key arrives as three bytes.
         key = key + byte if key in (_ESCAPE, _ESCAPE + b"[") else byte
         if key in bindings:
             bindings[key]()

@@ -5,11 +5,14 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from rosbag2_transport.action_topics import action_topic
+from turtlewire.distro import KILTED, since
 from turtlewire.wire.names import is_hidden
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from rosbag2_transport.action_topics import ActionTopic
     from rosbag2_transport.options import RecordOptions
 
 __all__ = ["EVENT_TOPIC", "TopicFilter", "check_patterns", "is_service_event", "pattern"]
@@ -61,6 +64,10 @@ class TopicFilter:
         self._complain = complain
         self._regex = pattern(options.regex)
         self._exclude_regex = pattern(options.exclude_regex)
+        # In Jazzy, the topics of actions are like any other, unless actions are asked for.
+        self._knows_actions = since(KILTED) or any(
+            (options.all_actions, options.actions, options.exclude_actions)
+        )
         self._told: set[str] = set()
 
     def takes(self, topic: str, types: Sequence[str], *, published: bool, heard: bool) -> bool:
@@ -83,7 +90,10 @@ class TopicFilter:
                 "Only topics with one type are supported",
             )
             return False
-        hidden = is_hidden(topic) and not is_service_event(topic, types[0])
+        # Names of event topics and topics of actions always have a hidden part.
+        hidden = is_hidden(topic) and not (
+            is_service_event(topic, types[0]) or self._action(topic, types)
+        )
         if hidden and not options.include_hidden_topics:
             text = "Hidden topics are not recorded. Enable them with --include-hidden-topics"
             self._tell("hidden topics", "warning", text)
@@ -94,7 +104,12 @@ class TopicFilter:
 
     def _is_wanted(self, topic: str, types: Sequence[str]) -> bool:
         options = self._options
-        if is_service_event(topic, types[0]):
+        action = self._action(topic, types)
+        if action is not None:
+            everything, listed = options.all_actions, action.action in options.actions
+            excluded = action.action in options.exclude_actions
+            name = action.action
+        elif is_service_event(topic, types[0]):
             everything, listed = options.all_services, topic in options.services
             excluded = topic in options.exclude_service_events
             name = topic.removesuffix(EVENT_TOPIC)
@@ -106,6 +121,10 @@ class TopicFilter:
         if excluded or (self._exclude_regex and self._exclude_regex.search(name)):
             return False
         return everything or listed or bool(self._regex and self._regex.search(name))
+
+    def _action(self, topic: str, types: Sequence[str]) -> ActionTopic | None:
+        """Return the action of a topic, if actions are recorded as such."""
+        return action_topic(topic, types[0]) if self._knows_actions else None
 
     def _tell(self, what: str, severity: str, text: str) -> None:
         if what not in self._told:

@@ -18,7 +18,7 @@ def convert_files_to_idl(
     conversion_function: Callable[..., Any],
     argv: list[str] = sys.argv[1:],
 ) -> str | None:
-    """Convert files into IDL files beside them.
+    """Convert files into IDL files next to them.
 
     Args:
         extension: Suffix of the files, for example ``.msg``.
@@ -31,6 +31,7 @@ def convert_files_to_idl(
     parser = argparse.ArgumentParser(description=f"Convert {extension} files to .idl")
     parser.add_argument("interface_files", nargs="+", type=pathlib.Path, help="Files to convert")
     for path in parser.parse_args(argv).interface_files:
+        # Not resolved: a linked file belongs to the package that the link is in.
         file = path.absolute()
         package = _package_of(file)
         if package is None:
@@ -41,7 +42,7 @@ def convert_files_to_idl(
 
 
 def _package_of(file: pathlib.Path) -> tuple[pathlib.Path, str] | None:
-    """Folder and name of the package that a file is in."""
+    """Return folder and name of the package that a file is in."""
     from defusedxml import ElementTree
 
     for folder in file.parents:

@@ -48,6 +48,7 @@ MSG_TYPE_TO_IDL = {
     "wstring": "wstring",
 }
 
+# IDL has no empty structures; rosidl gives them this member.
 _EMPTY = "uint8 structure_needs_at_least_one_member;"
 
 
@@ -89,6 +90,7 @@ def idl_text(kind: str, package: str, source: str, messages: Iterable[MessageSpe
     bases = [field.type for message in parts for field in message.fields]
     includes = sorted({name for base in bases if (name := get_include_file(base))})
     lines = [
+        # These lines are rosidl_adapter's, so that its output and this one can be compared.
         f"// generated from rosidl_adapter/resource/{kind}.idl.em",
         f"// with input from {package}/{source}",
         "// generated code does not contain a copyright notice",
@@ -105,7 +107,7 @@ def idl_text(kind: str, package: str, source: str, messages: Iterable[MessageSpe
 
 
 def _typedefs(messages: list[MessageSpecification]) -> Iterator[str]:
-    """IDL has no arrays as members: each has a name."""
+    """Yield a name for each array type, because in IDL members cannot be arrays."""
     found = {}
     for message in messages:
         for field in message.fields:
@@ -155,14 +157,14 @@ def _annotations(thing: MessageSpecification | Field | Constant, indent: int) ->
 
 
 def get_include_file(base_type: BaseType) -> str | None:
-    """The file of a message, for example ``std_msgs/msg/Header.idl``; None for other types."""
+    """Return a message's file, for example ``std_msgs/msg/Header.idl``; None for other types."""
     if base_type.is_primitive_type():
         return None
     return f"{base_type.pkg_name}/msg/{base_type.type}.idl"
 
 
 def get_idl_type(type_: BaseType | str) -> str:
-    """Name of a type in IDL; that of an array is the name of its typedef."""
+    """Return the name of a type in IDL; that of an array is the name of its typedef."""
     if isinstance(type_, str):
         return MSG_TYPE_TO_IDL[type_]
     if type_.is_primitive_type():
@@ -183,6 +185,7 @@ def get_idl_type(type_: BaseType | str) -> str:
 def to_idl_literal(idl_type: str, value: Any) -> str:
     """Return a value in IDL; a list is a text of values in parentheses."""
     if isinstance(value, (list, tuple)):
+        # rosidl's convention: IDL has no literals for lists, so `@default` holds a text.
         return string_to_idl_string_literal(f"({', '.join(map(repr, value))})")
     if idl_type == "boolean":
         return "TRUE" if value else "FALSE"

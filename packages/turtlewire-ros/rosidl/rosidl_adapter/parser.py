@@ -167,6 +167,7 @@ def parse_action_string(pkg_name: str, action_name: str, action_string: str) -> 
 
 
 def _parts(text: str) -> list[str]:
+    # Only the whole line counts: `---` may also stand in a comment or a text.
     groups = itertools.groupby(text.splitlines(), lambda line: line != "---")
     parts = [""]
     for is_content, lines in groups:
@@ -180,7 +181,7 @@ def _parts(text: str) -> list[str]:
 def parse_message_string(pkg_name: str, msg_name: str, message_string: str) -> MessageSpecification:
     """Return a message from a text.
 
-    A comment belongs to the field or constant behind it; an indented one to that before it. The
+    A comment belongs to the field or constant after it; an indented one to the one before. The
     lines at the beginning belong to the message.
 
     Raises:
@@ -190,12 +191,14 @@ def parse_message_string(pkg_name: str, msg_name: str, message_string: str) -> M
         InvalidValue: A default or a value does not fit its type.
         ValueError: Two fields or constants have the same name.
     """
+    # As in ROS 2, which knows only the space as separator.
     comments, lines = extract_file_level_comments(message_string.replace("\t", " "))
     named: list[Field | Constant] = []
     waiting: list[str] = []
     for line in map(str.rstrip, lines):
         content = without_comment(line)
         mark, comment = line[len(content) :][:1], line[len(content) + 1 :]
+        # An indented comment that stands alone continues the one of the line before.
         if mark and content and not content.strip():
             if named:
                 named[-1].annotations["comment"].append(comment.lstrip(COMMENT_DELIMITER))
@@ -240,6 +243,7 @@ def extract_file_level_comments(message_string: str) -> tuple[list[str], list[st
 def process_comments(instance: MessageSpecification | Field | Constant) -> None:
     """Tidy the comment: take the unit out of it, and blank lines and common indentation."""
     lines: list[str] = instance.annotations.get("comment", [])
+    # Over all lines, because only a single unit counts.
     units = _UNIT.findall("\n".join(lines))
     if len(units) == 1:
         instance.annotations["unit"] = units[0]

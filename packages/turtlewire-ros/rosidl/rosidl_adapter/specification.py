@@ -94,6 +94,7 @@ def is_valid_field_name(name: str) -> bool:
 
 def is_valid_message_name(name: str) -> bool:
     """Return True if it may be the name of a message, or of a part of a service or action."""
+    # The parts of services and actions have names that the rule below forbids.
     for suffix in _SUFFIXES:
         name = name.removesuffix(suffix)
     return _MESSAGE_NAME.fullmatch(name.removeprefix("Sample_")) is not None
@@ -215,6 +216,7 @@ def parse_value_string(type_: Type, value_string: str) -> Any:
         value = parser.parse_value(parser.parse_type("unused", str(type_)), value_string)
     except ValueError as error:
         raise InvalidValue(str(type_), value_string, str(error)) from error
+    # The engine's bytes have the length 1; rosidl's are integers.
     if type_.type != "byte":
         return value
     return [each[0] for each in value] if type_.is_array else value[0]

@@ -135,7 +135,7 @@ class Annotatable:
     """What may have annotations.
 
     Attributes:
-        annotations: They in their order.
+        annotations: The annotations in their order.
     """
 
     __slots__ = ("annotations",)
@@ -144,7 +144,7 @@ class Annotatable:
         self.annotations: list[Annotation] = []
 
     def get_annotation_value(self, name: str) -> Any:
-        """Value of the only annotation of a name.
+        """Return the value of the only annotation of a name.
 
         Raises:
             ValueError: No annotation has the name, or several have.
@@ -153,11 +153,11 @@ class Annotatable:
         return value
 
     def get_annotation_values(self, name: str) -> list[Any]:
-        """Values of the annotations of a name."""
+        """Return the values of the annotations of a name."""
         return [each.value for each in self.annotations if each.name == name]
 
     def get_comment_lines(self) -> list[str]:
-        """Lines of the comments."""
+        """Return the lines of the comments."""
         texts = [
             value["text"]
             for value in self.get_annotation_values("verbatim")
@@ -268,6 +268,7 @@ class Service:
             namespaced_type,
             SERVICE_EVENT_MESSAGE_SUFFIX,
             info=NamespacedType(("service_msgs", "msg"), "ServiceEventInfo"),
+            # At most one: without `contents`, introspection leaves them out.
             request=BoundedSequence(kinds[0], 1),
             response=BoundedSequence(kinds[1], 1),
         )
@@ -338,6 +339,7 @@ class Action:
             goal_id=goal_id,
             feedback=feedback_type,
         )
+        # The file of an action does not include them, because its text does not mention them.
         self.implicit_includes = [
             Include(f"{'/'.join(each.namespaced_name())}.idl") for each in (stamp, goal_id)
         ]

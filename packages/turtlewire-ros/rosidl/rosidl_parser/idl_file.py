@@ -11,7 +11,7 @@ _Element = TypeVar("_Element")
 
 
 class Include:
-    """That a file needs another one.
+    """A note that a file needs another one.
 
     Attributes:
         locator: The other file, for example ``std_msgs/msg/Header.idl``.
@@ -38,7 +38,7 @@ class IdlLocator:
         self.relative_path = pathlib.Path(relative_path)
 
     def get_absolute_path(self) -> pathlib.Path:
-        """Both together."""
+        """Return folder and path together."""
         return self.basepath / self.relative_path
 
 

@@ -141,7 +141,7 @@ def resolve_typedefed_names(structure: Structure, typedefs: Mapping[str, Abstrac
 
 def _resolved(type_: AbstractType, typedefs: Mapping[str, AbstractType]) -> AbstractType:
     while isinstance(type_, NamedType):
-        # ROS 2 raises this class, too.
+        # As in ROS 2, an AssertionError.
         assert type_.name in typedefs, f"Unknown named type: {type_.name}"
         type_ = typedefs[type_.name]
     if isinstance(type_, AbstractNestedType):
@@ -180,6 +180,7 @@ def _type_of_constant(constant: IdlConstant) -> AbstractType:
     if not isinstance(constant.value, str):
         raise InterfaceError(f"the value of '{constant.name}' is no text: {constant.value}")
     if isinstance(constant.type, UnboundedString):
+        # As in ROS 2, although a constant needs no bound.
         return BoundedString(len(constant.value))
     return BoundedWString(len(constant.value))
 

@@ -23,6 +23,7 @@ def add_dll_directories_from_env(env_name: str) -> Iterator[None]:
     """
     add: Any = getattr(os, "add_dll_directory", None)
     with contextlib.ExitStack() as folders:
+        # Since Python 3.8, Windows does not look in `PATH` for the libraries of a module.
         for path in os.environ.get(env_name, "").split(os.pathsep) if add else ():
             if os.path.isdir(path):
                 folders.enter_context(add(path))

@@ -19,7 +19,7 @@ _ELLIPSIS = "..."
 
 
 def get_message_slot_types(msg: Message) -> OrderedDict[str, AbstractType]:
-    """Names and types of a message's fields, in order."""
+    """Return the names and types of a message's fields, in order."""
     return OrderedDict(zip(msg.get_fields_and_field_types(), msg.SLOT_TYPES, strict=True))
 
 
@@ -46,6 +46,7 @@ def message_to_yaml(
     """
     import yaml
 
+    # Of its own for each call, because `add_representer` changes the class.
     class Dumper(yaml.Dumper):
         """Writes mappings in the order they have, always in block style."""
 
@@ -61,6 +62,7 @@ def message_to_yaml(
         message_to_ordereddict(msg, truncate_length=truncate_length, no_arr=no_arr, no_str=no_str),
         Dumper=Dumper,
         allow_unicode=True,
+        # YAML would wrap long texts.
         width=sys.maxsize,
         default_flow_style=flow_style,
     )
@@ -81,6 +83,7 @@ def message_to_ordereddict(
                 value, truncate_length=truncate_length, no_arr=no_arr, no_str=no_str
             )
         if isinstance(value, bytes):
+            # As ROS 2 shows `byte`: one character of the same number.
             return _shortened(value.decode("latin-1"), truncate_length)
         if isinstance(value, str):
             return (
@@ -89,8 +92,10 @@ def message_to_ordereddict(
         if _is_sequence(value):
             if no_arr and type_ is not None:
                 return _abbreviation(value, type_)
+            # Without a type: elements are never sequences themselves.
             shown = [convert(item, None) for item in value[:truncate_length]]
             return [*shown, _ELLIPSIS] if len(shown) < len(value) else shown
+        # NumPy's numbers, which YAML would write as objects of Python.
         return value.item() if hasattr(value, "item") else value
 
     return OrderedDict(

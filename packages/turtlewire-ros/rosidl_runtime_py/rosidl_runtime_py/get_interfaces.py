@@ -6,6 +6,7 @@ import os
 from typing import TYPE_CHECKING
 
 from turtlewire import msg
+from turtlewire.msg.registry import interface_path
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -23,7 +24,7 @@ _KINDS = ("msg", "srv", "action")
 
 
 def get_interfaces(package_names: Collection[str] = []) -> dict[str, list[str]]:
-    """Interfaces by package.
+    """Return the interfaces by package.
 
     Args:
         package_names: The packages; none means all.
@@ -38,27 +39,27 @@ def get_interfaces(package_names: Collection[str] = []) -> dict[str, list[str]]:
 
 
 def get_message_interfaces(package_names: Collection[str] = []) -> dict[str, list[str]]:
-    """Messages by package; as `get_interfaces`."""
+    """Return the messages by package; as `get_interfaces`."""
     return _interfaces(package_names, ("msg",))
 
 
 def get_service_interfaces(package_names: Collection[str] = []) -> dict[str, list[str]]:
-    """Services by package; as `get_interfaces`."""
+    """Return the services by package; as `get_interfaces`."""
     return _interfaces(package_names, ("srv",))
 
 
 def get_action_interfaces(package_names: Collection[str] = []) -> dict[str, list[str]]:
-    """Actions by package; as `get_interfaces`."""
+    """Return the actions by package; as `get_interfaces`."""
     return _interfaces(package_names, ("action",))
 
 
 def get_interface_packages() -> list[str]:
-    """Names of all packages with interfaces."""
-    return list(msg.interface_names())
+    """Return the names of all packages with interfaces."""
+    return list(msg.interfaces())
 
 
 def get_interface_path(interface_name: str) -> str:
-    """Path of the file that defines an interface.
+    """Return the path of the file that defines an interface.
 
     Args:
         interface_name: ``geometry_msgs/msg/Twist``, with or without the ending of the file, such
@@ -79,12 +80,13 @@ def get_interface_path(interface_name: str) -> str:
         )
     if not all(parts):
         raise ValueError(f"Invalid name '{interface_name}'. Must not contain empty parts")
+    # The name becomes a path below.
     if ".." in parts:
         raise ValueError(f"Invalid name '{interface_name}'. Must not contain '..'")
-    if parts[0] not in msg.interface_names():
+    if parts[0] not in msg.interfaces():
         raise LookupError(f"Unknown package '{parts[0]}'")
     stem, dot, ending = interface_name.partition(".")
-    path = _in_share(msg.interface_path(stem), parts[0])
+    path = _in_share(interface_path(stem), parts[0])
     asked = f"{os.path.splitext(path)[0]}.{ending}" if dot else path
     if asked != path and (ending != "idl" or not os.path.isfile(asked)):
         raise LookupError(f"Could not find the interface '{asked}'")
@@ -104,12 +106,13 @@ def _in_share(path: str, package: str) -> str:
 
 
 def _interfaces(package_names: Collection[str], kinds: tuple[str, ...]) -> dict[str, list[str]]:
-    packages = msg.interface_names()
+    packages = msg.interfaces()
     found: dict[str, list[str]] = {}
     for package in package_names or packages:
         if package not in packages:
             raise LookupError(f"Unknown package '{package}'")
         names = [f"{kind}/{name}" for kind in kinds for name in packages[package][kind]]
+        # A package that was asked for is listed even if it has none; among all, it is left out.
         if names or package_names:
             found[package] = names
     return found

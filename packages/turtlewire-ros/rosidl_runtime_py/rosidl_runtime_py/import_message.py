@@ -11,7 +11,7 @@ __all__ = ["import_message_from_namespaced_type"]
 
 
 def import_message_from_namespaced_type(message_type: NamespacedType) -> Any:
-    """Class of an interface.
+    """Return the class of an interface.
 
     Raises:
         ModuleNotFoundError: The package is unknown.

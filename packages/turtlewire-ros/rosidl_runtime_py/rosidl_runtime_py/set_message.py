@@ -62,6 +62,7 @@ class _Filler:
         types = get_message_slot_types(msg) if isinstance(msg, Message) else {}
         for name, value in values.items():
             current = getattr(msg, name)
+            # The fields keep their zeros until the time of publishing is known.
             if self._awaits_time(current, value):
                 continue
             setattr(msg, name, self._converted(types[name], current, value))
@@ -86,6 +87,7 @@ class _Filler:
         return value if type(value) is type(current) else type(current)(value)
 
     def _message(self, type_: NamespacedType, value: Any) -> Any:
+        # A message is taken as it is, so that a caller may nest messages in dictionaries.
         if getattr(value, "_TYPE_NAME", None) == type_.full_name:
             return value
         message = get_message(type_.full_name)()
@@ -103,11 +105,14 @@ class _Filler:
         if type_.value_type == BasicType("octet"):
             return [_byte(item) for item in value]
         if isinstance(type_, AbstractSequence) and isinstance(current, array):
+            # `array` converts and checks all numbers at once.
             return array(current.typecode, value)
         return list(value)
 
 
 def _byte(value: Any) -> bytes:
     if isinstance(value, int):
+        # Not `bytes(value)`, which would make that many zeros.
         return bytes((value,))
+    # The inverse of `convert`: one character per byte.
     return value.encode("latin-1") if isinstance(value, str) else bytes(value)

@@ -24,7 +24,7 @@ __all__ = [
 
 
 def get_namespaced_type(identifier: str) -> NamespacedType:
-    """Type of a name like ``geometry_msgs/msg/Twist``.
+    """Return the type of a name like ``geometry_msgs/msg/Twist``.
 
     Raises:
         ValueError: ``identifier`` does not have three parts.
@@ -38,7 +38,7 @@ def get_namespaced_type(identifier: str) -> NamespacedType:
 
 
 def get_message_namespaced_type(identifier: str) -> NamespacedType:
-    """Type of a message's name, ``geometry_msgs/msg/Twist`` or ``geometry_msgs/Twist``.
+    """Return the type of a message's name, ``geometry_msgs/msg/Twist`` or ``geometry_msgs/Twist``.
 
     Raises:
         ValueError: ``identifier`` is not the name of a message.
@@ -47,7 +47,7 @@ def get_message_namespaced_type(identifier: str) -> NamespacedType:
 
 
 def get_service_namespaced_type(identifier: str) -> NamespacedType:
-    """Type of a service's name, ``turtlesim/srv/Spawn`` or ``turtlesim/Spawn``.
+    """Return the type of a service's name, ``turtlesim/srv/Spawn`` or ``turtlesim/Spawn``.
 
     Raises:
         ValueError: ``identifier`` is not the name of a service.
@@ -56,7 +56,7 @@ def get_service_namespaced_type(identifier: str) -> NamespacedType:
 
 
 def get_action_namespaced_type(identifier: str) -> NamespacedType:
-    """Type of an action's name, ``turtlesim/action/RotateAbsolute`` or without the middle.
+    """Return an action's type, ``turtlesim/action/RotateAbsolute`` or without the middle.
 
     Raises:
         ValueError: ``identifier`` is not the name of an action.
@@ -72,7 +72,7 @@ def _namespaced_type(identifier: str, kind: str, word: str) -> NamespacedType:
 
 
 def get_interface(identifier: str) -> Any:
-    """Class of a message, service or action.
+    """Return the class of a message, service or action.
 
     Raises:
         ValueError: ``identifier`` is not the name of an interface.
@@ -83,7 +83,7 @@ def get_interface(identifier: str) -> Any:
 
 
 def get_message(identifier: str) -> Any:
-    """Class of a message, ``geometry_msgs/msg/Twist`` or ``geometry_msgs/Twist``.
+    """Return the class of a message, ``geometry_msgs/msg/Twist`` or ``geometry_msgs/Twist``.
 
     Raises as `get_interface` does.
     """
@@ -91,7 +91,7 @@ def get_message(identifier: str) -> Any:
 
 
 def get_service(identifier: str) -> Any:
-    """Class of a service, ``turtlesim/srv/Spawn`` or ``turtlesim/Spawn``.
+    """Return the class of a service, ``turtlesim/srv/Spawn`` or ``turtlesim/Spawn``.
 
     Raises as `get_interface` does.
     """
@@ -99,7 +99,7 @@ def get_service(identifier: str) -> Any:
 
 
 def get_action(identifier: str) -> Any:
-    """Class of an action, ``turtlesim/action/RotateAbsolute`` or without the middle.
+    """Return the class of an action, ``turtlesim/action/RotateAbsolute`` or without the middle.
 
     Raises as `get_interface` does.
     """

@@ -196,7 +196,7 @@ def _drive(node: TeleopTwistKeyboard, keyboard: Keyboard) -> None:
 
 
 def _spin(node: Node) -> None:
-    """Serve the node's parameters, beside the keyboard."""
+    """Serve the node's parameters while the keyboard is read."""
     with contextlib.suppress(ExternalShutdownException):
         rclpy.spin(node)
 

@@ -132,7 +132,7 @@ __all__ = [
 
 
 def _named_here(value: Any) -> Any:
-    """The same, but its help and repr name this package, as in ROS 2, not one of the parts."""
+    """Return the same, but its help and repr name this package, as in ROS 2, not a part of it."""
     if hasattr(value, "__module__"):
         value.__module__ = __name__
     return value
@@ -156,6 +156,7 @@ def __getattr__(name: str) -> Any:
 
     for module in (_matrices, _composition, _arrays, _arcball):
         if hasattr(module, name):
+            # Kept in the module, so that this function is called once per name.
             value = globals()[name] = _named_here(getattr(module, name))
             return value
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 def arcball_map_to_sphere(point: Sequence[float], center: Sequence[float], radius: float) -> Vector:
     """Return the unit vector on the ball under a window position (y down).
 
-    Positions beside the ball go to its rim.
+    Positions outside the ball go to its rim.
     """
     x, y = (point[0] - center[0]) / radius, (center[1] - point[1]) / radius
     square = x * x + y * y
@@ -32,12 +32,13 @@ def arcball_map_to_sphere(point: Sequence[float], center: Sequence[float], radiu
 
 
 def arcball_constrain_to_axis(point: ArrayLike, axis: ArrayLike) -> Vector:
-    """The nearest point of the ball's front half in the plane across ``axis`` (a unit vector)."""
+    """Return the nearest point of the ball's front half in the plane across ``axis`` (unit)."""
     normal = np.asarray(axis, dtype=np.float64)
     vector = np.asarray(point, dtype=np.float64)
     vector = vector - normal * (normal @ vector)
     length = math.sqrt(vector @ vector)
     if length > EPSILON:
+        # The back half cannot be seen, so take the opposite point.
         return -vector / length if vector[2] < 0.0 else vector / length
     if normal[2] == 1.0:
         return np.array([1.0, 0.0, 0.0])
@@ -98,7 +99,7 @@ class Arcball:
         return self._constrain
 
     def down(self, point: Sequence[float]) -> None:
-        """The mouse is pressed at a window position."""
+        """Press the mouse at a window position."""
         self._pressed_at = arcball_map_to_sphere(point, self._center, self._radius)
         self._pressed = self._previous = self._now
         self._axis = None
@@ -108,20 +109,23 @@ class Arcball:
             self._pressed_at = arcball_constrain_to_axis(self._pressed_at, self._axis)
 
     def drag(self, point: Sequence[float]) -> None:
-        """The pressed mouse moves to a window position."""
+        """Move the pressed mouse to a window position."""
         here = arcball_map_to_sphere(point, self._center, self._radius)
         if self._axis is not None:
             here = arcball_constrain_to_axis(here, self._axis)
         self._previous = self._now
         across = np.cross(self._pressed_at, here)
+        # The direction of the axis would be noise.
         if across @ across < EPSILON:
             self._now = self._pressed
         else:
+            # Not halved: an arcball turns by twice the angle between the points.
             turn = (*across.tolist(), float(self._pressed_at @ here))
             self._now = np.array(quaternion_multiply(turn, self._pressed.tolist()))
 
     def next(self, acceleration: float = 0.0) -> None:
         """Go on turning as between the last two positions."""
+        # A fraction of 2 goes as far beyond the last position as that is from the one before.
         ahead = quaternion_slerp(self._previous, self._now, 2.0 + acceleration, 0, False)
         self._previous, self._now = self._now, ahead
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 def vector_norm(
     data: ArrayLike, axis: int | None = None, out: NDArray[np.float64] | None = None
 ) -> Any:
-    """Euclidean length along ``axis``, of all numbers together when that is None.
+    """Return the Euclidean length along ``axis``, of all numbers together when that is None.
 
     Written into ``out`` (and None returned) if given.
     """
@@ -47,7 +47,7 @@ def unit_vector(
 
 
 def random_vector(size: int | tuple[int, ...]) -> Any:
-    """Uniform random numbers in [0, 1), an array of shape ``size``."""
+    """Return uniform random numbers in [0, 1), an array of shape ``size``."""
     # The caller's numpy.random.seed decides, as in the original.
     return np.random.random(size)  # noqa: NPY002
 
@@ -57,6 +57,7 @@ def random_quaternion(rand: Sequence[float] | None = None) -> NDArray[np.float64
 
     ``rand`` may give the three numbers in [0, 1) to make it of.
     """
+    # Shoemake's method: three independent numbers of that form are uniform over all rotations.
     share, first, second = random_vector(3) if rand is None else rand
     inner, outer = math.sqrt(1.0 - share), math.sqrt(share)
     turn, twist = 2.0 * math.pi * first, 2.0 * math.pi * second
@@ -71,7 +72,7 @@ def random_quaternion(rand: Sequence[float] | None = None) -> NDArray[np.float64
 
 
 def random_rotation_matrix(rand: Sequence[float] | None = None) -> NDArray[np.float64]:
-    """Rotation matrix of :func:`random_quaternion`."""
+    """Return the rotation matrix of :func:`random_quaternion`."""
     return quaternion_matrix(random_quaternion(rand).tolist())
 
 
@@ -98,6 +99,7 @@ def quaternion_slerp(
         return start
     if fraction == 1.0:
         return end
+    # A quaternion and its opposite are the same rotation.
     if shortestpath and cosine < 0.0:
         cosine, end = -cosine, -end
     angle = math.acos(cosine) + spin * math.pi
@@ -138,6 +140,7 @@ def _rotation_by_svd(
     points: NDArray[np.float64], goals: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     left, _, right = np.linalg.svd(goals @ points.T)
+    # Without it, points of a mirrored body would give a reflection.
     handedness = np.diag([1.0, 1.0, np.sign(np.linalg.det(left @ right))])
     rotation: NDArray[np.float64] = left @ handedness @ right
     return rotation
@@ -152,5 +155,6 @@ def _rotation_by_quaternion(
     quadratic[:3, :3] = s + s.T - np.trace(s) * np.identity(3)
     quadratic[:3, 3] = quadratic[3, :3] = vector
     quadratic[3, 3] = np.trace(s)
+    # Eigenvalues ascend, so the last eigenvector is that of the largest.
     _, vectors = np.linalg.eigh(quadratic)
     return quaternion_matrix(vectors[:, -1].tolist())[:3, :3]

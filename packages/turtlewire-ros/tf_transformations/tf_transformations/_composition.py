@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 
 def euler_matrix(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Matrix:
-    """Rotation matrix of three angles [rad].
+    """Return the rotation matrix of three angles [rad].
 
     :func:`quaternion_from_euler` explains ``axes``.
     """
@@ -41,17 +41,17 @@ def euler_matrix(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Matrix
 
 
 def euler_from_matrix(matrix: ArrayLike, axes: Axes = "sxyz") -> tuple[float, float, float]:
-    """Angles [rad] of the rotation in a 4x4 or 3x3 matrix."""
+    """Return the angles [rad] of the rotation in a 4x4 or 3x3 matrix."""
     return euler_from_rotation(np.asarray(matrix, dtype=np.float64)[:3, :3].tolist(), axes)
 
 
 def quaternion_matrix(quaternion: Sequence[float]) -> Matrix:
-    """Rotation matrix of a quaternion, which need not be normalised."""
+    """Return the rotation matrix of a quaternion, which need not be normalised."""
     return affine_matrix(rotation_from_quaternion(quaternion))
 
 
 def quaternion_from_matrix(matrix: ArrayLike) -> Quaternion:
-    """Quaternion, with ``w >= 0``, of the rotation in a 4x4 matrix.
+    """Return the quaternion, with ``w >= 0``, of the rotation in a 4x4 matrix.
 
     Its scales, shears and its translation are left aside.
 
@@ -62,6 +62,7 @@ def quaternion_from_matrix(matrix: ArrayLike) -> Quaternion:
     if not np.linalg.det(array):
         raise ValueError("Matrix is singular")
     rotation, _ = orthogonal_parts(array)
+    # A reflection has no quaternion; which axis is mirrored is arbitrary.
     if np.linalg.det(rotation) < 0.0:
         rotation[:, 0] *= -1.0
     x, y, z, w = quaternions.from_matrix(tuple(rotation.ravel().tolist()))
@@ -70,8 +71,9 @@ def quaternion_from_matrix(matrix: ArrayLike) -> Quaternion:
 
 
 def orthogonal_parts(linear: ArrayLike) -> tuple[Matrix, Matrix]:
-    """QR decomposition of a 3x3 matrix, with a positive diagonal of R."""
+    """Return the QR decomposition of a 3x3 matrix, with a positive diagonal of R."""
     rotation, triangle = np.linalg.qr(np.asarray(linear, dtype=np.float64))
+    # NumPy leaves the signs open; with positive ones the decomposition is unique.
     signs = np.where(np.diag(triangle) < 0.0, -1.0, 1.0)
     return rotation * signs, triangle * signs[:, np.newaxis]
 
@@ -79,7 +81,7 @@ def orthogonal_parts(linear: ArrayLike) -> tuple[Matrix, Matrix]:
 def decompose_matrix(
     matrix: ArrayLike,
 ) -> tuple[Matrix, list[float], tuple[float, float, float], Matrix, Matrix]:
-    """Scale, shear (x-y, x-z, y-z), Euler angles (``sxyz``), translation and perspective.
+    """Return scale, shear (x-y, x-z, y-z), Euler angles (``sxyz``), translation and perspective.
 
     These are the arguments of :func:`compose_matrix`.
 
@@ -96,6 +98,7 @@ def decompose_matrix(
         raise ValueError("Matrix is singular")
     perspective = array[3] @ np.linalg.inv(affine)
     rotation, triangle = orthogonal_parts(affine[:3, :3])
+    # A mirrored matrix: the scales get the minus signs, so that the rest is a rotation.
     if np.linalg.det(rotation) < 0.0:
         rotation, triangle = -rotation, -triangle
     scale = np.diag(triangle).copy()
@@ -128,7 +131,7 @@ def compose_matrix(
 
 
 def orthogonalization_matrix(lengths: Sequence[float], angles: Sequence[float]) -> Matrix:
-    """Matrix from crystallographic to Cartesian coordinates.
+    """Return the matrix from crystallographic to Cartesian coordinates.
 
     The cell has three ``lengths``, and three ``angles`` in degrees.
     """

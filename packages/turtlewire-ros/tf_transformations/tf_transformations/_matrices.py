@@ -64,7 +64,7 @@ def identity_matrix() -> Matrix:
 
 
 def translation_matrix(direction: Sequence[float]) -> Matrix:
-    """Matrix that moves by ``direction`` (three numbers, metres)."""
+    """Return the matrix that moves by ``direction`` (three numbers, metres)."""
     return affine_matrix(ROTATION_IDENTITY, direction)
 
 
@@ -74,7 +74,7 @@ def translation_from_matrix(matrix: ArrayLike) -> Matrix:
 
 
 def reflection_matrix(point: Sequence[float], normal: Sequence[float]) -> Matrix:
-    """Matrix that mirrors at the plane through ``point`` with ``normal``."""
+    """Return the matrix that mirrors at the plane through ``point`` with ``normal``."""
     unit = _unit(normal)
     return affine_matrix(
         np.identity(3) - 2.0 * np.outer(unit, unit),
@@ -100,7 +100,7 @@ def reflection_from_matrix(matrix: ArrayLike) -> tuple[Matrix, Matrix]:
 def rotation_matrix(
     angle: float, direction: Sequence[float], point: Sequence[float] | None = None
 ) -> Matrix:
-    """Rotation by ``angle`` [rad] about ``direction`` through ``point`` or the origin."""
+    """Return the rotation by ``angle`` [rad] about ``direction``, through ``point`` if given."""
     x, y, z = axis = _unit(direction)
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     rotation = (
@@ -115,7 +115,7 @@ def rotation_matrix(
 
 
 def rotation_from_matrix(matrix: ArrayLike) -> tuple[float, Matrix, Matrix]:
-    """Angle [rad], axis (3 numbers) and a point ``(x, y, z, 1)`` of the axis.
+    """Return the angle [rad], axis (3 numbers) and a point ``(x, y, z, 1)`` of the axis.
 
     Raises:
         ValueError: The matrix is not a rotation about an axis.
@@ -134,6 +134,8 @@ def rotation_from_matrix(matrix: ArrayLike) -> tuple[float, Matrix, Matrix]:
         ]
     )
     return (
+        # From sine and cosine: the arc cosine of the trace alone loses digits near 0 and half a
+        # turn, and the sign.
         math.atan2(skew @ axis / 2.0, (np.trace(rotation) - 1.0) / 2.0),
         axis,
         _fixed_point(array),
@@ -143,7 +145,7 @@ def rotation_from_matrix(matrix: ArrayLike) -> tuple[float, Matrix, Matrix]:
 def scale_matrix(
     factor: float, origin: Sequence[float] | None = None, direction: Sequence[float] | None = None
 ) -> Matrix:
-    """Matrix that scales by ``factor``, away from ``origin``, in all directions or in one.
+    """Return the matrix that scales by ``factor`` from ``origin``, in all directions or in one.
 
     A factor of -1 is a point symmetry.
     """
@@ -158,13 +160,14 @@ def scale_matrix(
 
 
 def scale_from_matrix(matrix: ArrayLike) -> tuple[float, Matrix, Matrix | None]:
-    """Factor, a fixed point (3 numbers) and the direction, None when it scales in all directions.
+    """Return factor, fixed point (3 numbers) and direction, None if it scales in all directions.
 
     Raises:
         ValueError: The matrix leaves no point where it is.
     """
     array = np.asarray(matrix, dtype=np.float64)
     trace = float(np.trace(array[:3, :3]))
+    # Scaling in one direction leaves two eigenvalues at 1, so the trace gives the third.
     directions = _eigenvectors(array[:3, :3], trace - 2.0)
     origin = _fixed_point(array)[:3]
     return (trace - 2.0, origin, directions[0]) if directions else (trace / 3.0, origin, None)
@@ -177,7 +180,7 @@ def projection_matrix(
     perspective: Sequence[float] | None = None,
     pseudo: bool = False,
 ) -> Matrix:
-    """Matrix that projects onto the plane through ``point`` with ``normal``.
+    """Return the matrix that projects onto the plane through ``point`` with ``normal``.
 
     Args:
         point: A point of the plane.
@@ -206,7 +209,7 @@ def projection_matrix(
 def projection_from_matrix(
     matrix: ArrayLike, pseudo: bool = False
 ) -> tuple[Matrix, Matrix, Matrix | None, Matrix | None, bool]:
-    """Point, normal, direction, perspective, ``pseudo``: arguments of :func:`projection_matrix`.
+    """Return point, normal, direction, perspective, ``pseudo``, as for :func:`projection_matrix`.
 
     Raises:
         ValueError: The matrix is not a projection.
@@ -245,7 +248,7 @@ def clip_matrix(
     far: float,
     perspective: bool = False,
 ) -> Matrix:
-    """Matrix that takes a viewing volume to the cube from -1 to 1.
+    """Return the matrix that takes a viewing volume to the cube from -1 to 1.
 
     A box, or with ``perspective`` a frustum.
 
@@ -271,7 +274,7 @@ def clip_matrix(
 def shear_matrix(
     angle: float, direction: Sequence[float], point: Sequence[float], normal: Sequence[float]
 ) -> Matrix:
-    """Matrix that shears by ``angle`` [rad] along ``direction``.
+    """Return the matrix that shears by ``angle`` [rad] along ``direction``.
 
     The plane through ``point`` with ``normal`` stays where it is.
 
@@ -287,13 +290,14 @@ def shear_matrix(
 
 
 def shear_from_matrix(matrix: ArrayLike) -> tuple[float, Matrix, Matrix, Matrix]:
-    """Angle [rad], direction, point and normal, as :func:`shear_matrix` takes them.
+    """Return angle [rad], direction, point and normal, as :func:`shear_matrix` takes them.
 
     Raises:
         ValueError: The matrix does not shear.
     """
     array = np.asarray(matrix, dtype=np.float64)
     left, singular, right = np.linalg.svd(array[:3, :3] - np.identity(3))
+    # A shear is the identity and one outer product, so only one singular value is not zero.
     slope, direction, normal = singular[0], left[:, 0], right[0]
     if slope < EPSILON:
         raise ValueError("the matrix does not shear")
@@ -316,4 +320,5 @@ def concatenate_matrices(*matrices: ArrayLike) -> Matrix:
 def is_same_transform(matrix0: ArrayLike, matrix1: ArrayLike) -> bool:
     """Return True if both matrices do the same, to rounding; a common factor does not count."""
     first, second = np.asarray(matrix0, dtype=np.float64), np.asarray(matrix1, dtype=np.float64)
+    # Homogeneous matrices that differ by a factor are the same transform.
     return bool(np.allclose(first / first[3, 3], second / second[3, 3]))

@@ -10,10 +10,10 @@ module                               what it holds
 `path`, `path_bulk`, `pen_line`      pixels that pens paint: one line, many lines, their shape
 `turtle_endpoints`, `rotate_action`  topics and services of one turtle; its action
 `missing_turtles`                    turtles that are referenced but were never spawned
-`screen`                             the page in the browser
+`screen`, `picture`                  the page in the browser; what it draws
 `drawing`, `looks`                   what the pens have drawn, for browsers that connect later; in
                                      which colour
-`page_commands`, `page_actions`      what the page asks for: parsed, done
+`page_commands`, `page_actions`      what the page asks for; how it is done
 `page_rotations`                     rotations that a page asks for
 `transform_view`                     frames and transforms on the page
 `turtle_teleop_key`                  drives a turtle from a terminal
@@ -24,12 +24,12 @@ module                               what it holds
 ===================================  =========================================================
 """
 
-import os
 import sys
 
-# Kilted moved the interfaces to a package of their own, with other names on the wire. The names of
-# the distributions follow the alphabet.
-if os.environ.get("ROS_DISTRO", "jazzy") >= "kilted":
+from turtlewire.distro import KILTED, since
+
+# Kilted moved the interfaces to a package of their own, with other names on the wire.
+if since(KILTED):
     from turtlesim_msgs import action, msg, srv
 
     sys.modules.update(

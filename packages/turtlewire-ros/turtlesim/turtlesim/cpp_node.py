@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 __all__ = ["CppNode"]
 
+# What rclcpp declares for its publisher of parameter events.
 _QOS_OVERRIDES = {
     "depth": 1000,
     "durability": "volatile",
@@ -38,6 +39,7 @@ class CppNode(Node):
 
     def __init__(self, node_name: str, **options: Any) -> None:
         super().__init__(node_name, **options)
+        # As in rclcpp, whose clock subscribes to learn of `use_sim_time`.
         self.create_subscription(
             ParameterEvent, "/parameter_events", lambda _: None, qos_profile_parameter_events
         )
@@ -49,7 +51,7 @@ class CppNode(Node):
             )
 
     def set_parameters_atomically(self, parameter_list: Sequence[Parameter]) -> SetParametersResult:
-        """Set all, or none when one of them is refused."""
+        """Set all, or none when one of them is rejected."""
         for parameter in parameter_list:
             reason = self._refusal(parameter)
             if reason:
@@ -57,7 +59,7 @@ class CppNode(Node):
         return super().set_parameters_atomically(list(parameter_list))
 
     def _refusal(self, parameter: Parameter) -> str:
-        """Why a parameter cannot be set; empty when it can."""
+        """Return why a parameter cannot be set; an empty string when it can."""
         name = parameter.name
         if not self.has_parameter(name):
             return f"parameter '{name}' cannot be set because it was not declared"

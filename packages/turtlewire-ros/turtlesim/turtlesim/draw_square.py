@@ -26,11 +26,12 @@ __all__ = [
     "STOPPED",
     "TURNING_SPEED",
     "DrawSquare",
-    "Goal",
+    "SquareGoal",
     "SquarePlan",
     "main",
 ]
 
+# All numbers are the original's.
 SIDE = 2.0
 FORWARD_SPEED = 1.0
 TURNING_SPEED = 0.4
@@ -40,7 +41,7 @@ STOPPED = 0.0001
 PERIOD_S = 0.016
 
 
-class Goal(NamedTuple):
+class SquareGoal(NamedTuple):
     """Where the turtle shall be [m], and its heading [rad]."""
 
     x: float
@@ -65,10 +66,10 @@ class SquarePlan:
     def __init__(self, log: Callable[[str], object]) -> None:
         self._log = log
         self._phase: _Phase | None = None
-        self._goal = Goal(0.0, 0.0, 0.0)
+        self._goal = SquareGoal(0.0, 0.0, 0.0)
 
     def command(self, pose: Any) -> tuple[float, float]:
-        """Speed ahead [m/s] and turning rate [rad/s] for a turtle whose newest pose is ``pose``."""
+        """Return speed [m/s] and turning rate [rad/s] for the newest ``pose`` of a turtle."""
         if self._phase is None:
             self._set_goal(_Phase.FORWARD, _ahead_of(pose))
             return 0.0, 0.0
@@ -97,20 +98,20 @@ class SquarePlan:
             return 0.0, 0.0
         return forward, turning
 
-    def _set_goal(self, phase: _Phase, goal: Goal) -> None:
+    def _set_goal(self, phase: _Phase, goal: SquareGoal) -> None:
         self._phase, self._goal = phase, goal
         self._log(f"New goal [{goal.x:f} {goal.y:f}, {goal.theta:f}]")
 
 
-def _ahead_of(pose: Any) -> Goal:
-    return Goal(
+def _ahead_of(pose: Any) -> SquareGoal:
+    return SquareGoal(
         math.cos(pose.theta) * SIDE + pose.x, math.sin(pose.theta) * SIDE + pose.y, pose.theta
     )
 
 
-def _left_of(pose: Any) -> Goal:
+def _left_of(pose: Any) -> SquareGoal:
     theta = math.fmod(pose.theta + math.pi / 2, 2 * math.pi)
-    return Goal(pose.x, pose.y, theta - 2 * math.pi if theta > math.pi else theta)
+    return SquareGoal(pose.x, pose.y, theta - 2 * math.pi if theta > math.pi else theta)
 
 
 class DrawSquare(Node):
@@ -127,6 +128,7 @@ class DrawSquare(Node):
     def reset_and_start(self) -> None:
         """Wait for the simulator, reset it, and start drawing."""
         self._reset.wait_for_service()
+        # As in the original, the drawing does not wait for the response.
         self._reset.call_async(Empty.Request())
         self.create_timer(PERIOD_S, self._on_timer)
 

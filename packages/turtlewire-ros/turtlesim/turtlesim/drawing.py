@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from turtlesim.model import Stroke
 
-__all__ = ["RECORD_SIZE", "Drawing"]
+__all__ = ["RECORD_SIZE", "StrokeHistory"]
 
 #: One line on its way to the browser: colour and width as 0xRRGGBBWW, then x0, y0, x1, y1 in pixels
 #: of the 500 x 500 image.
@@ -42,7 +42,7 @@ class _Entry(NamedTuple):
     origin: tuple[str, Stroke] | None
 
 
-class Drawing:
+class StrokeHistory:
     """Strokes in their order; the older ones are joined to longer lines that look the same.
 
     A reader keeps a position, -1 at first, and hands it to :meth:`since`. Not thread-safe.

@@ -114,7 +114,7 @@ class MissingTurtles:
 def find_missing(
     endpoints: Iterable[EndpointInfo], namespace: str, turtles: Iterable[str]
 ) -> tuple[str, ...]:
-    """Names of turtles in ``namespace`` that endpoints refer to and that do not exist.
+    """Return the names of turtles in ``namespace`` that endpoints refer to and that do not exist.
 
     Args:
         endpoints: The graph's publishers and subscriptions.

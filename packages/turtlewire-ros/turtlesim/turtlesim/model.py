@@ -42,11 +42,11 @@ __all__ = [
     "ROTATION_TOLERANCE",
     "TICK_NS",
     "Pen",
-    "Pose",
     "Rotation",
     "RotationState",
     "Stroke",
     "Turtle",
+    "TurtlePose",
     "TurtleTick",
     "World",
     "normalize_angle",
@@ -67,12 +67,13 @@ class Pen(NamedTuple):
     width: int
 
 
+# The original's.
 DEFAULT_PEN = Pen(0xB3, 0xB8, 0xFF, 3)
 #: Stands for the end of a command whose first tick is still to come.
 _NEW_COMMAND = -math.inf
 
 
-class Pose(NamedTuple):
+class TurtlePose(NamedTuple):
     """Published state: position [m, y up], heading [rad], speed [m/s], turning rate [rad/s]."""
 
     x: float
@@ -107,7 +108,7 @@ class TurtleTick(NamedTuple):
     """
 
     turtle: Turtle
-    pose: Pose
+    pose: TurtlePose
     teleport_strokes: list[Stroke]
     sensor_pixel: tuple[int, int]
     move_stroke: Stroke | None
@@ -182,6 +183,7 @@ class Turtle:
     def __init__(self, name: str, x: float, y: float, theta: float) -> None:
         self.name = name
         self.x = x
+        # The original subtracts two floats here, and computes in double precision from then on.
         self.y_down = float32(FIELD_SIZE - y)
         self.theta = theta
         self.pen = DEFAULT_PEN
@@ -192,10 +194,10 @@ class Turtle:
         self._teleports: list[tuple[bool, float, float, float]] = []
 
     @property
-    def pose(self) -> Pose:
+    def pose(self) -> TurtlePose:
         """Its pose and the velocities of the last command."""
         state = (self.x, self.y_down, self.theta, self.forward, self.lateral, self.turning)
-        return Pose._make(published(state))
+        return TurtlePose._make(published(state))
 
     @property
     def is_plain(self) -> bool:
@@ -234,10 +236,12 @@ class Turtle:
         """Lift the pen and keep its colour, or put down a new one; width 0 draws one pixel."""
         self.pen_on = not off
         if not off:
+            # As Qt does, which draws the original's lines.
             self.pen = pen if pen.width else pen._replace(width=1)
 
     def step(self, now_ns: int) -> TurtleTick:
         """Move by one tick; ``now_ns`` is only compared with the time of the last command."""
+        # The order is the original's; poses and colours depend on it.
         self.age_command(now_ns)
         teleport_strokes = self.land() if self._teleports else []
         rotation = self.rotation
@@ -295,6 +299,7 @@ class Turtle:
             self.y_down -= math.sin(self.theta) * first
         else:
             self.x = first
+            # As in the original, only this side is limited here; the next move limits the others.
             self.y_down = max(0.0, FIELD_SIZE - y)
             self.theta = angle
         return self._stroke_from(old_x, old_y) if self.pen_on else None
@@ -313,6 +318,7 @@ class Turtle:
             return
         self.forward = self.lateral = 0.0
         self.turning = -ROTATION_SPEED if rotation.remaining < 0.0 else ROTATION_SPEED
+        # Renewed at each tick, because a rotation may take longer than a command holds.
         self.command_ends_ns = now_ns + COMMAND_LIFETIME_NS
 
     def _end_rotation(self, rotation: Rotation, state: RotationState) -> None:
@@ -336,6 +342,7 @@ class World:
 
     def __init__(self) -> None:
         self.turtles: dict[str, Turtle] = {}
+        # Sorted after a change and not for each tick; None until it is needed.
         self._order: list[Turtle] | None = None
         self._named = 0
 
@@ -394,6 +401,8 @@ class World:
 
     def _next_name(self) -> str:
         while True:
+            # As in the original, the count goes on after a kill: no name is given twice until a
+            # reset.
             self._named += 1
             name = f"turtle{self._named}"
             if name not in self.turtles:

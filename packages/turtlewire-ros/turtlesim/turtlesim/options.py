@@ -21,7 +21,9 @@ def parse_options(args: list[str]) -> argparse.Namespace:
     from turtlewire.web.desktop import wanted_lan
 
     parser = argparse.ArgumentParser(
-        prog="turtlesim_node", description="Turtles on a field, shown in the browser."
+        prog="turtlesim_node",
+        description="Turtles on a field, shown in the browser.",
+        allow_abbrev=False,
     )
     shown = parser.add_mutually_exclusive_group()
     shown.add_argument("--headless", action="store_true", help="serve no page")

@@ -69,6 +69,7 @@ class PageActions:
     def __init__(self, node: Node, simulator: Simulator) -> None:
         self._node = node
         self._simulator = simulator
+        # `append` and `popleft` of a deque need no lock.
         self._commands: deque[page_commands.Command] = deque()
         self._publishers: dict[str, Publisher] = {}
         self._rotations = PageRotations(node)
@@ -79,7 +80,7 @@ class PageActions:
             page_commands.Teleport: self._teleport,
             page_commands.Spawn: lambda command: simulator.spawn(*command),
             page_commands.Kill: lambda command: simulator.kill(command.turtle),
-            page_commands.Pen: self._set_pen,
+            page_commands.PenChange: self._set_pen,
             page_commands.Background: lambda command: simulator.set_background(*command),
             page_commands.Speed: lambda command: simulator.set_speed(command.factor),
             page_commands.Clear: lambda _: simulator.clear(),
@@ -91,7 +92,8 @@ class PageActions:
         self._commands.append(command)
 
     def carry_out(self) -> None:
-        """Carry out the commands that came; those that cannot be done yet wait for a later tick."""
+        """Carry out the commands; the ones that are not possible yet wait for a later tick."""
+        # Only the commands that are here now: some put themselves back.
         for _ in range(len(self._commands)):
             command = self._commands.popleft()
             self._actions[type(command)](command)
@@ -124,7 +126,7 @@ class PageActions:
         if name in self._simulator.world.turtles and not self._rotations.rotate(name, theta):
             self._commands.append(command)
 
-    def _set_pen(self, command: page_commands.Pen) -> None:
+    def _set_pen(self, command: page_commands.PenChange) -> None:
         turtle, r, g, b, width, off = command
         self._simulator.set_pen(turtle, Pen(r, g, b, width), off=off)
 

@@ -79,6 +79,7 @@ class RotateAction:
 
     def _on_cancel(self, handle: ServerGoalHandle) -> CancelResponse:
         if self._goal is not None and self._goal.handle == handle:
+            # The next tick of the model carries it out.
             self._goal.rotation.cancel_requested = True
         return CancelResponse.ACCEPT
 
@@ -89,6 +90,7 @@ class RotateAction:
                 "Rotation goal received before a previous goal finished. Aborting previous goal"
             )
             self.abort()
+        # The request to cancel may have come between the acceptance and here.
         rotation.cancel_requested = handle.is_cancel_requested
         goal = self._goal = _Goal(handle, rotation)
         await goal.ended

@@ -1,72 +1,40 @@
 """The simulator's screen: a page in any browser of this machine, fed at the simulation's rate.
 
-A browser receives ``scene`` texts (JSON) when turtles, background or hints change, ``tf`` texts a
-few times a second while it watches the frames, an ``axes`` text at each tick while it draws them,
-and one binary frame for each tick (of a crowd: each second tick) that it keeps up with. A frame is
-little-endian: five 32-bit unsigned integers (tick, version of the scene that it belongs to, number
-of turtles, number of strokes, 1 if the picture starts empty), five 32-bit floats for each turtle in
-the scene's order (x, y, theta, linear and angular velocity), and the strokes as
-:mod:`turtlesim.drawing` packs them. What comes back: :mod:`turtlesim.page_commands`.
+A browser gets scenes and frames (:mod:`turtlesim.picture`), of a crowd's frames each second one if
+it keeps up, ``tf`` texts a few times a second while it watches the frames, and an ``axes`` text at
+each tick while it draws them.
 """
 
 from __future__ import annotations
 
 import json
-import struct
 import threading
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from turtlesim.drawing import RECORD_SIZE, Drawing
-from turtlesim.looks import shown_pen
-from turtlesim.page_commands import TurtleCommandError, Unwatch, Watch, parse_command
+from turtlesim.page_commands import READER, Unwatch, Watch
+from turtlesim.picture import FieldPicture
 from turtlesim.transform_view import field_frames
-from turtlewire.web import Server
+from turtlewire.web import CommandSession, Server
 from turtlewire.web.desktop import wanted_port
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from turtlesim.crowd import CrowdTick
-    from turtlesim.model import Stroke, Turtle, TurtleTick
+    from turtlesim.model import TurtleTick
     from turtlesim.page_commands import Command
+    from turtlesim.picture import Scene
     from turtlesim.transform_view import TransformView
 
-__all__ = ["Scene", "Screen", "pen_of"]
+__all__ = ["Screen"]
 
-_HEADER = struct.Struct("<5I")
 _PAGE = Path(__file__).parent / "page"
 #: With a crowd, a page gets every second tick and interpolates: drawing takes its time.
 _CROWD_TICKS = 2
 #: Time between two looks at the frames [s].
 _FRAMES_PERIOD_S = 0.2
-
-
-class Scene(NamedTuple):
-    """The part of the picture that changes rarely.
-
-    Attributes:
-        node: Fully qualified name of the simulator's node.
-        turtles: Names in the order in which frames list their poses.
-        background: Red, green and blue, 0..255.
-        missing: Turtles that are referenced but were never spawned.
-        pens: As :func:`pen_of` gives them, in the order of the turtles.
-        speed: Simulated seconds in a second; 0 in a pause.
-    """
-
-    node: str
-    turtles: tuple[str, ...]
-    background: tuple[int, int, int]
-    missing: tuple[str, ...]
-    pens: tuple[tuple[str, int, bool], ...] = ()
-    speed: float = 1.0
-
-
-def pen_of(turtle: Turtle) -> tuple[str, int, bool]:
-    """Colour (as in CSS), width [pixels of the 500 x 500 image] and whether the pen draws."""
-    r, g, b, width = shown_pen(turtle.name, turtle.pen)
-    return f"#{r:02x}{g:02x}{b:02x}", width, turtle.pen_on
 
 
 class Screen:
@@ -91,16 +59,11 @@ class Screen:
             on_command: Called on the server's thread for each command of a page; must return at
                 once.
             transforms: The frames; closed with the screen.
-            lan: Whether to serve the devices of the network, too.
+            lan: Whether to serve the devices of the network as well.
         """
         self.transforms = transforms
         self._lock = threading.Lock()
-        self._scene = scene
-        self._version = 0
-        self._tick = 0
-        self._poses = b""
-        self._shown: tuple[str, ...] = ()
-        self._drawing = Drawing()
+        self._picture = FieldPicture(scene)
         self._server = Server(
             _PAGE, lambda: _Session(self, on_command), port=wanted_port(), lan=lan
         )
@@ -109,47 +72,30 @@ class Screen:
     def show(self, ticks: list[TurtleTick]) -> None:
         """Take the results of one tick of the world."""
         with self._lock:
-            self._tick += 1
-            self._shown = tuple(tick.turtle.name for tick in ticks)
-            self._poses = struct.pack(
-                f"<{5 * len(ticks)}f", *(value for tick in ticks for value in tick.pose)
-            )
-            for tick in ticks:
-                for stroke in tick.teleport_strokes:
-                    self._draw(tick.turtle.name, stroke)
-                if tick.move_stroke is not None:
-                    self._draw(tick.turtle.name, tick.move_stroke)
+            self._picture.show(ticks)
         self._server.notify()
 
     def show_crowd(self, tick: CrowdTick) -> None:
         """Take the results of one tick of a crowd."""
         with self._lock:
-            self._tick += 1
-            self._shown = tuple([turtle.name for turtle in tick.turtles])
-            self._poses = tick.poses.tobytes()
-            self._drawing.add_records(tick.stroke_records())
-        if self._tick % _CROWD_TICKS == 0:
+            self._picture.show_crowd(tick)
+        if self._picture.tick % _CROWD_TICKS == 0:
             self._server.notify()
-
-    def _draw(self, turtle: str, stroke: Stroke) -> None:
-        self._drawing.add(turtle, stroke._replace(pen=shown_pen(turtle, stroke.pen)))
 
     def set_scene(self, scene: Scene) -> None:
         """Show other turtles, another background or other hints from now on."""
         with self._lock:
-            if scene != self._scene:
-                self._scene = scene
-                self._version += 1
+            self._picture.set_scene(scene)
 
     def clear(self) -> None:
-        """Wipe the pen's picture."""
+        """Wipe the pen's drawing."""
         with self._lock:
-            self._drawing.clear()
+            self._picture.clear()
 
     @property
     def turtles(self) -> tuple[str, ...]:
         """Names of the turtles."""
-        return self._scene.turtles
+        return self._picture.scene.turtles
 
     def close(self) -> None:
         """Stop serving; pages show that the simulator is lost, and reconnect when it returns."""
@@ -159,47 +105,29 @@ class Screen:
     def scene_since(self, version: int) -> tuple[int, str | None]:
         """Return the scene as JSON if it changed after ``version``."""
         with self._lock:
-            if version == self._version:
-                return version, None
-            return self._version, json.dumps(
-                {"type": "scene", "version": self._version, **self._scene._asdict()}
-            )
+            return self._picture.scene_since(version)
 
     def frame_since(self, position: int) -> tuple[int, bytes]:
         """Return the newest poses and the strokes after ``position``."""
         with self._lock:
-            restart, strokes, position = self._drawing.since(position)
-            # After a spawn or a kill, poses of the last tick do not belong to the new scene yet.
-            current = self._shown == self._scene.turtles
-            poses = self._poses if current else b""
-            header = _HEADER.pack(
-                self._tick & 0xFFFFFFFF,
-                self._version,
-                len(poses) // 20,
-                len(strokes) // RECORD_SIZE,
-                restart,
-            )
-        return position, header + poses + strokes
+            return self._picture.frame_since(position)
 
 
-class _Session:
+class _Session(CommandSession):
     """One browser that shows the page."""
 
     def __init__(self, screen: Screen, on_command: Callable[[Command], None]) -> None:
+        super().__init__(READER)
         self._screen = screen
         self._on_command = on_command
         self._version = -1  # older than any scene and stroke, so that the first answer is whole
         self._position = -1
-        self._errors: list[str] = []
         self._watch: Watch | None = None
         self._next_look = 0.0
         self._field_frames: tuple[str, list[str]] = ("", [])
 
-    def outgoing(self) -> list[str | bytes]:
-        messages: list[str | bytes] = [
-            json.dumps({"type": "error", "text": text}) for text in self._errors
-        ]
-        self._errors.clear()
+    def news(self) -> list[str | bytes]:
+        messages: list[str | bytes] = []
         self._version, scene = self._screen.scene_since(self._version)
         if scene is not None:
             messages.append(scene)
@@ -212,12 +140,7 @@ class _Session:
         self._position, frame = self._screen.frame_since(self._position)
         return [*messages, frame]
 
-    def receive(self, message: str | bytes) -> None:
-        try:
-            command = parse_command(message)
-        except TurtleCommandError as error:
-            self._errors.append(str(error))
-            return
+    def obey(self, command: Command) -> None:
         if isinstance(command, (Watch, Unwatch)):
             self._set_watch(command if isinstance(command, Watch) else None)
         else:

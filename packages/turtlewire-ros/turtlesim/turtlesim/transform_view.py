@@ -90,8 +90,7 @@ class TransformView:
         """Return all frames that have a parent, sorted by name."""
         now_s = self._now_ns() / 1e9
         return sorted(
-            _read_frame(match, now_s)
-            for match in _FRAME.finditer(self._buffer.all_frames_as_yaml())
+            _read_frame(match, now_s) for match in _FRAME.finditer(self._buffer.to_yaml())
         )
 
     def relation(self, target: str, source: str) -> dict[str, Any]:
@@ -117,7 +116,7 @@ class TransformView:
 
         Args:
             field: The frame of the field.
-            names: The frames; those that have no finite place in ``field`` are left out.
+            names: The frames; frames without a finite place in ``field`` are left out.
 
         Returns:
             Name to x and y [m] and the directions of the x axis and the y axis, two numbers each.

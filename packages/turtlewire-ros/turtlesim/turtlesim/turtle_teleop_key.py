@@ -136,7 +136,7 @@ def main(args: list[str] | None = None) -> int:
 
 
 def _spin(node: CppNode) -> None:
-    """Serve the node's parameters, beside the keyboard."""
+    """Serve the node's parameters while the keyboard is read."""
     with contextlib.suppress(ExternalShutdownException):
         rclpy.spin(node)
 

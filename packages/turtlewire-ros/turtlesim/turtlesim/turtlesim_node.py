@@ -29,7 +29,7 @@ from turtlewire.terminal.printable import printable, printable_lines
 if TYPE_CHECKING:
     from rclpy.timer import Timer
     from turtlesim.crowd import Crowd
-    from turtlesim.model import Pen, Pose, Turtle
+    from turtlesim.model import Pen, Turtle, TurtlePose
     from turtlesim.screen import Screen
 
 __all__ = ["TurtlesimNode", "main"]
@@ -46,7 +46,7 @@ class TurtlesimNode(CppNode):
         headless: Whether to serve no page.
         speed: How many times faster than real time to run; the simulator then publishes ``/clock``
             itself. None runs in real time and publishes no clock.
-        lan: Whether to serve the page to other devices of the network, too.
+        lan: Whether to serve the page to other devices of the network as well.
         options: Passed on to :class:`rclpy.node.Node`.
 
     Attributes:
@@ -150,6 +150,7 @@ class TurtlesimNode(CppNode):
             else:
                 self._hold()
 
+        # Not the node's clock, which follows the `/clock` that is published here.
         clock = rclpy.clock.Clock(clock_type=ClockType.STEADY_TIME)
         return self.create_timer(self._pace.period_ns / 1e9, tick, clock=clock)
 
@@ -221,8 +222,8 @@ class TurtlesimNode(CppNode):
 
     # Turtles
 
-    def pose_of(self, name: str) -> Pose | None:
-        """The pose of a turtle, for nodes of the same executor; None if there is no such turtle."""
+    def pose_of(self, name: str) -> TurtlePose | None:
+        """Return a turtle's pose, for nodes of the same executor; None without such a turtle."""
         turtle = self.world.turtles.get(name)
         return None if turtle is None else turtle.pose
 
@@ -355,7 +356,7 @@ class TurtlesimNode(CppNode):
         self._show_scene()
 
     def _scene(self) -> Any:
-        from turtlesim.screen import Scene, pen_of
+        from turtlesim.picture import Scene, pen_of
 
         red, green, blue = (
             self.get_parameter(f"background_{channel}").value for channel in _BACKGROUND

@@ -104,6 +104,7 @@ def main(args: list[str] | None = None) -> None:
             executor.add_node(node)
         for node in others:
             for act in (node.create_one, node.create_one, node.destroy_one, node.destroy_one):
+                # A new future for each change: the spin below ends at the next event.
                 detector.changed = Future()
                 act()
                 executor.spin_until_future_complete(detector.changed, timeout_sec=10.0)

@@ -79,6 +79,7 @@ def main(args: list[str] | None = None) -> None:
     with rclpy.init(args=args):
         logging, test = LoggerServiceNode(), TestNode("LoggerServiceNode")
         executor = SingleThreadedExecutor()
+        # Only this node: `TestNode` spins itself while it waits for a response.
         executor.add_node(logging)
         thread = threading.Thread(target=executor.spin, daemon=True)
         thread.start()
@@ -95,4 +96,5 @@ def main(args: list[str] | None = None) -> None:
 def _log(test: TestNode, logging: LoggerServiceNode, number: int, level: str) -> None:
     test.get_logger().info(f"Output with {level} logger level:")
     test.pub.publish(String(data=f"Output {number}"))
+    # Otherwise the next level could be set before this message is logged.
     logging.heard.acquire()

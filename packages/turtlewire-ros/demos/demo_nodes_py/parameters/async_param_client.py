@@ -20,7 +20,7 @@ _PATIENCE = 3.0  # seconds
 
 
 def main(args: list[str] | None = None) -> int:
-    """Go through all requests; the exit status."""
+    """Go through all requests; returns the exit status."""
     with rclpy.init(args=args):
         node = rclpy.create_node("async_param_client")
         client = AsyncParameterClient(node, "parameter_blackboard")

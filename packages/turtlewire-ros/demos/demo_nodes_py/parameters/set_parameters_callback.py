@@ -1,4 +1,4 @@
-"""Changes, refuses and follows parameters with callbacks.
+"""Changes, rejects and follows parameters with callbacks.
 
 Try ``ros2 param set /set_parameters_callback param1 1.0``, and a value above 5.0.
 """
@@ -31,10 +31,12 @@ class SetParametersCallback(Node):
 
     def _add_param2(self, parameters: list[Parameter]) -> list[Parameter]:
         if any(parameter.name == "param1" for parameter in parameters):
+            # Added before the check, so it is checked and set together with `param1`.
             parameters.append(Parameter("param2", Parameter.Type.DOUBLE, 4.0))
         return parameters
 
     def _check(self, parameters: Sequence[Parameter]) -> SetParametersResult:
+        # Only checks: another callback may still reject the change, so `_follow` takes the values.
         for parameter in parameters:
             if parameter.name == "param1" and parameter.value > 5.0:
                 return SetParametersResult(successful=False, reason="cannot set param1 > 5.0")

@@ -21,7 +21,7 @@ _STATES = {
 
 
 def check(name: str, parameters: Sequence[Parameter]) -> SetParametersResult:
-    """Refuse values of the parameter that are none of the three words."""
+    """Reject values of the parameter other than the three words."""
     for parameter in parameters:
         if parameter.name != name:
             continue

@@ -30,6 +30,7 @@ class IntrospectionServiceNode(Node):
     def __init__(self) -> None:
         super().__init__("introspection_service")
         self.srv = self.create_service(AddTwoInts, "add_two_ints", self._add)
+        # Before the declaration, so that the callbacks also get a value from the command line.
         self.add_on_set_parameters_callback(lambda given: check(_PARAMETER, given))
         self.add_post_set_parameters_callback(self._configure)
         self.declare_parameter(_PARAMETER, "disabled")

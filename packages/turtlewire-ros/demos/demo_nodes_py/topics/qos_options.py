@@ -42,10 +42,12 @@ def run_cycles(make_node: Callable[[bool], Node], role: str, args: list[str] | N
         help=f"number of cycles of the {role}",
     )
     argv = sys.argv if args is None else ["", *args]
+    # `rclpy.init` reads the ROS arguments; argparse would reject them.
     options = parser.parse_args(remove_ros_args(argv)[1:])
     with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
         node = make_node(options.reliable)
         cycle = 0
         while rclpy.ok() and cycle < options.number_of_cycles:
+            # As in ROS 2, each callback is a cycle, so a timer's counts as well as a message's.
             rclpy.spin_once(node)
             cycle += 1

@@ -153,7 +153,7 @@ def open_node(name):
 
 
 @pytest.mark.parametrize("enough_joins", [100, pytest.param(1000, marks=pytest.mark.slow)])
-def test_nor_is_any_lost_on_the_wire(enough_joins, monkeypatch, stamped):
+def test_no_static_transform_is_lost_over_dds(enough_joins, monkeypatch, stamped):
     """The same among participants of Cyclone DDS, each with frames of its own."""
     monkeypatch.delenv("RMW_IMPLEMENTATION")
     chance = random.Random(20261121)

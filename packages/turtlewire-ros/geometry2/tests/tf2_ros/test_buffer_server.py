@@ -258,6 +258,12 @@ def test_times_must_be_times(buffer, client, stamped):
         client.lookup_transform("world", "robot", Time().to_msg(), LONG)
 
 
+def test_a_time_message_is_refused_in_lyrical(client, monkeypatch):
+    monkeypatch.setenv("ROS_DISTRO", "lyrical")
+    with pytest.raises(TypeError, match=r"^Must pass a rclpy\.time\.Time object\.$"):
+        client.lookup_transform("world", "robot", Time().to_msg(), LONG)
+
+
 def test_the_numbers_of_the_errors():
     for number in range(1, 7):
         error = exception_for(TF2Error(error=number, error_string="text"))

@@ -63,7 +63,11 @@ class Command:
         self.repeat()
 
     def repeat(self):
-        self.printed = outcome(self._run(*self._words))
+        """Run it until it succeeds: on a busy machine it may give up before it finds a frame."""
+        limit = time.monotonic() + 60
+        while (program := self._run(*self._words)).wait() != 0:
+            assert time.monotonic() < limit, program.text
+        self.printed = outcome(program)
 
 
 def wait_until_printed(text, command):

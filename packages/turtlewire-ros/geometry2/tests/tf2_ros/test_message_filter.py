@@ -133,6 +133,20 @@ def test_the_oldest_is_dropped_when_too_many_wait(setup):
     assert s.filter.getQueueSize() == 0
 
 
+def test_a_message_as_old_as_the_cache_is_long_still_waits(setup, stamped):
+    s = setup()
+    for second in (5, 11):
+        s.buffer.set_transform(stamped(stamp_s=second), "me")
+    s.filter.add(point(1))
+    older = point(0)
+    older.header.stamp.nanosec = 999_999_999
+    s.filter.add(older)
+    assert s.failed == [(0, FilterFailureReason.OutTheBack)]
+    s.buffer.set_transform(stamped(stamp_s=1), "me")
+    s.spin_until(lambda: s.passed == [1])
+    assert len(s.failed) == 1
+
+
 def test_a_message_without_a_frame_is_dropped(setup):
     s = setup()
     s.filter.add(point(1, frame=""))

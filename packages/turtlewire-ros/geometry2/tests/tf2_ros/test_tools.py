@@ -281,6 +281,31 @@ def test_a_buffer_server_refuses_sizes(size, text, tool):
     assert text in err
 
 
+def test_lyrical_ignores_what_are_no_flags(monkeypatch):
+    monkeypatch.setenv("ROS_DISTRO", "lyrical")
+    placement = publisher.parse(
+        [
+            "1",
+            "2",
+            "3",
+            "0",
+            "0",
+            "0",
+            "c",
+            "d",
+            "--frame-id",
+            "a",
+            "--child-frame-id",
+            "b",
+            "--x",
+            "4",
+        ]
+    )
+    assert placement == publisher.Placement((4.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), "a", "b")
+    with pytest.raises(publisher.ArgumentsError, match=r"^Frame id must not be empty$"):
+        publisher.parse(["1", "2", "3", "0", "0", "0", "a", "b"])
+
+
 def test_help_is_no_error(capsys):
     assert publisher.main(["static_transform_publisher", "--help"]) == 0
     assert "old style, deprecated" in capsys.readouterr().out
@@ -471,7 +496,9 @@ def test_static_chain_has_no_net_delay(stamped):
 def test_the_hint_of_echo_names_other_domains_while_there_are_no_frames(stamped, monkeypatch):
     monkeypatch.setattr("turtlewire.doctor.network.udp_ports", lambda: {7410 + 250 * 3})
     buffer = Buffer()
-    assert tf2_echo._hints(buffer, "world", "robot", 4)[-1].endswith("export ROS_DOMAIN_ID=3")
+    hints = tf2_echo._hints(buffer, "world", "robot", 4)
+    assert "does a TransformListener fill this buffer?" in hints[0]
+    assert hints[-1].endswith("export ROS_DOMAIN_ID=3")
     assert len(tf2_echo._hints(buffer, "world", "robot", 3)) == 1
     buffer.set_transform_static(stamped("world", "robot"), "me")
     assert len(tf2_echo._hints(buffer, "world", "robt", 4)) == 1
@@ -493,7 +520,7 @@ def test_the_tools_help_with_a_frame_id_that_is_not_known(stamped):
     (hint,) = tf2_echo._hints(buffer, "world", "robt", 0)
     assert "robot" in hint
     assert tf2_echo._hints(buffer, "world", "robot", 0) == []
-    statistics = tf2_monitor.Statistics(lambda _gid: tf2_monitor.NOBODY, lambda: 0.0)
+    statistics = tf2_monitor.DelayStatistics(lambda _gid: tf2_monitor.NOBODY, lambda: 0.0)
     options = argparse.Namespace(frames=["world", "robt"], json=False)
     assert hint in tf2_monitor._report(options, buffer, statistics, tf2_monitor.Delays())
 
@@ -501,7 +528,7 @@ def test_the_tools_help_with_a_frame_id_that_is_not_known(stamped):
 def test_statistics(stamped):
     now = [10.0]
     names = {b"one": "/one"}
-    statistics = tf2_monitor.Statistics(
+    statistics = tf2_monitor.DelayStatistics(
         lambda gid: names.get(gid, tf2_monitor.NOBODY), lambda: now[0]
     )
     message = msg.get_message(TYPE_NAME)(transforms=[stamped(stamp_s=9)])
@@ -535,7 +562,7 @@ def test_statistics(stamped):
 def test_broadcasters_are_counted_by_messages_not_transforms(stamped):
     """A node that sends three transforms in each message, 20 messages a second, sends at 20 Hz."""
     now = [0.0]
-    statistics = tf2_monitor.Statistics(lambda _gid: "/three", lambda: now[0])
+    statistics = tf2_monitor.DelayStatistics(lambda _gid: "/three", lambda: now[0])
     transforms = [stamped(child=f"frame{number}", stamp_s=-number) for number in range(3)]
     message = msg.get_message(TYPE_NAME)(transforms=transforms)
     for tick in range(21):
@@ -543,7 +570,7 @@ def test_broadcasters_are_counted_by_messages_not_transforms(stamped):
         statistics.take(message, MessageInfo(0, 0, b"three"))
     (broadcaster,) = statistics.as_dict()["broadcasters"]
     assert broadcaster["rate"] == pytest.approx(20.0)
-    # ROS 2's figures of a broadcaster are those of its messages' mean delays
+    # ROS 2 computes a broadcaster's figures from the mean delays of its messages
     assert broadcaster["average_delay"] == pytest.approx(1.5)
     assert broadcaster["max_delay"] == pytest.approx(2.0)
 
@@ -553,7 +580,7 @@ STEERING_SHOWN = r"robot\x1b]0;title\x07\x1b[2J"
 
 
 def test_monitor_escapes_names_that_would_steer_the_terminal(stamped):
-    statistics = tf2_monitor.Statistics(lambda _gid: STEERING, lambda: 0.0)
+    statistics = tf2_monitor.DelayStatistics(lambda _gid: STEERING, lambda: 0.0)
     message = msg.get_message(TYPE_NAME)(transforms=[stamped(child=STEERING)])
     statistics.take(message, MessageInfo(0, 0, b"one"))
     options = argparse.Namespace(frames=[], json=False)

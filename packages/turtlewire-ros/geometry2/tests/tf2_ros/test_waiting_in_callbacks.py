@@ -211,5 +211,5 @@ def _cyclone(monkeypatch, _local_middleware):
 @pytest.mark.usefixtures("_cyclone")
 @settings(max_examples=12, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(schedules(), st.sampled_from([None, "robot"]))
-def test_nor_does_it_on_the_real_wire(schedule, static):
+def test_waiting_over_dds_never_hangs_and_answers_right(schedule, static):
     check(schedule, static)

@@ -10,13 +10,13 @@ import zlib
 import pytest
 
 from tf2_tools.pdf import pdf_from_drawing
-from turtlewire.tf.drawing import Box, Drawing, Line, Text
+from turtlewire.tf.drawing import Drawing, FilledBox, Line, Text
 
 DRAWING = Drawing(
     300.0,
     200.0,
     (
-        Box(10, 20, 30, 40, "#ff0000"),
+        FilledBox(10, 20, 30, 40, "#ff0000"),
         Line(((0, 0), (100, 0), (100, 50)), "#00ff00", 2.0, dashed=True),
         Text(10, 100, "naïve (…) \\ 猫", 12, "#0000ff", bold=True),
         Text(10, 150, "plain", 9, "#000000"),

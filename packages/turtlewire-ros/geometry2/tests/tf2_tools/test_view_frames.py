@@ -17,7 +17,7 @@ from rclpy.context import Context
 from rclpy.node import Node
 from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
 from tf2_tools.view_frames import ViewFrames
-from turtlewire.tf.frame_tree import FrameTree, Link
+from turtlewire.tf.frame_tree import FrameLink, FrameTree
 
 COMMAND = [sys.executable, "-m", "tf2_tools.view_frames"]
 
@@ -190,6 +190,6 @@ def test_a_loop_is_told_and_written(monkeypatch, tmp_path, capfd):
         "These frames form a loop, no lookup across it works: b -> a -> b" in capfd.readouterr().err
     )
     assert isinstance(tree, FrameTree)
-    assert isinstance(tree.links["a"], Link)
+    assert isinstance(tree.links["a"], FrameLink)
     assert '"a" -> "b"' in (tmp_path / "loop.gv").read_text()
     assert len(list(tmp_path.iterdir())) == 3

@@ -1,4 +1,4 @@
-"""Protocols: what the parts of a launch know of each other.
+"""Protocols of the parts of a launch, as the other parts see them.
 
 ``Context_contra`` is the context that they are handed; it stands above them, so it is a parameter.
 """

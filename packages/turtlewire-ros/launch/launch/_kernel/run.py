@@ -21,7 +21,7 @@ C = TypeVar("C")
 
 
 class Run(Generic[C]):
-    """What the entities of a launch and its loop have in common.
+    """The state that the entities of a launch and its loop share.
 
     Events travel one way: :meth:`emit` queues them, the loop takes them by :meth:`take_events` and
     hands them to the :meth:`handlers`. All methods are for the loop's thread, except for
@@ -46,13 +46,13 @@ class Run(Generic[C]):
         return self._loop
 
     def begin(self) -> None:
-        """The launch starts on the running event loop."""
+        """Start on the running event loop."""
         self._loop = asyncio.get_running_loop()
         self._wake = asyncio.Event()
         self.is_shutdown = False
 
     def end(self) -> None:
-        """The launch has ended; later events wait for its next start."""
+        """End the launch; later events wait for its next start."""
         self._loop = None
 
     async def wait(self) -> None:
@@ -67,7 +67,7 @@ class Run(Generic[C]):
         loop, wake = self._loop, self._wake
         if loop is None or wake is None:
             return  # not running: the queue is looked at when it starts
-        with contextlib.suppress(RuntimeError):  # the loop was closed meanwhile
+        with contextlib.suppress(RuntimeError):  # the loop may have been closed by now
             loop.call_soon_threadsafe(wake.set)
 
     # events
@@ -78,8 +78,8 @@ class Run(Generic[C]):
         self._wake_loop()
 
     def take_events(self) -> list[Event]:
-        """Remove the queued events; those that their handlers emit come after them."""
-        # One `popleft` each, because other threads may append meanwhile.
+        """Remove and return the queued events; events that their handlers emit come later."""
+        # One `popleft` each, because other threads may append at the same time.
         return [self._events.popleft() for _ in range(len(self._events))]
 
     def register(self, handler: EventHandling[C], *, last: bool) -> None:
@@ -99,6 +99,7 @@ class Run(Generic[C]):
 
     def handlers(self) -> tuple[EventHandling[C], ...]:
         """Return the registered handlers, in the order in which they get an event."""
+        # A copy, because handlers register and unregister handlers.
         return tuple(self._handlers)
 
     # work that keeps the launch running
@@ -118,6 +119,7 @@ class Run(Generic[C]):
         """Forget the futures that are done; returns what they raised."""
         done = [future for future in self._futures if future.done()]
         self._futures.difference_update(done)
+        # A cancellation is not an error, and `exception` would raise it.
         errors = [future.exception() for future in done if not future.cancelled()]
         return [error for error in errors if error is not None]
 

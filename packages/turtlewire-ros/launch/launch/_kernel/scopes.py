@@ -25,6 +25,11 @@ class Scopes(Generic[V]):
         self._kind = kind
         self._copies: list[dict[str, V]] = []
 
+    @property
+    def depth(self) -> int:
+        """The number of scopes that have begun and not ended."""
+        return len(self._copies)
+
     def push(self) -> None:
         """Remember the values."""
         self._copies.append(dict(self._values))
@@ -41,6 +46,7 @@ class Scopes(Generic[V]):
 
     def replace(self, values: Mapping[str, V]) -> None:
         """Make the mapping equal to ``values``."""
+        # In place, because `os.environ` cannot be replaced.
         for name in set(self._values) - set(values):
             del self._values[name]
         self._values.update(values)

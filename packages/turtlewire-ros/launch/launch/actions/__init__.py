@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from launch.actions.append_environment_variable import AppendEnvironmentVariable
+from launch.actions.declare_boolean_launch_argument import DeclareBooleanLaunchArgument
 from launch.actions.declare_launch_argument import DeclareLaunchArgument
 from launch.actions.emit_event import EmitEvent
 from launch.actions.execute_local import ExecuteLocal
 from launch.actions.execute_process import ExecuteProcess
+from launch.actions.for_loop import ForEach, ForLoop
 from launch.actions.group_action import GroupAction
 from launch.actions.include_launch_description import IncludeLaunchDescription
-from launch.actions.log_info import LogInfo
+from launch.actions.log import Log, LogDebug, LogError, LogInfo, LogInterface, LogWarning
 from launch.actions.opaque_coroutine import OpaqueCoroutine
 from launch.actions.opaque_function import OpaqueFunction
 from launch.actions.pop_environment import PopEnvironment
@@ -17,6 +19,7 @@ from launch.actions.pop_launch_configurations import PopLaunchConfigurations
 from launch.actions.push_environment import PushEnvironment
 from launch.actions.push_launch_configurations import PushLaunchConfigurations
 from launch.actions.register_event_handler import RegisterEventHandler
+from launch.actions.replace_environment_variables import ReplaceEnvironmentVariables
 from launch.actions.reset_environment import ResetEnvironment
 from launch.actions.reset_launch_configurations import ResetLaunchConfigurations
 from launch.actions.set_environment_variable import SetEnvironmentVariable
@@ -29,13 +32,21 @@ from launch.actions.unset_launch_configuration import UnsetLaunchConfiguration
 
 __all__ = [
     "AppendEnvironmentVariable",
+    "DeclareBooleanLaunchArgument",
     "DeclareLaunchArgument",
     "EmitEvent",
     "ExecuteLocal",
     "ExecuteProcess",
+    "ForEach",
+    "ForLoop",
     "GroupAction",
     "IncludeLaunchDescription",
+    "Log",
+    "LogDebug",
+    "LogError",
     "LogInfo",
+    "LogInterface",
+    "LogWarning",
     "OpaqueCoroutine",
     "OpaqueFunction",
     "PopEnvironment",
@@ -43,6 +54,7 @@ __all__ = [
     "PushEnvironment",
     "PushLaunchConfigurations",
     "RegisterEventHandler",
+    "ReplaceEnvironmentVariables",
     "ResetEnvironment",
     "ResetLaunchConfigurations",
     "SetEnvironmentVariable",

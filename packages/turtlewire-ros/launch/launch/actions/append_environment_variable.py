@@ -51,7 +51,6 @@ class AppendEnvironmentVariable(SetVariableAction):
     def parse(
         cls, entity: Entity, parser: Parser
     ) -> tuple[type[AppendEnvironmentVariable], dict[str, Any]]:
-        """Read an ``append_env`` element."""
         _, kwargs = super().parse(entity, parser)
         prepend = entity.get_attr("prepend", optional=True, data_type=bool, can_be_str=True)
         if prepend is not None:
@@ -76,7 +75,6 @@ class AppendEnvironmentVariable(SetVariableAction):
         return context.environment
 
     def execute(self, context: LaunchContext) -> None:
-        """Add the value."""
         name = perform_substitutions(context, self._name)
         value = perform_substitutions(context, self._value)
         variables = self.variables(context)

@@ -65,7 +65,6 @@ class DeclareLaunchArgument(Action):
     def parse(
         cls, entity: Entity, parser: Parser
     ) -> tuple[type[DeclareLaunchArgument], dict[str, Any]]:
-        """Read an ``arg`` element."""
         _, kwargs = super().parse(entity, parser)
         kwargs["name"] = parser.escape_characters(entity.get_attr("name"))
         default = entity.get_attr("default", optional=True)
@@ -136,10 +135,11 @@ class DeclareLaunchArgument(Action):
 
 
 def _refuse_default_outside(default: list[Substitution] | None, choices: list[str] | None) -> None:
-    """A default that is plain text is checked at once, others when they are known."""
+    """Raise ValueError if a plain default is not among the choices."""
     if choices is None or default is None:
         return
     texts = [part.text for part in default if isinstance(part, TextSubstitution)]
+    # A default with substitutions is checked when its value is known.
     if len(texts) == len(default) and "".join(texts) not in choices:
         raise ValueError(
             f'Provided default_value "{"".join(texts)}" is not in provided choices "{choices}".'

@@ -33,5 +33,4 @@ class EmitEvent(Action):
         return self._event
 
     def execute(self, context: LaunchContext) -> None:
-        """Emit it."""
         context.emit_event_sync(self._event)

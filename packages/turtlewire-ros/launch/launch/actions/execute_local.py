@@ -55,7 +55,7 @@ class ExecuteLocal(ProcessAction):
         emulate_tty: Whether the process finds a terminal at its output (many programs then show
             colours) and, when the launch runs in a terminal, reads what is typed there, so that a
             launched ``turtle_teleop_key`` works. A launch configuration of this name overrides it.
-        output: Where its output goes: ``log`` (stderr on the screen too), ``screen``, ``both``,
+        output: Where its output goes: ``log`` (stderr also on the screen), ``screen``, ``both``,
             ``own_log``, ``full``, or a mapping.
         output_format: How its lines are shown.
         cached_output: Whether all output is kept for :meth:`get_stdout` and :meth:`get_stderr`.
@@ -185,6 +185,7 @@ class ExecuteLocal(ProcessAction):
                 f"ExecuteLocal action '{self._process_description.final_name}': "
                 f"executed more than once: {self.describe()}"
             )
+        # A handler's action may come after the shutdown, which would not stop the process any more.
         if context.is_shutdown:
             return None
         try:
@@ -200,6 +201,7 @@ class ExecuteLocal(ProcessAction):
         self._completed = context.asyncio_loop.create_future()
         self._shutting_down = asyncio.Event()
         self._end_was_handled = asyncio.Event()
+        # Before the start, because the first event must find them.
         self._register_handlers(context)
         context.add_completion_future(context.asyncio_loop.create_task(self._run(context)))
         return None
@@ -255,6 +257,8 @@ class ExecuteLocal(ProcessAction):
         await context.emit_event(
             ProcessExited(action=self, returncode=self._return_code or 0, **self._event_details())
         )
+        # A respawn must not overtake the last lines of this run, nor a handler that ends the
+        # launch.
         await self._end_was_handled.wait()
         return True
 
@@ -299,6 +303,7 @@ class ExecuteLocal(ProcessAction):
         try:
             await asyncio.wait_for(self._shutting_down.wait(), self._respawn_delay or 0.0)
         except asyncio.TimeoutError:
+            # The shutdown may have come at the same moment.
             return not self._shutting_down.is_set()
         return False
 
@@ -307,6 +312,7 @@ class ExecuteLocal(ProcessAction):
     def _register_handlers(self, context: LaunchContext) -> None:
         """Register for all events of the process; the last one gets an event first."""
         on_exit = [] if self._on_exit is None else self._on_exit
+        # The last lines are shown before the user's `on_exit` is visited.
         for handler in (
             OnProcessExit(target_action=self, on_exit=on_exit),
             OnProcessExit(target_action=self, on_exit=self._show_end),
@@ -410,6 +416,7 @@ class ExecuteLocal(ProcessAction):
 
 def _seconds(value: SomeSubstitutionsType | float | None, configuration: str) -> list[Substitution]:
     if value is None:
+        # ROS 2's default in seconds.
         return normalize_to_list_of_substitutions(LaunchConfiguration(configuration, default=5))
     return normalize_to_list_of_substitutions(
         str(value) if isinstance(value, (int, float)) else value

@@ -36,7 +36,7 @@ class ExecuteProcess(ExecuteLocal):
         name: Names the process; by default the program's file name.
         cwd: Working directory; by default that of the launch.
         env: The whole environment; by default that of the launch.
-        additional_env: Variables beside those.
+        additional_env: Variables in addition to them.
         **kwargs: See :class:`ExecuteLocal`.
     """
 
@@ -90,6 +90,7 @@ class ExecuteProcess(ExecuteLocal):
             variables = entity.get_attr("env", data_type=list[Entity], optional=True)
             if variables is not None:
                 kwargs["additional_env"] = {
+                    # Lists are not hashable.
                     tuple(
                         parser.parse_substitution(item.get_attr("name"))
                     ): parser.parse_substitution(item.get_attr("value"))
@@ -147,6 +148,7 @@ def _unmarked(word: str, substitutions: list[Substitution]) -> list[Substitution
             plain = ""
         else:
             plain += character
+    # An empty word, such as `''`, stays an argument.
     return parts + [TextSubstitution(text=plain)] * bool(plain or not parts)
 
 

@@ -73,12 +73,11 @@ class GroupAction(Action):
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
-        """Return the actions, between those that begin and end the scope."""
+        """Return the actions, between the actions that begin and end the scope."""
         del context
         return self.get_sub_entities()
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Return the actions, between those that begin and end the scope."""
         settings = [
             SetLaunchConfiguration(name, value)
             for name, value in self._launch_configurations.items()

@@ -60,10 +60,10 @@ class IncludeLaunchDescription(Action):
     def parse(
         cls, entity: Entity, parser: Parser
     ) -> tuple[type[IncludeLaunchDescription], dict[str, Any]]:
-        """Read an ``include`` element."""
         _, kwargs = super().parse(entity, parser)
         kwargs["launch_description_source"] = parser.parse_substitution(entity.get_attr("file"))
         arguments = entity.get_attr("arg", data_type=list[Entity], optional=True) or []
+        # `let` replaced `arg` in ROS 2, which still reads both.
         arguments += entity.get_attr("let", data_type=list[Entity], optional=True) or []
         kwargs["launch_arguments"] = [
             (
@@ -92,7 +92,6 @@ class IncludeLaunchDescription(Action):
         return self._launch_arguments
 
     def describe(self) -> str:
-        """Name the file."""
         return f"IncludeLaunchDescription({self._source.location})"
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
@@ -107,6 +106,7 @@ class IncludeLaunchDescription(Action):
             RuntimeError: An argument that it requires is missing.
         """
         description = self._source.get_launch_description(context)
+        # The includer's path is back after the visit.
         before = {
             name: value
             for name, value in context.get_locals_as_dict().items()
@@ -132,6 +132,7 @@ class IncludeLaunchDescription(Action):
             argument,
             inclusions,
         ) in description.get_launch_arguments_with_include_launch_description_actions():
+            # Files that the included one includes are checked at their own inclusion.
             if argument.conditionally_included or argument.default_value is not None or inclusions:
                 continue
             if argument.name not in context.launch_configurations and argument.name not in given:

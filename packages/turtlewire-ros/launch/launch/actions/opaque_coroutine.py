@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import asyncio
+import inspect
 from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
 from launch.event_handlers import OnShutdown
 
 if TYPE_CHECKING:
+    import asyncio
     from collections.abc import Callable, Coroutine, Iterable, Mapping
 
     from launch.launch_context import LaunchContext
@@ -37,7 +38,7 @@ class OpaqueCoroutine(Action):
         **left_over_kwargs: Any,
     ) -> None:
         super().__init__(**left_over_kwargs)
-        if not asyncio.iscoroutinefunction(coroutine):
+        if not inspect.iscoroutinefunction(coroutine):
             raise TypeError(
                 "OpaqueCoroutine expected a coroutine function for 'coroutine', "
                 f"got '{type(coroutine)}' instead"
@@ -49,7 +50,6 @@ class OpaqueCoroutine(Action):
         self._future: asyncio.Task[None] | None = None
 
     def execute(self, context: LaunchContext) -> None:
-        """Start it."""
         assert context.asyncio_loop is not None
         args = self._args if self._ignore_context else (context, *self._args)
         self._future = context.asyncio_loop.create_task(self._coroutine(*args, **self._kwargs))

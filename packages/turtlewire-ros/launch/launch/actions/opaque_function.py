@@ -44,5 +44,4 @@ class OpaqueFunction(Action):
         self._kwargs = dict(kwargs or {})
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Call it."""
         return self._function(context, *self._args, **self._kwargs)

@@ -20,10 +20,8 @@ class PopEnvironment(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[PopEnvironment], dict[str, Any]]:
-        """Read an element of its name."""
         _, kwargs = super().parse(entity, parser)
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
-        """Restore them."""
         context.environment_scopes.pop()

@@ -22,10 +22,8 @@ class PopLaunchConfigurations(Action):
     def parse(
         cls, entity: Entity, parser: Parser
     ) -> tuple[type[PopLaunchConfigurations], dict[str, Any]]:
-        """Read an element of its name."""
         _, kwargs = super().parse(entity, parser)
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
-        """Restore them."""
         context.configuration_scopes.pop()

@@ -20,10 +20,8 @@ class PushEnvironment(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[PushEnvironment], dict[str, Any]]:
-        """Read an element of its name."""
         _, kwargs = super().parse(entity, parser)
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
-        """Remember them."""
         context.environment_scopes.push()

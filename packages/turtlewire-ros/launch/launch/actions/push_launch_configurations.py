@@ -22,10 +22,8 @@ class PushLaunchConfigurations(Action):
     def parse(
         cls, entity: Entity, parser: Parser
     ) -> tuple[type[PushLaunchConfigurations], dict[str, Any]]:
-        """Read an element of its name."""
         _, kwargs = super().parse(entity, parser)
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
-        """Remember them."""
         context.configuration_scopes.push()

@@ -17,7 +17,7 @@ __all__ = ["RegisterEventHandler"]
 
 
 class RegisterEventHandler(Action):
-    """Registers an event handler; it comes before those that are registered.
+    """Registers an event handler; it comes before the registered ones.
 
     Args:
         event_handler: The handler.
@@ -34,7 +34,6 @@ class RegisterEventHandler(Action):
         return self._event_handler
 
     def execute(self, context: LaunchContext) -> None:
-        """Register it."""
         context.register_event_handler(self._event_handler)
 
     def describe_conditional_sub_entities(

@@ -20,10 +20,8 @@ class ResetEnvironment(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[ResetEnvironment], dict[str, Any]]:
-        """Read a ``reset_env`` element."""
         _, kwargs = super().parse(entity, parser)
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
-        """Restore them."""
         context.reset_environment()

@@ -23,7 +23,7 @@ __all__ = ["ResetLaunchConfigurations", "kept_configurations"]
 
 @expose_action("reset")
 class ResetLaunchConfigurations(Action):
-    """Forgets all launch configurations but those given.
+    """Forgets all launch configurations except the given ones.
 
     Args:
         launch_configurations: Names and values that are set afterwards; their substitutions still
@@ -50,7 +50,6 @@ class ResetLaunchConfigurations(Action):
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
-        """Forget, and set the given ones."""
         kept = {
             perform_substitutions(
                 context, normalize_to_list_of_substitutions(name)
@@ -62,7 +61,7 @@ class ResetLaunchConfigurations(Action):
 
 
 def kept_configurations(entity: Entity, parser: Parser) -> dict[Any, list[Substitution]] | None:
-    """The configurations of ``keep`` children in XML, or of the list ``keep`` in YAML; or None."""
+    """Return the configurations in ``keep`` children (XML) or in the list ``keep`` (YAML)."""
     kept = entity.get_attr("keep", data_type=list[Entity], optional=True)
     if kept is None:
         # A list in YAML has them among its elements; an empty mapping has no elements.

@@ -31,7 +31,6 @@ class Shutdown(EmitEvent):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Shutdown], dict[str, Any]]:
-        """Read a ``shutdown`` element."""
         _, kwargs = super().parse(entity, parser)
         reason = entity.get_attr("reason", optional=True)
         if reason is not None:

@@ -6,12 +6,22 @@ from typing import TYPE_CHECKING, Any
 
 from launch import logging
 from launch.action import Action
+from launch.actions.opaque_function import OpaqueFunction
+from launch.actions.pop_environment import PopEnvironment
+from launch.actions.pop_launch_configurations import PopLaunchConfigurations
+from launch.actions.push_environment import PushEnvironment
+from launch.actions.push_launch_configurations import PushLaunchConfigurations
 from launch.conditions import evaluate_condition_expression
 from launch.event_handler import EventHandler, entity_list
 from launch.event_handlers import OnShutdown
 from launch.events import TimerEvent
 from launch.frontend.expose import expose_action
-from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch.some_substitutions_type import SomeSubstitutionsType_types_tuple
+from launch.utilities import (
+    ensure_argument_type,
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+)
 
 if TYPE_CHECKING:
     import asyncio
@@ -48,6 +58,8 @@ class TimerAction(Action):
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
+        kinds = (int, float, *SomeSubstitutionsType_types_tuple)
+        ensure_argument_type(period, kinds, "period", "TimerAction")
         self._period = normalize_to_list_of_substitutions(
             str(period) if isinstance(period, (int, float)) else period
         )
@@ -59,11 +71,12 @@ class TimerAction(Action):
         self._completed: asyncio.Future[None] | None = None
         self._timer: Any = None
         self._canceled = False
+        self._locals: dict[str, Any] = {}
+        self._scope: list[LaunchDescriptionEntity] | None = None
         self._logger = logging.get_logger("launch.timer_action")
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[TimerAction], dict[str, Any]]:
-        """Read a ``timer`` element."""
         _, kwargs = super().parse(entity, parser)
         kwargs["period"] = parser.parse_if_substitutions(
             entity.get_attr("period", data_type=float, can_be_str=True)
@@ -82,7 +95,6 @@ class TimerAction(Action):
         return self._actions
 
     def describe(self) -> str:
-        """Name the period."""
         period = " + ".join(part.describe() for part in self._period)
         return f"TimerAction(period={period}, actions=<actions>)"
 
@@ -94,11 +106,13 @@ class TimerAction(Action):
         return [(f"after {period} sec", self._actions)]
 
     def execute(self, context: LaunchContext) -> None:
-        """Start the time."""
         assert context.asyncio_loop is not None
         if self._canceled or context.is_shutdown:
             return
         loop = context.asyncio_loop
+        self._locals = context.get_locals_as_dict()
+        if context.configuration_scopes.depth:  # the group will have ended by then
+            self._scope = _beginning_of_scope(context)
         self._completed = loop.create_future()
         handler = EventHandler(matcher=self._is_mine, entities=lambda _, inner: self.handle(inner))
         context.register_event_handler(handler)
@@ -122,9 +136,14 @@ class TimerAction(Action):
             self._completed.set_result(None)
 
     def handle(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
-        """Return the actions; called when the time is over."""
-        del context
-        return self._actions
+        """Return the actions; called when the time is over.
+
+        In a group with a scope of its own they find what the group had set, as without the timer.
+        """
+        context.extend_locals(self._locals)
+        if self._scope is None:
+            return self._actions
+        return [*self._scope, *self._actions, PopEnvironment(), PopLaunchConfigurations()]
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
         """Done when the time is over or the timer is cancelled."""
@@ -135,6 +154,7 @@ class TimerAction(Action):
 
     def _expire(self, context: LaunchContext) -> None:
         if self._completed is not None and not self._completed.done():
+            # Before the future is done, so that the launch does not end between the two.
             context.emit_event_sync(TimerEvent(timer_action=self))
             self._completed.set_result(None)
 
@@ -146,3 +166,15 @@ class TimerAction(Action):
         ):
             self._logger.debug("canceling %s because of shutdown", self)
             self.cancel()
+
+
+def _beginning_of_scope(context: LaunchContext) -> list[LaunchDescriptionEntity]:
+    """Return actions that begin a scope with the values that the context has now."""
+    configurations = dict(context.launch_configurations)
+    environment = dict(context.environment)
+
+    def restore(later: LaunchContext) -> None:
+        later.configuration_scopes.replace(configurations)
+        later.environment_scopes.replace(environment)
+
+    return [PushLaunchConfigurations(), PushEnvironment(), OpaqueFunction(function=restore)]

@@ -31,5 +31,4 @@ class UnregisterEventHandler(Action):
         return self._event_handler
 
     def execute(self, context: LaunchContext) -> None:
-        """Unregister it."""
         context.unregister_event_handler(self._event_handler)

@@ -1,4 +1,4 @@
-"""What the actions that set, extend and unset named texts have in common.
+"""The common parts of actions that set, extend and unset named texts.
 
 The named texts of a launch are its environment variables and its launch configurations.
 """
@@ -80,7 +80,6 @@ class SetVariableAction(VariableAction):
         return self._value
 
     def execute(self, context: LaunchContext) -> None:
-        """Set it."""
         name = perform_substitutions(context, self._name)
         self.variables(context)[name] = perform_substitutions(context, self._value)
 
@@ -89,5 +88,4 @@ class UnsetVariableAction(VariableAction):
     """Base of the actions that remove a named text, if there is one."""
 
     def execute(self, context: LaunchContext) -> None:
-        """Remove it."""
         self.variables(context).pop(perform_substitutions(context, self._name), None)

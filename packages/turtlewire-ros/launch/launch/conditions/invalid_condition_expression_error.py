@@ -18,7 +18,7 @@ class InvalidConditionExpressionError(Exception):
     Args:
         expression: The text.
         unexpanded_expression: The substitutions that gave it.
-        valid_expressions: The texts that are true, and those that are false.
+        valid_expressions: The texts that mean true, and the texts that mean false.
     """
 
     def __init__(

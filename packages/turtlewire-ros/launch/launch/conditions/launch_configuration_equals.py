@@ -35,7 +35,6 @@ class LaunchConfigurationEquals(Condition):
         super().__init__(predicate=self._predicate_func)
 
     def describe(self) -> str:
-        """Name configuration and value."""
         value = None if self._expected is None else [part.describe() for part in self._expected]
         text = "None" if value is None else " + ".join(value)
         return f"{type(self).__name__}({self._name}, {text})"

@@ -27,7 +27,6 @@ class UnlessCondition(Condition):
         super().__init__(predicate=self._predicate_func)
 
     def describe(self) -> str:
-        """Name the expression."""
         text = " + ".join(part.describe() for part in self._predicate_expression)
         return f"UnlessCondition({text})"
 

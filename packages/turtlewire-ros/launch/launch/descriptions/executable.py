@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Executable"]
 
+# As in ROS 2, counted over all launches of this process.
 _process_numbers = itertools.count(1)
 
 
@@ -34,7 +35,7 @@ class Executable:
         name: Names the process; by default the program's file name.
         cwd: Working directory; by default that of the launch.
         env: The whole environment; by default that of the launch.
-        additional_env: Variables beside those.
+        additional_env: Variables in addition to them.
         arguments: Further arguments.
     """
 
@@ -101,7 +102,7 @@ class Executable:
 
     @property
     def arguments(self) -> list[list[Substitution]] | None:
-        """Further arguments; they are part of :attr:`cmd`, too."""
+        """Further arguments; they are also part of :attr:`cmd`."""
         return self._arguments
 
     @property
@@ -154,6 +155,7 @@ class Executable:
 def _variables(
     env: Mapping[SomeSubstitutionsType, SomeSubstitutionsType],
 ) -> list[tuple[list[Substitution], list[Substitution]]]:
+    # Also accepts pairs, as ROS 2 does, because lists of substitutions cannot be keys.
     pairs: Any = env.items() if hasattr(env, "items") else env
     return [
         (normalize_to_list_of_substitutions(name), normalize_to_list_of_substitutions(value))

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["OnActionEventBase"]
 
+# Names of classes in ROS 2's texts.
 _ROS_NAMES: dict[type[Action], str] = {ProcessAction: "ExecuteLocal"}
 
 
@@ -76,10 +77,8 @@ class OnActionEventBase(BaseEventHandler):
         return f"{text} and event.action == {self._action_matcher!r}"
 
     def describe(self) -> tuple[str, list[Any]]:
-        """Return a text, and the fixed entities."""
         return super().describe()[0], list(self._entities)
 
     def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
-        """Return the entities to visit."""
         super().handle(event, context)
         return self._entities if self._function is None else self._function(event, context)

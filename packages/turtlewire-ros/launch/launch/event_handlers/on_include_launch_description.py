@@ -33,6 +33,5 @@ class OnIncludeLaunchDescription(EventHandler):
         return "event is IncludeLaunchDescription"
 
     def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
-        """Return the description."""
         super().handle(event, context)
         return [cast("IncludeLaunchDescription", event).launch_description]

@@ -32,7 +32,7 @@ class Entity:
         raise NotImplementedError
 
     def assert_entity_completely_parsed(self) -> None:
-        """Refuse attributes and children that the action did not read.
+        """Reject attributes and children that the action did not read.
 
         Raises:
             ValueError: Some attributes or children were not parsed.

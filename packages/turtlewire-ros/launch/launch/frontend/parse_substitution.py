@@ -37,7 +37,7 @@ def parse_substitution(string_value: str) -> list[Substitution]:
 
 
 def parse_if_substitutions(value: Any) -> Any:
-    """Text, and text in lists, as substitutions; other values as they are."""
+    """Convert text, and text in lists, to substitutions; return other values unchanged."""
     if isinstance(value, str):
         return parse_substitution(value)
     if isinstance(value, list):
@@ -79,6 +79,7 @@ class _Reader:
 
     def _character(self) -> str:
         character = self._text[self._at]
+        # The empty string is in every string, so the end of the text needs a check of its own.
         if (
             character == "\\"
             and self._text[self._at + 1 : self._at + 2] in _ESCAPABLE
@@ -118,6 +119,7 @@ class _Reader:
         if self._at >= len(self._text):
             raise SyntaxError(f"the quote {quote} in '{self._text}' is not closed")
         self._at += 1
+        # Between quotes, an argument may be empty.
         return parts or [TextSubstitution(text="")]
 
     def _skip_blanks(self) -> None:

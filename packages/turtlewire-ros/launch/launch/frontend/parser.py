@@ -46,6 +46,7 @@ class Parser:
         """Import launch's own actions, and packages with an entry point for others."""
         if Parser.extensions_loaded:
             return
+        # Importing them exposes their classes.
         for module in ("launch.actions", "launch.substitutions"):
             import_module(module)
         for entry in entry_points(group="launch.frontend.launch_extension"):
@@ -87,7 +88,7 @@ class Parser:
 
     @classmethod
     def get_file_extensions_from_parsers(cls) -> list[set[str]]:
-        """Suffixes of each installed language, without dot."""
+        """Return the suffixes of each installed language, without dot."""
         return [parser.get_file_extensions() for parser in cls._parsers()]
 
     @classmethod
@@ -120,8 +121,10 @@ class Parser:
             try:
                 return parser.load(file)
             except OSError:  # noqa: PERF203  two or three languages
+                # A file that cannot be opened is not a question of its language.
                 raise
             except Exception as error:  # noqa: BLE001  each language has its own errors
+                # Other languages' errors only say that the file is not theirs.
                 if suffix in parser.get_file_extensions():
                     errors.append(error)
                 if not isinstance(file, str):
@@ -130,13 +133,13 @@ class Parser:
 
     @classmethod
     def get_available_extensions(cls) -> list[str]:
-        """Suffixes of all installed languages, without dot."""
+        """Return the suffixes of all installed languages, without dot."""
         found = [sorted(extensions) for extensions in cls.get_file_extensions_from_parsers()]
         return [suffix for extensions in found for suffix in extensions]
 
     @classmethod
     def get_file_extensions(cls) -> set[str]:
-        """Suffixes of this language, without dot."""
+        """Return the suffixes of this language, without dot."""
         return set()
 
     @classmethod
@@ -169,6 +172,7 @@ class Parser:
             return self._action(entity)
         except Exception as error:
             if entity.line:
+                # The innermost element sets it first.
                 vars(error).setdefault("launch_file_line", entity.line)
             raise
 
@@ -183,7 +187,7 @@ class Parser:
         return parse_substitution(value)
 
     def parse_if_substitutions(self, value: Any) -> Any:
-        """Text, and text in lists, as substitutions; other values as they are."""
+        """Convert text, and text in lists, to substitutions; return other values unchanged."""
         self.load_launch_extensions()
         return parse_if_substitutions(value)
 

@@ -7,10 +7,21 @@ from typing import Any
 
 from launch.frontend.entity import Entity
 
-__all__ = ["coerce", "is_entity_list", "list_item_type", "may_become"]
+__all__ = [
+    "check_is_list_entity",
+    "coerce",
+    "get_data_type_from_identifier",
+    "list_item_type",
+    "may_become",
+]
 
 _TRUE = ("yes", "true", "on")
 _FALSE = ("no", "false", "off")
+_SCALARS: dict[str, Any] = {"str": str, "int": int, "float": float, "bool": bool}
+_TYPES = _SCALARS | {
+    f"list_of_{name}": list[kind]  # type: ignore[valid-type]
+    for name, kind in _SCALARS.items()
+}
 
 
 def list_item_type(data_type: Any) -> Any:
@@ -22,10 +33,26 @@ def list_item_type(data_type: Any) -> Any:
     )
 
 
-def is_entity_list(data_type: Any) -> bool:
+def check_is_list_entity(data_type: Any) -> bool:
     """Return True if child elements are meant."""
     item = list_item_type(data_type)
     return isinstance(item, type) and issubclass(item, Entity)
+
+
+def get_data_type_from_identifier(type_identifier: str) -> Any:
+    """Return the type that the attribute ``type`` of an element names.
+
+    Args:
+        type_identifier: ``int``, ``list_of_str`` and so on.
+
+    Raises:
+        RuntimeError: No type has this name.
+    """
+    if type_identifier not in _TYPES:
+        raise RuntimeError(
+            f"unknown type '{type_identifier}' of a parameter; one of: {', '.join(_TYPES)}"
+        )
+    return _TYPES[type_identifier]
 
 
 def coerce(text: str, data_type: Any) -> Any:
@@ -62,4 +89,5 @@ def may_become(text: str, data_type: Any) -> bool:
     """
     if data_type is not bool or "$(" in text:
         return True
+    # Conditions also accept digits.
     return text.strip().lower() in (*_TRUE, *_FALSE, "1", "0")

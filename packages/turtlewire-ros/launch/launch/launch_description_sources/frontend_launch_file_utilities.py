@@ -25,6 +25,7 @@ def get_launch_description_from_frontend_launch_file(
     try:
         return file_parser.parse_description(root)
     except Exception as error:
+        # An element knows its line, but not its file.
         line = vars(error).get("launch_file_line")
         if line is not None:
             vars(error)["launch_file_line"] = f"{frontend_launch_file_path}:{line}"

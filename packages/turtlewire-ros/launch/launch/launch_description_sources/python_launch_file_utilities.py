@@ -25,7 +25,7 @@ class InvalidPythonLaunchFileError(Exception):
 
 
 def load_python_launch_file_as_module(python_launch_file_path: str) -> ModuleType:
-    """Run the file as a module, without leaving bytecode beside it.
+    """Run the file as a module, without leaving bytecode next to it.
 
     Raises:
         Exception: What the file raises.
@@ -58,6 +58,7 @@ def get_launch_description_from_python_launch_file(
 
 class _UncachedLoader(SourceFileLoader):
     def get_data(self, path: str) -> bytes:
+        # importlib then falls back to the source.
         if path.endswith(".pyc"):
             raise OSError("launch files are always read from their source")
         return super().get_data(path)

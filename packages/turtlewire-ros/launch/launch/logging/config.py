@@ -25,6 +25,8 @@ __all__ = [
 ]
 
 _Style = Literal["%", "{", "$"]
+#: Name of the main log file, unless a launch chooses another.
+_MAIN_LOG_FILE = "launch.log"
 _SCREEN_FORMAT = "[{levelname}] [{name}]: {message}"
 _LOG_FORMAT = "{created:.7f} [{levelname}] [{name}]: {message}"
 _NAMED_FORMATS = {
@@ -69,6 +71,7 @@ class _Formatter(logging.Formatter):
         if color is None:
             return super().format(record)
         level = record.levelname
+        # Other handlers get the same record, without the colour.
         record.levelname = f"{color}{level}\033[0m"
         try:
             return super().format(record)
@@ -98,6 +101,7 @@ class _ScreenHandler(logging.StreamHandler):  # type: ignore[type-arg]  # not ge
     def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802  logging's name
         error = sys.exc_info()[1]
         if isinstance(error, OSError) and error.errno in _READER_GONE:
+            # So that later writes, such as Python's flush at its exit, do not fail again.
             os.dup2(os.open(os.devnull, os.O_WRONLY), self.stream.fileno())
             signal.raise_signal(signal.SIGTERM)
         else:
@@ -127,10 +131,15 @@ class _FileHandler(logging.FileHandler):
 
 
 class LaunchConfig:
-    """Level, folder and formats of the logging of launches in this process."""
+    """Level, folder and formats of the logging of launches in this process.
+
+    Attributes:
+        main_log_file_name: Name of the file with the lines of the launch itself.
+    """
 
     def __init__(self) -> None:
         self._log_handlers: dict[str, logging.Handler] = {}
+        self.main_log_file_name = _MAIN_LOG_FILE
         self.reset()
 
     def reset(self) -> None:
@@ -204,12 +213,12 @@ class LaunchConfig:
             )
         return self._screen_handler
 
-    def get_log_file_path(self, file_name: str = "launch.log") -> str:
-        """Path of a log file of this launch."""
+    def get_log_file_path(self, file_name: str = _MAIN_LOG_FILE) -> str:
+        """Return the path of a log file of this launch."""
         return os.path.join(self.log_dir, file_name)
 
-    def get_log_file_handler(self, file_name: str = "launch.log") -> logging.Handler:
-        """The handler that writes to a log file of this launch, created at its first line."""
+    def get_log_file_handler(self, file_name: str = _MAIN_LOG_FILE) -> logging.Handler:
+        """Return the handler of a log file of this launch, which its first line creates."""
         if file_name not in self._log_handlers:
             handler = _FileHandler(self.get_log_file_path(file_name))
             layout = _NAMED_FORMATS.get(self._log_format, self._log_format)
@@ -222,9 +231,10 @@ class _MainHandler(logging.Handler):
     """Sends the lines of the launch itself to the screen and the main log file."""
 
     def emit(self, record: logging.LogRecord) -> None:
+        # Asked for at each line, because formats and folder may have changed.
         launch_config.get_screen_handler().handle(record)
         try:
-            launch_config.get_log_file_handler().handle(record)
+            launch_config.get_log_file_handler(launch_config.main_log_file_name).handle(record)
         except OSError as error:
             raise RuntimeError(f"cannot write log files: {error}") from error
 
@@ -241,6 +251,7 @@ def get_logger(name: str | None = None) -> logging.Logger:
         owner.propagate = False
         if owner.level == logging.NOTSET:
             owner.setLevel(logging.INFO)
+    # A logger with such a name does not inherit the handler of `launch`.
     if logger is not owner and not logger.name.startswith("launch.") and not logger.handlers:
         logger.addHandler(_MainHandler())
         logger.propagate = False
@@ -249,7 +260,9 @@ def get_logger(name: str | None = None) -> logging.Logger:
 
 
 def get_output_loggers(
-    process_name: str, output_config: str | Mapping[str, Any]
+    process_name: str,
+    output_config: str | Mapping[str, Any],
+    main_log_file_name: str = _MAIN_LOG_FILE,
 ) -> tuple[logging.Logger, logging.Logger]:
     """Return the loggers of the two output streams of a process.
 
@@ -258,6 +271,7 @@ def get_output_loggers(
         output_config: ``screen``, ``log``, ``both``, ``own_log``, ``full``, or a mapping of
             ``stdout``, ``stderr``, ``both`` to a choice or a set of choices among ``screen``,
             ``log``, ``own_log``.
+        main_log_file_name: The file that ``log`` means.
 
     Raises:
         ValueError: ``output_config`` is something else.
@@ -268,12 +282,13 @@ def get_output_loggers(
         logger = logging.getLogger(f"launch_process.{process_name}-{stream}")
         logger.propagate = False
         logger.setLevel(logging.INFO)
+        # An earlier launch of this program may have had a process of the same name.
         logger.handlers.clear()
         chosen = destinations.get("both", set()) | destinations.get(stream, set())
         if "screen" in chosen:
             logger.addHandler(launch_config.get_screen_handler())
         if "log" in chosen:
-            logger.addHandler(launch_config.get_log_file_handler())
+            logger.addHandler(launch_config.get_log_file_handler(main_log_file_name))
         for which in (stream, "both"):
             if "own_log" in destinations.get(which, ()):
                 suffix = "" if which == "both" else f"-{stream}"

@@ -12,7 +12,7 @@ __all__ = ["default_log_dir", "make_launch_log_dir"]
 
 
 def default_log_dir() -> str:
-    """The parent of all launches' folders: ``ROS_LOG_DIR``, ``$ROS_HOME/log`` or ``~/.ros/log``."""
+    """Return the parent of launch folders: ``ROS_LOG_DIR``, ``$ROS_HOME/log``, ``~/.ros/log``."""
     explicit = os.environ.get("ROS_LOG_DIR")
     if explicit:
         return str(Path(explicit).expanduser())
@@ -37,6 +37,7 @@ def make_launch_log_dir(parent: str) -> str:
     # Not every file system has links, and another launch may make it at the same time: logging
     # works without.
     with contextlib.suppress(OSError):
+        # A link cannot be changed in one step, but a new one can take its place.
         link = Path(parent) / f".latest-{os.getpid()}"
         link.symlink_to(base.name, target_is_directory=True)
         link.replace(Path(parent) / "latest")

@@ -15,6 +15,7 @@ from launch.substitutions.environment_variable import EnvironmentVariable
 from launch.substitutions.equals_substitution import EqualsSubstitution
 from launch.substitutions.file_content import FileContent
 from launch.substitutions.find_executable import FindExecutable
+from launch.substitutions.for_loop_var import ForEachVar, ForLoopIndex
 from launch.substitutions.if_else_substitution import IfElseSubstitution
 from launch.substitutions.launch_configuration import LaunchConfiguration
 from launch.substitutions.launch_log_dir import LaunchLogDir
@@ -22,6 +23,7 @@ from launch.substitutions.local_substitution import LocalSubstitution
 from launch.substitutions.not_equals_substitution import NotEqualsSubstitution
 from launch.substitutions.path_join_substitution import PathJoinSubstitution, PathSubstitution
 from launch.substitutions.python_expression import PythonExpression
+from launch.substitutions.string_join_substitution import StringJoinSubstitution
 from launch.substitutions.substitution_failure import SubstitutionFailure
 from launch.substitutions.text_substitution import TextSubstitution
 from launch.substitutions.this_launch_file import ThisLaunchFile
@@ -37,6 +39,8 @@ __all__ = [
     "EqualsSubstitution",
     "FileContent",
     "FindExecutable",
+    "ForEachVar",
+    "ForLoopIndex",
     "IfElseSubstitution",
     "LaunchConfiguration",
     "LaunchLogDir",
@@ -47,6 +51,7 @@ __all__ = [
     "PathJoinSubstitution",
     "PathSubstitution",
     "PythonExpression",
+    "StringJoinSubstitution",
     "SubstitutionFailure",
     "TextSubstitution",
     "ThisLaunchFile",

@@ -44,12 +44,12 @@ class AnonName(Substitution):
         return self._name
 
     def describe(self) -> str:
-        """Name the base."""
         return f"AnonName({' + '.join(part.describe() for part in self._name)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the unique name."""
         base = perform_substitutions(context, self._name)
+        # As in ROS 2, the name is kept as a launch configuration.
         key = f"anon{base}"
         if key not in context.launch_configurations:
             context.launch_configurations[key] = self.compute_name(base)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
@@ -11,7 +12,7 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 from launch.utilities.type_utils import coerce_to_type
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
@@ -20,6 +21,8 @@ __all__ = [
     "AllSubstitution",
     "AndSubstitution",
     "AnySubstitution",
+    "ContainerSubstitution",
+    "LeftRightLogicalSubstitution",
     "NotSubstitution",
     "OrSubstitution",
     "as_bool",
@@ -33,6 +36,7 @@ def as_bool(context: LaunchContext, expression: Iterable[Substitution]) -> bool:
         SubstitutionFailure: The value is neither.
     """
     text = perform_substitutions(context, expression).strip()
+    # YAML reads these as integers.
     if text in ("0", "1"):
         return text == "1"
     try:
@@ -71,32 +75,46 @@ class NotSubstitution(Substitution):
         return self._value
 
     def describe(self) -> str:
-        """Name the operands."""
         return f"NotSubstitution({' + '.join(part.describe() for part in self._value)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """``true`` or ``false``."""
         return _text(not as_bool(context, self._value))
 
 
-class _Two(Substitution):
-    """Combines two texts.
+class LeftRightLogicalSubstitution(Substitution):
+    """Combines two texts, each of which is true or false.
+
+    Both are read, so that an invalid one is always reported.
 
     Args:
-        left: The one.
+        func: Combines the two values to one.
+        left: The one text.
         right: The other.
     """
 
-    def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
+    def __init__(
+        self,
+        func: Callable[[bool, bool], bool],
+        left: SomeSubstitutionsType,
+        right: SomeSubstitutionsType,
+    ) -> None:
+        self._func = func
         self._left = normalize_to_list_of_substitutions(left)
         self._right = normalize_to_list_of_substitutions(right)
 
     @classmethod
-    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[_Two], dict[str, Any]]:
+    def parse(
+        cls, data: Sequence[SomeSubstitutionsType]
+    ) -> tuple[type[LeftRightLogicalSubstitution], dict[str, Any]]:
         """Read the two operands."""
         if len(data) != 2:
             raise TypeError(f"{cls.__name__} expects 2 arguments")
         return cls, {"left": data[0], "right": data[1]}
+
+    @property
+    def func(self) -> Callable[[bool, bool], bool]:
+        """Combines the two values to one."""
+        return self._func
 
     @property
     def left(self) -> list[Substitution]:
@@ -109,47 +127,62 @@ class _Two(Substitution):
         return self._right
 
     def describe(self) -> str:
-        """Name the operands."""
         left, right = (
             " + ".join(part.describe() for part in side) for side in (self._left, self._right)
         )
         return f"{type(self).__name__}({left} {right})"
 
+    def perform(self, context: LaunchContext) -> str:
+        return _text(self._func(as_bool(context, self._left), as_bool(context, self._right)))
+
 
 @expose_substitution("and")
-class AndSubstitution(_Two):
-    """Whether both are true."""
+class AndSubstitution(LeftRightLogicalSubstitution):
+    """True if both texts are true."""
 
-    def perform(self, context: LaunchContext) -> str:
-        """``true`` or ``false``."""
-        left, right = as_bool(context, self._left), as_bool(context, self._right)
-        return _text(left and right)
+    def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
+        super().__init__(operator.and_, left, right)
 
 
 @expose_substitution("or")
-class OrSubstitution(_Two):
-    """Whether one of both is true."""
+class OrSubstitution(LeftRightLogicalSubstitution):
+    """True if at least one of two texts is true."""
 
-    def perform(self, context: LaunchContext) -> str:
-        """``true`` or ``false``."""
-        left, right = as_bool(context, self._left), as_bool(context, self._right)
-        return _text(left or right)
+    def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
+        super().__init__(operator.or_, left, right)
 
 
-class _Many(Substitution):
-    """Combines any number of texts.
+class ContainerSubstitution(Substitution):
+    """Combines any number of texts, each of which is true or false.
 
     Args:
+        func: Combines the values, in order and as far as it needs them, to one.
         *args: The texts.
+        container: More texts.
     """
 
-    def __init__(self, *args: SomeSubstitutionsType) -> None:
-        self._args = [normalize_to_list_of_substitutions(arg) for arg in args]
+    def __init__(
+        self,
+        func: Callable[[Iterable[bool]], bool],
+        *args: SomeSubstitutionsType,
+        container: Iterable[SomeSubstitutionsType] | None = None,
+    ) -> None:
+        self._func = func
+        self._args = [
+            normalize_to_list_of_substitutions(arg) for arg in (*args, *(container or ()))
+        ]
 
     @classmethod
-    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[_Many], dict[str, Any]]:
+    def parse(
+        cls, data: Sequence[SomeSubstitutionsType]
+    ) -> tuple[type[ContainerSubstitution], dict[str, Any]]:
         """Read the operands."""
-        return cls, {"args": list(data)}
+        return cls, {"container": list(data)}
+
+    @property
+    def func(self) -> Callable[[Iterable[bool]], bool]:
+        """Combines the values to one."""
+        return self._func
 
     @property
     def args(self) -> list[list[Substitution]]:
@@ -157,24 +190,32 @@ class _Many(Substitution):
         return self._args
 
     def describe(self) -> str:
-        """Name the operands."""
         arguments = (" + ".join(part.describe() for part in arg) for arg in self._args)
         return f"{type(self).__name__}({' '.join(arguments)})"
 
+    def perform(self, context: LaunchContext) -> str:
+        return _text(self._func(as_bool(context, arg) for arg in self._args))
+
 
 @expose_substitution("any")
-class AnySubstitution(_Many):
-    """Whether at least one is true."""
+class AnySubstitution(ContainerSubstitution):
+    """True if at least one text is true."""
 
-    def perform(self, context: LaunchContext) -> str:
-        """``true`` or ``false``."""
-        return _text(any(as_bool(context, arg) for arg in self._args))
+    def __init__(
+        self,
+        *args: SomeSubstitutionsType,
+        container: Iterable[SomeSubstitutionsType] | None = None,
+    ) -> None:
+        super().__init__(any, *args, container=container)
 
 
 @expose_substitution("all")
-class AllSubstitution(_Many):
-    """Whether all are true."""
+class AllSubstitution(ContainerSubstitution):
+    """True if all texts are true."""
 
-    def perform(self, context: LaunchContext) -> str:
-        """``true`` or ``false``."""
-        return _text(all(as_bool(context, arg) for arg in self._args))
+    def __init__(
+        self,
+        *args: SomeSubstitutionsType,
+        container: Iterable[SomeSubstitutionsType] | None = None,
+    ) -> None:
+        super().__init__(all, *args, container=container)

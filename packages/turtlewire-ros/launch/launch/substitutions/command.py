@@ -55,11 +55,10 @@ class Command(Substitution):
         return self._on_stderr
 
     def describe(self) -> str:
-        """Show the command."""
         return f"Command({' + '.join(part.describe() for part in self._command)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """Run the command; its output.
+        """Run the command and return its output.
 
         Raises:
             SubstitutionFailure: The command cannot be run, fails, or writes to stderr where this
@@ -72,6 +71,7 @@ class Command(Substitution):
         if on_stderr not in ("fail", "ignore", "warn", "capture"):
             raise SubstitutionFailure("expected one of: 'fail', 'ignore', 'warn' or 'capture'")
         stderr = subprocess.STDOUT if on_stderr == "capture" else subprocess.PIPE
+        # On Windows, the split would break paths at their backslashes.
         command = line if os.name == "nt" else _found(shlex.split(line))
         try:
             result = subprocess.run(  # noqa: S603
@@ -97,14 +97,12 @@ class Command(Substitution):
 
 
 def _found(command: list[str]) -> list[str]:
-    """Return the command with the path of its program, if that lies beside this interpreter only.
-
-    pip installs programs such as xacro there, and without an activated environment the folder is
-    not in PATH.
-    """
+    """Return the command, with the program's path if it is only next to this interpreter."""
     import shutil
     import sysconfig
 
+    # pip installs programs such as xacro there, and without an activated environment the folder is
+    # not in PATH.
     if command and shutil.which(command[0]) is None:
         beside = shutil.which(command[0], path=sysconfig.get_path("scripts"))
         return [beside or command[0], *command[1:]]

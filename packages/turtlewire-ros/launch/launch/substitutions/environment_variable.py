@@ -55,7 +55,6 @@ class EnvironmentVariable(Substitution):
         return self._default_value
 
     def describe(self) -> str:
-        """Name it."""
         return f"EnvVar({' + '.join(part.describe() for part in self._name)})"
 
     def perform(self, context: LaunchContext) -> str:

@@ -19,7 +19,7 @@ __all__ = ["EqualsSubstitution"]
 
 @expose_substitution("equals")
 class EqualsSubstitution(Substitution):
-    """Whether two texts are equal.
+    """True if two texts are equal.
 
     Numbers are compared as numbers; ``true`` equals ``1``, and ``false`` equals ``0``.
 
@@ -50,14 +50,12 @@ class EqualsSubstitution(Substitution):
         return self._right
 
     def describe(self) -> str:
-        """Name the operands."""
         left, right = (
             " + ".join(part.describe() for part in side) for side in (self._left, self._right)
         )
         return f"{type(self).__name__}({left} {right})"
 
     def perform(self, context: LaunchContext) -> str:
-        """``true`` or ``false``."""
         return "true" if self._equal(context) else "false"
 
     def _equal(self, context: LaunchContext) -> bool:

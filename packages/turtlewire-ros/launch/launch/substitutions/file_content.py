@@ -44,7 +44,6 @@ class FileContent(Substitution):
         return self._path
 
     def describe(self) -> str:
-        """Name it."""
         return f"FileContent({' + '.join(part.describe() for part in self._path)})"
 
     def perform(self, context: LaunchContext) -> str:

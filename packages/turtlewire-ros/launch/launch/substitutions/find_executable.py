@@ -45,7 +45,6 @@ class FindExecutable(Substitution):
         return self._name
 
     def describe(self) -> str:
-        """Name it."""
         return f"FindExec({' + '.join(part.describe() for part in self._name)})"
 
     def perform(self, context: LaunchContext) -> str:

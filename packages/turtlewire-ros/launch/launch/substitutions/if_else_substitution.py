@@ -69,7 +69,6 @@ class IfElseSubstitution(Substitution):
         return self._else_value
 
     def describe(self) -> str:
-        """Name the operands."""
         parts = (
             " + ".join(part.describe() for part in side)
             for side in (self._condition, self._if_value, self._else_value)

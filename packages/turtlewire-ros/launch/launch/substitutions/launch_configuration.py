@@ -49,7 +49,6 @@ class LaunchConfiguration(Substitution):
         return self._variable_name
 
     def describe(self) -> str:
-        """Name it."""
         return f"LaunchConfig({' + '.join(part.describe() for part in self._variable_name)})"
 
     def perform(self, context: LaunchContext) -> str:
@@ -70,5 +69,5 @@ def _as_text(value: Any) -> SomeSubstitutionsType:
     if isinstance(value, (str, Substitution)):
         return value
     if hasattr(value, "__iter__"):
-        return [_as_text(item) for item in value]  # type: ignore[misc]
+        return [item if isinstance(item, (str, Substitution)) else str(item) for item in value]
     return str(value)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from launch import logging
 from launch.frontend.expose import expose_substitution
-from launch.substitution import Substitution
+from launch.substitutions.path_join_substitution import PathSubstitution
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -18,8 +18,11 @@ __all__ = ["LaunchLogDir"]
 
 @expose_substitution("launch_log_dir")
 @expose_substitution("log_dir")
-class LaunchLogDir(Substitution):
-    """The folder of the launch's log files."""
+class LaunchLogDir(PathSubstitution):
+    """The folder of the launch's log files; ``/`` extends it."""
+
+    def __init__(self) -> None:
+        super().__init__(self)
 
     @classmethod
     def parse(cls, data: Sequence[Any]) -> tuple[type[LaunchLogDir], dict[str, Any]]:
@@ -29,7 +32,6 @@ class LaunchLogDir(Substitution):
         return cls, {}
 
     def describe(self) -> str:
-        """Name it."""
         return "LaunchLogDir()"
 
     def perform(self, context: LaunchContext) -> str:

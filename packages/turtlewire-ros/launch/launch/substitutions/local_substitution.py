@@ -41,7 +41,6 @@ class LocalSubstitution(Substitution):
         return self._description
 
     def describe(self) -> str:
-        """Name it."""
         return f"LocalVar('{self._expression if self._description is None else self._description}')"
 
     def perform(self, context: LaunchContext) -> str:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["PathJoinSubstitution", "PathSubstitution"]
 
 
+@expose_substitution("path-join")
 class PathJoinSubstitution(Substitution):
     """Joins parts to a path.
 
@@ -28,13 +30,21 @@ class PathJoinSubstitution(Substitution):
         parts = [substitutions] if isinstance(substitutions, (str, Substitution)) else substitutions
         self._substitutions = [normalize_to_list_of_substitutions(part) for part in parts]
 
+    @classmethod
+    def parse(
+        cls, data: Sequence[SomeSubstitutionsType]
+    ) -> tuple[type[PathJoinSubstitution], dict[str, Any]]:
+        """Read ``$(path-join part ...)``."""
+        if not data:
+            raise ValueError("PathJoinSubstitution expects at least 1 argument")
+        return cls, {"substitutions": data}
+
     @property
     def substitutions(self) -> list[list[Substitution]]:
         """The parts."""
         return self._substitutions
 
     def describe(self) -> str:
-        """Name the parts."""
         parts = (" + ".join(sub.describe() for sub in part) for part in self._substitutions)
         return f"PathJoin({', '.join(parts)})"
 
@@ -48,7 +58,7 @@ class PathJoinSubstitution(Substitution):
 
 
 class PathSubstitution(PathJoinSubstitution):
-    """A path that ``/`` extends: ``PathSubstitution(FindPackageShare("turtlesim")) / "launch"``.
+    """A path that ``/`` extends: ``PathSubstitution(LaunchConfiguration("folder")) / "launch"``.
 
     Args:
         path: The first part.

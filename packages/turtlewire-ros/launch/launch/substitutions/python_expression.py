@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
+from launch.substitutions.text_substitution import TextSubstitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
@@ -45,12 +46,16 @@ class PythonExpression(Substitution):
     def parse(
         cls, data: Sequence[SomeSubstitutionsType]
     ) -> tuple[type[PythonExpression], dict[str, Any]]:
-        """Read ``$(eval 'expression' [module ...])``."""
+        """Read ``$(eval 'expression' ['module, ...'])``."""
         if not 1 <= len(data) <= 2:
             raise TypeError("eval substitution expects 1 or 2 arguments")
-        return cls, {"expression": data[0]} | (
-            {"python_modules": data[1]} if len(data) == 2 else {}
-        )
+        kwargs: dict[str, Any] = {"expression": data[0]}
+        if len(data) == 2:
+            # Launch files name modules by plain text, which needs no context.
+            text = "".join(part.text for part in normalize_to_list_of_substitutions(data[1])
+                           if isinstance(part, TextSubstitution))  # fmt: skip
+            kwargs["python_modules"] = [name.strip() for name in text.split(",") if name.strip()]
+        return cls, kwargs
 
     @property
     def expression(self) -> list[Substitution]:
@@ -63,7 +68,6 @@ class PythonExpression(Substitution):
         return self._modules
 
     def describe(self) -> str:
-        """Show the expression."""
         expression = " + ".join(part.describe() for part in self._expression)
         modules = ", ".join(
             " + ".join(part.describe() for part in module) for module in self._modules
@@ -81,6 +85,7 @@ class PythonExpression(Substitution):
         for part in self._modules:
             module_name = perform_substitutions(context, part)
             module = importlib.import_module(module_name)
+            # As in an import statement, `os.path` defines the name `os`.
             names[module_name.partition(".")[0]] = importlib.import_module(
                 module_name.partition(".")[0]
             )

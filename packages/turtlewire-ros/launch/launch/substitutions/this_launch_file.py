@@ -28,7 +28,6 @@ class ThisLaunchFile(Substitution):
         return cls, {}
 
     def describe(self) -> str:
-        """Name it."""
         return "ThisLaunchFile()"
 
     def perform(self, context: LaunchContext) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
-from launch.substitution import Substitution
+from launch.substitutions.path_join_substitution import PathSubstitution
 from launch.substitutions.substitution_failure import SubstitutionFailure
 
 if TYPE_CHECKING:
@@ -17,8 +17,11 @@ __all__ = ["ThisLaunchFileDir"]
 
 
 @expose_substitution("dirname")
-class ThisLaunchFileDir(Substitution):
-    """The folder of the launch file that is being read."""
+class ThisLaunchFileDir(PathSubstitution):
+    """The folder of the launch file that is being read; ``/`` extends it."""
+
+    def __init__(self) -> None:
+        super().__init__(self)
 
     @classmethod
     def parse(cls, data: Sequence[Any]) -> tuple[type[ThisLaunchFileDir], dict[str, Any]]:
@@ -28,7 +31,6 @@ class ThisLaunchFileDir(Substitution):
         return cls, {}
 
     def describe(self) -> str:
-        """Name it."""
         return "ThisLaunchFileDir()"
 
     def perform(self, context: LaunchContext) -> str:

@@ -1,4 +1,7 @@
-"""Small helpers that actions and substitutions share."""
+"""Small helpers that actions and substitutions share.
+
+The modules ``…_impl`` are ROS 2's: programs also import from them.
+"""
 
 from __future__ import annotations
 
@@ -9,11 +12,13 @@ from launch.utilities.normalize_to_list_of_substitutions_impl import (
     normalize_to_list_of_substitutions,
 )
 from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch.utilities.signal_management import AsyncSafeSignalManager
 from launch.utilities.visit_all_entities_and_collect_futures_impl import (
     visit_all_entities_and_collect_futures,
 )
 
 __all__ = [
+    "AsyncSafeSignalManager",
     "ensure_argument_type",
     "is_a",
     "is_a_subclass",

@@ -13,7 +13,7 @@ __all__ = ["describe_arguments", "parse_arguments"]
 
 
 def parse_arguments(words: Iterable[str]) -> list[tuple[str, str]]:
-    """``name:=value`` pairs, the last one of each name.
+    """Return the ``name:=value`` pairs, the last one of each name.
 
     Raises:
         RuntimeError: A word is not a pair.
@@ -30,7 +30,7 @@ def parse_arguments(words: Iterable[str]) -> list[tuple[str, str]]:
 
 
 def describe_arguments(arguments: Iterable[LaunchArgument]) -> str:
-    """Names, descriptions and defaults of declared arguments, as ``--show-args`` shows them."""
+    """Return names, descriptions and defaults of declared arguments, as ``--show-args`` does."""
     lines = ["Arguments (pass arguments as '<name>:=<value>'):"]
     conditional = False
     for declared in arguments:

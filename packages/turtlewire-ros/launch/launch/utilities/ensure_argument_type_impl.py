@@ -15,7 +15,7 @@ def ensure_argument_type(
     argument_name: str,
     caller: str | None = None,
 ) -> None:
-    """Refuse an argument that has none of the types.
+    """Raise if an argument has none of the types.
 
     Raises:
         TypeError: The argument has none of the types; the message names argument, value and types.

@@ -13,7 +13,7 @@ __all__ = ["normalize_to_list_of_entities"]
 def normalize_to_list_of_entities(
     entities: LaunchDescriptionEntity | Iterable[Any],
 ) -> list[LaunchDescriptionEntity]:
-    """One entity, or nested lists of some, as one list.
+    """Return one entity, or nested lists of entities, as one list.
 
     Raises:
         TypeError: An item is not an entity.
@@ -25,6 +25,7 @@ def normalize_to_list_of_entities(
         if isinstance(item, LaunchDescriptionEntity):
             found.append(item)
         elif isinstance(item, Iterable) and not isinstance(item, (str, bytes)):
+            # Reversed, because the next item is taken from the end.
             pending.extend(reversed(list(item)))
         else:
             raise TypeError(f"expected launch entities, got '{item}' of type '{type(item)}'")

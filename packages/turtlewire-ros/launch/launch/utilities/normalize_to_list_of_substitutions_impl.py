@@ -15,7 +15,7 @@ __all__ = ["normalize_to_list_of_substitutions"]
 
 
 def normalize_to_list_of_substitutions(subs: SomeSubstitutionsType) -> list[Substitution]:
-    """Text, a path, a substitution or several of them, as a list of substitutions.
+    """Return text, a path, a substitution or several of them as a list of substitutions.
 
     Raises:
         TypeError: ``subs`` has another type.

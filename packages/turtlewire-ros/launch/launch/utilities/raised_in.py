@@ -18,7 +18,7 @@ def raised_in(error: BaseException) -> str:
         A line break and ``raised in <file>:<line>``: the innermost line of a Python launch file, or
         the element of a file in another language; empty if the error comes from no launch file.
     """
-    # An error that several loaders had keeps theirs; the first is the likely one, and further in.
+    # If several loaders failed, the first error is the most likely one, and knows its own line.
     for inner in getattr(error, "likely_errors", ())[:1]:
         if found := raised_in(inner):
             return found

@@ -82,7 +82,7 @@ def is_instance_of(value: Any, data_type: Any = None, *, can_be_str: bool = Fals
     Args:
         value: The value.
         data_type: One of the known types; None for any of them.
-        can_be_str: Whether text, or a list in which some items are text, is accepted, too.
+        can_be_str: Whether text, or a list in which some items are text, is also accepted.
     """
     kind, is_list = extract_type(data_type)
     if data_type is None and isinstance(value, list):
@@ -98,6 +98,7 @@ def is_instance_of(value: Any, data_type: Any = None, *, can_be_str: bool = Fals
 def _is_scalar(value: Any, kind: Any, can_be_str: bool) -> bool:
     if kind is None:
         return isinstance(value, ScalarTypesTuple)
+    # Not `isinstance`, because bool is a subclass of int.
     return type(value) is kind or (can_be_str and isinstance(value, str))
 
 
@@ -125,6 +126,7 @@ def coerce_to_type(value: str, data_type: Any = None, *, can_be_str: bool = Fals
         read = value
     if data_type is None:
         return read if isinstance(read, ScalarTypesTuple) else value
+    # YAML reads `1` as an int, but it is a float as well.
     if data_type is float and type(read) is int:
         return float(read)
     if type(read) is data_type:
@@ -144,6 +146,7 @@ def coerce_list(value: list[Any], data_type: Any = None, *, can_be_str: bool = F
     items = [coerce_to_type(item, data_type, can_be_str=can_be_str) for item in value]
     kinds = {type(item) for item in items} - ({str} if can_be_str else set())
     if data_type is None and len(kinds) > 1:
+        # YAML reads `1` and `2.5` as different types.
         if kinds == {int, float}:
             return [float(item) if isinstance(item, int) else item for item in items]
         raise ValueError(f"Cannot convert {value} to a list of one type: it is not uniform")

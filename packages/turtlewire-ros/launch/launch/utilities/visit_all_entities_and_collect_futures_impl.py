@@ -16,10 +16,10 @@ __all__ = ["visit_all_entities_and_collect_futures"]
 def visit_all_entities_and_collect_futures(
     entity: LaunchDescriptionEntity, context: LaunchContext
 ) -> list[asyncio.Future[Any]]:
-    """Visit an entity, and in depth those that its visit returns.
+    """Visit an entity, and then, in depth, all entities that the visits return.
 
     Returns:
-        The futures of those that do not complete with their visit.
+        The futures of entities that do not complete with their visit.
     """
     further = entity.visit(context)
     future = entity.get_asyncio_future()

@@ -99,12 +99,12 @@ async def wait_for_output(
     Args:
         launch_context: The context of the launch.
         execute_process_action: Runs the process.
-        validate_output: Gets all of the text. It refuses it by returning False or by raising
+        validate_output: Gets all of the text, and rejects it by returning False or by raising
             ``AssertionError``.
         timeout: Seconds to wait at most.
 
     Returns:
-        Whether it accepted it in time.
+        True if the text was accepted in time.
     """
     read = execute_process_action.get_stdout
     _require_cache(execute_process_action)
@@ -119,7 +119,7 @@ async def wait_for_stderr(
     validate_output: Validate,
     timeout: float | None = None,
 ) -> bool:
-    """Return the same for stderr, where ROS nodes log."""
+    """Wait as :func:`wait_for_output` does, for stderr, where ROS nodes log."""
     read = execute_process_action.get_stderr
     _require_cache(execute_process_action)
     return await _wait_for_text(
@@ -148,7 +148,7 @@ async def assert_stderr(
     validate_output: Validate,
     timeout: float | None = None,
 ) -> None:
-    """The same for stderr, where ROS nodes log."""
+    """Wait as :func:`assert_output` does, for stderr, where ROS nodes log."""
     if not await wait_for_stderr(launch_context, execute_process_action, validate_output, timeout):
         _refuse(validate_output, execute_process_action.get_stderr(), "stderr")
 
@@ -261,6 +261,7 @@ async def _wait(
 
     async def until_fulfilled() -> None:
         while not fulfilled():
+            # No event is lost, because the handlers run on this loop.
             changed.clear()
             await changed.wait()
 
@@ -270,12 +271,14 @@ async def _wait(
         try:
             await asyncio.wait_for(until_fulfilled(), timeout)
         except asyncio.TimeoutError:
+            # The last event may have come with the end of the time.
             return fulfilled()
         return True
 
 
 def _accepts(validate: Validate, text: str) -> bool:
     try:
+        # None is accepted: a function that asserts returns nothing.
         return validate(text) is not False
     except AssertionError:
         return False

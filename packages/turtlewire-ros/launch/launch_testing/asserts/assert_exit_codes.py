@@ -24,6 +24,7 @@ __all__ = [
 
 __unittest = True  # unittest leaves this module out of the tracebacks of failures
 
+# ROS 2's numbers: a signal's number plus 128, as a shell reports it.
 EXIT_OK = 0
 EXIT_FORCED = 1
 EXIT_SIGINT = 130

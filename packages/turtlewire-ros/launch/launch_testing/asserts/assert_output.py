@@ -110,6 +110,7 @@ def assertInStream(  # noqa: N802  ROS 2's name
 
 
 def _text(proc_output: Any, action: Any, stream: str) -> str:
+    # Joined before it is decoded, because a chunk may end within a character.
     return b"".join(
         event.text
         for event in proc_output[action]

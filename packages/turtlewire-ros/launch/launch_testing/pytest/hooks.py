@@ -6,12 +6,11 @@ file speaks of launch tests.
 
 from __future__ import annotations
 
+import runpy
 from typing import TYPE_CHECKING, Any
 
 import pytest
 from _pytest._code.code import ReprFileLocation
-from _pytest.pathlib import import_path
-from _pytest.python import importtestmodule
 
 from launch_testing.loader import LoadTestsFromPythonModule, TestRun
 from launch_testing.test_runner import LaunchTestRunner
@@ -166,7 +165,7 @@ class LaunchTestModule(pytest.File):
 
     def collect(self) -> Iterator[pytest.Item]:
         """Yield the module's one item."""
-        module = importtestmodule(self.path, self.config)
+        module = _imported(self.path, self)
         item = self.makeitem(
             self,
             name=module.__name__,
@@ -183,23 +182,31 @@ def _title(test: Any) -> str:
     return f"{type(test).__name__}.{name}" if name else str(test)
 
 
-def find_launch_test_entrypoint(path: Path, config: pytest.Config | None = None) -> Any:
+def _imported(path: Path, parent: pytest.Collector) -> ModuleType:
+    """Return the module of a file, imported as pytest does it in each of its versions.
+
+    Raises:
+        CollectError: The module cannot be imported.
+    """
+    module: ModuleType = pytest.Module.from_parent(parent, path=path).obj
+    return module
+
+
+def find_launch_test_entrypoint(path: Path, parent: pytest.Collector | None = None) -> Any:
     """Return the function ``generate_test_description`` of a file, or None.
 
     Args:
         path: The file.
-        config: pytest's configuration, for the import mode; without it the file is a module
-            without a package.
+        parent: Its parent in pytest's collection; without it the file is a module without a
+            package.
     """
+    # Without these bytes, the file need not be imported to see that it has no launch tests.
     if b"generate_test_description" not in path.read_bytes():
         return None
-    if config is None:
-        module: ModuleType = import_path(
-            path, mode="importlib", root=path.parent, consider_namespace_packages=False
-        )
-        return getattr(module, "generate_test_description", None)
+    if parent is None:
+        return runpy.run_path(str(path)).get("generate_test_description")
     try:
-        module = importtestmodule(path, config)
+        module = _imported(path, parent)
     except pytest.Collector.CollectError:
         return None  # pytest's own collection reports the error
     return getattr(module, "generate_test_description", None)
@@ -209,22 +216,25 @@ def pytest_pycollect_makemodule(
     module_path: Path, parent: pytest.Collector
 ) -> pytest.Collector | None:
     """Let plugins decide how a file with a ``generate_test_description`` is collected."""
-    entrypoint = find_launch_test_entrypoint(module_path, parent.config)
+    entrypoint = find_launch_test_entrypoint(module_path, parent)
     if entrypoint is None:
         return None
     collector: pytest.Collector | None = parent.ihook.pytest_launch_collect_makemodule(
-        path=module_path, parent=parent, entrypoint=entrypoint
+        module_path=module_path, path=module_path, parent=parent, entrypoint=entrypoint
     )
     return collector
 
 
 @pytest.hookimpl(trylast=True)
 def pytest_launch_collect_makemodule(
-    path: Path, parent: pytest.Collector, entrypoint: Any
+    module_path: Path,
+    path: Path,  # noqa: ARG001 - ROS 2's
+    parent: pytest.Collector,
+    entrypoint: Any,
 ) -> LaunchTestModule | None:
     """Collect a module whose function is marked ``launch_test``."""
     marks = getattr(entrypoint, "pytestmark", [])
     if not any(mark.name == "launch_test" for mark in marks):
         return None
-    module: LaunchTestModule = LaunchTestModule.from_parent(parent, path=path)
+    module: LaunchTestModule = LaunchTestModule.from_parent(parent, path=module_path)
     return module

@@ -24,12 +24,12 @@ _ESCAPE_SEQUENCE = re.compile(r"\x1b(?:[@-Z\\-_]|\[[0-?]*[ -/]*[@-~])")
 
 
 def get_default_filtered_prefixes() -> list[str]:
-    """Beginnings of lines that output filters remove unless others are given."""
+    """Return the beginnings of lines that output filters remove by default."""
     return ["pid", "rc"]
 
 
 def get_default_filtered_patterns() -> list[str]:
-    """Patterns of lines that output filters remove unless others are given."""
+    """Return the patterns of lines that output filters remove by default."""
     return []
 
 
@@ -58,7 +58,7 @@ def basic_output_filter(
 
     def filtered(output: str) -> str:
         lines = [line for line in output.splitlines() if remains(line)]
-        # An end of the last line remains one.
+        # Keep the line end of the last line.
         return "\n".join(lines) + ("\n" if lines and output.endswith("\n") else "")
 
     return filtered

@@ -101,6 +101,7 @@ class ProcessProxy:
 
     def _text(self, wanted: Callable[[Any], bool]) -> str:
         events = [each for each in self._proc_output if each.action is self._action]
+        # Joined before it is decoded, because a chunk may end within a character.
         text = b"".join(each.text for each in events if wanted(each)).decode(errors="replace")
         return text if self._output_filter is None else self._output_filter(text)
 

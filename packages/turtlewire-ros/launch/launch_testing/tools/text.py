@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable
 
 __all__ = ["build_line_match", "build_text_match", "normalize_lineseps"]
 
@@ -19,11 +20,11 @@ def normalize_lineseps(lines: str) -> str:
 
 
 def build_text_match(expected_text: Any, *, strict: bool = False) -> Callable[..., _Span | None]:
-    """A function of a text, and of where to begin, that returns where it found what is expected.
+    """Return a function that searches a text, from a position on, and returns the span.
 
     Args:
-        expected_text: A text, a pattern of :mod:`re`, a list of them, which come in that order, or
-            a function, which is returned as it is.
+        expected_text: A text, a pattern of :mod:`re`, an iterable of them, which come in that
+            order, or a function, which is returned as it is.
         strict: Whether nothing else may be in the text.
 
     Raises:
@@ -42,7 +43,7 @@ def build_text_match(expected_text: Any, *, strict: bool = False) -> Callable[..
             return None if match is None else match.span()
 
         return match_one
-    if isinstance(expected_text, (list, tuple)):
+    if isinstance(expected_text, Iterable):
         return _sequence_match([build_text_match(each) for each in expected_text], strict)
     raise ValueError(
         f"expected a string, a pattern, a list of them or a function, got {expected_text!r}"
@@ -50,11 +51,11 @@ def build_text_match(expected_text: Any, *, strict: bool = False) -> Callable[..
 
 
 def build_line_match(expected_lines: Any, *, strict: bool = False) -> Callable[..., _Span | None]:
-    """A function of lines, and of where to begin, that returns where it found what is expected.
+    """Return a function that searches lines, from an index on, and returns the span.
 
     Args:
-        expected_lines: A line or a pattern for one, a list of them, which come in that order (with
-            others between them), or a function, which is returned as it is.
+        expected_lines: A line or a pattern for one, an iterable of them, which come in that order
+            (with others between them), or a function, which is returned as it is.
         strict: Whether the lines must be exactly these.
 
     Raises:
@@ -65,7 +66,7 @@ def build_line_match(expected_lines: Any, *, strict: bool = False) -> Callable[.
         return found
     if isinstance(expected_lines, (str, re.Pattern)):
         expected_lines = [expected_lines]
-    if not isinstance(expected_lines, (list, tuple)):
+    if not isinstance(expected_lines, Iterable):
         raise ValueError(  # noqa: TRY004  as above, where it is ROS 2's class
             f"expected a line, a pattern, a list of them or a function, got {expected_lines!r}"
         )

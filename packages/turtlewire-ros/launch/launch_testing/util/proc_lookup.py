@@ -29,7 +29,7 @@ class NoMatchingProcessException(Exception):
 
 class _Recorded(Protocol):
     def processes(self) -> Iterable[Any]:
-        """Actions of the recorded processes."""
+        """Return the actions of the recorded processes."""
 
 
 def resolveProcesses(  # noqa: N802  ROS 2's name
@@ -93,7 +93,7 @@ def _has_arguments(process: Any, cmd_args: Any) -> bool:
 
 
 def _command_line(process: Any) -> str:
-    """Name and arguments; a process that never started has no details."""
+    """Return the name and arguments; a process that never started has no details."""
     details = process.process_details
     if details is None:
         return str(process.describe())

@@ -270,12 +270,43 @@ def test_timers(launch):
     assert outcome.messages == ["first", "second"]
 
 
+def test_a_timer_in_a_group_keeps_what_the_group_set(launch, monkeypatch):
+    monkeypatch.delenv("TIMED", raising=False)
+    outcome = launch(
+        GroupAction(
+            [
+                SetLaunchConfiguration("colour", "green"),
+                SetEnvironmentVariable("TIMED", "inside"),
+                TimerAction(
+                    period=0.01,
+                    actions=[show(), show(EnvironmentVariable("TIMED", default_value="-"))],
+                ),
+            ]
+        ),
+        TimerAction(period=0.5, actions=[show(), SetLaunchConfiguration("colour", "red"), show()]),
+        show(),
+        TimerAction(
+            period=1.0, actions=[show(), show(EnvironmentVariable("TIMED", default_value="-"))]
+        ),
+    )
+    # Outside of a scope, a timer sees the values of its moment, and what it sets stays.
+    assert outcome.messages == [
+        f"it is {value}" for value in ("none", "green", "inside", "none", "red", "red", "-")
+    ]
+
+
 def test_the_end_cancels_timers_unless_told_otherwise(launch):
     late = TimerAction(period=100.0, actions=[LogInfo(msg="never")])
     still = TimerAction(period=0.01, actions=[LogInfo(msg="still")], cancel_on_shutdown=False)
-    cancelled = TimerAction(period=100.0, actions=[LogInfo(msg="never")])
-    cancelled.cancel()
-    assert launch(cancelled, late, still, Shutdown()).messages == ["still"]
+    assert launch(late, still, Shutdown()).messages == ["still"]
+
+
+def test_a_timer_that_is_cancelled_before_its_start_does_not_start(launch):
+    timer = TimerAction(period=0.0, actions=[LogInfo(msg="never")])
+    timer.cancel()
+    timer.cancel()
+    assert launch(timer).messages == []
+    assert timer.get_asyncio_future() is None
 
 
 def test_shutdown_tells_why(launch):

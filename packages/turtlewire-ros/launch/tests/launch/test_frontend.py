@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from tests.distros import lines_in
 
 from launch.actions import IncludeLaunchDescription
 from launch.frontend import Parser, expose_action, expose_substitution
@@ -343,3 +344,24 @@ def test_languages():
     assert {"xml", "yaml", "yml"} <= set(Parser.get_available_extensions())
     assert Parser.is_extension_valid(".xml")
     assert not Parser.is_extension_valid("py")
+
+
+@pytest.mark.parametrize(
+    ("distro", "result"),
+    [("kilted", "Action ['condition']"), ("lyrical", "Mine ['condition']")],
+)
+def test_an_action_s_own_parse(distro, result):
+    """Its class is Lyrical's answer; a subclass calls it in the same way."""
+    program = """
+import io
+from launch.action import Action
+from launch.frontend import Parser
+
+class Mine(Action):
+    pass
+
+entity, parser = Parser.load(io.StringIO('<launch><mine if="true"/></launch>'))
+kind, arguments = Mine.parse(entity.children[0], parser)
+print(kind.__name__, sorted(arguments))
+"""
+    assert lines_in(distro, program) == [result]

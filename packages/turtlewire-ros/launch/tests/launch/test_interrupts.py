@@ -41,6 +41,27 @@ TWO_CHILDREN = HEAD + "child(WAITS), child(WAITS)])"
 STUBBORN_CHILD = HEAD + "child(IGNORES, sigterm_timeout=0.3)])"
 
 
+RECEIVES_IN_A_THREAD = """
+import signal, threading
+from launch import LaunchDescription
+from launch.actions import ExecuteProcess, OpaqueFunction
+
+def interrupt(context):
+    receive = lambda: signal.pthread_kill(threading.get_ident(), signal.SIGINT)
+    threading.Timer(0.5, receive).start()  # by then, the loop sleeps
+
+def generate_launch_description():
+    sleep = ExecuteProcess(cmd=["sleep", "100"])
+    return LaunchDescription([sleep, OpaqueFunction(function=interrupt)])
+"""
+
+
+def test_ctrl_c_ends_a_launch_when_another_thread_receives_it(ros2_launch):
+    launch = ros2_launch(RECEIVES_IN_A_THREAD)
+    assert launch.wait() == 0
+    assert "user interrupted with ctrl-c" in launch.text
+
+
 def test_ctrl_c_in_a_terminal_reaches_the_children_by_itself(ros2_launch):
     launch = ros2_launch(TWO_CHILDREN, terminal=True)
     launch.wait_for(r"\[child-\d\] ready", count=2)

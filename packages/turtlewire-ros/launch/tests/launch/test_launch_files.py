@@ -1,4 +1,4 @@
-"""Launch files in Python, and what is said about those that are none."""
+"""Launch files in Python, and the errors for files that are not launch files."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def test_python(launch, file, tmp_path, source):
     assert launch(IncludeLaunchDescription(source(path))).messages == ["from the file"]
     assert [entry.name for entry in tmp_path.iterdir() if entry.name != "log"] == [
         "x.launch.py"
-    ]  # no bytecode beside it
+    ]  # no bytecode next to it
     source = source([str(tmp_path), "/", LaunchConfiguration("name", default="x.launch.py")])
     assert source.try_get_launch_description_without_context() is None
     assert source.location == f"'{tmp_path}' + '/' + LaunchConfig('name')"

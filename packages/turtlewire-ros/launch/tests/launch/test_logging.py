@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import os
 import re
+import sys
 
 import pytest
 
-from launch import logging
+from launch import LaunchDescription, LaunchService, logging
 from launch.actions import ExecuteProcess, LogInfo
 from launch.logging import directory
 
@@ -47,6 +48,17 @@ def test_each_launch_has_a_folder_and_the_last_one_a_link(launch, tmp_path):
     assert link.is_symlink()
     assert link.resolve() == second.log_dir
     assert "[INFO] [launch.user]: two" in (link / "launch.log").read_text()
+
+
+def test_the_main_file_may_have_another_name(tmp_path):
+    for name in ("demo.log", "launch.log"):
+        hello = ExecuteProcess(cmd=[sys.executable, "-c", "print('hello')"], output="log")
+        service = LaunchService(noninteractive=True, log_file_name=name)
+        service.include_launch_description(LaunchDescription([hello]))
+        assert service.run() == 0
+        written = (tmp_path / "log" / "latest" / name).read_text()
+        assert "process started with pid" in written
+        assert "hello" in written
 
 
 def test_files_have_times_and_the_screen_has_none(launch):
@@ -165,3 +177,45 @@ def generate_launch_description():
     launch = ros2_launch(content, terminal=True, environment={"NO_COLOR": no_color})
     assert launch.wait() == 0
     assert f"[{level}] [mine]: careful" in launch.text
+
+
+def test_handlers_with_a_format_for_each_logger():
+    import io
+    import logging
+    from logging import handlers as standard
+
+    from launch.logging import handlers
+
+    stream = io.StringIO()
+    handler = handlers.StreamHandler(stream)
+    assert isinstance(handler, logging.StreamHandler)
+    assert handlers.StreamHandler is type(handler)
+    assert issubclass(handlers.RotatingFileHandler, standard.RotatingFileHandler)
+    first, second = (logging.getLogger(f"handlers_{name}") for name in ("first", "second"))
+    handler.setFormatter(logging.Formatter("all %(message)s"))
+    handler.setFormatterFor(first, logging.Formatter("own %(message)s"))
+    for logger in (first, second):
+        logger.propagate = False
+        logger.addHandler(handler)
+        logger.warning("x")
+    handler.unsetFormatterFor(first)
+    handler.unsetFormatterFor(second)
+    first.warning("y")
+    assert stream.getvalue() == "own x\nall x\nall y\n"
+    for name in ("Nothing", "Logger"):
+        with pytest.raises(AttributeError, match=f"has no attribute '{name}'"):
+            getattr(handlers, name)
+
+
+def test_the_main_file_is_named_on_the_command_line(ros2_launch, tmp_path):
+    content = """
+from launch import LaunchDescription
+from launch.actions import LogInfo
+
+def generate_launch_description():
+    return LaunchDescription([LogInfo(msg="careful")])
+"""
+    launch = ros2_launch(content, "-f", "demo")
+    assert launch.wait() == 0
+    assert "careful" in (tmp_path / "log" / "latest" / "demo.log").read_text()
+    assert not (tmp_path / "log" / "latest" / "launch.log").exists()

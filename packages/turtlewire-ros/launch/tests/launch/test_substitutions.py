@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 import os
 import sys
 import sysconfig
@@ -9,6 +10,7 @@ import sysconfig
 import pytest
 
 from launch import LaunchContext, logging
+from launch.frontend.parse_substitution import parse_substitution
 from launch.substitutions import (
     AllSubstitution,
     AndSubstitution,
@@ -32,6 +34,10 @@ from launch.substitutions import (
     TextSubstitution,
     ThisLaunchFile,
     ThisLaunchFileDir,
+)
+from launch.substitutions.boolean_substitution import (
+    ContainerSubstitution,
+    LeftRightLogicalSubstitution,
 )
 
 
@@ -103,6 +109,13 @@ def test_logic(context):
     assert AllSubstitution("1", "0").perform(context) == "false"
     assert AllSubstitution("yes", "on", "True").perform(context) == "true"
     assert AnySubstitution("no", "off").perform(context) == "false"
+    assert AllSubstitution("1", container=["true", "0"]).perform(context) == "false"
+    assert AnySubstitution(container=["no", ["o", "n"]]).perform(context) == "true"
+    exactly_two = ContainerSubstitution(lambda values: sum(values) == 2, "1", "1", "0")
+    assert exactly_two.perform(context) == "true"
+    either = LeftRightLogicalSubstitution(operator.xor, "1", "1")
+    assert either.perform(context) == "false"
+    assert (either.func, AndSubstitution("1", "1").func) == (operator.xor, operator.and_)
     with pytest.raises(SubstitutionFailure, match="Failed to convert 'perhaps' to 'bool'"):
         NotSubstitution("perhaps").perform(context)
 
@@ -112,6 +125,26 @@ def test_if_else(context):
     assert IfElseSubstitution("false", if_value="yes").perform(context) == ""
     with pytest.raises(RuntimeError, match="One of if_value and else_value must be specified"):
         IfElseSubstitution("true")
+
+
+def test_the_modules_of_an_expression_in_a_launch_file(context):
+    (several,) = parse_substitution("$(eval 'math.sqrt(4) + len(sys.path) * 0' 'math, sys')")
+    assert several.perform(context) == "2.0"
+    (none,) = parse_substitution("$(eval '1 + 1' '')")
+    assert none.perform(context) == "2"
+
+
+def test_the_default_of_a_configuration_is_text(context):
+    for default, text in (([["0", "0"]], "['0', '0']"), ([1, "a"], "1a"), (2.5, "2.5")):
+        assert LaunchConfiguration("none", default=default).perform(context) == text
+
+
+def test_folders_are_extended_by_a_slash(context):
+    context.extend_locals({"current_launch_file_directory": "/here"})
+    assert (ThisLaunchFileDir() / "a" / "b").perform(context) == os.path.join("/here", "a", "b")
+    assert (LaunchLogDir() / "a").perform(context).endswith(f"{os.sep}a")
+    assert ThisLaunchFileDir().perform(context) == "/here"
+    assert (ThisLaunchFileDir() / "a").describe() == "PathJoin(ThisLaunchFileDir(), 'a')"
 
 
 def test_python_expression(context):

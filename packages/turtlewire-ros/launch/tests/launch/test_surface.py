@@ -8,7 +8,7 @@ from typing import List  # noqa: UP035  as ROS 2's callers write it
 
 import pytest
 
-from launch import LaunchDescription, LaunchService
+from launch import LaunchContext, LaunchDescription, LaunchService
 from launch.action import Action
 from launch.actions import (
     AppendEnvironmentVariable,
@@ -89,7 +89,7 @@ def test_event_handlers():
     assert event_named("launch.Event")(Event())
     assert not event_named("launch.events.Shutdown")(Event())
     timer = TimerAction(period=1.0, actions=[LogInfo(msg="x")])
-    assert timer.handle(None) == timer.actions
+    assert timer.handle(LaunchContext()) == timer.actions
 
 
 def test_entities(context):
@@ -154,6 +154,11 @@ def test_typed_values(context):
     assert get_typed_value("[1, 2]", List[int]) == [1, 2]  # noqa: UP006
     assert get_typed_value(["1.5", "2"], list[float]) == [1.5, 2.0]
     assert coerce_list(["1", "a"], int, can_be_str=True) == [1, "a"]
+    assert coerce_list(["1", "2.5"]) == [1.0, 2.5]
+    assert coerce_list(["1", "a"], can_be_str=True) == [1, "a"]
+    for mixed in (["1", "a"], ["1", "true"], ["2.5", "a"]):
+        with pytest.raises(ValueError, match="it is not uniform"):
+            coerce_list(mixed)
     assert [extract_type(kind) for kind in (None, bool, list, list[str])] == [
         (None, False),
         (bool, False),

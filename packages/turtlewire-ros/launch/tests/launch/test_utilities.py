@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import asyncio
+import signal
+import sys
+import threading
+from contextlib import closing
 from pathlib import Path
 
 import pytest
 
 from launch import Action, LaunchContext
-from launch.actions import LogInfo
+from launch.actions import LogInfo, TimerAction
 from launch.output_lines import OutputLines
 from launch.process_output import ProcessOutput
 from launch.substitutions import LaunchConfiguration, TextSubstitution
 from launch.utilities import (
+    AsyncSafeSignalManager,
     ensure_argument_type,
     is_a,
     is_a_subclass,
@@ -90,3 +96,52 @@ def test_an_error_from_no_launch_file_has_no_place():
     with pytest.raises(ValueError, match="seven") as caught:
         int("seven")
     assert raised_in(caught.value) == ""
+
+
+def send_to_this_thread(number):
+    signal.pthread_kill(threading.get_ident(), number)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no signal can be raised without an end")
+def test_signals_become_calls_of_a_loop():
+    before = signal.getsignal(signal.SIGUSR1)
+    calls = []
+
+    async def until(count):
+        while len(calls) < count:
+            changed.clear()
+            await changed.wait()
+
+    def note(name):
+        def handler(number):
+            calls.append((name, number, threading.get_ident()))
+            changed.set()
+
+        return handler
+
+    with closing(asyncio.new_event_loop()) as loop:
+        changed = asyncio.Event()
+        with AsyncSafeSignalManager(loop) as manager:
+            first, second = note("first"), note("second")
+            assert manager.handle(signal.SIGUSR1, first) is None
+            signal.raise_signal(signal.SIGUSR1)
+            assert calls == []
+            loop.run_until_complete(until(1))
+            assert manager.handle(signal.SIGUSR1, second) is first
+            # Received by another thread, a signal does not end the wait of the main thread.
+            other = threading.Timer(0.3, send_to_this_thread, args=[signal.SIGUSR1])
+            other.start()
+            loop.run_until_complete(until(2))
+            other.join()
+        assert [(name, number) for name, number, _ in calls] == [
+            ("first", signal.SIGUSR1),
+            ("second", signal.SIGUSR1),
+        ]
+    assert signal.getsignal(signal.SIGUSR1) == before
+
+
+def test_arguments_of_a_timer_have_a_type():
+    for period in (1, 1.5, "2", TextSubstitution(text="3"), ["4"]):
+        TimerAction(period=period, actions=[])
+    with pytest.raises(TypeError, match="'period' of TimerAction to be of type one of"):
+        TimerAction(period=None, actions=[])

@@ -2,13 +2,24 @@
 
 from __future__ import annotations
 
+import asyncio
 import shutil
 import subprocess
 import sys
+import sysconfig
+import venv
+from itertools import chain
 from pathlib import Path
+from types import SimpleNamespace
 from xml.etree import ElementTree as ET
 
 import pytest
+
+from launch import LaunchDescription, LaunchService
+from launch.actions import LogInfo
+from launch_pytest.fixture import finalize_launch_service
+from launch_pytest.plugin import get_launch_test_fixture_scope
+from launch_testing.tools import expect_output
 
 SAMPLES = Path(__file__).parent / "samples"
 LAUNCH_TEST = (sys.executable, "-m", "launch_testing.launch_test")
@@ -56,6 +67,62 @@ def test_passing_tests_with_pytest(tmp_path):
         "test_three[shutdown_test]",
         "test_plain",
     ]
+
+
+WITHOUT_READY_TO_TEST = """
+import launch, launch_pytest, pytest
+
+@launch_pytest.fixture
+def description():
+    return launch.LaunchDescription([launch.actions.ExecuteProcess(cmd=["sleep", "100"])])
+
+@pytest.mark.launch(fixture=description)
+def test_it(): pass
+"""
+
+
+def test_a_missing_ready_to_test_is_added(tmp_path):
+    (tmp_path / "test_it.py").write_text(WITHOUT_READY_TO_TEST)
+    done = run(*PYTEST, "test_it.py", cwd=tmp_path)
+    assert done.returncode == 0, done.stdout
+    two = "[*[launch_pytest.actions.ReadyToTest()] * 2, launch.actions"
+    two = WITHOUT_READY_TO_TEST.replace("[launch.actions", two)
+    (tmp_path / "test_it.py").write_text(two)
+    done = run(*PYTEST, "test_it.py", cwd=tmp_path)
+    assert done.returncode == 1
+    assert "containing exactly one ReadyToTest action, found 2" in done.stdout
+
+
+@pytest.mark.parametrize("strict", [False, True])
+def test_expected_lines_and_texts_are_any_iterable(strict):
+    assert expect_output("a\nb\n", expected_lines=chain("a", "b"), strict=strict)
+    assert not expect_output("a\nb\n", expected_lines=chain("b", "a"), strict=strict)
+    assert expect_output("ab", expected_text=chain("a", "b"), strict=strict)
+    with pytest.raises(ValueError, match="expected a line"):
+        expect_output("a", expected_lines=5)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.version_info >= (3, 13), reason="pytest 7.4 runs on Python 3.12 at most")
+def test_the_pytest_of_ubuntu_24_04_runs_launch_tests(tmp_path):
+    """Ubuntu 24.04 has pytest 7.4, and so have the robots with Jazzy."""
+    venv.create(tmp_path / "venv", with_pip=True)
+    python = tmp_path / "venv" / "bin" / "python"
+    assert run(python, "-m", "pip", "install", "pytest==7.4.4").returncode == 0
+    # All else comes from this environment, after the venv's own packages.
+    here = sysconfig.get_path("purelib")
+    there = run(python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))").stdout
+    more = f"import site; site.addsitedir({here!r})\n"
+    Path(there.strip(), "zz_this_environment.pth").write_text(more)
+    names = ("sample_classes.py", "sample_functions.py", "sample_failing.py")
+    for name in names:
+        shutil.copy(SAMPLES / name, tmp_path)
+    words = ("-m", "pytest", "-q", "-W", "error", "-p", "no:cacheprovider")
+    done = run(python, *words, *names, "--launch-args", "who:=you", cwd=tmp_path)
+    assert "FAILED sample_failing.py::sample_failing" in done.stdout, done.stdout
+    assert "1 failed, 12 passed" in done.stdout
+    version = run(python, "-m", "pytest", "--version", cwd=tmp_path)
+    assert version.stdout.strip() == "pytest 7.4.4"
 
 
 def test_failures_with_launch_test(tmp_path):
@@ -166,3 +233,33 @@ def test_wrong_marks_are_reported(tmp_path):
     assert "test_it: @pytest.mark.launch needs fixture=…" in done.stdout
     assert "RuntimeError: generate_test_description must return a LaunchD" in done.stdout
     assert "1 failed, 1 error" in done.stdout
+
+
+@pytest.mark.parametrize("parameters", ["module_path, parent", "path, parent"])
+def test_a_plugin_collects_launch_tests_in_its_own_way(tmp_path, parameters):
+    file = parameters.partition(",")[0]
+    (tmp_path / "conftest.py").write_text(
+        "import pytest\n\nclass Own(pytest.File):\n"
+        "    def collect(self):\n        print('COLLECTED', self.path.name)\n        return []\n\n"
+        f"def pytest_launch_collect_makemodule({parameters}, entrypoint):\n"
+        f"    return Own.from_parent(parent, path={file})\n"
+    )
+    (tmp_path / "test_unready.py").write_text(WITHOUT)
+    done = run(*PYTEST, "-s", cwd=tmp_path)
+    assert "COLLECTED test_unready.py" in done.stdout, done.stdout
+
+
+def test_the_end_of_a_launch_that_a_program_runs():
+    loop = asyncio.new_event_loop()
+    service = LaunchService()
+    service.include_launch_description(LaunchDescription([LogInfo(msg="runs")]))
+    task = loop.create_task(service.run_async(shutdown_when_idle=False))
+    finalize_launch_service(service, task=task)
+    assert task.result() == 0
+    loop.close()
+
+
+def test_the_scope_of_a_launch_fixture():
+    decorated = SimpleNamespace(_launch_pytest=SimpleNamespace(scope="module"))
+    assert get_launch_test_fixture_scope(decorated) == "module"
+    assert get_launch_test_fixture_scope(print) is None

@@ -68,9 +68,11 @@ class NodeArguments:
         return f"{(self.namespace or '').rstrip('/')}/{self.name or '<node_name_unspecified>'}"
 
     def name_words(self) -> list[SomeSubstitutionsType]:
-        """Return the words for the name, which takes its place when the node starts."""
+        """Return the words for the name, which a substitution supplies when the node starts."""
         if self.given_name is None:
             return []
+        # ROS 2's name of the local variable. `Node.prepare` sets it, because the name is known only
+        # then.
         return ["-r", LocalSubstitution("ros_specific_arguments['name']", "node name")]
 
     def expand_names(self, context: LaunchContext) -> None:
@@ -91,7 +93,7 @@ class NodeArguments:
         return ["-r", f"__ns:={self.namespace}"] if self.namespace else []
 
     def expand_parameters(self, context: LaunchContext) -> list[str]:
-        """The words for the parameters; mappings become files, which :meth:`clean_up` removes."""
+        """Return the words for the parameters; writes files that :meth:`clean_up` removes."""
         words: list[str] = []
         for entry in global_parameters(context):
             if isinstance(entry, tuple):
@@ -109,6 +111,7 @@ class NodeArguments:
             for entry in global_parameters(context)
         ]
         for parameter in self.parameters:
+            # A copy, because several nodes may be given the same file.
             own = parameter.copy() if isinstance(parameter, ParameterFile) else parameter
             if isinstance(own, ParameterFile):
                 self._parameter_files.append(own)
@@ -116,7 +119,7 @@ class NodeArguments:
         return evaluated
 
     def expand_remappings(self, context: LaunchContext) -> list[tuple[str, str]]:
-        """``(from, to)`` pairs: the scope's, then the node's own."""
+        """Return ``(from, to)`` pairs: the scope's, then the node's own."""
         own = [
             (perform_substitutions(context, source), perform_substitutions(context, target))
             for source, target in self.remappings
@@ -156,6 +159,8 @@ class NodeArguments:
     def _file_of(self, values: dict[str, Any]) -> str:
         import yaml
 
+        # Without a name in the launch file, the values must apply to whatever name the program
+        # chooses.
         key = "/**" if self.name is None else self.full_name
         with tempfile.NamedTemporaryFile(
             "w", prefix="launch_params_", delete=False, encoding="utf-8"
@@ -174,6 +179,7 @@ def _yaml_text(value: Any) -> str:
     """Return a value as YAML on one line, as it stands after ``:=``."""
     import yaml
 
+    # The width keeps long values on one line; PyYAML appends a document end to plain scalars.
     return (
         yaml.safe_dump(value, default_flow_style=True, width=10**6, allow_unicode=True)
         .removesuffix("...\n")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend import Entity
+from launch.frontend.type_utils import get_data_type_from_identifier
 from launch.substitutions import TextSubstitution
 from launch_ros.parameter_descriptions import ParameterFile, ParameterValue
 
@@ -15,12 +16,6 @@ if TYPE_CHECKING:
     from launch.substitution import Substitution
 
 __all__ = ["parse_parameter_elements", "parse_parameters", "parse_remappings", "parse_value"]
-
-_TYPES: dict[str, Any] = {"str": str, "int": int, "float": float, "bool": bool}
-_TYPES |= {
-    f"list_of_{name}": list[kind]  # type: ignore[valid-type]
-    for name, kind in _TYPES.items()
-}
 
 
 def parse_remappings(
@@ -75,7 +70,7 @@ def parse_parameter_elements(elements: Iterable[Entity], parser: Parser) -> list
 def parse_value(
     entity: Entity, parser: Parser, data_type: Any = None, *, optional: bool = False
 ) -> Any:
-    """The attribute ``value`` of an element: a number, a truth value, a text or substitutions."""
+    """Return the attribute ``value``: a number, a truth value, a text or substitutions."""
     return _parsed(entity.get_attr("value", data_type=data_type, optional=optional), parser)
 
 
@@ -93,9 +88,7 @@ def _parse_nested(parameter: Entity, parser: Parser) -> dict[Any, Any]:
     name = tuple(parser.parse_substitution(parameter.get_attr("name")))
     nested = parameter.get_attr("param", data_type=list[Entity], optional=True)
     kind = parameter.get_attr("type", optional=True)
-    if kind is not None and kind not in _TYPES:
-        raise RuntimeError(f"unknown type '{kind}' of a parameter; one of: {', '.join(_TYPES)}")
-    value_type = None if kind is None else _TYPES[kind]
+    value_type = None if kind is None else get_data_type_from_identifier(kind)
     value = parse_value(parameter, parser, value_type, optional=True)
     if nested is not None and value is not None:
         raise RuntimeError("nested parameters and value attributes are mutually exclusive")

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from launch.frontend import Entity, expose_action
-from launch_ros.actions.load_composable_nodes import LoadComposableNodes
+from launch.frontend import expose_action
+from launch_ros.actions.load_composable_nodes import LoadComposableNodes, parse_composable_nodes
 from launch_ros.actions.node import Node
-from launch_ros.descriptions.composable_node import ComposableNode
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from launch.frontend import Parser
+    from launch.frontend import Entity, Parser
     from launch.launch_context import LaunchContext
     from launch.launch_description_entity import LaunchDescriptionEntity
     from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch_ros.descriptions.composable_node import ComposableNode
 
 __all__ = ["ComposableNodeContainer"]
 
@@ -62,16 +62,11 @@ class ComposableNodeContainer(Node):
     def parse(
         cls, entity: Entity, parser: Parser, ignore: Iterable[str] | None = None
     ) -> tuple[type[ComposableNodeContainer], dict[str, Any]]:
-        """Read a ``node_container`` element."""
         _, kwargs = super().parse(entity, parser, ignore)
-        nodes = entity.get_attr("composable_node", data_type=list[Entity], optional=True) or ()
-        kwargs["composable_node_descriptions"] = [
-            ComposableNode.parse(parser, node) for node in nodes
-        ]
+        kwargs["composable_node_descriptions"] = parse_composable_nodes(entity, parser)
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Run the process; its nodes are loaded next."""
         entities = super().execute(context) or []
         if not self._descriptions:
             return entities

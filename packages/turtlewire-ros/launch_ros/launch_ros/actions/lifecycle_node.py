@@ -4,21 +4,26 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from launch import logging
-from launch.event_handler import EventHandler
+from launch.event_handlers import OnProcessExit
+from launch.frontend import expose_action
+from launch_ros._node.lifecycle import TO_ACTIVE, Autostart, change_states
+from launch_ros._node.lifecycle_event_manager import LifecycleEventManager
 from launch_ros.actions.node import Node
-from launch_ros.events.lifecycle import ChangeState, StateTransition
-from launch_ros.ros_adapters import call_service, get_ros_node
 
 if TYPE_CHECKING:
-    from launch.event import Event
+    import asyncio
+    from collections.abc import Iterable
+
+    from launch.frontend import Entity, Parser
     from launch.launch_context import LaunchContext
     from launch.launch_description_entity import LaunchDescriptionEntity
     from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch.substitution import Substitution
 
-__all__ = ["LifecycleNode", "change_state"]
+__all__ = ["LifecycleNode"]
 
 
+@expose_action("lifecycle_node")
 class LifecycleNode(Node):
     """Runs a managed node.
 
@@ -27,70 +32,64 @@ class LifecycleNode(Node):
     Args:
         name: Name of the node.
         namespace: Namespace of the node.
+        autostart: Whether to configure and activate the node when it has started: true or false, or
+            text with one of these words.
         **kwargs: See :class:`Node`.
     """
 
     def __init__(
-        self, *, name: SomeSubstitutionsType, namespace: SomeSubstitutionsType, **kwargs: Any
+        self,
+        *,
+        name: SomeSubstitutionsType,
+        namespace: SomeSubstitutionsType,
+        autostart: bool | SomeSubstitutionsType = False,
+        **kwargs: Any,
     ) -> None:
         super().__init__(name=name, namespace=namespace, **kwargs)
+        self._autostart = Autostart(autostart)
+        self._manager: LifecycleEventManager | None = None
+        self._activation: asyncio.Task[None] | None = None
+
+    @classmethod
+    def parse(
+        cls, entity: Entity, parser: Parser, ignore: Iterable[str] | None = None
+    ) -> tuple[type[LifecycleNode], dict[str, Any]]:
+        _, kwargs = super().parse(entity, parser, ignore)
+        autostart = entity.get_attr("autostart", data_type=bool, optional=True, can_be_str=True)
+        if autostart is not None:
+            kwargs["autostart"] = parser.parse_if_substitutions(autostart)
+        return cls, kwargs
+
+    @property
+    def node_autostart(self) -> bool | list[Substitution]:
+        """The argument ``autostart``, with a text as substitutions."""
+        return self._autostart.given
+
+    @property
+    def is_lifecycle_node(self) -> bool:
+        """True."""
+        return True
+
+    def get_lifecycle_event_manager(self) -> LifecycleEventManager | None:
+        """Return what watches the node; None before the node is run."""
+        return self._manager
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Run the process, and watch the node's state."""
-        from lifecycle_msgs.msg import TransitionEvent
-
-        node = get_ros_node(context)
         entities = super().execute(context)
-        context.register_event_handler(
-            EventHandler(matcher=self._is_mine, entities=self._on_change_state)
-        )
-        node.create_subscription(
-            TransitionEvent,
-            f"{self.node_name}/transition_event",
-            lambda message: context.emit_event_sync(StateTransition(action=self, msg=message)),
-            10,
-        )
+        self._manager = LifecycleEventManager(self)
+        self._manager.setup_lifecycle_manager(context)
+        if self._autostart.evaluate(context):
+            assert context.asyncio_loop is not None
+            change = change_states(context, self.node_name, TO_ACTIVE)
+            self._activation = context.asyncio_loop.create_task(change)
+            context.add_completion_future(self._activation)
+            context.register_event_handler(
+                OnProcessExit(target_action=self, on_exit=self._abandon_activation)
+            )
         return entities
 
-    def _is_mine(self, event: Event) -> bool:
-        return isinstance(event, ChangeState) and event.lifecycle_node_matcher(self)
-
-    def _on_change_state(self, event: Event, context: LaunchContext) -> None:
-        assert isinstance(event, ChangeState)
-        assert context.asyncio_loop is not None
-        change = change_state(context, self.node_name, event.transition_id)
-        context.add_completion_future(context.asyncio_loop.create_task(change))
-
-
-async def change_state(context: LaunchContext, node_name: str, transition_id: int) -> bool:
-    """Ask a managed node for a transition; whether it succeeded."""
-    from lifecycle_msgs.msg import Transition
-    from lifecycle_msgs.srv import ChangeState as ChangeStateService
-
-    logger = logging.get_logger("launch_ros.actions.lifecycle_node")
-    request = ChangeStateService.Request(transition=Transition(id=transition_id))
-    response = await call_service(context, ChangeStateService, f"{node_name}/change_state", request)
-    if response is None:
-        logger.warning(
-            "Abandoning wait for the '%s/change_state' service response, due to shutdown.",
-            node_name,
-        )
-        return False
-    if not response.success:
-        logger.error(
-            "Failed to make transition '%s' for LifecycleNode '%s'",
-            _transition_name(transition_id),
-            node_name,
-        )
-    return bool(response.success)
-
-
-def _transition_name(transition_id: int) -> str:
-    from lifecycle_msgs.msg import Transition
-
-    names = [
-        name
-        for name in dir(Transition)
-        if name.startswith("TRANSITION_") and getattr(Transition, name) == transition_id
-    ]
-    return names[0] if names else str(transition_id)
+    def _abandon_activation(self, *_: Any) -> None:
+        """Stop waiting; the process has ended and will not answer."""
+        assert self._activation is not None
+        self._activation.cancel()

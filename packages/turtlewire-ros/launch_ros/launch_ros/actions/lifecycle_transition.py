@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from launch.action import Action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
-from launch_ros.actions.lifecycle_node import change_state
+from launch_ros._node.lifecycle import change_states
 from launch_ros.ros_adapters import get_ros_node
 from launch_ros.utilities.namespace_utils import make_namespace_absolute
 
@@ -66,16 +66,12 @@ class LifecycleTransition(Action):
         return self._done
 
     def execute(self, context: LaunchContext) -> None:
-        """Begin."""
         if context.is_shutdown:
             return
         get_ros_node(context)
         names = [
             make_namespace_absolute(perform_substitutions(context, name)) for name in self._names
         ]
-        self._done = asyncio.gather(*(self._change(context, name) for name in names))
-
-    async def _change(self, context: LaunchContext, name: str) -> None:
-        for transition in self._transitions:
-            if not await change_state(context, name, transition):
-                return
+        self._done = asyncio.gather(
+            *(change_states(context, name, self._transitions) for name in names)
+        )

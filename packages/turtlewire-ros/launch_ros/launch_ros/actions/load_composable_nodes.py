@@ -8,8 +8,15 @@ from launch import logging
 from launch.action import Action
 from launch.event_handlers import OnProcessExit
 from launch.frontend import Entity, expose_action
-from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch.some_substitutions_type import SomeSubstitutionsType_types_tuple
+from launch.utilities import (
+    ensure_argument_type,
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+)
+from launch_ros._node.lifecycle import TO_ACTIVE, change_states
 from launch_ros.actions.node import Node
+from launch_ros.descriptions.composable_lifecycle_node import ComposableLifecycleNode
 from launch_ros.descriptions.composable_node import ComposableNode
 from launch_ros.ros_adapters import call_service, get_ros_node
 from launch_ros.utilities.namespace_utils import make_namespace_absolute, prefix_namespace
@@ -23,7 +30,7 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["LoadComposableNodes", "get_composable_node_load_request"]
+__all__ = ["LoadComposableNodes", "get_composable_node_load_request", "parse_composable_nodes"]
 
 
 def get_composable_node_load_request(
@@ -43,9 +50,24 @@ def get_composable_node_load_request(
     return composable_node_description.load_request(context)
 
 
+def parse_composable_nodes(entity: Entity, parser: Parser) -> list[ComposableNode]:
+    """Return the ``composable_node`` elements in an element, then the managed ones."""
+    classes = {
+        "composable_node": ComposableNode,
+        "composable_lifecycle_node": ComposableLifecycleNode,
+    }
+    return [
+        description.parse(parser, node)
+        for name, description in classes.items()
+        for node in entity.get_attr(name, data_type=list[Entity], optional=True) or ()
+    ]
+
+
 @expose_action("load_composable_node")
 class LoadComposableNodes(Action):
     """Loads nodes into the process of a container, one after the other, once it is ready.
+
+    Then it activates those whose description has ``autostart``.
 
     Args:
         composable_node_descriptions: The nodes.
@@ -61,6 +83,8 @@ class LoadComposableNodes(Action):
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
+        kinds = (*SomeSubstitutionsType_types_tuple, Node)
+        ensure_argument_type(target_container, kinds, "target_container", "LoadComposableNodes")
         self._descriptions = list(composable_node_descriptions)
         self._container = target_container
         self._logger = logging.get_logger(__name__)
@@ -70,27 +94,33 @@ class LoadComposableNodes(Action):
     def parse(
         cls, entity: Entity, parser: Parser
     ) -> tuple[type[LoadComposableNodes], dict[str, Any]]:
-        """Read a ``load_composable_node`` element."""
         _, kwargs = super().parse(entity, parser)
         kwargs["target_container"] = parser.parse_substitution(entity.get_attr("target"))
-        nodes = entity.get_attr("composable_node", data_type=list[Entity])
-        kwargs["composable_node_descriptions"] = [
-            ComposableNode.parse(parser, node) for node in nodes
-        ]
+        kwargs["composable_node_descriptions"] = parse_composable_nodes(entity, parser)
+        if not kwargs["composable_node_descriptions"]:
+            raise ValueError(
+                "Must provide at least one composable_node or composable_lifecycle_node"
+            )
         return cls, kwargs
 
     def get_asyncio_future(self) -> asyncio.Task[None] | None:
-        """Done when all are loaded."""
+        """Done when all are loaded and active."""
         return self._task
 
     def execute(self, context: LaunchContext) -> None:
-        """Begin to load them; what the scope adds to them is what it has now."""
+        """Begin to load them."""
         if context.is_shutdown:
             return
         assert context.asyncio_loop is not None
-        made = [get_composable_node_load_request(each, context) for each in self._descriptions]
-        requests = [request for request in made if request is not None]
+        # Made now: the scope of the launch file may have ended when the container is ready.
+        requests = []
         get_ros_node(context)
+        for each in self._descriptions:
+            request = get_composable_node_load_request(each, context)
+            if request is not None:
+                requests.append((each, request))
+                if isinstance(each, ComposableLifecycleNode):
+                    each.init_lifecycle_event_manager(context)
         self._task = context.asyncio_loop.create_task(
             self._load(context, self._container_name(context), requests)
         )
@@ -112,10 +142,13 @@ class LoadComposableNodes(Action):
             prefix_namespace(context.launch_configurations.get("ros_namespace"), name) or name
         )
 
-    async def _load(self, context: LaunchContext, container: str, requests: list[Any]) -> None:
+    async def _load(
+        self, context: LaunchContext, container: str, requests: list[tuple[ComposableNode, Any]]
+    ) -> None:
         from composition_interfaces.srv import LoadNode
 
-        for request in requests:
+        starting: list[str] = []
+        for description, request in requests:
             response = await call_service(
                 context, LoadNode, f"{container}/_container/load_node", request
             )
@@ -130,11 +163,17 @@ class LoadComposableNodes(Action):
                     "Loaded node '%s' in container '%s'", response.full_node_name, container
                 )
                 self._warn_of_equal_names(context, response.full_node_name)
+                if isinstance(description, ComposableLifecycleNode) and description.starts_itself(
+                    context
+                ):
+                    starting.append(response.full_node_name)
             else:
                 self._logger.error(
                     "Failed to load node '%s' of type '%s' in container '%s': %s",
                     *(request.node_name, request.plugin_name, container, response.error_message),
                 )
+        for name in starting:
+            await change_states(context, name, TO_ACTIVE)
 
     def _warn_of_equal_names(self, context: LaunchContext, name: str) -> None:
         count = add_node_name(context, name)

@@ -72,6 +72,7 @@ class Node(ExecuteProcess):
         self._ros = NodeArguments(name, namespace, parameters, remappings)
         cmd = [program, *(arguments or ()), "--ros-args", *(ros_arguments or ())]
         cmd += self._ros.name_words()
+        # Otherwise the process would be named after the path of the executable in the package.
         if exec_name is None and package is not None:
             exec_name = executable
         super().__init__(cmd=cmd, name=exec_name, **kwargs)
@@ -83,7 +84,6 @@ class Node(ExecuteProcess):
     def parse(
         cls, entity: Entity, parser: Parser, ignore: Iterable[str] | None = None
     ) -> tuple[type[Node], dict[str, Any]]:
-        """Read a ``node`` element."""
         _, kwargs = super().parse(entity, parser, ignore=["cmd", "name", *(ignore or ())])
         arguments = entity.get_attr("args", optional=True)
         if arguments is not None:
@@ -146,7 +146,6 @@ class Node(ExecuteProcess):
         return self._ros.name is not None and self._ros.namespace is not None
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Find name, parameters and remappings, then run the process."""
         result = super().execute(context)
         if self._ros.name is not None and not context.is_shutdown:
             count = add_node_name(context, self.node_name)
@@ -162,8 +161,10 @@ class Node(ExecuteProcess):
     def prepare(self, context: LaunchContext) -> None:
         """Perform the substitutions, and append the arguments that the scope adds."""
         self._ros.expand_names(context)
+        # For the substitution of `NodeArguments.name_words`.
         context.extend_locals({"ros_specific_arguments": {"name": f"__node:={self._ros.name}"}})
         super().prepare(context)
+        # Appended to the performed command, because the scope's arguments are known only now.
         final_cmd = self.process_description.final_cmd
         assert final_cmd is not None
         final_cmd += self._ros.namespace_words() + self._ros.expand_parameters(context)
@@ -177,6 +178,7 @@ class Node(ExecuteProcess):
     def command(self) -> list[str]:
         """Return the command; a Python script is run by this interpreter."""
         cmd = super().command()
+        # A prefix, such as a debugger, must come before the interpreter.
         at = self.process_description.prefix_length
         return [*cmd[:at], *argv_for(cmd[at]), *cmd[at + 1 :]]
 

@@ -36,7 +36,6 @@ class PushROSNamespace(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[PushROSNamespace], dict[str, Any]]:
-        """Read a ``push_ros_namespace`` element."""
         _, kwargs = super().parse(entity, parser)
         kwargs["namespace"] = parser.parse_substitution(entity.get_attr("namespace"))
         return cls, kwargs
@@ -47,7 +46,6 @@ class PushROSNamespace(Action):
         return self._namespace
 
     def execute(self, context: LaunchContext) -> None:
-        """Join it to that of the scope."""
         joined = prefix_namespace(
             context.launch_configurations.get("ros_namespace"),
             perform_substitutions(context, self._namespace),

@@ -33,11 +33,14 @@ class ROSTimer(TimerAction):
         from rclpy.parameter import Parameter
 
         node = get_ros_node(context)
+        # The launch has one node, so its other timers then follow `/clock` as well.
         if ("use_sim_time", True) in global_parameters(context):
             node.set_parameters([Parameter("use_sim_time", value=True)])
 
         def expire() -> None:
             timer.cancel()
+            # The timer runs on the thread of the launch's node, but actions belong to the event
+            # loop.
             loop.call_soon_threadsafe(self._expire, context)
 
         timer = node.create_timer(self.seconds(context), expire)

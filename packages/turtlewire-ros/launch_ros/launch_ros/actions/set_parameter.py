@@ -37,7 +37,6 @@ class SetParameter(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetParameter], dict[str, Any]]:
-        """Read a ``set_parameter`` element."""
         _, kwargs = super().parse(entity, parser)
         kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
         kwargs["value"] = parse_value(entity, parser)
@@ -54,5 +53,4 @@ class SetParameter(Action):
         return self._parameter.value
 
     def execute(self, context: LaunchContext) -> None:
-        """Set it."""
         add_global_parameter(context, self._parameter.evaluate(context))

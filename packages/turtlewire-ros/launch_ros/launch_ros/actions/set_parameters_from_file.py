@@ -36,11 +36,9 @@ class SetParametersFromFile(Action):
     def parse(
         cls, entity: Entity, parser: Parser
     ) -> tuple[type[SetParametersFromFile], dict[str, Any]]:
-        """Read a ``set_parameters_from_file`` element."""
         _, kwargs = super().parse(entity, parser)
         kwargs["filename"] = parser.parse_substitution(entity.get_attr("filename"))
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
-        """Set it."""
         add_global_parameter(context, perform_substitutions(context, self._filename))

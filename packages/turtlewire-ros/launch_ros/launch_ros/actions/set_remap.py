@@ -39,7 +39,6 @@ class SetRemap(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetRemap], dict[str, Any]]:
-        """Read a ``set_remap`` element."""
         _, kwargs = super().parse(entity, parser)
         kwargs["src"] = parser.parse_substitution(entity.get_attr("from"))
         kwargs["dst"] = parser.parse_substitution(entity.get_attr("to"))
@@ -56,7 +55,6 @@ class SetRemap(Action):
         return self._dst
 
     def execute(self, context: LaunchContext) -> None:
-        """Remap it."""
         add_remap(
             context,
             perform_substitutions(context, self._src),

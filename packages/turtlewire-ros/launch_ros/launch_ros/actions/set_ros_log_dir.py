@@ -35,7 +35,6 @@ class SetROSLogDir(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetROSLogDir], dict[str, Any]]:
-        """Read a ``set_ros_log_dir`` element."""
         _, kwargs = super().parse(entity, parser)
         kwargs["new_log_dir"] = parser.parse_substitution(entity.get_attr("new_log_dir"))
         return cls, kwargs
@@ -46,7 +45,7 @@ class SetROSLogDir(Action):
         return self._new_log_dir
 
     def execute(self, context: LaunchContext) -> None:
-        """Set it in the environment; a relative path lies below the folder before."""
         path = perform_substitutions(context, self._new_log_dir)
+        # `os.path.join` drops the folder before if the path is absolute.
         before = context.environment.get("ROS_LOG_DIR") or launch_config.log_dir
         context.environment["ROS_LOG_DIR"] = os.path.join(before, path)

@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
+from launch_ros.descriptions.composable_lifecycle_node import ComposableLifecycleNode
 from launch_ros.descriptions.composable_node import ComposableNode
 from launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
 
-__all__ = ["ComposableNode", "Parameter", "ParameterFile", "ParameterValue"]
+__all__ = [
+    "ComposableLifecycleNode",
+    "ComposableNode",
+    "Parameter",
+    "ParameterFile",
+    "ParameterValue",
+]

@@ -63,6 +63,13 @@ class ComposableNode:
     @classmethod
     def parse(cls, parser: Parser, entity: Entity) -> ComposableNode:
         """Read a ``composable_node`` element."""
+        kwargs = cls.parse_attributes(parser, entity)
+        entity.assert_entity_completely_parsed()
+        return cls(**kwargs)
+
+    @classmethod
+    def parse_attributes(cls, parser: Parser, entity: Entity) -> dict[str, Any]:
+        """Return the constructor's arguments of an element."""
         kwargs: dict[str, Any] = {"package": parser.parse_substitution(entity.get_attr("pkg"))}
         kwargs["plugin"] = parser.parse_substitution(entity.get_attr("plugin"))
         for attribute in ("name", "namespace"):
@@ -80,8 +87,7 @@ class ComposableNode:
             {tuple(parser.parse_substitution(item.get_attr("name"))): parse_value(item, parser)}
             for item in extra
         ]
-        entity.assert_entity_completely_parsed()
-        return cls(**kwargs)
+        return kwargs
 
     @property
     def package(self) -> list[Substitution]:
@@ -118,6 +124,7 @@ class ComposableNode:
         """Arguments for the container alone, normalized; None without any."""
         return normalize_parameters(self._extra_arguments) if self._extra_arguments else None
 
+    # A method and not a property, as in ROS 2.
     def condition(self) -> Condition | None:
         """Decides whether it is loaded; None always loads it."""
         return self._condition
@@ -127,7 +134,7 @@ class ComposableNode:
         return self._condition is None or self._condition.evaluate(context)
 
     def load_request(self, context: LaunchContext) -> Any:
-        """Its request of ``composition_interfaces/srv/LoadNode``, with all that the scope adds.
+        """Return the ``composition_interfaces/srv/LoadNode`` request, with what the scope adds.
 
         Raises:
             SubstitutionFailure: A substitution has no text.
@@ -152,6 +159,7 @@ class ComposableNode:
                 request.node_namespace,
                 self._ros.evaluated_parameters(context),
             )
+        # The request holds the values, so the temporary files have served their purpose.
         finally:
             self._ros.clean_up()
         extra: dict[str, Any] = {}

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from launch.event import Event
     from launch.launch_context import LaunchContext
     from launch.some_entities_type import SomeEntitiesType
-    from launch_ros.events.named_node import NamedNode
+    from launch_ros.events.matchers.matches_node_name import NamedNode
 
 __all__ = ["OnStateTransition"]
 

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ament_index_python.packages import get_package_prefix
 from launch.frontend.expose import expose_substitution
-from launch.substitution import Substitution
-from launch.substitutions import SubstitutionFailure
+from launch.substitutions import PathSubstitution, SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from turtlewire_ros.executables import executable_paths, libexec_directory
 from turtlewire_ros.workspace_hints import executable_hint
@@ -18,12 +17,13 @@ if TYPE_CHECKING:
 
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch.substitution import Substitution
 
 __all__ = ["ExecutableInPackage"]
 
 
 @expose_substitution("exec-in-pkg")
-class ExecutableInPackage(Substitution):
+class ExecutableInPackage(PathSubstitution):
     """The path of an executable of a package.
 
     Args:
@@ -32,6 +32,7 @@ class ExecutableInPackage(Substitution):
     """
 
     def __init__(self, executable: SomeSubstitutionsType, package: SomeSubstitutionsType) -> None:
+        super().__init__(self)
         self._executable = normalize_to_list_of_substitutions(executable)
         self._package = normalize_to_list_of_substitutions(package)
 

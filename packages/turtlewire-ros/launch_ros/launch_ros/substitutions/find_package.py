@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from ament_index_python.packages import get_package_prefix, get_package_share_directory
 from launch.frontend.expose import expose_substitution
-from launch.substitution import Substitution
+from launch.substitutions.path_join_substitution import PathSubstitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
@@ -14,18 +14,20 @@ if TYPE_CHECKING:
 
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch.substitution import Substitution
 
 __all__ = ["FindPackage", "FindPackagePrefix", "FindPackageShare"]
 
 
-class FindPackage(Substitution):
-    """A folder of a package.
+class FindPackage(PathSubstitution):
+    """A folder of a package; ``/`` extends it: ``FindPackageShare("turtlesim") / "launch"``.
 
     Args:
         package: The package.
     """
 
     def __init__(self, package: SomeSubstitutionsType) -> None:
+        super().__init__(self)
         self._package = normalize_to_list_of_substitutions(package)
 
     @classmethod

@@ -57,6 +57,7 @@ class Parameter(Substitution):
             SubstitutionFailure: The parameter is not set, and there is no default.
         """
         name = perform_substitutions(context, self._name)
+        # The parameter that was set last wins.
         for entry in reversed(global_parameters(context)):
             if isinstance(entry, tuple) and entry[0] == name:
                 return str(entry[1])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from launch_ros.utilities.evaluate_parameters import (
     evaluate_parameter_dict,
     evaluate_parameters,
@@ -22,6 +24,7 @@ from launch_ros.utilities.to_parameters_list import to_parameters_list
 from launch_ros.utilities.track_node_names import add_node_name, get_node_name_count
 
 __all__ = [
+    "LifecycleEventManager",
     "add_node_name",
     "evaluate_parameter_dict",
     "evaluate_parameters",
@@ -37,3 +40,12 @@ __all__ = [
     "prefix_namespace",
     "to_parameters_list",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Load `LifecycleEventManager` on first use: its module imports this package."""
+    if name != "LifecycleEventManager":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    return import_module("launch_ros._node.lifecycle_event_manager").LifecycleEventManager

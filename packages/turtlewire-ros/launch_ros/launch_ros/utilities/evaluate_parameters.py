@@ -21,7 +21,7 @@ _SCALARS = (str, bool, int, float, bytes)
 def evaluate_parameter_dict(
     context: LaunchContext, parameters: Mapping[Any, Any]
 ) -> dict[str, Any]:
-    """Flat names, joined by dots, with performed values.
+    """Return flat names, joined by dots, with performed values.
 
     Raises:
         TypeError: Parameters cannot have the type of a value.
@@ -94,6 +94,7 @@ def evaluate_value(context: LaunchContext, value: Any, name: str = "") -> Any:
         and any(isinstance(item, Substitution) for item in items)
         and all(isinstance(item, (str, Substitution)) for item in items)
     ):
+        # A list with substitutions is one text whose parts are joined, not a sequence.
         return typed(
             perform_substitutions(context, normalize_to_list_of_substitutions(items)), None
         )
@@ -119,11 +120,13 @@ def typed(text: str, value_type: Any) -> Any:
     items = yaml.safe_load(text)
     if not isinstance(items, list):
         raise TypeError(f"'{text}' is not a list of {item_type.__name__}")
+    # YAML has already made numbers of some items.
     return [coerce(str(item), item_type) for item in items]
 
 
 def _uniform(items: list[Any], name: str) -> list[Any]:
     kinds = {type(item) for item in items}
+    # `[1, 2.5]` has two types, but means one array.
     if kinds == {int, float}:
         return [float(item) for item in items]
     if len(kinds) > 1 or not kinds <= set(_SCALARS):

@@ -22,7 +22,7 @@ __all__ = [
 def normalize_parameter_dict(
     parameters: Mapping[Any, Any], *, _prefix: Any = None
 ) -> dict[tuple[Substitution, ...], Any]:
-    """Nested names as tuples of substitutions, joined by dots; substituted values as tuples.
+    """Return names as tuples of substitutions, joined by dots; substituted values as tuples.
 
     Raises:
         TypeError: The argument is not a mapping, or a name is neither a string nor substitutions.
@@ -41,7 +41,7 @@ def normalize_parameter_dict(
 
 
 def normalize_parameters(parameters: Any) -> list[Any]:
-    """Files as ``ParameterFile``, mappings by :func:`normalize_parameter_dict`.
+    """Convert files to ``ParameterFile``, and mappings with :func:`normalize_parameter_dict`.
 
     Raises:
         TypeError: The argument is not a list, or an item is neither a file nor parameters.
@@ -50,7 +50,7 @@ def normalize_parameters(parameters: Any) -> list[Any]:
         raise TypeError("Expecting a list of parameter files or parameter dictionaries")
     if isinstance(parameters, Mapping):
         parameters = [parameters]
-    # By its name: it stands on the values of this package.
+    # Imported by name: that module itself imports from this package.
     file_type = import_module("launch_ros.parameter_descriptions").ParameterFile
     normalized: list[Any] = []
     for parameter in parameters:

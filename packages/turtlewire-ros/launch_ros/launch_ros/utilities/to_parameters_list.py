@@ -17,7 +17,7 @@ __all__ = ["to_parameters_list"]
 def to_parameters_list(
     context: LaunchContext, node_name: str, namespace: str, evaluated_parameters: Iterable[Any]
 ) -> list[Any]:
-    """Parameters of one node as ``rcl_interfaces/msg/Parameter``, in the order given.
+    """Return the parameters of one node as ``rcl_interfaces/msg/Parameter``, in the order given.
 
     A later value of a name replaces an earlier one.
 
@@ -53,6 +53,7 @@ def _of_file(path: Path, full_name: str) -> dict[str, Any]:
     from rclpy.impl.arguments import Arguments
 
     content = yaml.safe_load(path.read_text(encoding="utf-8"))
+    # Without names of nodes, the file holds the parameters themselves.
     if isinstance(content, Mapping) and not _names_nodes(content):
         return _flat(content, "")
     words = ["--ros-args", "--params-file", str(path)]

@@ -33,11 +33,14 @@ class LaunchROSTestModule(LaunchTestModule):
 
 
 def pytest_launch_collect_makemodule(
-    path: Path, parent: pytest.Collector, entrypoint: Any
+    module_path: Path,
+    path: Path,  # noqa: ARG001 - ROS 2's
+    parent: pytest.Collector,
+    entrypoint: Any,
 ) -> LaunchROSTestModule | None:
     """Collect a module whose function is marked ``rostest``."""
     marks = getattr(entrypoint, "pytestmark", [])
     if not any(mark.name == "rostest" for mark in marks):
         return None
-    module: LaunchROSTestModule = LaunchROSTestModule.from_parent(parent, path=path)
+    module: LaunchROSTestModule = LaunchROSTestModule.from_parent(parent, path=module_path)
     return module

@@ -15,7 +15,7 @@ __all__ = ["basic_output_filter", "get_rmw_output_filter"]
 
 
 def get_rmw_output_filter(rmw_implementation: str, filter_type: str) -> list[str]:
-    """Lines that a middleware is known to write.
+    """Return the lines that a middleware is known to write.
 
     Args:
         rmw_implementation: Its name.
@@ -43,6 +43,7 @@ def basic_output_filter(
         filtered_patterns: Likewise.
         filtered_rmw_implementation: The middleware; by default ``RMW_IMPLEMENTATION``.
     """
+    # Copies of the arguments, because the middleware's are added below.
     prefixes = (
         output.get_default_filtered_prefixes()
         if filtered_prefixes is None

@@ -43,7 +43,7 @@ class MultipleLaunchFilesError(Exception):
 
 
 def get_share_file_path_from_package(*, package_name: str, file_name: str) -> str:
-    """Path of a file below the share folder of a package.
+    """Return the path of a file below the share folder of a package.
 
     Raises:
         PackageNotFoundError: The package does not exist.
@@ -65,7 +65,7 @@ def get_share_file_path_from_package(*, package_name: str, file_name: str) -> st
 
 
 def get_launch_file_paths(*, path: str) -> list[str]:
-    """Paths of all launch files below a folder."""
+    """Return the paths of all launch files below a folder."""
     return [
         os.path.join(folder, name)
         for folder, _, names in os.walk(path)
@@ -80,7 +80,7 @@ def is_launch_file(path: str) -> bool:
 
 
 def parse_launch_arguments(launch_arguments: Sequence[str]) -> list[tuple[str, str]]:
-    """``name:=value`` pairs, the last one of each name.
+    """Return the ``name:=value`` pairs, the last one of each name.
 
     Raises:
         RuntimeError: A word is not a pair.
@@ -138,6 +138,7 @@ def launch_a_launch_file(
         launch_arguments=list(launch_file_arguments),
         noninteractive=noninteractive,
         debug=debug,
+        log_file_name=getattr(args, "log_file_name", "launch"),
         **{name: getattr(args, name, None) for name in command.LAUNCH_OPTIONS},
     )
     return command.launch(launch_file_path, options, args, option_extensions)
@@ -154,6 +155,6 @@ class LaunchFileNameCompleter:
         self.package_name_key = package_name_key or "package_name"
 
     def __call__(self, prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
-        """Names of the launch files."""
+        """Return the names of the launch files."""
         package = getattr(parsed_args, self.package_name_key)
         return command.launch_files(parsed_args=argparse.Namespace(package_name=package))

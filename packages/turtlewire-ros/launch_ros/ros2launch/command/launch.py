@@ -31,6 +31,7 @@ __all__ = [
     "launch_files",
     "main",
     "named",
+    "package_name_or_launch_file_completer",
     "parsed_arguments",
     "print_description",
     "show_arguments",
@@ -51,14 +52,18 @@ def _files_in(share: str) -> list[str]:
 
 
 def launch_files(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
-    """Names of the launch files of the package on the command line."""
+    """Return the names of the launch files of the package on the command line."""
     from turtlewire_ros.prefix import share_directory
 
     share = share_directory(parsed_args.package_name)
     return [] if share is None else _files_in(share)
 
 
-def _packages_and_files(prefix: str, **_: Any) -> list[str]:
+def package_name_or_launch_file_completer(
+    prefix: str, parsed_args: argparse.Namespace, **_: Any
+) -> list[str]:
+    """Return the packages, and the files that begin with a prefix."""
+    del parsed_args
     return packages() + files(prefix)
 
 
@@ -71,6 +76,12 @@ ARGUMENTS = (
         help="Run without a terminal",
     ),
     argument("-d", "--debug", action="store_true", help="Log what the launch does in detail"),
+    argument(
+        "-f",
+        "--log-file-name",
+        default="launch",
+        help="Name of the log file, to which .log is added (default: launch)",
+    ),
     exclusive(
         argument(
             "-p",
@@ -101,7 +112,7 @@ ARGUMENTS = (
     argument(
         "package_name",
         help="Name of the package, or path of a launch file",
-        completer=_packages_and_files,
+        completer=package_name_or_launch_file_completer,
     ),
     argument("launch_file_name", nargs="?", help="Name of the launch file", completer=launch_files),
     argument("launch_arguments", nargs="*", help="Arguments of the launch file, as name:=value"),
@@ -117,7 +128,7 @@ OPTION_GROUP = "ros2launch.option"
 def main(args: argparse.Namespace) -> int | str | None:
     """Launch."""
     path, args.launch_arguments = _file_and_arguments(args)
-    parsed_arguments(args.launch_arguments)  # refused before anything is started
+    parsed_arguments(args.launch_arguments)  # wrong ones end the command before anything starts
     if args.show_args or args.print:
         return (show_arguments if args.show_args else print_description)(description_of(path))
     extensions = getattr(args, "option_extensions", {})
@@ -148,17 +159,20 @@ def launch(path: str, options: argparse.Namespace, args: Any, extensions: Mappin
 
 def _description_to_launch(path: str, options: argparse.Namespace) -> LaunchDescription:
     if options.show_all_subprocesses_output:
+        # ROS 2's variable; processes read it when they are made, whatever `output` the file gives.
         os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] = "both"
     arguments = given = parsed_arguments(options.launch_arguments)
     for name in ("launch_prefix", "launch_prefix_filter"):
         value = getattr(options, name)
         if value is not None:
+            # Launch configurations, as in ROS 2: each process reads them when it starts.
             arguments = [*arguments, (name.replace("_", "-"), value)]
     from launch import LaunchDescription
     from launch.actions import IncludeLaunchDescription, OpaqueFunction
     from launch.launch_description_sources import AnyLaunchDescriptionSource
 
     source = AnyLaunchDescriptionSource(path)
+    # As an action and not here: the source then reads the file within the launch, and only once.
     check = OpaqueFunction(function=_warn_of_unknown, args=[source, [name for name, _ in given]])
     return LaunchDescription([check, IncludeLaunchDescription(source, launch_arguments=arguments)])
 
@@ -166,7 +180,7 @@ def _description_to_launch(path: str, options: argparse.Namespace) -> LaunchDesc
 def _warn_of_unknown(
     context: LaunchContext, source: LaunchDescriptionSource, names: list[str]
 ) -> None:
-    """Warn of arguments whose names resemble those that the file declares."""
+    """Warn of arguments whose names resemble the declared ones."""
     if not names:
         return
     from launch.logging import get_logger
@@ -185,7 +199,10 @@ def _launch(description: LaunchDescription, args: argparse.Namespace) -> int:
     from launch import LaunchService
 
     service = LaunchService(
-        argv=args.launch_arguments, noninteractive=args.noninteractive, debug=args.debug
+        argv=args.launch_arguments,
+        noninteractive=args.noninteractive,
+        debug=args.debug,
+        log_file_name=f"{args.log_file_name}.log",
     )
     service.include_launch_description(description)
     return service.run()
@@ -210,7 +227,7 @@ def _terminal_restored() -> Iterator[None]:
 
 
 def _file_and_arguments(args: argparse.Namespace) -> tuple[str, list[str]]:
-    """Path of the launch file, and the words that are arguments for it.
+    """Return the path of the launch file, and the words that are arguments for it.
 
     Raises:
         RuntimeError: The package or file does not exist.
@@ -243,7 +260,7 @@ def _looks_like_a_path(word: str) -> bool:
 
 
 def _no_file(path: str) -> str:
-    """Return the error for a missing launch file, with those in the same folder."""
+    """Return the error for a missing launch file, with the files in the same folder."""
     if os.path.isdir(path):
         return f"'{path}' is a folder{_list(_files_in(path))}"
     from ros2cli.suggestion import did_you_mean
@@ -269,7 +286,7 @@ def _list(files: list[str]) -> str:
 
 
 def named(share: str, name: str) -> list[str]:
-    """Paths of the files of a name below a folder."""
+    """Return the paths of the files of a name below a folder."""
     return [os.path.join(folder, name) for folder, _, files in os.walk(share) if name in files]
 
 
@@ -306,6 +323,7 @@ def parsed_arguments(words: list[str]) -> list[tuple[str, str]]:
     try:
         return parse_arguments(words)
     except RuntimeError as error:
+        # Forgetting the colon is the usual mistake.
         wrong = [match for word in words if (match := re.fullmatch(r"(\w+)=(.+)", word))]
         vars(error)["hint"] = f"Did you mean: {wrong[0][1]}:={wrong[0][2]}" if wrong else ""
         raise

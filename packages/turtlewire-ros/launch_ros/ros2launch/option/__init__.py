@@ -52,5 +52,5 @@ class OptionExtension:
 
 
 def get_option_extensions(exclude_names: Iterable[str] | None = None) -> dict[str, Any]:
-    """Instances of the options of other packages by name."""
+    """Return the instances of the options of other packages by name."""
     return named_extensions("ros2launch.option", exclude_names)

@@ -50,6 +50,7 @@ ARGUMENTS = (
 def main(args: argparse.Namespace) -> int:
     """Run the launch test, in a domain of its own unless ``ROS_DOMAIN_ID`` chooses one."""
     with contextlib.ExitStack() as stack:
+        # A domain chosen by the user stays as it is.
         if not args.disable_isolation and "ROS_DOMAIN_ID" not in os.environ:
             from turtlewire.testing import reserved_domain
 

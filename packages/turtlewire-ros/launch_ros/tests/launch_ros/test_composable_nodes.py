@@ -86,7 +86,7 @@ def test_nodes_of_a_container(launch):
     outcome = launch(
         until_loaded(container),
         SetLaunchConfiguration("colour", "green"),
-        SetLaunchConfiguration("sigterm_timeout", "120"),  # beside much load, an exit takes a while
+        SetLaunchConfiguration("sigterm_timeout", "120"),  # under load, an exit takes a while
         container,
     )
     assert outcome.status == 0, outcome.text

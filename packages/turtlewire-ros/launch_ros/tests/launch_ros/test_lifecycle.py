@@ -11,12 +11,20 @@ from launch.actions import (
     ExecuteProcess,
     IncludeLaunchDescription,
     LogInfo,
+    OpaqueFunction,
     RegisterEventHandler,
     Shutdown,
 )
 from launch.event_handlers import OnExecutionComplete
 from launch.events.matchers import matches_action
-from launch_ros.actions import LifecycleNode, LifecycleTransition, RosTimer, SetUseSimTime
+from launch_ros.actions import (
+    ComposableNodeContainer,
+    LifecycleNode,
+    LifecycleTransition,
+    RosTimer,
+    SetUseSimTime,
+)
+from launch_ros.descriptions import ComposableLifecycleNode
 from launch_ros.event_handlers import OnStateTransition
 from launch_ros.events import matches_node_name
 from launch_ros.events.lifecycle import ChangeState
@@ -45,10 +53,16 @@ except (KeyboardInterrupt, ExternalShutdownException):
 
 @pytest.fixture
 def managed(tmp_path):
+    return LifecycleNode(
+        executable=managed_script(tmp_path), name="m", namespace="ns", output="screen"
+    )
+
+
+def managed_script(tmp_path):
     script = tmp_path / "managed"
     script.write_text(MANAGED)
     script.chmod(0o755)
-    return LifecycleNode(executable=str(script), name="m", namespace="ns", output="screen")
+    return str(script)
 
 
 def test_states_become_events_and_events_change_states(launch, managed):
@@ -87,6 +101,87 @@ def test_states_become_events_and_events_change_states(launch, managed):
         ("inactive", "activating"),
         ("activating", "active"),
     ]
+
+
+def test_a_node_that_starts_itself(launch, tmp_path, managed):
+    node = LifecycleNode(
+        executable=managed_script(tmp_path),
+        name="m",
+        namespace="ns",
+        output="screen",
+        autostart=True,
+    )
+    assert (managed.node_autostart, node.node_autostart) == (False, True)
+    assert node.is_lifecycle_node
+    assert node.get_lifecycle_event_manager() is None
+    active = OnStateTransition(
+        target_lifecycle_node=node, goal_state="active", entities=[Shutdown()]
+    )
+    outcome = launch(RegisterEventHandler(active), node)
+    assert outcome.status == 0, outcome.text
+    assert "] ACTIVE" in outcome.text
+    assert node.get_lifecycle_event_manager().node_name == "/ns/m"
+
+
+def test_a_launch_ends_although_a_node_that_starts_itself_crashed(launch):
+    node = LifecycleNode(
+        executable=sys.executable, arguments=["-c", ""], name="m", namespace="", autostart=True
+    )
+    assert "process has finished cleanly" in launch(node).text
+
+
+COMPONENT = """
+from rclpy.lifecycle import LifecycleNode
+
+class Managed(LifecycleNode):
+    def __init__(self):
+        super().__init__("managed")
+
+    def on_activate(self, state):
+        print("ACTIVE", self.get_fully_qualified_name(), flush=True)
+        return super().on_activate(state)
+"""
+
+
+def test_managed_nodes_of_a_container(launch, tmp_path, monkeypatch):
+    (tmp_path / "managed_component.py").write_text(COMPONENT)
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+
+    def described(name, **options):
+        return ComposableLifecycleNode(
+            package="managed_component",
+            plugin="managed_component.Managed",
+            name=name,
+            namespace="ns",
+            **options,
+        )
+
+    first, second = described("first", autostart=True), described("second")
+    assert (first.node_autostart, second.node_autostart) == (True, False)
+    change = ChangeState(
+        lifecycle_node_matcher=matches_node_name("/ns/second"),
+        transition_id=Transition.TRANSITION_CONFIGURE,
+    )
+    container = ComposableNodeContainer(
+        name="box", output="screen", composable_node_descriptions=[first, second]
+    )
+    outcome = launch(
+        RegisterEventHandler(
+            OnStateTransition(
+                target_lifecycle_node=first,
+                goal_state="active",
+                entities=[EmitEvent(event=change)],
+            )
+        ),
+        RegisterEventHandler(
+            OnStateTransition(
+                target_lifecycle_node=second, goal_state="inactive", entities=[Shutdown()]
+            )
+        ),
+        container,
+    )
+    assert outcome.status == 0, outcome.text
+    assert outcome.text.count("] ACTIVE") == outcome.text.count("] ACTIVE /ns/first") == 1
 
 
 def test_transitions_one_after_the_other(launch, managed):
@@ -158,3 +253,56 @@ def test_ros_timers_follow_the_clock_of_the_scope(launch):
     still = RosTimer(period=0.001, actions=[LogInfo(msg="never")])
     ends = ExecuteProcess(cmd=[sys.executable, "-c", ""], on_exit=Shutdown())
     assert launch(SetUseSimTime(True), still, ends).messages == []
+
+
+def test_elements_of_managed_nodes(launch, tmp_path, monkeypatch):
+    (tmp_path / "managed_component.py").write_text(COMPONENT)
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    path = tmp_path / "x.launch.xml"
+    path.write_text(f"""
+    <launch>
+      <let name="yes" value="true"/>
+      <lifecycle_node name="m" namespace="ns" exec="{managed_script(tmp_path)}"
+          autostart="$(var yes)" output="screen"/>
+      <node_container name="box" namespace="" pkg="rclpy_components" exec="component_container"
+          output="screen">
+        <composable_lifecycle_node pkg="managed_component" plugin="managed_component.Managed"
+            name="first" namespace="ns" autostart="True"/>
+        <composable_lifecycle_node pkg="managed_component" plugin="managed_component.Managed"
+            name="second" namespace="ns"/>
+      </node_container>
+    </launch>
+    """)
+    missing = {"/ns/m", "/ns/first"}
+
+    def on_active(context):
+        event = context.locals.event
+        missing.discard(
+            event.action.node_name if isinstance(event.action, LifecycleNode) else "/ns/first"
+        )
+        return [] if missing else [Shutdown()]
+
+    outcome = launch(
+        RegisterEventHandler(
+            OnStateTransition(goal_state="active", entities=[OpaqueFunction(function=on_active)])
+        ),
+        IncludeLaunchDescription(str(path)),
+    )
+    assert outcome.status == 0, outcome.text
+    assert "] ACTIVE /ns/first" in outcome.text
+    assert "/ns/second" in outcome.text
+    assert "] ACTIVE /ns/second" not in outcome.text
+
+
+def test_elements_of_managed_nodes_that_are_wrong(launch, tmp_path):
+    path = tmp_path / "x.launch.xml"
+    path.write_text("<launch><load_composable_node target='/box'/></launch>")
+    text = launch(IncludeLaunchDescription(str(path))).text
+    assert "Must provide at least one composable_node or composable_lifecycle_node" in text
+    path.write_text(
+        "<launch><lifecycle_node name='m' namespace='' exec='true' autostart='perhaps'/></launch>"
+    )
+    assert (
+        "Attribute 'autostart' of Entity 'lifecycle_node'"
+        in launch(IncludeLaunchDescription(str(path))).text
+    )

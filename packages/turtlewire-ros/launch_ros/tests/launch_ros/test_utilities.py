@@ -1,4 +1,4 @@
-"""Parameters, remappings and names: what programs take from launch_ros beside actions."""
+"""Parameters, remappings and names: what programs import from launch_ros besides actions."""
 
 from __future__ import annotations
 

@@ -14,11 +14,13 @@ from message_filters import (
     Subscriber,
     TimeSynchronizer,
 )
-from rclpy.clock import ClockType
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.clock import ClockType, ROSClock
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
+from rclpy.serialization import serialize_message
 from rclpy.time import Time
 from std_msgs.msg import String
 
@@ -55,9 +57,37 @@ def test_callbacks_get_what_passes_and_their_own_arguments(collected):
     first.registerCallback(collected, "extra", 2)
     first.signalMessage("message")
     assert collected == [("message",), ("message", "extra", 2)]
-    first.disconnect(number)
+    first.unregisterCallback(number)
     first.signalMessage("a", "b")
     assert collected[2:] == [("a", "b", "extra", 2)]
+
+
+def test_the_number_of_a_removed_callback_is_not_used_again(collected):
+    source = SimpleFilter()
+    removed = source.registerCallback(collected, "removed")
+    source.registerCallback(collected, "stays")
+    source.unregisterCallback(removed)
+    added = source.registerCallback(callback=collected)
+    source.unregisterCallback(removed)
+    source.signalMessage("message")
+    assert collected == [("message", "stays"), ("message",)]
+    source.unregisterCallback(added)
+    source.signalMessage("next")
+    assert collected[2:] == [("next", "stays")]
+
+
+def test_a_callback_that_removes_itself_hears_one_message(collected):
+    source = SimpleFilter()
+
+    def once(message):
+        source.unregisterCallback(number)
+        collected(message)
+
+    number = source.registerCallback(once)
+    source.registerCallback(collected)
+    source.signalMessage("first")
+    source.signalMessage("second")
+    assert collected == [("first",), ("first",), ("second",)]
 
 
 def test_exact_sets_pass_in_the_order_of_time(collected):
@@ -144,6 +174,62 @@ def test_random_traffic_gives_each_message_to_one_set_within_the_slop(collected)
         assert len({stamps[index] for stamps in sets}) == 199
 
 
+def test_offsets_are_subtracted_from_the_stamps(collected):
+    filters = [SimpleFilter() for _ in range(3)]
+    synchronizer = ApproximateTimeSynchronizer(filters, 10, 1e-8, queue_offset=[0, 500, -200])
+    synchronizer.registerCallback(collected)
+    for index, stamp in ((0, 1000), (1, 1000), (2, 1000), (1, 1509)):
+        filters[index].signalMessage(at(stamp))
+    assert collected == [], "without the offsets, the first three would be a set"
+    filters[2].signalMessage(at(801))
+    assert collected.stamps() == [(1000, 1509, 801)]
+    assert [list(queue) for queue in synchronizer.queues] == [[], [500], [1200]]
+
+
+def test_a_stamp_smaller_than_its_offset(collected):
+    left, right = SimpleFilter(), SimpleFilter()
+    synchronizer = ApproximateTimeSynchronizer([left, right], 10, 1e-8, queue_offset=[100, 0])
+    synchronizer.registerCallback(collected)
+    left.signalMessage(at(1))
+    right.signalMessage(at(1))
+    left.signalMessage(at(105))
+    assert collected.stamps() == [(105, 1)]
+    assert list(synchronizer.queues[0]) == [-99]
+
+
+@pytest.mark.parametrize("none", [False, None])
+def test_no_offsets(none):
+    both = [SimpleFilter(), SimpleFilter()]
+    assert ApproximateTimeSynchronizer(both, 5, 0.1, queue_offset=none).queue_offset == [0, 0]
+
+
+@pytest.mark.parametrize("offsets", [[], [0], [0, 1, 2]])
+def test_more_or_fewer_offsets_than_filters(offsets):
+    source = SimpleFilter()
+    with pytest.raises(ValueError, match=f"has {len(offsets)} offsets for 2 filters"):
+        ApproximateTimeSynchronizer([source, source], 5, 0.1, queue_offset=offsets)
+    assert source.callbacks == {}, "nothing is connected"
+
+
+def test_sets_by_the_time_of_arrival(collected):
+    left, right = SimpleFilter(), SimpleFilter()
+    synchronizer = ApproximateTimeSynchronizer(
+        [left, right], 5, 600.0, queue_offset=[0, 10**9], sync_arrival_time=True
+    )
+    synchronizer.registerCallback(collected)
+    before = ROSClock().now().nanoseconds
+    right.signalMessage(at(5))
+    (arrived,) = synchronizer.queues[1]
+    assert before <= arrived + 10**9 <= ROSClock().now().nanoseconds
+    left.signalMessage(at(10**18))
+    right.signalMessage(String(data="has no stamp"))
+    left.signalMessage(at(6))
+    assert [(a.header.stamp.sec, getattr(b, "data", "")) for a, b in collected] == [
+        (10**9, ""),
+        (0, "has no stamp"),
+    ]
+
+
 @pytest.mark.parametrize(
     "make", [lambda fs: TimeSynchronizer(fs, 5), lambda fs: ApproximateTimeSynchronizer(fs, 5, 0.1)]
 )
@@ -187,12 +273,7 @@ def test_the_cache_answers_by_time(collected):
     assert (
         cache.getOldestTime().nanoseconds,
         cache.getLatestTime().nanoseconds,
-        cache.getLastestTime().nanoseconds,
-    ) == (
-        20,
-        50,
-        50,
-    )
+    ) == (20, 50)
     assert cache.getLast().point.x == 50.0
     assert len(collected) == 5
 
@@ -217,6 +298,17 @@ def test_the_cache_after_the_time_has_jumped_back():
     for stamp in (100, 101, 102, 1, 2, 3, 4):
         cache.add(at(stamp))
     assert [time.nanoseconds for time in cache.cache_times] == [2, 3, 4]
+
+
+def test_of_equal_stamps_the_cache_forgets_what_came_first():
+    cache = Cache(cache_size=3)
+    for stamp, x in ((7, 0.0), (7, 1.0), (5, 2.0), (7, 3.0)):
+        cache.add(at(stamp, x))
+    assert [message.point.x for message in cache.cache_msgs] == [2.0, 1.0, 3.0]
+    cache.add(at(7, 4.0))
+    assert [message.point.x for message in cache.cache_msgs] == [2.0, 3.0, 4.0]
+    cache.add(at(6, 5.0))
+    assert [message.point.x for message in cache.cache_msgs] == [5.0, 3.0, 4.0]
 
 
 def test_the_cache_and_messages_without_a_stamp(capfd):
@@ -249,12 +341,22 @@ def test_subscribers_on_topics(monkeypatch, collected):
     )
     with pytest.raises(AttributeError):
         _ = left.nothing
+    with pytest.raises(TypeError, match=r"Subscriber.__init__\(\) got .* 'dept'"):
+        Subscriber(node, PointStamped, "fourth", dept=7)
+    assert node.count_subscribers("fourth") == 0
+    group = ReentrantCallbackGroup()
+    raw = Subscriber(node, PointStamped, "left", callback_group=group, raw=True)
+    assert raw.callback_group is group
+    serialized = []
+    raw.registerCallback(serialized.append)
     TimeSynchronizer([left, right], 5).registerCallback(collected)
     for topic in ("left", "right"):
         node.create_publisher(PointStamped, topic, 1).publish(at(5))
-    while not collected:
+    while not (collected and serialized):
         executor.spin_once(timeout_sec=60)
     assert collected.stamps() == [(5, 5)]
+    assert serialized == [serialize_message(at(5))]
+    raw.unsubscribe()
     left.unsubscribe()
     assert node.count_subscribers("left") == 0
     node.destroy_node()

@@ -134,7 +134,7 @@ def test_console_scripts_of_a_package_that_pip_installed(tmp_path, monkeypatch):
 
 
 def test_catkin_pkg_reads_our_manifests():
-    """The library of Debian's python3-catkin-pkg, with which colcon and rosdep read them, too."""
+    """The library of Debian's python3-catkin-pkg, with which colcon and rosdep also read them."""
     catkin_pkg = pytest.importorskip(
         "catkin_pkg.package", reason="needs colcon (scripts/setup workspace)"
     )

@@ -11,7 +11,7 @@ import pytest
 
 from turtlewire_ros.process_guardian import FAMILIES
 
-#: The first search finds no process, as if it had begun meanwhile.
+#: The first search finds no process, as if the process had begun during it.
 SEARCH_THAT_MISSES = """
 from turtlewire_ros import process_guardian
 searches = [process_guardian._search] * 100 + [lambda family: []]

@@ -105,7 +105,7 @@ def full_name(name: str) -> str:
 
 @pytest.fixture
 def port(monkeypatch):
-    """The port of a bridge beside a node that shouts what it hears, and adds."""
+    """Yield the port of a bridge, next to a node that repeats strings in capitals and adds."""
     monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
     context = Context()
     context.init(args=[])

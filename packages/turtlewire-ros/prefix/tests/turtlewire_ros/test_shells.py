@@ -143,7 +143,7 @@ def graph():
 
 
 def type_until(terminal, line, shown):
-    """Type a line again while it shows nothing: a TAB gives up soon, too soon beside much load."""
+    """Type a line again while it shows nothing: under load, a TAB gives up too soon."""
     for _ in range(20):
         terminal.type(line)
         with suppress(AssertionError):

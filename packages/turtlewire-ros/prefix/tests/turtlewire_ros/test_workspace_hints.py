@@ -114,6 +114,18 @@ def test_the_tutorials_package_by_the_name_that_ros_2_gives_it(workspace, monkey
     assert package_hint("turtle_tf2_py") == ELSEWHERE
 
 
+def test_a_program_of_cpp_that_was_left_out(sourced, capsys):
+    index = sourced.prefix / "share/ament_index/resource_index"
+    sourced.write(index / "turtlewire_compiled_targets/p", "library\ntalker")
+    hint = (
+        "talker is a C++ program, which turtlewire does not compile. Run it on a computer with "
+        "ROS 2: the nodes there and here see each other"
+    )
+    assert main(["run", "p", "talker"]) == 1
+    assert capsys.readouterr().err == f"No executable found\n{hint}\n"
+    assert executable_hint("p", "talkr") == "Did you mean: talker"
+
+
 def test_a_file_that_is_not_installed(sourced, capsys):
     sourced.write(sourced.source / "launch" / "x.launch.py")
     hint = (

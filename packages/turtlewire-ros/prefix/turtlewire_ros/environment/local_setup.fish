@@ -14,3 +14,9 @@ if not test -f $ros_home/rosdep/sources.cache/index
     test -n "$ROS_LOG_DIR"; or set -gx ROS_LOG_DIR $ros_home/log
     set -gx ROS_HOME $prefix/share/turtlewire/ros_home
 end
+# by default rosdep runs pip with sudo, outside of the virtual environment
+if test -f $prefix/pyvenv.cfg
+    function rosdep --wraps rosdep
+        command rosdep --as-root pip:no $argv
+    end
+end

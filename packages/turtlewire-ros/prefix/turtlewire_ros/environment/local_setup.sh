@@ -20,5 +20,9 @@ else
         : "${ROS_LOG_DIR:=${ROS_HOME:-$HOME/.ros}/log}"
         export ROS_LOG_DIR ROS_HOME="$_turtlewire_prefix/share/turtlewire/ros_home"
     fi
+    # by default rosdep runs pip with sudo, outside of the virtual environment
+    if [ -f "$_turtlewire_prefix/pyvenv.cfg" ]; then
+        rosdep() { command rosdep --as-root pip:no "$@"; }
+    fi
 fi
 unset _turtlewire_prefix

@@ -5,7 +5,7 @@ module                    what it holds
 ========================  =============================================================
 `scheduler`, `pool`       finds and runs what is ready; the same with a pool of threads
 `wait`, `timer_queue`     the one wait for wire and timers; timers by their due times
-`entity`                  `Entity` and `Host`: all that an entity knows of its executor
+`entity`                  `Entity`, `EntityHost`: all that an entity knows of its executor
 `running_callbacks`       threads that run callbacks, and which
 `blocking`, `self_waits`  waiting for a response; warnings of deadlocks
 `futures`                 callbacks of futures: called at once, or by an executor

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import sys
+import weakref
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from types import FrameType
 
-__all__ = ["interrupted_loop", "running_loop"]
+__all__ = ["interrupted_loop", "loops_of_nodes", "running_loop"]
+
+#: The loops that serve, or have served, asynchronous nodes.
+loops_of_nodes: weakref.WeakSet[Any] = weakref.WeakSet()
 
 
 def running_loop() -> Any:
@@ -19,6 +23,11 @@ def running_loop() -> Any:
 
 
 def interrupted_loop(frame: FrameType | None) -> Any:
-    """The running loop, if a signal came in asyncio's own code: no coroutine, no callback."""
+    """Return the running loop if it should end by itself after Ctrl-C.
+
+    That is so in asyncio's own code, and everywhere if the loop serves asynchronous nodes: as
+    after ``asyncio.run`` alone, their callbacks are cancelled.
+    """
+    loop = running_loop()
     module = "" if frame is None else str(frame.f_globals.get("__name__", ""))
-    return running_loop() if module.partition(".")[0] == "asyncio" else None
+    return loop if module.partition(".")[0] == "asyncio" or loop in loops_of_nodes else None

@@ -5,7 +5,7 @@ from __future__ import annotations
 import weakref
 from typing import TYPE_CHECKING, Protocol
 
-from rclpy._execution.entity import Entity, Host, Work
+from rclpy._execution.entity import Entity, EntityHost, Work
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -34,6 +34,7 @@ class BackgroundEvents(Entity):
     ``spin_once`` waits, and only then: ``spin`` is not woken by messages that need no callback.
     """
 
+    # Last in a cycle, and without a callback group: there is no callback to run.
     _ORDER = 5
     _GATED = False
 
@@ -59,10 +60,10 @@ class BackgroundEvents(Entity):
         if host is not None:
             host.wait.notify(self)
 
-    def _attach(self, host: Host) -> None:
+    def _attach(self, host: EntityHost) -> None:
         host.wait.background.add(self)
 
-    def _detach(self, host: Host) -> None:
+    def _detach(self, host: EntityHost) -> None:
         host.wait.background.discard(self)
 
     def _take(self) -> Work | None:

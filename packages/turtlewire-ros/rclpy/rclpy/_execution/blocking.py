@@ -20,15 +20,15 @@ if TYPE_CHECKING:
     from rclpy.impl.rcutils_logger import RcutilsLogger
     from rclpy.task import Future
 
-    from .entity import Host
+    from .entity import EntityHost
 
-__all__ = ["Call", "wait_for_response"]
+__all__ = ["BlockingCall", "wait_for_response"]
 
 #: After this time a wait that nothing seems to end is logged.
 _PATIENCE_S = 1.0
 
 
-class Call(NamedTuple):
+class BlockingCall(NamedTuple):
     """What is waited for, and where.
 
     Attributes:
@@ -41,10 +41,10 @@ class Call(NamedTuple):
     service: str
     context: Context
     logger: RcutilsLogger
-    host: Host | None
+    host: EntityHost | None
 
 
-def wait_for_response(future: Future[Any], call: Call, timeout_sec: float | None) -> None:
+def wait_for_response(future: Future[Any], call: BlockingCall, timeout_sec: float | None) -> None:
     """Block until ``future`` is done, or the time is over.
 
     Outside of the executor's thread this waits for the thread that spins, and warns if there is
@@ -62,11 +62,14 @@ def wait_for_response(future: Future[Any], call: Call, timeout_sec: float | None
         _wait_for_other_thread(future, call, deadline)
 
 
-def _serve_responses(host: Host, future: Future[Any], call: Call, deadline: float | None) -> None:
+def _serve_responses(
+    host: EntityHost, future: Future[Any], call: BlockingCall, deadline: float | None
+) -> None:
     """Hand out responses, and run nothing else, until ``future`` is done.
 
     For a callback of the executor's own thread.
     """
+    # Another thread may finish the future, for example by cancelling it.
     call_when_done(future, host.wake)
     patience: float | None = time.monotonic() + _PATIENCE_S
     with host.serving_responses(future):
@@ -74,6 +77,7 @@ def _serve_responses(host: Host, future: Future[Any], call: Call, deadline: floa
             if patience is not None and time.monotonic() >= patience:
                 patience = None
                 _warn_of_other_executor(call)
+            # The request is here, and this thread is the only one that could answer it.
             if host.holds_up(call.service):
                 raise RuntimeError(
                     "The service is served by the executor that this call blocks: "
@@ -82,6 +86,7 @@ def _serve_responses(host: Host, future: Future[Any], call: Call, deadline: floa
             try:
                 ready = host.next(
                     _remaining_ns(deadline, patience),
+                    # Either can become true during the wait without anything to hand out.
                     lambda: future.done() or host.holds_up(call.service),
                 )
             except (TimeoutException, ConditionReachedException):
@@ -95,9 +100,10 @@ def _remaining_ns(*moments: float | None) -> int | None:
     return max(0, int((min(known) - time.monotonic()) * 1_000_000_000)) if known else None
 
 
-def _wait_for_other_thread(future: Future[Any], call: Call, deadline: float | None) -> None:
+def _wait_for_other_thread(future: Future[Any], call: BlockingCall, deadline: float | None) -> None:
     done = WakeUp()
     call_when_done(future, done.set)
+    # A shutdown of the context or of the executor sets `done` as well.
     waits = [call.context.waits] + ([] if call.host is None else [call.host.blocked])
     for wait in waits:
         wait.add(done)
@@ -111,6 +117,7 @@ def _wait_for_other_thread(future: Future[Any], call: Call, deadline: float | No
         while not is_over():
             if not _wait(done, deadline, patience) and patience is not None:
                 patience = None
+                # The wait may have ended at its deadline, or for a shutdown.
                 if not is_over():
                     _warn_of_long_wait(call)
     finally:
@@ -120,11 +127,11 @@ def _wait_for_other_thread(future: Future[Any], call: Call, deadline: float | No
         _raise_if_ended(call)
 
 
-def _is_shutdown(host: Host | None) -> bool:
+def _is_shutdown(host: EntityHost | None) -> bool:
     return host is not None and host.is_shutdown
 
 
-def _warn_of_long_wait(call: Call) -> None:
+def _warn_of_long_wait(call: BlockingCall) -> None:
     if call.host is None or not call.host.is_spun():
         call.logger.warning(
             f"Waiting for a response of service '{call.service}', but no executor spins the "
@@ -141,7 +148,7 @@ def _warn_of_long_wait(call: Call) -> None:
         _warn_of_other_executor(call)
 
 
-def _warn_of_other_executor(call: Call) -> None:
+def _warn_of_other_executor(call: BlockingCall) -> None:
     """Warn if another executor of this process has the request and cannot run the service."""
     if any(
         host is not call.host and host.holds_up(call.service) for host in call.context.schedulers()
@@ -161,7 +168,7 @@ def _wait(done: WakeUp, deadline: float | None, at_most: float | None) -> bool:
     )
 
 
-def _raise_if_ended(call: Call) -> None:
+def _raise_if_ended(call: BlockingCall) -> None:
     if not call.context.ok():
         raise ExternalShutdownException
     if _is_shutdown(call.host):

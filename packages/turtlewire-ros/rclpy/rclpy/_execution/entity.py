@@ -9,6 +9,7 @@ from __future__ import annotations
 import weakref
 from typing import TYPE_CHECKING, Any, Protocol
 
+from rclpy._execution.handle import Handle
 from rclpy._rclpy_pybind11 import InvalidHandle
 
 if TYPE_CHECKING:
@@ -21,13 +22,13 @@ if TYPE_CHECKING:
 
     from .wait import ExecutorWait
 
-__all__ = ["Entity", "Host", "Work"]
+__all__ = ["ClosingEntity", "Entity", "EntityHost", "Work"]
 
 #: A callback and its arguments; the callback may be, or return, a coroutine.
 Work = tuple["Callable[..., Any]", "tuple[Any, ...]"]
 
 
-class Host(Protocol):
+class EntityHost(Protocol):
     """What entities, and callbacks that block, need of the executor; the scheduler fulfils it.
 
     Attributes:
@@ -109,7 +110,7 @@ class Entity:
     callback_group: CallbackGroup
 
     def __init__(self, callback_group: CallbackGroup | None) -> None:
-        self._host: weakref.ref[Host] | None = None
+        self._host: weakref.ref[EntityHost] | None = None
         self._rank: tuple[int, int, int] = (0, 0, 0)
         self._destroyed = False
         self._on_destroy: Callable[[Entity], None] | None = None
@@ -118,7 +119,7 @@ class Entity:
             self.callback_group = callback_group
             callback_group.add_entity(self)
 
-    def _join(self, host: Host, node_index: int, number: int) -> bool:
+    def _join(self, host: EntityHost, node_index: int, number: int) -> bool:
         """Belong to ``host``; False if it belongs to one already, or was destroyed."""
         if self._host is not None or self._destroyed:
             return False
@@ -127,12 +128,12 @@ class Entity:
         self._host = weakref.ref(host)
         return True
 
-    def _leave(self, host: Host) -> None:
+    def _leave(self, host: EntityHost) -> None:
         """Belong to no executor, and report to ``host`` no more."""
         self._host = None
         self._detach(host)
 
-    def _serving_host(self) -> Host | None:
+    def _serving_host(self) -> EntityHost | None:
         """Return the executor that serves it."""
         reference = self._host  # one look: another thread may detach it at any moment
         return None if reference is None else reference()
@@ -161,10 +162,12 @@ class Entity:
         """
         if self._destroyed:
             return
+        # First: from here on no executor adopts it, and attaching it may fail silently.
         self._destroyed = True
         host = self._serving_host()
         if host is not None:
             host.release(self)
+        # After the release: a wait set must not hold a closed endpoint.
         self._close()
         if self._on_destroy is not None:
             self._on_destroy(self)
@@ -172,19 +175,19 @@ class Entity:
     def _close(self) -> None:
         """Release what it holds on the wire."""
 
-    def _attach(self, host: Host) -> None:
-        """Report readiness to ``host`` from now on."""
+    def _attach(self, host: EntityHost) -> None:
+        """Start to report readiness to ``host``."""
         raise NotImplementedError
 
-    def _detach(self, host: Host) -> None:
+    def _detach(self, host: EntityHost) -> None:
         """Stop reporting."""
         raise NotImplementedError
 
-    def _pause(self, host: Host) -> None:
+    def _pause(self, host: EntityHost) -> None:
         """Stop reporting for a while."""
         self._detach(host)
 
-    def _resume(self, host: Host) -> None:
+    def _resume(self, host: EntityHost) -> None:
         """Report again, at once if it is ready."""
         self._attach(host)
 
@@ -203,6 +206,19 @@ class Entity:
     def _awaits(self, service: str) -> bool:  # noqa: ARG002 - most entities call none
         """Return True if it has sent a request to this service that is not answered yet."""
         return False
+
+
+class ClosingEntity(Entity):
+    """An entity that a ``with`` block destroys at its end."""
+
+    @property
+    def handle(self) -> Handle:
+        """A stand-in for ROS 2's C object; a ``with`` block of it closes nothing."""
+        self._check_usable()
+        return Handle(self)
+
+    def __exit__(self, exc_type: object, exc_val: object, exc_tb: object) -> None:
+        self.destroy()
 
 
 class _Owner(Protocol):

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
     from rclpy.task import Future
 
-    from .entity import Host
+    from .entity import EntityHost
 
 __all__ = ["call_when_done", "run_callbacks_on"]
 
@@ -22,6 +22,6 @@ def call_when_done(future: Future[Any], call: Callable[[], object]) -> None:
     future._add_waiter(call)
 
 
-def run_callbacks_on(host: Host | None, future: Future[Any]) -> None:
+def run_callbacks_on(host: EntityHost | None, future: Future[Any]) -> None:
     """Run the done-callbacks of a future on an executor; None: in the finishing thread."""
     future._set_executor(host)

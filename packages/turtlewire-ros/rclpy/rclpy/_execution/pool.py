@@ -42,6 +42,7 @@ class PoolScheduler(Scheduler):
         self._pool = pool
         self._free_threads = num_threads
         self._failures: deque[BaseException] = deque()
+        self.waits_for_threads = True
 
     def check_alive(self) -> None:
         """Raise also what a callback has raised."""
@@ -65,6 +66,7 @@ class PoolScheduler(Scheduler):
                 self._free_threads -= 1
                 self._pool.submit(self._run_in_pool, source, work)
                 return
+        # `next` had claimed the group.
         if isinstance(source, Entity):
             self._release_group(source)
         raise ShutdownException
@@ -74,14 +76,17 @@ class PoolScheduler(Scheduler):
             self.execute(source, work)
         except BaseException as failure:  # noqa: BLE001 - it is raised where spin was called
             self._failures.append(failure)
+            # The spinning thread may be in a wait without a limit; it raises the failure.
             self.wake()
         with self.lock:
             self._free_threads += 1
+        # Without a free thread, `may_run` was False for every entity.
         self.resume_paused()
 
     def shutdown(self, timeout_sec: float | None) -> bool:
         ended = super().shutdown(timeout_sec)
         with self.lock:
+            # Not waiting again: the time limit has been spent above.
             self._pool.shutdown(wait=False)
         return ended
 
@@ -89,4 +94,4 @@ class PoolScheduler(Scheduler):
         """Close the scheduler and end the threads."""
         super().close()
         in_callback = self._running.of_this_thread() > 0  # then this thread may be one of them
-        self._pool.shutdown(wait=not in_callback)
+        self._pool.shutdown(wait=self.waits_for_threads and not in_callback)

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from rclpy.context import Context
     from turtlewire.wake_up import WakeUp
 
-    from .entity import Entity, Host, Work
+    from .entity import Entity, EntityHost, Work
 
 __all__ = ["Scheduler"]
 
@@ -71,6 +71,7 @@ class Scheduler:
         self._tasks: list[Task[Any]] = []
         self._ready: deque[Entity | Task[Any]] = deque()
         self._paused: set[Entity] = set()
+        # An async callback keeps its group claimed until its coroutine ends.
         self._holders: dict[Task[Any], Entity] = {}
         self._running = RunningCallbacks()
         self._self_waits = SelfWaits()
@@ -98,7 +99,7 @@ class Scheduler:
             self._self_waits.goes_on(entity)
             entity._leave(self)
 
-    def _listen_to(self, entity: Entity, attach: Callable[[Host], None]) -> None:
+    def _listen_to(self, entity: Entity, attach: Callable[[EntityHost], None]) -> None:
         """Attach an entity; another thread may destroy it or shut things down at this moment."""
         try:
             attach(self)
@@ -134,6 +135,7 @@ class Scheduler:
         Raises:
             RuntimeError: Another thread spins.
         """
+        # A callback may spin its own executor: the outer spin goes on afterwards.
         outer, me = self._spinning_thread, threading.get_ident()
         if outer is not None and outer != me:
             raise RuntimeError("Executor is already spinning")
@@ -176,8 +178,10 @@ class Scheduler:
                 continue
             if expired:
                 raise TimeoutException
+            # At the deadline, and with a timeout of 0, there is one more look at what is ready.
             remaining = None if deadline is None else max(0, deadline - time.monotonic_ns())
             expired = remaining == 0
+            # Only a wait without a limit can hang, and only entities in busy groups make it hang.
             if patience is None or remaining is not None or not self._paused:
                 self._collect(remaining)
                 continue
@@ -211,11 +215,14 @@ class Scheduler:
         """Wait until something is ready, and line it up in ROS 2's order."""
         self._collecting = True
         tasks: list[Task[Any]] = []
+        # While a callback blocks for a response, tasks stay in the list.
         if self._response_awaited is None:
             with self.lock:
                 tasks, self._tasks = self._tasks, []
+            # Within an endless spin, only a callback that spins again can wait for such a message.
             if not self.serves_endlessly or self._running.of_this_thread():
                 self.wait.expect_background()
+        # Tasks run at once, but what became ready with them belongs to the same cycle.
         entities = self.wait.wait(0 if tasks else self._self_waits.bounded(timeout_ns))
         self._collecting = False
         self._self_waits.warn()
@@ -234,7 +241,7 @@ class Scheduler:
         None if nothing is ready or the group is busy.
         """
         if entity not in self._served:
-            return None  # destroyed, or moved to another executor meanwhile
+            return None  # destroyed, or moved to another executor since it became ready
         if not entity._GATED:
             return entity._work()
         group = entity.callback_group
@@ -245,6 +252,7 @@ class Scheduler:
         try:
             work = entity._work()
         finally:
+            # The message was taken elsewhere or cannot be decoded: the group must not stay claimed.
             if work is None:
                 self._release_group(entity)
         return work
@@ -309,6 +317,7 @@ class Scheduler:
             try:
                 coroutine = callback(*arguments)
             finally:
+                # A coroutine keeps the group; a callback that raises gives it back.
                 if not isinstance(coroutine, CoroutineType):
                     self._release_group(source)  # type: ignore[arg-type]
             if isinstance(coroutine, CoroutineType):
@@ -322,6 +331,7 @@ class Scheduler:
         if not task.done():
             task._when_runnable(lambda: self._schedule(task))
             return
+        # Before the error is raised, which may end the spin: the group must be free again.
         holder = self._holders.pop(task, None)
         if holder is not None:
             self._release_group(holder)
@@ -339,16 +349,18 @@ class Scheduler:
             yield
         finally:
             self._response_awaited = outer
+            # Within the block, `may_run` was False for every entity.
             self.resume_paused()
 
     def holds_up(self, service: str) -> bool:
         """Return True if a request for a service is here that cannot be answered at the moment."""
+        # A copy, without the lock: other threads pause and resume entities.
         return any(entity._serves(service) for entity in list(self._paused))
 
     # The end
 
     def shutdown(self, timeout_sec: float | None) -> bool:
-        """Run no further callbacks, and wait for those that run in other threads.
+        """Run no further callbacks, and wait for callbacks that run in other threads.
 
         Returns:
             False when they did not end within ``timeout_sec`` (None: no limit).

@@ -44,7 +44,7 @@ class SelfWaits:
                 self._due[entity] = (entity, time.monotonic_ns() + _PATIENCE_NS)
 
     def goes_on(self, entity: Entity) -> None:
-        """It may work again, or is gone."""
+        """Stop watching an entity that may run again or was released."""
         self._due.pop(entity, None)
 
     def bounded(self, timeout_ns: int | None) -> int | None:
@@ -52,6 +52,7 @@ class SelfWaits:
         if not self._due:
             return timeout_ns
         moments = [due for _, due in list(self._due.values())]
+        # Another thread may have emptied the table after the look above.
         left = max(0, min(moments, default=0) - time.monotonic_ns())
         return left if timeout_ns is None else min(left, timeout_ns)
 

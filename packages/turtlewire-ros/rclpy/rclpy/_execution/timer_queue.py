@@ -36,7 +36,7 @@ class TimerQueue(Generic[T]):
         self._lock = threading.Lock()
 
     def schedule(self, timer: T, delay_ns: int | None) -> None:
-        """Have ``timer`` come due after ``delay_ns``; None: not until it is scheduled again.
+        """Make ``timer`` due after ``delay_ns``; None: not until it is scheduled again.
 
         Replaces its former entry.
         """
@@ -46,6 +46,7 @@ class TimerQueue(Generic[T]):
                 self._sweep()
                 return
             ticket = self._tickets[timer] = next(self._next_ticket)
+            # The ticket also decides between equal times, because timers have no order.
             entry = (time.monotonic_ns() + delay_ns, ticket, timer)
             heapq.heappush(self._heap, entry)
             self._sweep()

@@ -82,6 +82,7 @@ class ExecutorWait(Generic[T]):
         Returns:
             What is ready, in ROS 2's order.
         """
+        # The wire still gets a look: what is ready there belongs to the same cycle.
         if self._notified:
             timeout_ns = 0
         else:
@@ -107,6 +108,7 @@ class ExecutorWait(Generic[T]):
             return [] if self._ended else self._wait_set.wait(timeout_ns)
         finally:
             self._waiting = False
+            # `close` left this to the thread that was in the wait set.
             if self._ended:
                 self._wait_set.close()
 

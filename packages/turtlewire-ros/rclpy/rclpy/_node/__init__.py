@@ -3,6 +3,7 @@
 ============================  ==================================================================
 module                        what it holds
 ============================  ==================================================================
+`base`                        `BaseNode`: what ordinary and asynchronous nodes share
 `state`                       names, wire, context, logger and command line of one node
 `endpoints`                   makes, keeps and closes what a node owns
 `checks`                      checks of callbacks and of the quality of service

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -11,6 +12,9 @@ if TYPE_CHECKING:
     from rclpy.parameter import Parameter
 
 __all__ = ["ParameterCallbacks"]
+
+#: ROS 2's text.
+_NO_DECISION = "Callback returned an invalid type, it should return SetParameterResult."
 
 
 class ParameterCallbacks:
@@ -29,6 +33,7 @@ class ParameterCallbacks:
 
     def changed_list(self, parameters: list[Parameter]) -> list[Parameter]:
         """Return the parameters that callbacks put in place of ``parameters``."""
+        # A copy, here and below: a callback may add or remove callbacks.
         for callback in list(self.before):
             parameters = callback(parameters)
             if not parameters:
@@ -36,23 +41,22 @@ class ParameterCallbacks:
         return parameters
 
     def refusal(self, parameters: list[Parameter]) -> str:
-        """Why a callback refuses ``parameters``, an empty string if none does.
+        """Return why a callback rejects ``parameters``, or an empty string.
 
-        Raises:
-            TypeError: A callback returned no decision.
+        A callback that returns no decision refuses, with a warning, as in ROS 2.
         """
+        from rcl_interfaces.msg import SetParametersResult
+
         for callback in list(self.deciding):
             result = callback(parameters)
-            if result is None:
-                raise TypeError(
-                    f"{callback!r} decides about parameters: it has to return a "
-                    "SetParametersResult, but returned None"
-                )
+            if not isinstance(result, SetParametersResult):
+                warnings.warn(f"{_NO_DECISION} {callback!r} returned {result!r}", stacklevel=2)
+                return _NO_DECISION
             if not result.successful:
-                return result.reason or "refused by a callback, which gave no reason"
+                return result.reason or "rejected by a callback that gave no reason"
         return ""
 
     def tell(self, parameters: list[Parameter]) -> None:
-        """Say that ``parameters`` were set or declared."""
+        """Report that ``parameters`` were set or declared."""
         for callback in list(self.after):
             callback(parameters)

@@ -15,7 +15,9 @@ if TYPE_CHECKING:
 
     from rclpy.context import Context
 
-__all__ = ["check_callable", "in_open_context", "validate_qos"]
+__all__ = ["check_callable", "check_valid", "in_open_context", "validate_qos"]
+
+_INVALID = "rcl node's context is invalid"
 
 
 def check_callable(callback: Any) -> None:
@@ -27,19 +29,27 @@ def check_callable(callback: Any) -> None:
         )
 
 
+def check_valid(context: Context, failure: str) -> None:
+    """Raise RCLError, with the text of what failed, if a context has ended, also by a signal."""
+    if not context.ok():
+        raise RCLError(f"{failure}: {_INVALID}")
+
+
 @contextmanager
 def in_open_context(context: Context, what: str) -> Iterator[None]:
     """Let the block make an endpoint if the context is open.
 
     Raises:
-        RCLError: The context was shut down before, or by another thread meanwhile.
+        RCLError: The context is shut down, possibly by another thread during the block.
     """
-    closed = RCLError(f"could not create {what}: rcl node's context is invalid")
+    closed = RCLError(f"could not create {what}: {_INVALID}")
     if not context.is_open():
         raise closed
     try:
         yield
     except WireError:
+        # Another thread may have shut the context down after the first look; any other error is the
+        # middleware's own.
         if context.is_open():
             raise
         raise closed from None

@@ -8,15 +8,23 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from rclpy.parameter import Parameter
+from turtlewire.distro import LYRICAL, since
 
 if TYPE_CHECKING:
     from rcl_interfaces.msg import ParameterDescriptor
 
-__all__ = ["default", "new_descriptor", "override", "read_declaration", "yaml_hint"]
+__all__ = [
+    "default",
+    "name_alone_text",
+    "new_descriptor",
+    "override",
+    "read_declaration",
+    "yaml_hint",
+]
 
 
 def new_descriptor() -> ParameterDescriptor:
-    """Return an empty one."""
+    """Return an empty descriptor."""
     from rcl_interfaces.msg import ParameterDescriptor
 
     return ParameterDescriptor()
@@ -25,7 +33,7 @@ def new_descriptor() -> ParameterDescriptor:
 def read_declaration(
     index: int, declaration: tuple[Any, ...]
 ) -> tuple[str, Any, ParameterDescriptor]:
-    """Name, default value (None without one) and descriptor with the type filled in.
+    """Return name, default value (None without one) and descriptor with the type filled in.
 
     Raises:
         TypeError, ValueError: The declaration, the ``index``-th of a call, is malformed.
@@ -40,6 +48,7 @@ def read_declaration(
     name, value, descriptor = (*declaration, None, None)[:3]
     if not isinstance(name, str):
         raise TypeError(f"First element {name} at index {index} in parameters list is not a str.")
+    # An explicit None in third place is an error, as in ROS 2.
     if descriptor is None and len(declaration) < 3:
         descriptor = ParameterDescriptor()
     if not isinstance(descriptor, ParameterDescriptor):
@@ -48,7 +57,7 @@ def read_declaration(
             "ParameterDescriptor."
         )
     if len(declaration) == 1:
-        _warn_of_name_alone(name)
+        _name_alone(name)
         descriptor.dynamic_typing = True
     if not isinstance(value, Parameter.Type):
         if value is not None and not descriptor.dynamic_typing:
@@ -83,18 +92,31 @@ def _type_of(value: Any) -> int:
     return int(value.type)
 
 
-def _warn_of_name_alone(name: str) -> None:
-    import warnings
+def name_alone_text(name: str, ruling: str) -> str:
+    """Return ROS 2's text about a declaration of a name alone, to the byte.
 
-    warnings.warn(
+    Args:
+        name: The name of the parameter.
+        ruling: ``"deprecated"`` or ``"not allowed"``.
+    """
+    return (
         f"when declaring parameter named '{name}', declaring a parameter only providing its name "
-        "is deprecated. You have to either:\n"
+        f"is {ruling}. You have to either:\n"
         '\t- Pass a name and a default value different to "PARAMETER NOT SET" '
         "(and optionally a descriptor).\n"
         "\t- Pass a name and a parameter type.\n"
-        "\t- Pass a name and a descriptor with `dynamic_typing=True",
-        stacklevel=6,
+        "\t- Pass a name and a descriptor with `dynamic_typing=True"
     )
+
+
+def _name_alone(name: str) -> None:
+    """Warn of a declaration without value, type or descriptor; Lyrical refuses it."""
+    import warnings
+
+    if since(LYRICAL):
+        raise TypeError(name_alone_text(name, "not allowed"))
+    # The program's line, which called `Node.declare_parameter`.
+    warnings.warn(name_alone_text(name, "deprecated"), stacklevel=6)
 
 
 def default(name: str, value: Any) -> Parameter:
@@ -107,10 +129,8 @@ def default(name: str, value: Any) -> Parameter:
 
 
 def override(name: str, value: Any, descriptor: ParameterDescriptor) -> Parameter:
-    """Return the parameter that the command line gives.
-
-    Its empty list is one of the declared type, which YAML cannot tell.
-    """
+    """Return the parameter that the command line gives."""
+    # An empty list in YAML has no type: the declared one applies.
     if value == [] and Parameter.Type(descriptor.type).name.endswith("_ARRAY"):
         return Parameter(name, Parameter.Type(descriptor.type), value)
     return Parameter(name, value=value)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from rclpy._node.declarations import new_descriptor
@@ -10,13 +11,17 @@ from rclpy.exceptions import ParameterNotDeclaredException, ParameterUninitializ
 from rclpy.parameter import PARAMETER_SEPARATOR_STRING, Parameter
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from rcl_interfaces.msg import ListParametersResult, ParameterDescriptor
 
 __all__ = ["DeclaredParameters"]
 
 
-class DeclaredParameters:
+class DeclaredParameters(Mapping[str, Parameter]):
     """Values and descriptors by name; :class:`NodeParameters` changes them.
+
+    Programs read ``node._parameters`` as the dictionary that it is in ROS 2.
 
     Args:
         node_fqn: Fully qualified name of the node.
@@ -29,12 +34,21 @@ class DeclaredParameters:
         self._parameters: dict[str, Parameter] = {}
         self._descriptors: dict[str, ParameterDescriptor] = {}
 
+    def __getitem__(self, name: str) -> Parameter:
+        return self._parameters[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._parameters)
+
+    def __len__(self) -> int:
+        return len(self._parameters)
+
     def has_parameter(self, name: str) -> bool:
         """Return True if a parameter is declared."""
         return name in self._parameters
 
     def get_parameter(self, name: str) -> Parameter:
-        """One parameter.
+        """Return a parameter.
 
         Raises:
             ParameterNotDeclaredException: The name is not declared, and undeclared ones are not
@@ -52,13 +66,13 @@ class DeclaredParameters:
         return parameter
 
     def get_parameters(self, names: list[str]) -> list[Parameter]:
-        """Several parameters; raises as :meth:`get_parameter`."""
+        """Return several parameters; raises as :meth:`get_parameter`."""
         if not all(isinstance(name, str) for name in names):
             raise TypeError("All names must be instances of type str")
         return [self.get_parameter(name) for name in names]
 
     def get_parameter_or(self, name: str, alternative_value: Parameter | None = None) -> Parameter:
-        """One parameter, or the alternative when it has no value (None: one that is not set)."""
+        """Return a parameter, or the alternative if it has no value (None: one that is not set)."""
         parameter = self._parameters.get(name)
         if parameter is not None and parameter.type_ is not Parameter.Type.NOT_SET:
             return parameter
@@ -71,6 +85,7 @@ class DeclaredParameters:
     def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter]:
         """Return the parameters below ``prefix``, by the rest of their names."""
         start = f"{prefix}{PARAMETER_SEPARATOR_STRING}" if prefix else ""
+        # Services of this node may declare or remove parameters in other threads: hence the copy.
         return {
             name[len(start) :]: parameter
             for name, parameter in list(self._parameters.items())
@@ -132,7 +147,7 @@ class DeclaredParameters:
         return descriptor
 
     def describe_parameters(self, names: list[str]) -> list[ParameterDescriptor]:
-        """Several descriptors; raises as :meth:`describe_parameter`."""
+        """Return several descriptors; raises as :meth:`describe_parameter`."""
         return [self.describe_parameter(name) for name in names]
 
     def _hint(self, name: str) -> str:

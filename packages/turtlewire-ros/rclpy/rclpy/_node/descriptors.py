@@ -1,6 +1,6 @@
-"""Whether a parameter's value agrees with its descriptor.
+"""Check a parameter's value against its descriptor: type, read-only and range.
 
-Type, read-only and range, with ROS 2's reasons.
+The reasons for a rejection are ROS 2's texts.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 __all__ = ["PARAMETER_REL_TOL", "READ_ONLY", "WRONG_TYPE", "refusal"]
 
-#: Relative tolerance of the comparisons with the ends and steps of a range of doubles.
+#: ROS 2's relative tolerance of comparisons with the ends and steps of a range of doubles.
 PARAMETER_REL_TOL = 1e-6
 #: How the reason of a type conflict begins.
 WRONG_TYPE = "Wrong parameter type"
@@ -27,7 +27,7 @@ def refusal(
     *,
     declaring: bool = False,
 ) -> str:
-    """Why ``parameter`` must not be set; an empty string when it may.
+    """Return why ``parameter`` must not be set; an empty string if it may.
 
     Args:
         parameter: The new value.
@@ -52,6 +52,8 @@ def refusal(
 
 
 def _integer_refusal(parameter: Parameter, limits: rcl_interfaces.msg.IntegerRange) -> str:
+    # As in ROS 2, the limits come in either order, and both ends are valid even if the step does
+    # not reach the upper one.
     low, high = sorted((limits.from_value, limits.to_value))
     value = parameter.value
     if value in {low, high}:
@@ -70,6 +72,7 @@ def _double_refusal(parameter: Parameter, limits: rcl_interfaces.msg.FloatingPoi
         return ""
     if not low < value < high:
         return _out_of_range(parameter, low, high)
+    # Not `%`: in floating point, 0.3 % 0.1 is nearly 0.1.
     if limits.step and not _is_close(low + round((value - low) / limits.step) * limits.step, value):
         return _off_step(parameter, low, high, limits.step)
     return ""

@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from rclpy._execution.entity import Entity
 from rclpy._node.checks import check_callable, in_open_context, validate_qos
-from rclpy._node.names import NodeNames
+from rclpy._node.names import NameResolver
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.client import Client
 from rclpy.event_handler import EventHandler, PublisherEventCallbacks, SubscriptionEventCallbacks
 from rclpy.guard_condition import GuardCondition
-from rclpy.publisher import Publisher
+from rclpy.publisher import Publisher, PublisherImpl
 from rclpy.service import Service
 from rclpy.subscription import Subscription
 from rclpy.timer import Rate, Timer
@@ -32,7 +32,7 @@ from turtlewire.msg import type_name
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from rclpy._execution.entity import Host
+    from rclpy._execution.entity import EntityHost
     from rclpy._node.parameters import NodeParameters
     from rclpy._node.state import NodeState
     from rclpy.callback_groups import CallbackGroup
@@ -42,14 +42,14 @@ if TYPE_CHECKING:
     from rclpy.waitable import Waitable
     from turtlewire.wire import base
 
-__all__ = ["NodeEndpoints", "QosOverrides", "endpoints_of"]
+__all__ = ["OwnEndpoints", "QosOverrides", "endpoints_of"]
 
 _Owned = TypeVar("_Owned")
 
 
-def endpoints_of(node: Any) -> NodeEndpoints:
+def endpoints_of(node: Any) -> OwnEndpoints:
     """Return a node's endpoints (internal)."""
-    endpoints: NodeEndpoints = node._rclpy_endpoints
+    endpoints: OwnEndpoints = node._rclpy_endpoints
     return endpoints
 
 
@@ -68,7 +68,7 @@ class QosOverrides(NamedTuple):
         return overridden_profile(kind, resolve_topic(), profile, self.options, self.parameters)
 
 
-class NodeEndpoints:
+class OwnEndpoints:
     """The endpoints of one node. Thread-safe.
 
     Attributes:
@@ -78,8 +78,9 @@ class NodeEndpoints:
 
     def __init__(self, core: NodeState) -> None:
         self._core = core
-        self.names = NodeNames(core)
-        self._host: tuple[weakref.ref[Host], int] | None = None
+        self.names = NameResolver(core)
+        # Weak: a node does not keep alive an executor that the program has dropped.
+        self._host: tuple[weakref.ref[EntityHost], int] | None = None
         self._lock = threading.Lock()
         self._owned: dict[type, list[Any]] = {}
         self.default_callback_group: CallbackGroup = MutuallyExclusiveCallbackGroup()
@@ -112,28 +113,32 @@ class NodeEndpoints:
         profile = validate_qos(qos_profile)
         if overrides is not None:
             profile = overrides.apply("publisher", profile, lambda: self.names.resolve_topic(topic))
-        publisher = self.make_publisher(msg_type, topic, profile, publisher_class)
-        self._own_events(
-            publisher, topic, event_callbacks or PublisherEventCallbacks(), callback_group
+        publisher = publisher_class(
+            self.publisher_impl(msg_type, topic, profile),
+            msg_type,
+            topic,
+            profile,
+            event_callbacks=event_callbacks or PublisherEventCallbacks(),
+            callback_group=callback_group or self.default_callback_group,
         )
+        for handler in publisher.event_handlers:
+            self._own(EventHandler, handler)
         return self._own(Publisher, publisher)
 
-    def make_publisher(
-        self,
-        msg_type: Any,
-        topic: str,
-        qos_profile: QoSProfile | int,
-        publisher_class: type[Publisher] = Publisher,
-    ) -> Publisher:
+    def make_publisher(self, msg_type: Any, topic: str, qos_profile: QoSProfile | int) -> Publisher:
         """Return a publisher that the caller owns."""
-        check_is_valid_msg_type(msg_type)
         profile = validate_qos(qos_profile)
+        return Publisher(self.publisher_impl(msg_type, topic, profile), msg_type, topic, profile)
+
+    def publisher_impl(self, msg_type: Any, topic: str, profile: QoSProfile) -> PublisherImpl:
+        """Announce a publisher; return what its constructor needs."""
+        check_is_valid_msg_type(msg_type)
         name = self.names.resolve_topic(topic)
         with in_open_context(self._core.context, "publisher"):
             wire = self._core.wire.create_publisher(
                 name, type_id(type_name(msg_type)), profile.to_wire()
             )
-        return publisher_class(wire, msg_type, profile, self._core)
+        return PublisherImpl(wire, self._core)
 
     def create_subscription(
         self,
@@ -149,16 +154,19 @@ class NodeEndpoints:
     ) -> Subscription:
         """Create a subscription; see :meth:`rclpy.node.Node.create_subscription`.
 
-        A sink may handle messages without Python; the callback gets those that it leaves.
+        A sink may handle messages without Python; the callback gets the messages that it leaves.
         """
         profile = validate_qos(qos_profile)
         profile = overrides.apply("subscription", profile, lambda: self.names.resolve_topic(topic))
         subscription = self.make_subscription(
             msg_type, topic, callback, profile, callback_group, raw, sink
         )
-        self._own_events(
-            subscription, topic, event_callbacks or SubscriptionEventCallbacks(), callback_group
-        )
+        events = event_callbacks or SubscriptionEventCallbacks()
+        group = callback_group or self.default_callback_group
+        # ROS 2 names the topic in its warnings as it was given.
+        subscription.event_handlers = events.create_event_handlers(group, subscription, topic)
+        for handler in subscription.event_handlers:
+            self._own(EventHandler, handler)
         return self._own(Subscription, subscription)
 
     def make_subscription(
@@ -172,30 +180,21 @@ class NodeEndpoints:
         sink: base.Sink | None = None,
     ) -> Subscription:
         """Return a subscription that the caller owns."""
-        check_is_valid_msg_type(msg_type)
         profile = validate_qos(qos_profile)
-        name = self.names.resolve_topic(topic)
-        with in_open_context(self._core.context, "subscription"):
-            wire = self._core.wire.create_subscription(
-                name, type_id(type_name(msg_type)), profile.to_wire(), sink=sink
-            )
+        wire = self.wire_subscription(msg_type, topic, profile, sink)
         group = callback_group or self.default_callback_group
         return Subscription(wire, msg_type, callback, group, profile, raw, self._core)
 
-    def _own_events(
-        self,
-        endpoint: Any,
-        topic: str,
-        event_callbacks: PublisherEventCallbacks | SubscriptionEventCallbacks,
-        callback_group: CallbackGroup | None,
-    ) -> None:
-        endpoint.event_handlers = event_callbacks.create_event_handlers(
-            callback_group or self.default_callback_group,
-            endpoint,
-            topic,  # ROS 2 names it in its warnings as it was given
-        )
-        for handler in endpoint.event_handlers:
-            self._own(EventHandler, handler)
+    def wire_subscription(
+        self, msg_type: Any, topic: str, profile: QoSProfile, sink: base.Sink | None = None
+    ) -> base.Subscription:
+        """Announce a subscription; return the middleware's side of it."""
+        check_is_valid_msg_type(msg_type)
+        name = self.names.resolve_topic(topic)
+        with in_open_context(self._core.context, "subscription"):
+            return self._core.wire.create_subscription(
+                name, type_id(type_name(msg_type)), profile.to_wire(), sink=sink
+            )
 
     def create_client(
         self,
@@ -214,12 +213,7 @@ class NodeEndpoints:
         callback_group: CallbackGroup | None,
     ) -> Client:
         """Return a client that the caller owns."""
-        check_is_valid_srv_type(srv_type)
-        name = self.names.resolve_service(srv_name)
-        with in_open_context(self._core.context, "client"):
-            wire = self._core.wire.create_client(
-                name, service_types(type_name(srv_type)), qos_profile.to_wire()
-            )
+        wire = self.wire_client(srv_type, srv_name, qos_profile)
         group = callback_group or self.default_callback_group
         return Client(
             wire,
@@ -229,6 +223,15 @@ class NodeEndpoints:
             group,
             self._core,
         )
+
+    def wire_client(self, srv_type: Any, srv_name: str, profile: QoSProfile) -> base.Client:
+        """Announce a client; return the middleware's side of it."""
+        check_is_valid_srv_type(srv_type)
+        name = self.names.resolve_service(srv_name)
+        with in_open_context(self._core.context, "client"):
+            return self._core.wire.create_client(
+                name, service_types(type_name(srv_type)), profile.to_wire()
+            )
 
     def create_service(
         self,
@@ -252,13 +255,7 @@ class NodeEndpoints:
         service_class: type[Service] = Service,
     ) -> Service:
         """Return a service that the caller owns."""
-        check_is_valid_srv_type(srv_type)
-        check_callable(callback)
-        name = self.names.resolve_service(srv_name)
-        with in_open_context(self._core.context, "service"):
-            wire = self._core.wire.create_service(
-                name, service_types(type_name(srv_type)), qos_profile.to_wire()
-            )
+        wire = self.wire_service(srv_type, srv_name, callback, qos_profile)
         group = callback_group or self.default_callback_group
         return service_class(
             wire,
@@ -269,6 +266,18 @@ class NodeEndpoints:
             qos_profile,
             self._core,
         )
+
+    def wire_service(
+        self, srv_type: Any, srv_name: str, callback: Callable[..., Any], profile: QoSProfile
+    ) -> base.Service:
+        """Announce a service; return the middleware's side of it."""
+        check_is_valid_srv_type(srv_type)
+        check_callable(callback)
+        name = self.names.resolve_service(srv_name)
+        with in_open_context(self._core.context, "service"):
+            return self._core.wire.create_service(
+                name, service_types(type_name(srv_type)), profile.to_wire()
+            )
 
     def create_timer(
         self,
@@ -281,6 +290,7 @@ class NodeEndpoints:
         if callback is not None:
             check_callable(callback)
         group = callback_group or self.default_callback_group
+        # Truncated, not rounded, as in ROS 2.
         period_ns = int(float(period_sec) * 1_000_000_000)
         return self._own(
             Timer,
@@ -310,6 +320,7 @@ class NodeEndpoints:
         self._own(Waitable, waitable)
 
     def remove_waitable(self, waitable: Waitable) -> None:
+        # Not destroyed: the waitable is the program's, which may add it to another node.
         executor = waitable._serving_host()
         if executor is not None:
             executor.release(waitable)
@@ -323,9 +334,10 @@ class NodeEndpoints:
         self._own(type(resource), resource)
 
     def before_leaving(self, call: Callable[[], None]) -> Callable[[], None]:
-        """Have ``call()`` called before the node leaves the graph; returns what undoes this.
+        """Call ``call()`` before the node leaves the graph; return a function that undoes this.
 
-        Unlike what :meth:`keep` is given, it is called for a node that is garbage collected, too.
+        Unlike a resource given to :meth:`keep`, it is also called for a node that is garbage
+        collected.
         """
         self._core.before_leaving[call] = None
         return lambda: self._core.before_leaving.pop(call, None)
@@ -343,18 +355,20 @@ class NodeEndpoints:
                 executor.adopt(owned, node_index)
         return owned
 
-    def attach(self, executor: Host, node_index: int) -> None:
-        """Have ``executor`` serve the entities, future ones included.
+    def attach(self, executor: EntityHost, node_index: int) -> None:
+        """Let ``executor`` serve the entities, including entities made later.
 
         Args:
             executor: What serves them.
             node_index: Their node's place in the executor's order.
         """
+        # First: what another thread creates from here on is adopted there. Adopting twice is
+        # harmless.
         self._host = (weakref.ref(executor), node_index)
         for entity in self.entities():
             executor.adopt(entity, node_index)
 
-    def detach(self, executor: Host) -> None:
+    def detach(self, executor: EntityHost) -> None:
         """Undo :meth:`attach`."""
         self._host = None
         for entity in self.entities():
@@ -368,15 +382,16 @@ class NodeEndpoints:
                     return
 
     def destroy(self, kind: type, owned: Any) -> bool:
-        """Close one of them; False when it is not (any more) of this node."""
+        """Close an endpoint; return False if it does not (or no longer) belong to this node."""
         if owned not in self.of(kind):
             return False
         owned.destroy()
         return True
 
     def destroy_all(self) -> None:
-        """Close all of them."""
+        """Close all endpoints."""
         with self._lock:
             everything = [owned for group in self._owned.values() for owned in group]
+        # Without the lock: each endpoint removes itself with `_disown`.
         for owned in everything:
             owned.destroy()

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
-from rclpy._rclpy_pybind11 import NodeNameNonExistentError
+from rclpy._node.checks import check_valid
+from rclpy._rclpy_pybind11 import NodeNameNonExistentError, RCLError
 from rclpy.expand_topic_name import expand_topic_name
+from rclpy.impl.hints import with_hint
 from rclpy.validate_full_topic_name import validate_full_topic_name
 from turtlewire.wire import names
 
@@ -13,12 +16,25 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from rclpy._node.state import NodeState
-    from rclpy.topic_endpoint_info import TopicEndpointInfo
+    from rclpy.endpoint_info import EndpointTypeEnum, ServiceEndpointInfo, TopicEndpointInfo
     from turtlewire.wire.base import EndpointInfo, Graph
 
-__all__ = ["NamesAndTypes", "NodeGraph"]
+__all__ = ["NamesAndTypes", "NodeGraph", "actions_among"]
 
 NamesAndTypes = list[tuple[str, list[str]]]
+
+
+_FEEDBACK = "/_action/feedback"
+_FEEDBACK_TYPE = "_FeedbackMessage"
+
+
+def actions_among(topics: NamesAndTypes) -> NamesAndTypes:
+    """Return the actions, with their types, whose feedback topics are among some topics."""
+    return [
+        (topic.removesuffix(_FEEDBACK), [name.removesuffix(_FEEDBACK_TYPE) for name in type_names])
+        for topic, type_names in topics
+        if topic.endswith(_FEEDBACK) and any(name.endswith(_FEEDBACK_TYPE) for name in type_names)
+    ]
 
 
 class NodeGraph:
@@ -29,7 +45,8 @@ class NodeGraph:
 
     @property
     def _graph(self) -> Graph:
-        _ = self._core.wire  # a destroyed node must not be asked
+        _ = self._core.wire  # raises if the node was destroyed
+        check_valid(self._core.context, "Failed to query the graph")
         return self._core.context.wire.graph
 
     def topic_names_and_types(self, no_demangle: bool) -> NamesAndTypes:
@@ -53,18 +70,20 @@ class NodeGraph:
 
         def name_and_type(endpoint: EndpointInfo) -> tuple[str, str] | None:
             if no_demangle:
+                # Only ROS names begin with a slash; other DDS topics have no prefix to put back.
                 topic = (
                     names.topic_to_dds(endpoint.topic)
                     if endpoint.topic.startswith("/")
                     else endpoint.topic
                 )
                 return topic, names.type_to_dds(endpoint.type_name)
+            # Other DDS topics, service topics included, have no ROS name.
             return (endpoint.topic, endpoint.type_name) if endpoint.topic.startswith("/") else None
 
         return self._of_node(kind, node_name, node_namespace, name_and_type)
 
     def services_by_node(self, kind: str, node_name: str, node_namespace: str) -> NamesAndTypes:
-        """Services that a node offers (``kind`` "service") or calls ("client").
+        """Return the services that a node offers (``kind`` "service") or calls ("client").
 
         Raises:
             NodeNameNonExistentError: No node of that name is known.
@@ -142,7 +161,7 @@ class NodeGraph:
         Raises:
             ValueError: The name breaks the rules.
         """
-        from rclpy.topic_endpoint_info import TopicEndpointInfo
+        from rclpy.endpoint_info import TopicEndpointInfo
 
         if no_mangle:
             name = names.topic_from_dds(topic) or topic
@@ -155,18 +174,36 @@ class NodeGraph:
             for endpoint in self._graph.endpoints_of(name, kind)
         ]
 
-    def wait_for_node(self, fully_qualified_node_name: str, timeout_sec: float) -> bool:
-        wanted = (
-            fully_qualified_node_name
-            if fully_qualified_node_name.startswith("/")
-            else f"/{fully_qualified_node_name}"
+    def service_infos(
+        self, kind: EndpointTypeEnum, service: str, *, no_mangle: bool
+    ) -> list[ServiceEndpointInfo]:
+        """Return information about each client or server of a service.
+
+        Raises:
+            ValueError: The name breaks the rules.
+            RCLError: ``no_mangle`` was given: on DDS, a service has no single name.
+        """
+        from rclpy.endpoint_info import service_infos
+
+        if no_mangle:
+            raise with_hint(
+                RCLError("Failed to get information of service: no_mangle is not supported"),
+                f"A service has two topics: ask for '{service}' without no_mangle, or for "
+                f"'{names.request_topic(service)}' by get_publishers_info_by_topic",
+            )
+        core = self._core
+        name = core.arguments.remap_service(self._full_name(service), core.name, core.namespace)
+        return service_infos(self._graph, name, kind)
+
+    def has_node(self, fully_qualified_node_name: str) -> bool:
+        """Return True if a node is known; a slash before its name may be missing."""
+        wanted = f"/{fully_qualified_node_name.removeprefix('/')}"
+        return any(
+            names.fully_qualified_node_name(node.name, node.namespace) == wanted
+            for node in self._graph.nodes()
         )
 
-        def is_there() -> bool:
-            return any(
-                names.fully_qualified_node_name(node.name, node.namespace) == wanted
-                for node in self._graph.nodes()
-            )
-
+    def wait_for_node(self, fully_qualified_node_name: str, timeout_sec: float) -> bool:
+        is_there = partial(self.has_node, fully_qualified_node_name)
         timeout_ns = None if timeout_sec < 0 else int(timeout_sec * 1_000_000_000)
         return self._core.context.wait_for_graph(is_there, timeout_ns)

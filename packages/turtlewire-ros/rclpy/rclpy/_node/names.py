@@ -11,10 +11,10 @@ from turtlewire.wire import names
 if TYPE_CHECKING:
     from rclpy._node.state import NodeState
 
-__all__ = ["NodeNames"]
+__all__ = ["NameResolver"]
 
 
-class NodeNames:
+class NameResolver:
     """Makes full names of what a program gives as names."""
 
     def __init__(self, core: NodeState) -> None:
@@ -53,6 +53,7 @@ class NodeNames:
         if fault is not None:
             raise error(name, fault.message, fault.invalid_index)
         expanded = names.expand_topic_name(name, self._core.name, self._core.namespace)
+        # Substitutions can make a valid name invalid; the error then shows the expanded name.
         fault = names.validate_full_topic_name(expanded)
         if fault is not None:
             raise error(expanded, fault.message, fault.invalid_index)

@@ -1,6 +1,6 @@
 """The parameters of one node: declared, read, set, described, with callbacks and events.
 
-``Node`` hands all of it on to here.
+``Node`` delegates to this module.
 """
 
 from __future__ import annotations
@@ -74,6 +74,7 @@ class NodeParameters(DeclaredParameters):
     ) -> None:
         super().__init__(node_fqn, allow_undeclared=allow_undeclared)
         self._overrides = dict(overrides)
+        # A wrong type in the constructor's overrides is the program's mistake, not the user's.
         self._of_command_line = self._overrides.keys() - {
             parameter.name for parameter in constructor_overrides or ()
         }
@@ -105,6 +106,7 @@ class NodeParameters(DeclaredParameters):
         Returns:
             The parameter with the value that it got.
         """
+        # ROS 2 warns of a name alone, but not of a name with an empty descriptor.
         declaration = (
             (name,)
             if value is None and descriptor is None
@@ -131,7 +133,7 @@ class NodeParameters(DeclaredParameters):
                 declared.
             InvalidParameterException: A name is empty.
             InvalidParameterTypeException: The command line gives a value of another type.
-            InvalidParameterValueException: A value is out of range or was refused by a callback.
+            InvalidParameterValueException: A value is out of range or was rejected by a callback.
             TypeError, ValueError: A declaration is malformed.
         """
         declared: dict[str, tuple[Parameter, ParameterDescriptor]] = {}
@@ -148,7 +150,9 @@ class NodeParameters(DeclaredParameters):
         if repeated:
             raise ParameterAlreadyDeclaredException(repeated)
         for parameter, descriptor in declared.values():
+            # One at a time, as in ROS 2: the parameters before a rejected one stay declared.
             reason = self._set_atomically([parameter], {parameter.name: descriptor})
+            # ROS 2 also recognizes this case by its text.
             if reason.startswith(rules.WRONG_TYPE):
                 expected = Parameter.Type(descriptor.type)
                 error = InvalidParameterTypeException(parameter, expected.name)
@@ -208,6 +212,7 @@ class NodeParameters(DeclaredParameters):
         parameter_list = self.callbacks.changed_list(parameter_list)
         if self.callbacks.before and not parameter_list:
             return SetParametersResult(successful=False, reason=_EMPTY_LIST)
+        # Again, because the callbacks may have added names.
         self._check_declared(parameter_list)
         reason = self._set_atomically(parameter_list)
         return SetParametersResult(successful=not reason, reason=reason)
@@ -232,7 +237,7 @@ class NodeParameters(DeclaredParameters):
         parameter_list: list[Parameter],
         declarations: dict[str, ParameterDescriptor] | None = None,
     ) -> str:
-        """Check, store and tell; returns why not, an empty string when it is done."""
+        """Check, store and announce parameters; return the reason for a rejection, if any."""
         descriptors = declarations or {
             parameter.name: self._descriptor(parameter.name) for parameter in parameter_list
         }
@@ -262,11 +267,13 @@ class NodeParameters(DeclaredParameters):
         event = ParameterEvent(node=self._node_fqn)
         for parameter in parameter_list:
             name = parameter.name
+            # Setting a parameter to NOT_SET removes it; a declaration may leave it without a value.
             if parameter.type_ is Parameter.Type.NOT_SET and not declaring:
                 event.deleted_parameters.append(parameter.to_parameter_msg())
                 self._parameters.pop(name, None)
                 self._descriptors.pop(name, None)
                 continue
+            # A parameter that was declared with a type alone counts as new at its first value.
             is_new = self.get_parameter_or(name).type_ is Parameter.Type.NOT_SET
             (event.new_parameters if is_new else event.changed_parameters).append(
                 parameter.to_parameter_msg()
@@ -301,11 +308,13 @@ class NodeParameters(DeclaredParameters):
             InvalidParameterValueException: Neither value agrees with the descriptor.
         """
         if name not in self._parameters:
+            # Raises, unless undeclared parameters are allowed.
             return self.get_parameter(name).get_parameter_value()
         if self._descriptors[name].read_only:
             raise ParameterImmutableException(name)
         if not descriptor.dynamic_typing and not descriptor.type:
             descriptor.type = self._parameters[name].type_.value
+        # As in a declaration: a descriptor that is read-only does not reject the present value.
         if rules.refusal(self._parameters[name], descriptor, declaring=True):
             alternative = self._parameters[name]
             if alternative_value is not None:
@@ -325,6 +334,7 @@ class NodeParameters(DeclaredParameters):
     def _descriptor(self, name: str) -> ParameterDescriptor:
         descriptor = self._descriptors.get(name)
         if descriptor is None:
+            # As in ROS 2, an undeclared parameter may change its type.
             descriptor = new_descriptor()
             descriptor.dynamic_typing = True
         return descriptor

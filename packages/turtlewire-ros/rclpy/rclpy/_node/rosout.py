@@ -11,28 +11,28 @@ from rclpy.impl import log_output
 from rclpy.type_support import type_id
 from turtlewire import msg
 from turtlewire.errors import WireError
-from turtlewire.wire.qos import Durability, QoS
 
 if TYPE_CHECKING:
     from rclpy.impl.log_output import LogRecord
     from turtlewire.wire import base
+    from turtlewire.wire.qos import QoS
 
 __all__ = ["RosoutPublisher"]
 
 _TYPE = "rcl_interfaces/msg/Log"
-_QOS = QoS(depth=1000, durability=Durability.TRANSIENT_LOCAL, lifespan_ns=10_000_000_000)
 
 
 class RosoutPublisher:
     """Publishes what the logger ``logger_name`` and its children log. Thread-safe."""
 
-    def __init__(self, wire_node: base.Node, logger_name: str) -> None:
-        self._wire = wire_node.create_publisher("/rosout", type_id(_TYPE), _QOS)
+    def __init__(self, wire_node: base.Node, logger_name: str, qos: QoS) -> None:
+        self._wire = wire_node.create_publisher("/rosout", type_id(_TYPE), qos)
         self._logger_name = logger_name
         self._message_types: tuple[Any, Any] | None = None
         log_output.add_rosout_sink(logger_name, self._publish)
 
     def _publish(self, record: LogRecord) -> None:
+        # At the first record: a program that never logs need not read the definitions.
         if self._message_types is None:
             self._message_types = (
                 msg.get_message(_TYPE),
@@ -52,9 +52,8 @@ class RosoutPublisher:
         try:
             self._wire.publish(msg.serialize(log))
         except WireError:
-            log_output.remove_rosout_sink(
-                self._logger_name
-            )  # the context is gone; the console still has the line
+            # The context is gone; the console still has the line.
+            log_output.remove_rosout_sink(self._logger_name)
 
     def close(self) -> None:
         """Publish no further records. Idempotent."""

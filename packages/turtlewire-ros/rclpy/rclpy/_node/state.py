@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from rclpy.impl.arguments import Arguments
     from rclpy.impl.rcutils_logger import RcutilsLogger
     from turtlewire.wire import base
+    from turtlewire.wire.qos import QoS
 
 __all__ = ["NodeState"]
 
@@ -46,7 +47,7 @@ class NodeState:
         namespace: str,
         arguments: Arguments,
         *,
-        enable_rosout: bool,
+        rosout_qos: QoS | None,
     ) -> None:
         self.context = context
         self.name = name
@@ -55,8 +56,13 @@ class NodeState:
         self.arguments = arguments
         self.logger: RcutilsLogger = get_logger(self.full_name[1:].replace("/", "."))
         self._wire = context.wire.create_node(name, namespace, arguments.enclave)
-        rosout = RosoutPublisher(self._wire, self.logger.name) if enable_rosout else None
+        rosout = (
+            None
+            if rosout_qos is None
+            else RosoutPublisher(self._wire, self.logger.name, rosout_qos)
+        )
         self.before_leaving: dict[Callable[[], None], None] = {}
+        # Refers to the wire node instead of this object, which the finalizer must not keep alive.
         leave = partial(_leave, self._wire, rosout, self.before_leaving)
         self._end = weakref.finalize(self, _leave_later, context.wire, leave)
         self._end.atexit = False  # the context's end is the node's
@@ -65,12 +71,17 @@ class NodeState:
     @property
     def wire(self) -> base.Node:
         """The middleware's side of it; raises ``InvalidHandle`` after :meth:`close`."""
+        return self.checked()._wire
+
+    def checked(self) -> NodeState:
+        """Return itself; raise ``InvalidHandle`` after :meth:`close`."""
         if not self._end.alive:
             raise InvalidHandle("cannot use Destroyable because destruction was requested")
-        return self._wire
+        return self
 
     def close(self) -> None:
         """Leave the graph, with all endpoints. Idempotent."""
+        # None after an earlier call.
         if self._end.detach() is not None:
             self._leave()
 
@@ -86,5 +97,5 @@ def _leave(
 
 
 def _leave_later(context: base.Context, leave: partial[None]) -> None:
-    """On another thread: the garbage collector runs anywhere, with any lock held."""
+    """Leave on another thread: the garbage collector runs anywhere, with any lock held."""
     context.call_soon(leave)

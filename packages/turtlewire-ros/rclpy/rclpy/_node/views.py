@@ -1,4 +1,4 @@
-"""What the built-in parts of a node need of it: they know a view of the node, not the node."""
+"""Views of a node for its built-in parts, which do not depend on the whole node."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class ServiceOwner(Protocol):
 
 
 class ParameterOwner(ServiceOwner, Protocol):
-    """A node that has parameters, too."""
+    """A node that also has parameters."""
 
     def has_parameter(self, name: str) -> bool:
         """Return True if a parameter is declared."""
@@ -64,7 +64,7 @@ class ParameterOwner(ServiceOwner, Protocol):
         ...
 
     def list_parameters(self, prefixes: list[str], depth: int) -> ListParametersResult:
-        """Names of parameters."""
+        """Return the names of parameters."""
         ...
 
     def set_parameters_atomically(self, parameter_list: list[Parameter]) -> SetParametersResult:
@@ -90,7 +90,7 @@ class TimeSourceOwner(Protocol):
     def add_on_set_parameters_callback(
         self, callback: Callable[[list[Parameter]], SetParametersResult]
     ) -> None:
-        """Have ``callback`` accept or refuse new values."""
+        """Let ``callback`` accept or reject new values."""
         ...
 
     def remove_on_set_parameters_callback(
@@ -107,8 +107,4 @@ class TimeSourceOwner(Protocol):
         self, msg_type: Any, topic: str, callback: Callable[[Any], Any], qos_profile: QoSProfile
     ) -> Any:
         """Announce a subscription."""
-        ...
-
-    def destroy_subscription(self, subscription: Any) -> bool:
-        """Close a subscription."""
         ...

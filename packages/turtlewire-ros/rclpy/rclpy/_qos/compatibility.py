@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["check"]
 
+# Not set, and ROS 2's infinite duration.
 _UNLIMITED_NS = (0, 2**63 - 1)
 
 
@@ -96,12 +97,15 @@ def _warnings(publisher: QoSProfile, subscription: QoSProfile) -> list[str]:
             "reliability", *reliability, ReliabilityPolicy.BEST_EFFORT, ReliabilityPolicy.RELIABLE
         ),
         _open(
-            "durabilty", *durability, DurabilityPolicy.VOLATILE, DurabilityPolicy.TRANSIENT_LOCAL
+            # ROS 2's own spelling.
+            "durabilty",
+            *durability,
+            DurabilityPolicy.VOLATILE,
+            DurabilityPolicy.TRANSIENT_LOCAL,
         ),
     ]
-    if not all(
-        map(_is_open, liveliness)
-    ):  # both are open in every preset, and then the middleware settles on the same
+    # Both are open in every preset, and then the middleware settles on the same value.
+    if not all(map(_is_open, liveliness)):
         findings.append(
             _open(
                 "liveliness",
@@ -120,10 +124,7 @@ def _open(
     weakest_offer: QoSPolicyEnum,
     strictest_request: QoSPolicyEnum,
 ) -> str:
-    """Return the warning for a policy that the middleware will settle.
-
-    ``durabilty`` is ROS 2's own spelling.
-    """
+    """Return the warning for a policy that the middleware will settle."""
     if _is_open(offered) and _is_open(requested):
         return (
             f"Publisher {policy} is {_text(offered)} and subscription {policy} is "

@@ -21,9 +21,11 @@ __all__ = [
     "QoSLivelinessChangedInfo",
     "QoSLivelinessLostInfo",
     "QoSMessageLostInfo",
+    "QoSOfferedDeadlineMissedInfo",
     "QoSOfferedIncompatibleQoSInfo",
     "QoSPublisherEventType",
     "QoSPublisherMatchedInfo",
+    "QoSRequestedDeadlineMissedInfo",
     "QoSRequestedIncompatibleQoSInfo",
     "QoSSubscriptionEventType",
     "QoSSubscriptionMatchedInfo",
@@ -134,6 +136,11 @@ class QoSPublisherMatchedInfo(NamedTuple):
     current_count_change: int
 
 
+#: The names that ROS 2's own code gives them.
+QoSOfferedDeadlineMissedInfo = QoSDeadlineOfferedInfo
+QoSRequestedDeadlineMissedInfo = QoSDeadlineRequestedInfo
+
+
 def _counts(info: Callable[..., Any]) -> Callable[[EventStatus], Any]:
     return lambda status: info(*status[:2])
 
@@ -147,6 +154,7 @@ def _matches(info: Callable[..., Any]) -> Callable[[EventStatus], Any]:
 
 
 def _liveliness(status: EventStatus) -> QoSLivelinessChangedInfo:
+    # All events share one status; in this one, the total counts the publishers that are not alive.
     return QoSLivelinessChangedInfo(
         status.current_count,
         status.total_count,

@@ -57,6 +57,7 @@ class QoSPolicyEnum(IntEnum):
         Raises:
             KeyError: The key does not exist.
         """
+        # As in ROS 2, the number and not the member.
         return cls[name.upper()].value
 
     @property
@@ -99,6 +100,7 @@ class LivelinessPolicy(QoSPolicyEnum):
 
     SYSTEM_DEFAULT = 0
     AUTOMATIC = 1
+    # 2 was MANUAL_BY_NODE, which ROS 2 removed.
     MANUAL_BY_TOPIC = 3
     UNKNOWN = 4
     BEST_AVAILABLE = 5

@@ -19,6 +19,7 @@ def goal_key(goal_id: Any) -> bytes:
 def random_goal_id() -> Any:
     """Return a random UUID, version 4."""
     value = bytearray(os.urandom(16))
+    # The bits of version and variant, as in RFC 4122.
     value[6] = value[6] & 0x0F | 0x40
     value[8] = value[8] & 0x3F | 0x80
     return get_message("unique_identifier_msgs/msg/UUID")(uuid=bytes(value))

@@ -50,7 +50,7 @@ class GoalStatuses:
             self._records[place + _STATE_OFFSET] = status
 
     def remove(self, goals: Iterable[bytes]) -> None:
-        """Remove goals; those that are not here are ignored."""
+        """Remove goals; ids of unknown goals are ignored."""
         gone = {goal for goal in goals if goal in self._places}
         if not gone:
             return
@@ -87,6 +87,7 @@ def _records_of(cdr: bytes) -> bytes | None:
         return None
     size = _HEADER.unpack_from(cdr)[1] * _RECORD.size
     first, rest = cdr[_HEADER.size : _FIRST_STAMP], cdr[_FIRST_STAMP:]
+    # With the missing padding put back, all records have the same size.
     records = b"".join((first, bytes(3), rest))[:size]
     return records if len(records) == size else None
 
@@ -101,7 +102,7 @@ def _decoded(cdr: bytes, goals: Collection[bytes]) -> list[tuple[bytes, int]]:
 def _searched(records: bytes, goals: Collection[bytes]) -> list[tuple[bytes, int]]:
     found = []
     for goal in goals:
-        place = records.rfind(goal)  # from the end: those that change are mostly new
+        place = records.rfind(goal)  # from the end: mostly new goals change
         while place % _RECORD.size and place >= 0:  # by chance, across parts of records
             place = records.rfind(goal, 0, place + len(goal) - 1)
         if place >= 0:

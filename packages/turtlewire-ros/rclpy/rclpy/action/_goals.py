@@ -89,7 +89,7 @@ class Goals:
             return [(goal, self._handles[key]) for key, goal in self._goals.items()]
 
     def to_cancel(self, wanted: Any, codes: Any) -> tuple[list[tuple[Goal, Any]], int]:
-        """The active goals that a cancel request means, with their handles, and a return code.
+        """Return the active goals that a cancel request means, with their handles, and a code.
 
         No id and no stamp mean all goals, a stamp all that were accepted until then, an id that
         goal; both are joined.
@@ -117,7 +117,7 @@ class Goals:
 
     def publish_statuses(self) -> None:
         """Publish the states of all goals."""
-        with self._lock:  # what is published last is what came last
+        with self._lock:  # the publications come in the order of the changes
             self._publish(self._statuses.cdr())
 
     def advance(self, goal: Goal, event: GoalEvent) -> None:

@@ -8,17 +8,21 @@ import weakref
 from typing import TYPE_CHECKING, Any, Generic
 
 from rclpy._execution.futures import call_when_done
+from rclpy._node.checks import check_valid
 from rclpy._node.endpoints import endpoints_of
 from rclpy._typing import ActionT_co
 from rclpy.impl.hints import described, with_hint
+from rclpy.impl.reexports import reexports
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from rclpy.task import Future
 from rclpy.type_support import check_for_type_support
 from rclpy.waitable import Waitable
+from turtlewire.distro import KILTED, since
 from turtlewire.errors import CdrError
 
 from ._goal_ids import goal_key, random_goal_id
 from ._goal_statuses import read_statuses
+from ._introspection import IntrospectedAction
 from .goal_state import ACTIVE_STATES
 
 if TYPE_CHECKING:
@@ -33,7 +37,18 @@ if TYPE_CHECKING:
 
 __all__ = ["ActionClient", "ClientGoalHandle"]
 
-#: Feedback may come later than a result that was sent after it: the callbacks of so many finished
+__getattr__ = reexports(
+    __name__,
+    {
+        "action_msgs.msg": ("GoalStatus",),
+        "action_msgs.srv": ("CancelGoal",),
+        "builtin_interfaces.msg": ("Time",),
+        "unique_identifier_msgs.msg": ("UUID",),
+        "rclpy.executors": ("await_or_execute",),
+    },
+)
+
+#: Feedback may come later than a result that was sent after it: the callbacks of this many finished
 #: goals are kept.
 _FINISHED_GOALS = 100
 _DEFAULT_FEEDBACK_QOS = QoSProfile(depth=10)
@@ -106,7 +121,7 @@ class ClientGoalHandle:
         return self._action_client._get_result_async(self)
 
 
-class ActionClient(Waitable, Generic[ActionT_co]):
+class ActionClient(IntrospectedAction, Waitable, Generic[ActionT_co]):
     """Sends goals to an action server. Thread-safe.
 
     Args:
@@ -119,6 +134,8 @@ class ActionClient(Waitable, Generic[ActionT_co]):
         cancel_service_qos_profile: Quality of service of cancel requests.
         feedback_sub_qos_profile: Quality of service of feedback.
         status_sub_qos_profile: Quality of service of the goals' states.
+        enable_feedback_msg_optimization: Has no effect: the middlewares here do not filter by
+            content, so that the feedback of other clients' goals arrives and is dropped.
     """
 
     def __init__(
@@ -133,6 +150,7 @@ class ActionClient(Waitable, Generic[ActionT_co]):
         cancel_service_qos_profile: QoSProfile = qos_profile_services_default,
         feedback_sub_qos_profile: QoSProfile = _DEFAULT_FEEDBACK_QOS,
         status_sub_qos_profile: QoSProfile = qos_profile_action_status_default,
+        enable_feedback_msg_optimization: bool = False,  # noqa: ARG002 - no middleware here filters
     ) -> None:
         check_for_type_support(action_type)
         super().__init__(callback_group or node.default_callback_group)
@@ -140,6 +158,7 @@ class ActionClient(Waitable, Generic[ActionT_co]):
         self._action_type: Any = action_type
         self._action_name = action_name
         self._lock = threading.Lock()
+        # Weak, as in ROS 2: a handle that the program has dropped needs no updates.
         self._goal_handles: weakref.WeakValueDictionary[bytes, ClientGoalHandle] = (
             weakref.WeakValueDictionary()
         )
@@ -166,6 +185,7 @@ class ActionClient(Waitable, Generic[ActionT_co]):
         self._goal_client = self._make_client(impl.SendGoalService, "send_goal", goal_qos)
         self._cancel_client = self._make_client(impl.CancelGoalService, "cancel_goal", cancel_qos)
         self._result_client = self._make_client(impl.GetResultService, "get_result", result_qos)
+        self._services = (self._goal_client, self._cancel_client, self._result_client)
         subscribe = endpoints_of(self._node).make_subscription
         name, group = f"{self._action_name}/_action", self.callback_group
         self._feedback = subscribe(
@@ -181,9 +201,10 @@ class ActionClient(Waitable, Generic[ActionT_co]):
             self._on_status,
             status_qos,
             group,
+            # Undecoded: a message has the states of all goals, of which few concern this client.
             raw=True,
         )
-        # Of what is here at the same time, the response to the goal comes first, then feedback,
+        # If several parts are ready at once, the response to the goal comes first, then feedback,
         # then the result.
         self._parts = [
             self._goal_client,
@@ -199,7 +220,8 @@ class ActionClient(Waitable, Generic[ActionT_co]):
         )
 
     def server_is_ready(self) -> bool:
-        """Return True if an action server is there."""
+        """Return True if an action server is there; RCLError after a shutdown."""
+        check_valid(self._node.context, "Failed to check if action server is available")
         return (
             self._goal_client.service_is_ready()
             and self._cancel_client.service_is_ready()
@@ -212,10 +234,13 @@ class ActionClient(Waitable, Generic[ActionT_co]):
         """Block until an action server is there (no polling).
 
         Args:
-            timeout_sec: None or negative waits until the context is shut down.
+            timeout_sec: None or negative waits without a limit.
 
         Returns:
-            Whether a server is there.
+            True if a server is there, False after the timeout.
+
+        Raises:
+            RCLError: The context was shut down, before or during the wait.
         """
         timeout_ns = (
             None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1_000_000_000)
@@ -224,7 +249,10 @@ class ActionClient(Waitable, Generic[ActionT_co]):
 
     def _look_for_server(self) -> bool:
         """Return True if a server is there; logs once why one that is there is not called."""
-        return self._goal_client._look_for_server() and self.server_is_ready()
+        if self.server_is_ready():
+            return True
+        self._goal_client._look_for_server()
+        return False
 
     def send_goal_async(
         self: ActionClient[Action[GoalT, ResultT, FeedbackT]],
@@ -236,9 +264,8 @@ class ActionClient(Waitable, Generic[ActionT_co]):
 
         Args:
             goal: The goal.
-            feedback_callback: Called with each feedback message (``.feedback``, ``.goal_id``), not
-                that which was sent after
-                the program got the result.
+            feedback_callback: Called with each feedback message (``.feedback``, ``.goal_id``),
+                except messages sent after the program got the result.
             goal_uuid: Identifies the goal; None takes a random one.
 
         Returns:
@@ -252,11 +279,12 @@ class ActionClient(Waitable, Generic[ActionT_co]):
                 f"A goal of action '{self._action_name}' is a "
                 f"{self._action_type.__name__}.Goal(), not {described(goal)}"
             )
-            raise with_hint(TypeError(), hint)
+            raise with_hint(self._wrong_goal(goal), hint)
         request = self._action_type.Impl.SendGoalService.Request(
             goal=goal, goal_id=goal_uuid or random_goal_id()
         )
         goal_id = goal_key(request.goal_id)
+        # Before the request, because feedback may arrive sooner than the response.
         if feedback_callback is not None:
             self._feedback_callbacks[goal_id] = feedback_callback
         future = Future()
@@ -264,7 +292,16 @@ class ActionClient(Waitable, Generic[ActionT_co]):
         call_when_done(response, lambda: self._on_goal_response(request.goal_id, response, future))
         return future
 
+    def _wrong_goal(self, goal: Any) -> TypeError:
+        """Return ROS 2's error; Jazzy's has no text, and later ones name the type's metaclass."""
+        if not since(KILTED):
+            return TypeError()
+        goal_type = self._action_type.Goal
+        expected = f"<class '{goal_type.__module__}.Metaclass_{goal_type.__name__}'>"
+        return TypeError(f"Expected goal type ({expected}) but received ({type(goal)})")
+
     def _on_goal_response(self, goal_id: Any, response: Future, future: Future) -> None:
+        # The program's done-callbacks run on the executor, not in the thread that got the response.
         self.add_future(future)
         error = response.exception()
         if error is not None:
@@ -330,6 +367,7 @@ class ActionClient(Waitable, Generic[ActionT_co]):
         return response
 
     def _on_result(self, goal_handle: ClientGoalHandle, response: Future) -> None:
+        # Not `exception()`, which would mark an error as retrieved by the program.
         if response.done() and not response.cancelled() and response._exception is None:
             goal_handle._status = response.result().status
             self._finished_ns[goal_key(goal_handle.goal_id)] = time.time_ns()
@@ -341,6 +379,7 @@ class ActionClient(Waitable, Generic[ActionT_co]):
     def _on_feedback(self, message: Any, info: MessageInfo) -> Any:
         key = goal_key(message.goal_id)
         sent_ns = info["source_timestamp"]
+        # Sent after the result arrived: the program has finished with the goal.
         if sent_ns > self._finished_ns.get(key, sent_ns):
             return None
         callback = self._feedback_callbacks.get(key)

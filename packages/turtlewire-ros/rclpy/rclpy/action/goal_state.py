@@ -12,7 +12,7 @@ __all__ = ["ACTIVE_STATES", "GoalEvent", "next_state", "state_name"]
 _ACCEPTED, _EXECUTING, _CANCELING, _SUCCEEDED, _CANCELED, _ABORTED = 1, 2, 3, 4, 5, 6
 _NAMES = ("UNKNOWN", "ACCEPTED", "EXECUTING", "CANCELING", "SUCCEEDED", "CANCELED", "ABORTED")
 
-#: In these a goal is not finished.
+#: The states of an unfinished goal.
 ACTIVE_STATES = frozenset({_ACCEPTED, _EXECUTING, _CANCELING})
 
 
@@ -39,7 +39,7 @@ _TRANSITIONS = {
 
 
 def state_name(state: int) -> str:
-    """For example ``EXECUTING``."""
+    """Return the name of a state, for example ``EXECUTING``."""
     return _NAMES[state]
 
 

@@ -11,22 +11,25 @@ from rclpy._node.endpoints import endpoints_of
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.executors import await_or_execute
 from rclpy.impl.hints import described, with_hint
+from rclpy.impl.reexports import reexports
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from rclpy.service import Service
 from rclpy.timer import Timer
 from rclpy.type_support import check_for_type_support
 from rclpy.waitable import Waitable
+from turtlewire.distro import KILTED, since
 from turtlewire.msg import get_message
 
 from ._goal_ids import goal_key
 from ._goals import Goal, Goals
+from ._introspection import IntrospectedAction
 from .goal_state import GoalEvent
 from .server_goal_handle import ServerGoalHandle
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from rclpy._execution.entity import Host
+    from rclpy._execution.entity import EntityHost
     from rclpy.callback_groups import CallbackGroup
     from rclpy.node import Node
     from rclpy.publisher import Publisher
@@ -44,8 +47,11 @@ __all__ = [
     "default_handle_accepted_callback",
 ]
 
-_DEFAULT_RESULT_TIMEOUT_S = 900
+__getattr__ = reexports(__name__, {"action_msgs.msg": ("GoalInfo", "GoalStatus")})
+
+_DEFAULT_RESULT_TIMEOUT_S = 10 if since(KILTED) else 900
 _DEFAULT_FEEDBACK_QOS = QoSProfile(depth=10)
+_DOES_NOTHING = "Not handling nor executing the goal, this server will do nothing"
 
 
 class GoalResponse(Enum):
@@ -80,13 +86,17 @@ def default_handle_accepted_callback(goal_handle: ServerGoalHandle) -> None:
     goal_handle.execute()
 
 
+def _leave_waiting(goal_handle: ServerGoalHandle) -> None:
+    """Do nothing: the server has no callback that could execute the goal."""
+
+
 # Likewise.
 def default_cancel_callback(cancel_request: ServerGoalHandle) -> CancelResponse:  # noqa: ARG001
     """Reject."""
     return CancelResponse.REJECT
 
 
-class ActionServer(Waitable):
+class ActionServer(IntrospectedAction, Waitable):
     """Executes goals of an action.
 
     Args:
@@ -94,9 +104,9 @@ class ActionServer(Waitable):
         action_type: The action class.
         action_name: Name of the action.
         execute_callback: Called with a :class:`ServerGoalHandle`, returns the result; may be
-            ``async``.
-        callback_group: Of the other callbacks; None takes the node's default. Executions run beside
-            all groups.
+            ``async``. None: the program ends each goal by its handle.
+        callback_group: Of the other callbacks; None takes the node's default. Executions run
+            outside of all groups.
         goal_callback: Called with the goal, decides whether it is accepted (default: yes).
         handle_accepted_callback: Called with the handle of an accepted goal (default: executes it).
         cancel_callback: Called with the handle of a goal that a client wants cancelled, decides
@@ -114,7 +124,7 @@ class ActionServer(Waitable):
         node: Node,
         action_type: Any,
         action_name: str,
-        execute_callback: Callable[[ServerGoalHandle], Any],
+        execute_callback: Callable[[ServerGoalHandle], Any] | None = None,
         *,
         callback_group: CallbackGroup | None = None,
         goal_callback: Callable[[Any], Any] | None = default_goal_callback,
@@ -140,9 +150,16 @@ class ActionServer(Waitable):
         self._expires_ns: int | None = None
         self._result_timeout_ns = int(result_timeout * 1_000_000_000)
         self.register_goal_callback(goal_callback)
+        if execute_callback is None and handle_accepted_callback in (
+            None,
+            default_handle_accepted_callback,
+        ):
+            self._logger.warning(_DOES_NOTHING)
+            handle_accepted_callback = _leave_waiting
         self.register_handle_accepted_callback(handle_accepted_callback)
         self.register_cancel_callback(cancel_callback)
-        self.register_execute_callback(execute_callback)
+        if execute_callback is not None:
+            self.register_execute_callback(execute_callback)
         self._make_endpoints(
             goal_service_qos_profile,
             result_service_qos_profile,
@@ -186,7 +203,8 @@ class ActionServer(Waitable):
             context=self._node.context,
             autostart=False,
         )
-        self._parts = [self._goal_service, self._cancel_service, self._result_service, self._expiry]
+        self._services = (self._goal_service, self._cancel_service, self._result_service)
+        self._parts = [*self._services, self._expiry]
 
     def _make_service(
         self, service_type: Any, name: str, callback: Callable[..., Any], qos: QoSProfile
@@ -201,12 +219,12 @@ class ActionServer(Waitable):
         """The action class."""
         return self._action_type
 
-    def register_goal_callback(self, goal_callback: Callable[[Any], Any] | None) -> None:
+    def register_goal_callback(self, goal_callback: Callable[[Any], Any] | None = None) -> None:
         """Replace the goal callback; None takes the default."""
         self._goal_callback = goal_callback or default_goal_callback
 
     def register_handle_accepted_callback(
-        self, handle_accepted_callback: Callable[[ServerGoalHandle], Any] | None
+        self, handle_accepted_callback: Callable[[ServerGoalHandle], Any] | None = None
     ) -> None:
         """Replace the callback for accepted goals; None takes the default."""
         self._handle_accepted_callback = (
@@ -214,7 +232,7 @@ class ActionServer(Waitable):
         )
 
     def register_cancel_callback(
-        self, cancel_callback: Callable[[ServerGoalHandle], Any] | None
+        self, cancel_callback: Callable[[ServerGoalHandle], Any] | None = None
     ) -> None:
         """Replace the cancel callback; None takes the default."""
         self._cancel_callback = cancel_callback or default_cancel_callback
@@ -234,6 +252,7 @@ class ActionServer(Waitable):
     # Goals
 
     async def _on_goal(self, header: RequestId, request: Any) -> None:
+        # A goal with an id that is in use is rejected without asking the program.
         is_new = self._goals.find(goal_key(request.goal_id)) is None
         accepted = is_new and await self._is_accepted(request.goal)
         response = self._action_type.Impl.SendGoalService.Response(accepted=accepted)
@@ -246,6 +265,7 @@ class ActionServer(Waitable):
         )
         goal = Goal(info, request.goal)
         goal_handle = ServerGoalHandle(self, goal, self._goals)
+        # Before the response: the client may ask for the result at once.
         self._goals.add(goal, goal_handle)
         self._goal_service._send_unless_destroyed(response, header)
         self._goals.publish_statuses()
@@ -262,7 +282,7 @@ class ActionServer(Waitable):
     def notify_execute(
         self,
         goal_handle: ServerGoalHandle,
-        execute_callback: Callable[[ServerGoalHandle], Any] | None,
+        execute_callback: Callable[[ServerGoalHandle], Any] | None = None,
     ) -> None:
         """Execute a goal on the executor; None takes the execute callback of the server.
 
@@ -271,6 +291,7 @@ class ActionServer(Waitable):
         goal = self._goals.find(goal_key(goal_handle.goal_id))
         callback = execute_callback or self._execute_callback
         execution = partial(self._execute_goal, callback, goal_handle, goal)
+        # Otherwise `_attach` could empty the list just before the execution is added to it.
         with self._lock:
             host = self._serving_host()
             if host is None:
@@ -278,7 +299,7 @@ class ActionServer(Waitable):
                 return
         host.create_task(execution)
 
-    def _attach(self, host: Host) -> None:
+    def _attach(self, host: EntityHost) -> None:
         super()._attach(host)
         with self._lock:
             waiting, self._waiting_executions = self._waiting_executions, []
@@ -298,6 +319,7 @@ class ActionServer(Waitable):
         # The client has to get an answer.
         except Exception as error:  # noqa: BLE001
             result = self._action_type.Result()
+            # A shutdown makes calls of the callback fail: that is not the callback's mistake.
             if isinstance(error, RCLError) and not self._node.context.is_open():
                 why = "Goal not finished: the context was shut down."
             else:
@@ -307,10 +329,14 @@ class ActionServer(Waitable):
             goal_handle.abort()
         if goal is None:  # destroyed before it was executed: no client can ask for its result
             return
-        response = self._action_type.Impl.GetResultService.Response(
-            status=goal_handle.status, result=result
-        )
-        goal.result.set_result(response)
+        self._send_goal_result(goal, result)
+
+    def _send_goal_result(self, goal: Goal, result: Any) -> None:
+        """Answer the clients that wait for the result, now and later; the first result counts."""
+        if not goal.result.done():
+            goal.result.set_result(
+                self._action_type.Impl.GetResultService.Response(status=goal.status, result=result)
+            )
 
     def _check_result(self, result: Any) -> None:
         if result is not None and not isinstance(result, self._action_type.Result):
@@ -327,7 +353,7 @@ class ActionServer(Waitable):
         traceback.print_exception(error)
 
     def notify_goal_done(self) -> None:
-        """A goal has finished: see to it that its result is dropped in time."""
+        """Schedule the expiry of a finished goal's result."""
         self._schedule_expiry()
 
     # Results
@@ -335,6 +361,9 @@ class ActionServer(Waitable):
     def _on_result(self, header: RequestId, request: Any) -> None:
         goal = self._goals.find(goal_key(request.goal_id))
         if goal is None:
+            # An empty response has the status UNKNOWN: the goal never existed, or has expired.
+            log = self._logger.warning if since(KILTED) else self._logger.debug
+            log(f"Sending result response for unknown or expired goal ID: {request.goal_id.uuid}")
             self._result_service._send_unless_destroyed(
                 self._action_type.Impl.GetResultService.Response(), header
             )
@@ -353,7 +382,7 @@ class ActionServer(Waitable):
             self._expiry.cancel()
             return
         expires_ns = first_end_ns + self._result_timeout_ns
-        if expires_ns != self._expires_ns:  # it is set already for most goals that end
+        if expires_ns != self._expires_ns:  # for most goals that end, the timer is set already
             self._expires_ns = expires_ns
             self._expiry.timer_period_ns = max(0, expires_ns - self._now_ns())
             self._expiry.reset()
@@ -370,8 +399,10 @@ class ActionServer(Waitable):
         wanted, response.return_code = self._goals.to_cancel(request.goal_info, response)
         for goal, goal_handle in wanted:
             decision = await await_or_execute(self._cancel_callback, goal_handle)
+            # The goal may have ended while the callback decided.
             if decision is not CancelResponse.ACCEPT or not goal.is_active:
                 continue
+            # A second request gets the same answer without another transition.
             if not goal_handle.is_cancel_requested:
                 self._goals.advance(goal, GoalEvent.CANCEL_GOAL)
             response.goals_canceling.append(goal.info)

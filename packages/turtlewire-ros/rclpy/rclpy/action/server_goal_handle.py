@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from turtlewire.distro import LYRICAL, since
+
 from .goal_state import GoalEvent
 
 if TYPE_CHECKING:
@@ -13,6 +15,10 @@ if TYPE_CHECKING:
     from .server import ActionServer
 
 __all__ = ["ServerGoalHandle"]
+
+
+_EXECUTING = 2
+_IGNORED_FEEDBACK = "publish_feedback() called on a goal handle not in executing state, ignoring"
 
 
 class ServerGoalHandle:
@@ -47,7 +53,7 @@ class ServerGoalHandle:
     @property
     def is_cancel_requested(self) -> bool:
         """True if a client wants it cancelled, and the cancel callback agreed."""
-        return self._goal.status == 3
+        return self._goal.status == 3  # CANCELING
 
     @property
     def status(self) -> int:
@@ -56,34 +62,50 @@ class ServerGoalHandle:
 
     def execute(self, execute_callback: Callable[[ServerGoalHandle], Any] | None = None) -> None:
         """Execute the goal with ``execute_callback``, or with the server's callback."""
+        # As in ROS 2, a goal that was cancelled before its execution is executed all the same, so
+        # that the callback can end it, but it cannot go back to EXECUTING.
         if not self.is_cancel_requested:
             self._goals.advance(self._goal, GoalEvent.EXECUTE)
         self._action_server.notify_execute(self, execute_callback)
 
     def publish_feedback(self, feedback: Any) -> None:
-        """Send feedback.
+        """Send feedback; in Lyrical, only while the goal is executed.
 
         Raises:
             TypeError: ``feedback`` is not a ``Feedback`` of the action.
         """
+        if since(LYRICAL) and self._goal.status != _EXECUTING:
+            self._action_server._logger.warning(_IGNORED_FEEDBACK)
+            return
         self._goals.publish_feedback(self._goal, feedback)
 
-    def succeed(self) -> None:
-        """The goal is reached; RCLError when it is finished already."""
-        self._finish(GoalEvent.SUCCEED)
+    def executing(self) -> None:
+        """Mark a goal as executed by the program itself; once it is, this does nothing."""
+        if self._goal.status != _EXECUTING:
+            self._goals.advance(self._goal, GoalEvent.EXECUTE)
 
-    def abort(self) -> None:
-        """The goal is given up; RCLError when it is finished already."""
-        self._finish(GoalEvent.ABORT)
+    def succeed(self, response: Any = None) -> None:
+        """Mark the goal as succeeded; raise RCLError if it is finished already.
 
-    def canceled(self) -> None:
-        """The goal is cancelled as a client wanted; RCLError when none did."""
-        self._finish(GoalEvent.CANCELED)
+        Args:
+            response: The result, from a server without an execute callback.
+        """
+        self._finish(GoalEvent.SUCCEED, response)
+
+    def abort(self, response: Any = None) -> None:
+        """Mark the goal as aborted, as `succeed` does; raise RCLError if it is finished already."""
+        self._finish(GoalEvent.ABORT, response)
+
+    def canceled(self, response: Any = None) -> None:
+        """Mark the goal as cancelled, as `succeed` does; raise RCLError if no client wanted it."""
+        self._finish(GoalEvent.CANCELED, response)
 
     def destroy(self) -> None:
         """Forget the goal."""
         self._goals.forget(self._goal.key)
 
-    def _finish(self, event: GoalEvent) -> None:
+    def _finish(self, event: GoalEvent, result: Any) -> None:
         self._goals.advance(self._goal, event)
+        if result is not None:
+            self._action_server._send_goal_result(self._goal, result)
         self._action_server.notify_goal_done()

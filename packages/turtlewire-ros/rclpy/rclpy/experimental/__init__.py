@@ -1,5 +1,36 @@
-"""What ROS 2 calls experimental."""
+"""What ROS 2 calls experimental: nodes for asyncio, and the executor that is driven by events.
 
+======================  ==========================================================================
+module                  what it holds
+======================  ==========================================================================
+`async_node`            `AsyncNode`
+`async_publisher`       its publishers, and in modules named likewise:
+`async_subscription`    subscriptions, to be iterated as well
+`async_service`         services
+`async_client`          clients, whose calls are awaited
+`async_timer`           timers
+`async_clock`           its clock, whose sleeps are awaited
+`_async_entity`         what runs the callbacks of all of them
+`events_executor`       `EventsExecutor`
+======================  ==========================================================================
+"""
+
+from .async_client import AsyncClient
+from .async_clock import AsyncClock
+from .async_node import AsyncNode
+from .async_publisher import AsyncPublisher
+from .async_service import AsyncService
+from .async_subscription import AsyncSubscription
+from .async_timer import AsyncTimer
 from .events_executor import EventsExecutor
 
-__all__ = ["EventsExecutor"]
+__all__ = [
+    "AsyncClient",
+    "AsyncClock",
+    "AsyncNode",
+    "AsyncPublisher",
+    "AsyncService",
+    "AsyncSubscription",
+    "AsyncTimer",
+    "EventsExecutor",
+]

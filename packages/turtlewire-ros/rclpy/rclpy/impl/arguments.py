@@ -150,6 +150,7 @@ class Arguments:
             UnknownROSArgsError: A block contains a word that is not a flag.
             UnicodeEncodeError: An argument holds bytes that are not UTF-8.
         """
+        # Raises for arguments with bytes that are not UTF-8 before any of them takes effect.
         for argument in argv:
             argument.encode()
         try:
@@ -179,7 +180,9 @@ class Arguments:
         Remap rules and parameters of these win.
         """
         both = Arguments()
+        # Everything but rules and parameters is the node's own.
         both.__dict__.update(self.__dict__)
+        # The first rule that applies wins, but the last value of a parameter.
         both.rules = self.rules + other.rules
         both.parameter_maps = other.parameter_maps + self.parameter_maps
         return both
@@ -295,6 +298,7 @@ class Arguments:
 
         fault = names.validate_namespace(name)
         if fault is not None:
+            # ROS 2's texts for enclaves call them context names.
             message = fault.message.replace("namespace", "context name")
             raise ValueError(
                 f"Enclave name is not valid: '{message}'. Invalid index: {fault.invalid_index}"

@@ -5,7 +5,7 @@ status stays that of an interrupted program. The same goes for threads that spin
 ``ExternalShutdownException`` is how they learn of the signal, not a fault. An unreadable command
 line is reported in one line, and so are settings with which no context can be opened. Where Python
 drops exceptions, within a destructor or a callback of a weak reference (at the end of each import
-there is one), Ctrl-C is raised again right behind.
+there is one), Ctrl-C is raised again right afterwards.
 """
 
 from __future__ import annotations
@@ -16,6 +16,8 @@ import signal
 import sys
 import threading
 from typing import TYPE_CHECKING
+
+from turtlewire.package_sources import explain_missing_modules
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -32,7 +34,7 @@ _dropping = threading.Lock()
 
 
 def install() -> None:
-    """Put the hooks before those that are in place. Idempotent."""
+    """Install the hooks, which call the hooks that were in place. Idempotent."""
     global _previous_hook, _previous_thread_hook
     if sys.excepthook is not _hook:
         _previous_hook, sys.excepthook = sys.excepthook, _hook
@@ -41,10 +43,7 @@ def install() -> None:
 
 
 def note_signal() -> None:
-    """A signal has come that shuts contexts down.
-
-    Errors that follow from it are not the program's fault.
-    """
+    """Note a signal that shuts contexts down: errors that follow from it are not the program's."""
     global _signal_came  # noqa: PLW0603 - as above
     _signal_came = True
 
@@ -104,11 +103,12 @@ def _unraisable_hook(arguments: sys.UnraisableHookArgs) -> None:
 def _interrupt_again() -> None:
     with _dropping:  # the main thread keeps the interpreter until it is out of the hook
         pass
-    if hasattr(signal, "pthread_kill"):  # it ends a wait of the main thread, too
+    if hasattr(signal, "pthread_kill"):  # it also ends a wait of the main thread
         signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGINT)
     else:
         _thread.interrupt_main()
 
 
+explain_missing_modules()  # before `install`, whose hook calls the one that it finds
 sys.unraisablehook = _unraisable_hook
 install()  # at once: most of what a node does in its first moments is importing

@@ -61,6 +61,7 @@ class FailedLookups:
         if last is not None and now < last.shown_ns + _PERIOD_NS:
             self._reports[key] = last._replace(left_out=last.left_out + 1)
             return Shown(line=False)
+        # At the end of the dictionary, which is in the order of the last reports.
         self._reports[key] = _Report(now)
         if len(self._reports) > _MOST_ERRORS:
             del self._reports[next(iter(self._reports))]

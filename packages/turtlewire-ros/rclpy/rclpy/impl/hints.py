@@ -1,4 +1,4 @@
-"""Help beside the texts that ROS 2 defines."""
+"""Hints in addition to the texts that ROS 2 defines."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def described(value: Any) -> str:
 def require(value: object, kind: type) -> None:
     """Raise the AssertionError that ROS 2 raises for a value of another type.
 
-    Unlike an ``assert`` statement it works under ``python -O``, too.
+    Unlike an ``assert`` statement, it also works under ``python -O``.
     """
     if not isinstance(value, kind):
         raise AssertionError(  # noqa: TRY004 - ROS 2's error

@@ -58,6 +58,7 @@ class LineFormat:
 
     def line(self, record: LogRecord) -> str:
         """Return the text of ``record``, without a newline at its end."""
+        # Without a loop over parts, because nearly every program logs in this format.
         if self._is_default:
             return (
                 f"[{_SEVERITY_NAMES[record.severity]}] [{_time(record)}] [{record.name}]: "

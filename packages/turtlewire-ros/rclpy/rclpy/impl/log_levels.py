@@ -1,8 +1,7 @@
 """The level of each logger. Thread-safe.
 
-A logger without a level inherits that of its nearest ancestor (``a`` is the parent of ``a.b``),
-else
-the default.
+A logger without a level inherits the level of its nearest ancestor (``a`` is the parent of
+``a.b``), else the default.
 """
 
 from __future__ import annotations
@@ -14,7 +13,7 @@ from .logging_severity import LoggingSeverity
 __all__ = ["effective", "own", "reset", "set_level"]
 
 _lock = threading.Lock()
-#: That of the empty name is the default of all loggers.
+#: The level of the empty name is the default of all loggers.
 _own: dict[str, int] = {"": LoggingSeverity.INFO.value}
 #: What :func:`effective` has found; emptied at every change, so that a disabled message costs one
 #: look-up.
@@ -42,6 +41,7 @@ def own(name: str) -> int:
 
 def effective(name: str) -> int:
     """Return the level that decides about a message of this logger."""
+    # Without the lock: a single look-up is atomic, and most messages end here.
     level = _effective.get(name)
     return _find(name) if level is None else level
 

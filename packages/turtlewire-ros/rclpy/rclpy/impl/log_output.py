@@ -66,9 +66,8 @@ class _Console:
         self.enabled = True
         self.format = LineFormat(os.environ.get("RCUTILS_CONSOLE_OUTPUT_FORMAT") or None)
         self._fd = _STDOUT_FD if _flag("RCUTILS_LOGGING_USE_STDOUT") else _STDERR_FD
-        _flag(
-            "RCUTILS_LOGGING_BUFFERED_STREAM"
-        )  # each line is one write anyway; an invalid value is still reported
+        # Each line is one write anyway, but an invalid value is still reported.
+        _flag("RCUTILS_LOGGING_BUFFERED_STREAM")
         coloured = _flag("RCUTILS_COLORIZED_OUTPUT")
         self._coloured = (
             os.isatty(self._fd) and not os.environ.get("NO_COLOR") if coloured is None else coloured
@@ -96,6 +95,7 @@ class _File:
         if self._fd is None and not self._failed:
             self._open()
         if self._fd is not None and not _write_line(self._fd, line) and not self._failed:
+            # Reported once, because on a full disk every line fails.
             self._failed = True
             _write_line(_STDERR_FD, "Lines are missing in the log file: the disk may be full.")
 
@@ -163,8 +163,8 @@ def configure(
     A context calls it when it starts.
 
     Args:
-        levels: Logger name to severity; the empty name means those that neither have nor inherit
-            one. Other levels stay.
+        levels: Logger name to severity; the empty name sets the default of all loggers. Other
+            levels stay.
         console: Whether to write to the console.
         rosout: Whether to publish to ``/rosout``.
         file: Whether to write a log file.
@@ -256,9 +256,11 @@ def _flag(variable: str) -> bool | None:
 
 def _write_line(fd: int, line: str) -> bool:
     """Write a line; False if it could not be written."""
+    # Messages may contain surrogates, for example from file names; logging must not raise.
     data = f"{line}\n".encode(errors="backslashreplace")
     try:
         while data:
+            # A write to a full pipe or disk may be partial.
             data = data[os.write(fd, data) :]
     except OSError:
         return False

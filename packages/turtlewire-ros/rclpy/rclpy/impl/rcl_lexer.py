@@ -24,6 +24,7 @@ class Lexeme(IntEnum):
     NODE = 6
     NS = 7
     SEPARATOR = 8
+    # One for each digit: ROS 2 numbers them from 9 to 17.
     BACKREFERENCE = 9
     TOKEN = 18
     FORWARD_SLASH = 19
@@ -32,6 +33,7 @@ class Lexeme(IntEnum):
     DOT = 22
 
 
+# As in ROS 2, a token has no two underscores in a row.
 _PATTERN = re.compile(
     r"(?P<TILDE_SLASH>~/)|(?P<URL_SERVICE>rosservice://)|(?P<URL_TOPIC>rostopic://)|(?P<SEPARATOR>:=)|(?P<COLON>:)"
     r"|(?P<NODE>__node|__name)|(?P<NS>__ns)|(?P<BACKREFERENCE>\\[1-9])|(?P<TOKEN>(?:[A-Za-z]_?|_(?!_))(?:[0-9A-Za-z]_?)*)"

@@ -50,7 +50,7 @@ def remap(
     """Return the new name by the first rule that applies, or ``name`` itself.
 
     Args:
-        rules: Those that win first.
+        rules: The rules, in order of precedence.
         kind: What ``name`` is, a single flag.
         name: Fully qualified for topics and services.
         node_name: Name of the node after its own renaming, except when that is what is asked for.
@@ -98,6 +98,7 @@ def _new_node_name(lexer: Lexer) -> str:
     lexer.expect(Lexeme.NODE)
     lexer.expect(Lexeme.SEPARATOR)
     if lexer.peek() != Lexeme.TOKEN:
+        # ROS 2 logs this, and then raises the error of `expect`.
         _warn(f"Node name not remapped to invalid name: '{lexer.rest}'")
     return lexer.expect(Lexeme.TOKEN)
 

@@ -3,16 +3,19 @@
 No aliases, no mixed sequences, no nulls.
 
 A plain scalar is a bool, else an integer, else a float, else a string; a quoted one is always a
-string.
+string. In Lyrical, tags such as ``!!float`` choose the type; before, only ``!!str`` did.
 """
 
 from __future__ import annotations
 
 import re
-from contextlib import contextmanager
+from base64 import b64decode
+from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING
 
 import yaml
+
+from turtlewire.distro import LYRICAL, since
 
 from .rcl_lexer import RuleError
 
@@ -21,12 +24,17 @@ if TYPE_CHECKING:
 
 __all__ = ["ParameterValue", "parse_file", "parse_value"]
 
-ParameterValue = bool | int | float | str | list[bool] | list[int] | list[float] | list[str]
+ParameterValue = (
+    bool | int | float | str | list[bytes] | list[bool] | list[int] | list[float] | list[str]
+)
+_Scalar = bool | int | float | str | list[bytes]
 
 _PARAMETERS_KEY = "ros__parameters"
-_STRING_TAG = "tag:yaml.org,2002:str"
+_TAGS = "tag:yaml.org,2002:"
+_BINARY_TAG, _STRING_TAG = f"{_TAGS}binary", f"{_TAGS}str"
 _TRUE = frozenset({"Y", "y", "yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON"})
 _FALSE = frozenset({"N", "n", "no", "No", "NO", "false", "False", "FALSE", "off", "Off", "OFF"})
+# As C's strtol with base 0 reads them: a leading zero means octal.
 _INT = re.compile(r"[+-]?(?:0[xX][0-9a-fA-F]+|0[0-7]*|[1-9][0-9]*)")
 _FLOAT = re.compile(
     r"[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|inf(?:inity)?|nan)", re.IGNORECASE
@@ -39,6 +47,7 @@ _DOTTED = re.compile(r"[+-]?\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN)")
 _LONGEST_INT = 100
 #: Names within names; far beyond any real file, and before Python's own limit.
 _DEEPEST = 100
+_TAGGED = {"bool": bool, "int": int, "float": float}
 _TYPE_NAMES = {bool: "bool", int: "integer", float: "double", str: "string"}
 
 
@@ -159,11 +168,17 @@ class _Parser:
                     f"{self._line}\n"
                 )
 
+    def _check_tag(self, event: yaml.CollectionStartEvent, *known: str) -> None:
+        """Reject another tag of a sequence or mapping than those that are known."""
+        if since(LYRICAL) and event.tag not in {None, "!", *known}:
+            raise RuleError(f'Unsupport tag "{event.tag}" at line {self._line}')
+
     def _parameters(self, parameters: dict[str, ParameterValue], prefix: str) -> None:
         for key in self._keys():
             name = f"{prefix}.{key}" if prefix else key
             event = next(self._events)
             if isinstance(event, yaml.MappingStartEvent):
+                self._check_tag(event, f"{_TAGS}map")
                 with self._one_level_down():
                     self._parameters(parameters, name)
             else:
@@ -172,12 +187,19 @@ class _Parser:
     def _value(self, event: yaml.Event) -> ParameterValue:
         if isinstance(event, yaml.ScalarEvent):
             return self._scalar(event)
-        values: list[bool | int | float | str] = []
+        assert isinstance(event, yaml.SequenceStartEvent)
+        self._check_tag(event, f"{_TAGS}seq", _BINARY_TAG)
+        values: list[_Scalar] = []
         for item in self._events:
             if isinstance(item, yaml.SequenceEndEvent):
                 return values  # type: ignore[return-value]  # the types have been compared
             if not isinstance(item, yaml.ScalarEvent):
                 raise RuleError(f"Sequences can only hold plain values. Error at line {self._line}")
+            if since(LYRICAL) and _BINARY_TAG in {event.tag, item.tag}:
+                raise RuleError(
+                    "Byte array must be encoded as a base64 string, not a sequence, cannot parse "
+                    f"value {item.value} at line {self._line}"
+                )
             value = self._scalar(item)
             if values and type(value) is not type(values[0]):
                 text = (
@@ -188,12 +210,32 @@ class _Parser:
             values.append(value)
         raise AssertionError("a sequence ends with its end event")
 
-    def _scalar(self, event: yaml.ScalarEvent) -> bool | int | float | str:
-        if event.style in {"'", '"'} or event.tag == _STRING_TAG:
+    def _scalar(self, event: yaml.ScalarEvent) -> _Scalar:
+        if event.tag == _STRING_TAG:
+            return str(event.value)
+        if since(LYRICAL) and event.tag not in {None, "!"}:
+            return self._tagged_scalar(event)
+        if event.style in {"'", '"'}:
             return str(event.value)
         if not event.value:
             raise RuleError(f"No value at line {self._line}")
         return _plain_scalar(event.value)
+
+    def _tagged_scalar(self, event: yaml.ScalarEvent) -> _Scalar:
+        """Return the value of the type that a tag names, however the value is written."""
+        kind, text = (event.tag or "").removeprefix(_TAGS), event.value
+        if event.tag == _BINARY_TAG:
+            with suppress(ValueError):  # binascii's error is one
+                return [bytes([byte]) for byte in b64decode("".join(text.split()), validate=True)]
+        elif kind in _TAGGED:
+            value = _plain_scalar(text)
+            if kind == "float" and type(value) is int:
+                return float(value)
+            if type(value) is _TAGGED[kind]:
+                return value
+        elif kind not in {"seq", "map"}:
+            raise RuleError(f'Unsupport tag "{event.tag}" at line {self._line}')
+        raise RuleError(f"Error parsing value {text} at line {self._line}")
 
 
 def _plain_scalar(text: str) -> bool | int | float | str:
@@ -205,9 +247,11 @@ def _plain_scalar(text: str) -> bool | int | float | str:
         value = int(
             text, 0 if "x" in text.lower() else 8 if text.lstrip("+-").startswith("0") else 10
         )
+        # Beyond 64 bits it becomes a float, as in ROS 2.
         if -(2**63) <= value < 2**63:
             return value
     if _DOTTED.fullmatch(text):
+        # strtod, which ROS 2 uses, and Python write `.inf` and `.nan` without the point.
         return float(text.replace(".", ""))
     if _FLOAT.fullmatch(text) or _HEX_FLOAT.fullmatch(text):
         return _float(text)

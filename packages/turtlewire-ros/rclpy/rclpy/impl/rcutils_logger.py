@@ -5,8 +5,11 @@ from __future__ import annotations
 import sys
 import threading
 import time
+import warnings
 from collections import OrderedDict
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+
+from turtlewire.distro import KILTED, LYRICAL, since
 
 from . import log_levels, log_output
 from .failed_lookups import FailedLookups, Shown
@@ -29,6 +32,7 @@ __all__ = [
 ]
 
 _DEBUG, _INFO, _WARN, _ERROR, _FATAL = 10, 20, 30, 40, 50
+_DEPRECATED_WARN = "Deprecated in favor of :py:classmethod:RcutilsLogger.warning:."
 
 
 class _Moment(NamedTuple):
@@ -135,7 +139,7 @@ class SkipFirst(LoggingFilter):
         return bool(skipped)
 
 
-#: In the order in which they are asked; a message that one holds back is unknown to the next.
+#: Asked in this order; the next filter does not see a message that one holds back.
 supported_filters: OrderedDict[str, type[LoggingFilter]] = OrderedDict(
     throttle=Throttle, skip_first=SkipFirst, once=Once
 )
@@ -155,6 +159,7 @@ def get_filters_from_kwargs(**kwargs: Any) -> list[str]:
     for name in detected:
         for param, default in supported_filters[name].params.items():
             if default is None and param not in kwargs:
+                # ROS 2's text, with its doubled word.
                 raise TypeError(
                     f'required parameter "{param}" not specified but is required for the the '
                     f'logging filter "{name}"'
@@ -240,8 +245,8 @@ class RcutilsLogger:
     * ``skip_first``: not the first message,
     * ``once``: only the first message,
 
-    and returns whether the message was written. A message that is no ``str`` is converted, unless
-    the level is off.
+    and returns whether the message was written. A message that is not a ``str`` is converted,
+    unless the level is off.
     """
 
     def __init__(self, name: str = "", namespace: str = "") -> None:
@@ -292,9 +297,14 @@ class RcutilsLogger:
         """Log with severity WARN."""
         return log_levels.effective(self.name) <= _WARN and self._log(message, _WARN, kwargs)
 
-    def warn(self, message: Any, **kwargs: Any) -> bool:
-        """Log with severity WARN."""
-        return log_levels.effective(self.name) <= _WARN and self._log(message, _WARN, kwargs)
+    # Lyrical has it no longer.
+    if not since(LYRICAL):
+
+        def warn(self, message: Any, **kwargs: Any) -> bool:
+            """Log with severity WARN; deprecated since Kilted."""
+            if since(KILTED):
+                warnings.warn(_DEPRECATED_WARN, DeprecationWarning, stacklevel=2)
+            return log_levels.effective(self.name) <= _WARN and self._log(message, _WARN, kwargs)
 
     def error(self, message: Any, **kwargs: Any) -> bool:
         """Log with severity ERROR."""
@@ -309,6 +319,7 @@ class RcutilsLogger:
         caller = CallerId()
         site = self._call_sites.get(caller)
         if site is None:
+            # Another thread may have entered the line since the look.
             site = self._call_sites.setdefault(caller, _CallSite(severity, name, options))
         else:
             site.check(severity, name, options)
@@ -328,10 +339,8 @@ class RcutilsLogger:
 
 
 def _encodable(text: str) -> str:
-    """``text`` with lone surrogates escaped, so that every output can take it.
-
-    They stand for undecodable bytes, of a file name for example.
-    """
+    """Escape lone surrogates, so that every output accepts the text."""
+    # They stand for undecodable bytes, for example of a file name.
     return text if text.isascii() else text.encode(errors="backslashreplace").decode()
 
 

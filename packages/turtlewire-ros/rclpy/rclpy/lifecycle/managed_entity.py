@@ -1,4 +1,4 @@
-"""What follows the states of a managed node."""
+"""Entities that follow the states of a managed node."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = ["ManagedEntity", "SimpleManagedEntity"]
 
 
 class ManagedEntity:
-    """An entity that takes part in the transitions of its node, and may refuse them."""
+    """An entity that takes part in the transitions of its node, and may reject them."""
 
     # The signature of a callback.
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
@@ -38,7 +38,7 @@ class ManagedEntity:
         return TransitionCallbackReturn.SUCCESS
 
     def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
-        """Return a transition failed."""
+        """Handle a failed transition."""
         return TransitionCallbackReturn.SUCCESS
 
 
@@ -69,7 +69,7 @@ class SimpleManagedEntity(ManagedEntity):
         *,
         when_not_enabled: Callable[..., Any] | None = None,
     ) -> Any:
-        """Decorator of a method that runs while the entity is enabled.
+        """Decorate a method that runs only while the entity is enabled.
 
         Otherwise ``when_not_enabled`` runs, or nothing.
         """

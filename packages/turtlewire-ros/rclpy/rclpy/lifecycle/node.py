@@ -107,8 +107,10 @@ class LifecycleNodeMixin(ManagedEntity):
     def __change_state(self, transition: Transition) -> TransitionCallbackReturn:
         before = self._state_machine.current_state
         self.__enter(transition.goal)
+        # As in ROS 2, the callback gets the state before the transition.
         outcome = self.__run_callback(before)
         self.__enter(self._state_machine.by_label(outcome.to_label()).goal)
+        # Now in the state errorprocessing: `on_error` decides between unconfigured and finalized.
         if outcome is TransitionCallbackReturn.ERROR:
             self.__enter(self._state_machine.by_label(self.__run_callback(before).to_label()).goal)
         return outcome
@@ -226,7 +228,7 @@ class LifecycleNodeMixin(ManagedEntity):
     # Managed entities
 
     def add_managed_entity(self, entity: ManagedEntity) -> None:
-        """Tell ``entity`` of transitions."""
+        """Let ``entity`` take part in transitions."""
         self._managed_entities.append(entity)
 
     def create_lifecycle_publisher(self, *args: Any, **kwargs: Any) -> LifecyclePublisher:
@@ -258,6 +260,7 @@ class LifecycleNodeMixin(ManagedEntity):
         wanted = request.transition
         try:
             machine = self._state_machine
+            # As in ROS 2, the label goes before the number.
             transition = (
                 machine.by_label(wanted.label) if wanted.label else machine.by_id(wanted.id)
             )

@@ -1,4 +1,4 @@
-"""The states of a managed node and the ways between them, with the numbers of lifecycle_msgs."""
+"""The states of a managed node and its transitions, with the numbers of lifecycle_msgs."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class TransitionCallbackReturn(Enum):
     ERROR = 99
 
     def to_label(self) -> str:
-        """For example ``transition_success``."""
+        """Return the label, for example ``transition_success``."""
         return f"transition_{self.name.lower()}"
 
 
@@ -37,7 +37,7 @@ class LifecycleState(NamedTuple):
 
 
 class Transition(NamedTuple):
-    """A way from one state to another."""
+    """A transition from one state to another."""
 
     transition_id: int
     label: str
@@ -94,7 +94,7 @@ _REPORTED = (
 
 
 def _all_transitions() -> list[Transition]:
-    """In the order of ROS 2: those that lead into a state come before those that leave it."""
+    """Return all transitions in ROS 2's order: first into a state, then out of it."""
     transitions: list[Transition] = []
     for start, first, *goals in _REPORTED:
         transitions += [
@@ -120,11 +120,11 @@ class StateMachine:
 
     @property
     def available_transitions(self) -> list[Transition]:
-        """The ways that lead on from here."""
+        """The transitions from the current state."""
         return [transition for transition in TRANSITIONS if transition.start == self.current_state]
 
     def by_label(self, label: str) -> Transition:
-        """Return the way of this name.
+        """Return the transition with this label.
 
         Raises:
             RCLError: The state has no transition with this label.
@@ -135,7 +135,7 @@ class StateMachine:
         )
 
     def by_id(self, transition_id: int) -> Transition:
-        """Return the way of this number; raises as :meth:`by_label`."""
+        """Return the transition with this number; raises as :meth:`by_label`."""
         ways = [
             transition
             for transition in self.available_transitions

@@ -102,6 +102,15 @@ def test_a_goal_with_feedback_and_result(serve, client, finish, spin_until):
     assert repr(handle).startswith("ClientGoalHandle <id=")
 
 
+def test_wait_for_server_raises_on_an_invalid_context(client, context):
+    context.shutdown()
+    text = "^Failed to check if action server is available: rcl node's context is invalid$"
+    with pytest.raises(RCLError, match=text):
+        client.wait_for_server(timeout_sec=1.0)
+    with pytest.raises(RCLError, match=text):
+        client.server_is_ready()
+
+
 def test_an_async_execution(serve, client, finish):
     gate = Future()
 
@@ -361,13 +370,21 @@ def test_blocking_calls(node, serve, client):
     spinning.join(60)
 
 
+def test_a_server_that_would_do_nothing_says_so(node, capfd):
+    server = ActionServer(node, Fibonacci, "fibonacci")
+    assert (
+        "Not handling nor executing the goal, this server will do nothing" in capfd.readouterr().err
+    )
+    server.destroy()
+
+
 def test_wrong_types(serve, client, node):
     with pytest.raises(TypeError):
         client.send_goal_async(Fibonacci.Result())
     with pytest.raises(TypeError, match="Expected type ClientGoalHandle but received"):
         client._cancel_goal_async("goal")
     with pytest.raises(TypeError, match="not callable"):
-        serve(None)
+        serve("count")
     with pytest.raises(AttributeError, match="_TYPE_SUPPORT"):
         ActionClient(node, int, "fibonacci")
     server = serve(count)

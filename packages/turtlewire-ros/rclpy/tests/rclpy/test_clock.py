@@ -5,6 +5,7 @@ import time
 
 import pytest
 
+from rclpy._rclpy_pybind11 import RCLError
 from rclpy.clock import Clock, ClockChange, ClockType, JumpHandle, JumpThreshold, ROSClock, TimeJump
 from rclpy.duration import Duration
 from rclpy.exceptions import NotInitializedException
@@ -54,6 +55,18 @@ def test_the_clock_type_decides_the_class():
     assert repr(ROSClock()) == "Clock(clock_type=ROS_TIME)"
     with pytest.raises(TypeError, match=r"^Clock type must be a ClockType enum$"):
         Clock(clock_type=1)
+
+
+@pytest.mark.parametrize("kind", [ClockType.SYSTEM_TIME, ClockType.STEADY_TIME])
+def test_only_ros_time_is_overridden(kind):
+    clock = Clock(clock_type=kind)
+    text = "failed to set ROS time override: Clock is not of type RCL_ROS_TIME, cannot set time"
+    with pytest.raises(RCLError, match=text) as caught:
+        clock.set_ros_time_override(Time(seconds=1))
+    assert "Clock(clock_type=ClockType.ROS_TIME)" in caught.value.hint
+    text = "failed to get ROS time override status: .* cannot query override state"
+    with pytest.raises(RCLError, match=text):
+        _ = clock.ros_time_is_active
 
 
 def test_each_clock_tells_its_time():

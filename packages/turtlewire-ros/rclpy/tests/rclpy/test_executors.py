@@ -593,6 +593,29 @@ def test_spinning_until_a_future_of_another_library_is_done(any_executor):
     assert future.done()
 
 
+def test_an_executor_knows_whether_it_spins(any_executor, context):
+    assert not any_executor.is_spinning
+    seen = any_executor.create_task(lambda: any_executor.is_spinning)
+    any_executor.spin_until_future_complete(seen, timeout_sec=60)
+    assert seen.result() is True
+    assert not any_executor.is_spinning
+    seen = []
+    any_executor.create_task(lambda: (seen.append(any_executor.is_spinning), context.shutdown()))
+    any_executor.spin()
+    assert seen == [True]
+    assert not any_executor.is_spinning
+
+
+def test_a_future_of_an_executor_runs_its_callbacks_there(executor):
+    future = executor.create_future()
+    threads = []
+    future.add_done_callback(lambda done: threads.append((done.result(), threading.get_ident())))
+    future.set_result(5)
+    assert threads == []
+    executor.spin_once(timeout_sec=60)
+    assert threads == [(5, threading.get_ident())]
+
+
 def test_two_threads_cannot_spin_one_executor(executor, spinning):
     spinning(executor)
     while not executor._rclpy_scheduler.is_spun():
@@ -614,6 +637,18 @@ def test_shutdown_waits_for_callbacks_of_other_threads(node, pool):
     assert not pool.shutdown(timeout_sec=0.05)
     leave.set()
     assert pool.shutdown(timeout_sec=60)
+
+
+@pytest.mark.parametrize("waits", [True, False])
+def test_shutdown_may_leave_the_threads_of_the_pool(pool, waits, monkeypatch):
+    waited = []
+
+    def note(*, wait):
+        waited.append(wait)
+
+    monkeypatch.setattr(pool._executor, "shutdown", note)
+    assert pool.shutdown(timeout_sec=60, wait_for_threads=waits)
+    assert waited == [False, waits]
 
 
 def test_shutdown_in_a_callback_ends_spin(node, any_executor):

@@ -40,7 +40,7 @@ def listener(buffer):
 
     def on_timer(source):
         try:
-            buffer.lookup_transform("world", source, 0)
+            buffer.lookup_transform("world", source, None)
         except TransformException as ex:
             return logger.info(f"Could not transform: {ex}")
 
@@ -95,7 +95,7 @@ def test_other_lines_are_left_alone(buffer, clock, capfd):
         try:
             if error:
                 raise error
-            buffer.lookup_transform("world", "camra", 0)
+            buffer.lookup_transform("world", "camra", None)
         except (ValueError, TransformException):
             for _ in range(3):
                 logger.info("the lookup failed")
@@ -118,5 +118,5 @@ def test_the_log_file_has_every_line(buffer, clock, monkeypatch, tmp_path):
 
 def test_a_turtle_that_is_still_to_come_is_no_typo(buffer):
     with pytest.raises(TransformException) as caught:
-        buffer.lookup_transform("turtle2", "turtle1", 0)
+        buffer.lookup_transform("turtle2", "turtle1", None)
     assert caught.value.hint.startswith("The frames are '")

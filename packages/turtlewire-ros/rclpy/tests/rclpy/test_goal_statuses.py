@@ -18,7 +18,7 @@ from unique_identifier_msgs.msg import UUID
 
 IDS = st.binary(min_size=16, max_size=16)
 STATES = st.integers(1, 6)
-#: Few different bytes, so that an id is found by chance across the records of others, too.
+#: Few different bytes, so that an id is also found by chance across the records of others.
 SIMILAR_IDS = st.lists(st.sampled_from([0, 1]), min_size=16, max_size=16).map(bytes)
 
 

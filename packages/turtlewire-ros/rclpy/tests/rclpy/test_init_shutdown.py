@@ -155,7 +155,8 @@ def test_shutdown_ends_a_wait_for_the_graph():
     node = Node("waiting")
     ending = threading.Timer(0.05, rclpy.shutdown)
     ending.start()
-    assert not node.wait_for_node("/nobody", -1)
+    with pytest.raises(RCLError, match="rcl node's context is invalid"):
+        node.wait_for_node("/nobody", -1)
     ending.join()
     assert not rclpy.ok()
 

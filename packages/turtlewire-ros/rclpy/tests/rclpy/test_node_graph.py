@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import threading
+from functools import partial
 
 import pytest
 
-from rclpy._rclpy_pybind11 import NodeNameNonExistentError
+from rclpy._rclpy_pybind11 import NodeNameNonExistentError, RCLError
 from rclpy.context import Context
+from rclpy.endpoint_info import EndpointTypeEnum
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointTypeEnum
@@ -136,6 +138,8 @@ def test_an_impossible_name_is_a_value_error(node, name):
         node.count_services,
         node.get_publishers_info_by_topic,
         node.get_subscriptions_info_by_topic,
+        node.get_clients_info_by_service,
+        node.get_servers_info_by_service,
     ):
         with pytest.raises(ValueError, match="is invalid"):
             ask(name)
@@ -158,7 +162,7 @@ def test_own_endpoints_are_counted_from_the_first_moment(node):
 
 
 def test_a_thread_that_waits_hears_of_what_another_has_asked_about(node):
-    """News that a question takes from the middleware reaches the listeners, too."""
+    """News that a question takes from the middleware also reaches the listeners."""
     heard = threading.Event()
     remove = node.context.wire.graph.add_listener(heard.set)
     for number in range(20):
@@ -194,9 +198,58 @@ def test_endpoint_infos(node, other, wait_for):
     assert node.get_subscriptions_info_by_topic("/ns/number") == []
 
 
+def test_service_infos(node, other, wait_for):
+    """Of two clients in one node, each has its own reader and writer."""
+    other.create_client(Trigger, "ask")
+    servers = partial(node.get_servers_info_by_service, "/ns/serve")
+    clients = partial(node.get_clients_info_by_service, "/ns/ask")
+
+    def known():
+        nodes = [info.node_name for info in (*servers(), *clients())]
+        return nodes == ["other"] * 3
+
+    wait_for(known)
+    (server,) = servers()
+    assert (server.node_namespace, server.service_type) == ("/ns", "std_srvs/srv/Trigger")
+    assert (server.endpoint_type, server.endpoint_count) == (EndpointTypeEnum.SERVER, 2)
+    assert str(server.service_type_hash) == "INVALID"  # Jazzy's endpoints do not announce it
+    assert [qos.reliability for qos in server.qos_profiles] == [ReliabilityPolicy.RELIABLE] * 2
+    (reader,) = other.context.wire.graph.endpoints_of("rq/ns/serveRequest", "subscription")
+    (writer,) = other.context.wire.graph.endpoints_of("rr/ns/serveReply", "publisher")
+    assert server.endpoint_gids == [list(reader.gid), list(writer.gid)]
+    own = {client._wire.replies.gid: client._wire.requests.gid for client in other.clients}
+    assert {bytes(info.endpoint_gids[0]): bytes(info.endpoint_gids[1]) for info in clients()} == own
+    assert {info.endpoint_type for info in clients()} == {EndpointTypeEnum.CLIENT}
+    assert node.get_clients_info_by_service("/ns/serve") == []
+    assert node.get_servers_info_by_service("/ns/ask") == []
+
+
+def test_service_infos_are_of_the_remapped_name(context, wait_for):
+    arguments = ["--ros-args", "-r", "serve:=/elsewhere"]
+    node = Node("remapped", context=context, cli_args=arguments)
+    node.create_service(Trigger, "serve", lambda request, response: response)
+    wait_for(lambda: len(node.get_servers_info_by_service("serve")) == 1)
+    assert len(node.get_servers_info_by_service("/elsewhere")) == 1
+
+
+def test_names_on_the_wire_are_no_services(node):
+    for ask in (node.get_clients_info_by_service, node.get_servers_info_by_service):
+        with pytest.raises(RCLError, match="no_mangle is not supported") as caught:
+            ask("serve", no_mangle=True)
+        assert "'rqserveRequest'" in caught.value.hint
+
+
 def test_removed_items_are_forgotten(node, other, wait_for):
     wait_for(lambda: node.count_publishers("/ns/number") == 1)
     other.destroy_node()
     wait_for(
         lambda: node.count_publishers("/ns/number") == 0 and "other" not in node.get_node_names()
     )
+
+
+def test_an_invalid_context_is_not_asked(context, node):
+    context.shutdown()
+    with pytest.raises(RCLError, match="rcl node's context is invalid"):
+        node.get_topic_names_and_types()
+    with pytest.raises(RCLError, match="rcl node's context is invalid"):
+        node.count_publishers("/topic")

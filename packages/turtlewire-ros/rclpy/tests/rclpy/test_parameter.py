@@ -169,7 +169,7 @@ def test_bad_parameter_files(parameter_file, tmp_path):
         ("[1]", "YAML file is not a valid ROS parameter file"),
         ("", "YAML file is not a valid ROS parameter file"),
         ("[" * 50_000, r"YAML file is not a valid ROS parameter file: '.*' is nested too deeply$"),
-        ("a: 2026-13-01", r"YAML file is not a valid ROS .* file: '.*': month must be in 1..12$"),
+        ("a: 2026-13-01", r"YAML file is not a valid ROS .* file: '.*': month must be in 1\.\.12"),
     ):
         path = tmp_path / "bad.yaml"
         path.write_text(text)

@@ -490,12 +490,14 @@ def test_a_callback_refuses(recorder):
     assert recorder.events == []
 
 
-def test_callback_without_an_answer_is_reported(parameters):
+def test_a_callback_that_decides_nothing_refuses_with_a_warning(parameters):
+    parameters.declare_parameter("speed", 1)
     parameters.callbacks.deciding.insert(0, lambda _: None)
-    with pytest.raises(
-        TypeError, match="it has to return a SetParametersResult, but returned None"
-    ):
-        parameters.declare_parameter("a", 1)
+    text = "Callback returned an invalid type, it should return SetParameterResult."
+    with pytest.warns(UserWarning, match=re.escape(text)):
+        (result,) = parameters.set_parameters([Parameter("speed", value=2)])
+    assert (result.successful, result.reason) == (False, text)
+    assert parameters.get_parameter("speed").value == 1
 
 
 def test_a_refusal_without_a_reason_is_a_refusal(parameters):
@@ -576,3 +578,13 @@ def test_lists(parameters, prefixes, depth, names, found_prefixes):
 def test_bad_lists(parameters, prefixes, depth, error):
     with pytest.raises(error):
         parameters.list_parameters(prefixes, depth)
+
+
+def test_they_are_read_as_a_dictionary(parameters):
+    parameters.declare_parameter("speed", 1)
+    assert parameters["speed"].value == 1
+    assert "speed" in parameters
+    assert {name: each.value for name, each in parameters.items()} == {"speed": 1}
+    assert parameters.get("none") is None
+    with pytest.raises(KeyError):
+        parameters["none"]

@@ -7,7 +7,7 @@ import threading
 import pytest
 
 from example_interfaces.srv import AddTwoInts
-from rclpy._rclpy_pybind11 import InvalidHandle
+from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.client import Client
 from rclpy.context import Context
 from rclpy.exceptions import InvalidServiceNameException
@@ -79,6 +79,21 @@ def test_wait_for_service_ends_when_the_service_comes_or_the_time_is_over(node, 
     assert client.wait_for_service(timeout_sec=60)
     offering.join()
     assert ask(executor, client, 1, 1) == 2
+
+
+def test_wait_for_service_raises_on_an_invalid_context(node, context):
+    """Else the loop of the tutorial's client would go on forever after SIGTERM."""
+    client = node.create_client(AddTwoInts, "add")
+    text = "^failed to check service availability: rcl node's context is invalid$"
+    timer = threading.Timer(0.2, context.shutdown)
+    timer.start()
+    with pytest.raises(RCLError, match=text):
+        client.wait_for_service()
+    timer.join()
+    with pytest.raises(RCLError, match=text):
+        client.wait_for_service(timeout_sec=1.0)
+    with pytest.raises(RCLError, match=text):
+        client.service_is_ready()
 
 
 def test_a_service_that_goes_is_not_ready(node, context):

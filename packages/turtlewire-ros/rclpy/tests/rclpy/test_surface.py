@@ -9,6 +9,8 @@ from __future__ import annotations
 import ast
 import importlib
 import json
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -212,6 +214,58 @@ def test_handles_are_context_managers(node):
     assert node.create_publisher(String, "t", 1).topic_name == "/t"
 
 
+def test_a_with_block_destroys_an_entity_at_its_end(node):
+    from rclpy._rclpy_pybind11 import InvalidHandle
+    from std_msgs.msg import String
+    from std_srvs.srv import Empty
+
+    for make, kept in [
+        (lambda: node.create_publisher(String, "t", 1), "publishers"),
+        (lambda: node.create_subscription(String, "t", print, 1), "subscriptions"),
+        (lambda: node.create_client(Empty, "s"), "clients"),
+        (lambda: node.create_service(Empty, "s", print), "services"),
+        (lambda: node.create_timer(1, print), "timers"),
+    ]:
+        with make() as entity:
+            assert entity in list(getattr(node, kept))
+            with entity.handle:
+                pass
+            assert entity in list(getattr(node, kept))
+        assert entity not in list(getattr(node, kept))
+        with pytest.raises(InvalidHandle):
+            _ = entity.handle
+
+
+def test_a_publisher_class_with_a_constructor_as_in_ros_2(node):
+    from rclpy.event_handler import PublisherEventCallbacks
+    from rclpy.publisher import Publisher
+    from std_msgs.msg import String
+
+    class Counting(Publisher):
+        def __init__(
+            self, publisher_impl, msg_type, topic, qos_profile, event_callbacks, callback_group
+        ):
+            super().__init__(
+                publisher_impl, msg_type, topic, qos_profile, event_callbacks, callback_group
+            )
+            self.given = topic, event_callbacks, callback_group
+            self.count = 0
+
+        def publish(self, msg):
+            self.count += 1
+            super().publish(msg)
+
+    events = PublisherEventCallbacks(incompatible_qos=print)
+    publisher = node.create_publisher(
+        String, "t", 1, publisher_class=Counting, event_callbacks=events
+    )
+    publisher.publish(String())
+    assert publisher.count == 1
+    assert publisher.given == ("t", events, node.default_callback_group)
+    assert (publisher.topic_name, len(publisher.event_handlers)) == ("/t", 1)
+    assert list(node.publishers)[-1] is publisher
+
+
 def test_with_statements(monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
     with Context() as context, SingleThreadedExecutor(context=context) as executor:
@@ -230,6 +284,61 @@ def test_a_subscription_says_that_nothing_is_filtered(node):
         ).is_cft_enabled
         is False
     )
+
+
+def test_content_filters_are_refused(node):
+    from rclpy._rclpy_pybind11 import RCLError
+    from std_msgs.msg import String
+
+    subscription = node.create_subscription(String, "t", print, 1)
+    with pytest.raises(RCLError, match="the middleware does not filter") as caught:
+        subscription.set_content_filter(filter_expression="data = %0", expression_parameters=["x"])
+    assert caught.value.hint == "All messages of '/t' arrive: filter them in the callback"
+    with pytest.raises(RCLError, match="the middleware does not filter"):
+        subscription.get_content_filter()
+
+
+def test_events_of_some_nodes_are_not_filtered(node):
+    from rclpy.parameter_event_handler import ParameterEventHandler
+
+    handler = ParameterEventHandler(node)
+    assert handler.configure_nodes_filter(["/talker"]) is False
+    assert handler.configure_nodes_filter() is False
+
+
+def test_asynchronous_and_other_entities_have_bases_in_common():
+    from rclpy import client, experimental, node, publisher, service, subscription, timer
+
+    for module, name in [
+        (client, "Client"),
+        (node, "Node"),
+        (publisher, "Publisher"),
+        (service, "Service"),
+        (subscription, "Subscription"),
+        (timer, "Timer"),
+    ]:
+        base, kind = getattr(module, f"Base{name}"), getattr(module, name)
+        asynchronous = getattr(experimental, f"Async{name}")
+        assert issubclass(kind, base)
+        assert issubclass(asynchronous, base)
+        assert not issubclass(asynchronous, kind)
+
+
+def test_names_of_the_newest_jazzy(monkeypatch):
+    from rclpy import exceptions, executors
+    from rclpy._rclpy_pybind11 import RCLError
+
+    assert executors.TimerCancelledError is exceptions.TimerCancelledError
+    assert issubclass(executors.TimerCancelledError, RCLError)
+    monkeypatch.delitem(sys.modules, "rclpy.qos_event", raising=False)
+    with pytest.warns(DeprecationWarning, match="rclpy.event_handler"):  # when it is imported
+        qos_event = importlib.import_module("rclpy.qos_event")
+    from rclpy import event_handler
+
+    for name in ("QoSRequestedDeadlineMissedInfo", "QoSOfferedDeadlineMissedInfo"):
+        info = getattr(event_handler, name)(total_count=3, total_count_change=1)
+        assert info == (3, 1)
+        assert getattr(qos_event, name) is type(info)
 
 
 # Private attributes that ROS 2's nodes have as well; programs know better than to take these names.
@@ -258,11 +367,18 @@ def test_a_program_may_have_attributes_of_its_own(context, kind):
     assert {
         name
         for name in private - OF_ROS_2
-        if not name.startswith(("_Node__", "_LifecycleNodeMixin__"))
+        if not name.startswith(("_Node__", "_BaseNode__", "_LifecycleNodeMixin__"))
     } == set()
     public = {name for name in dir(Node) if not name.startswith("_")}
     of_ros_2 = json.loads((GOLDEN / "rclpy.json").read_text())["rclpy.node"]["Node"]["members"]
-    assert public - of_ros_2.keys() == set()
+    of_lyrical = {
+        "get_action_client_names_and_types_by_node",
+        "get_action_names_and_types",
+        "get_action_server_names_and_types_by_node",
+        "get_clients_info_by_service",
+        "get_servers_info_by_service",
+    }
+    assert public - of_ros_2.keys() == of_lyrical
     node.destroy_node()
 
 
@@ -279,3 +395,28 @@ def test_node_is_a_facade():
         if len(work) - (ast.get_docstring(method) is not None) != 1:
             longer.add(method.name)
     assert longer == {"__init__", "destroy_node", "executor"}
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "from rclpy.action.client import GoalStatus",
+        "from rclpy.action.server import GoalStatus, ServerGoalHandle",
+        "from rclpy.node import Parameter, ParameterDescriptor, ParameterType, QoSProfile",
+        "from rclpy.node import ReentrantCallbackGroup, Publisher, Subscription, Timer, Clock",
+        "from rclpy.executors import Timer, Clock, Node",
+        "import std_msgs; std_msgs.msg.String",
+        "import tf2_ros, geometry_msgs; geometry_msgs.msg.Pose",
+    ],
+)
+def test_names_that_modules_hand_on(line):
+    """Third-party packages import them from there; each line in a fresh process."""
+    subprocess.run([sys.executable, "-c", line], check=True)
+
+
+@pytest.mark.parametrize(
+    "module", ["rclpy.node", "rclpy.executors", "rclpy.action.client", "rclpy.action.server"]
+)
+def test_a_name_that_a_module_does_not_hand_on(module):
+    with pytest.raises(AttributeError, match=f"module '{module}' has no attribute 'Nothing'"):
+        importlib.import_module(module).Nothing  # noqa: B018 -- the access is tested

@@ -215,3 +215,8 @@ def test_a_future_can_be_awaited_in_asyncio():
 
 async def _await(future):
     return await future
+
+
+def test_a_future_whose_construction_was_interrupted_is_forgotten_silently(capsys):
+    Future.__new__(Future).__del__()
+    assert capsys.readouterr() == ("", "")

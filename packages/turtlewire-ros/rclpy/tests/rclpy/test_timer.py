@@ -58,6 +58,18 @@ def test_missed_periods_are_skipped_and_the_rhythm_is_kept(node, executor, clock
     assert timer.time_until_next_call() == 100 * MS
 
 
+@pytest.mark.parametrize(("now", "calls"), [(1299, [1299]), (1300, [1300, 1300])])
+def test_a_period_that_ends_now_is_not_missed(node, executor, clock, now, calls):
+    made = []
+    timer = node.create_timer(0.1, lambda: made.append(clock.now().nanoseconds // MS), clock=clock)
+    move(clock, now)
+    drain(executor)
+    assert made == calls
+    move(clock, 1300)
+    drain(executor)
+    assert timer.time_until_next_call() == 100 * MS
+
+
 def test_a_late_call_does_not_move_the_next_one(node, executor, clock):
     calls = []
     node.create_timer(0.1, lambda: calls.append(clock.now().nanoseconds // MS), clock=clock)
@@ -75,6 +87,17 @@ def test_time_that_goes_back_behind_the_last_call_starts_a_new_period(node, exec
         drain(executor)
     assert calls == [1100, 600]
     assert timer.time_until_next_call() == 100 * MS
+
+
+@pytest.mark.parametrize(("back_to", "next_call"), [(1130, 1200), (1129, 1229)])
+def test_time_that_goes_back_to_the_last_call_keeps_the_rhythm(
+    node, executor, clock, back_to, next_call
+):
+    timer = node.create_timer(0.1, lambda: None, clock=clock)
+    for now in (1130, 1150, back_to):
+        move(clock, now)
+        drain(executor)
+    assert timer.time_until_next_call() == (next_call - back_to) * MS
 
 
 def test_rest_of_the_period_survives_a_clock_change(node, clock):

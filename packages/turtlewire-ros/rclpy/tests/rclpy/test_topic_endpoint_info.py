@@ -2,7 +2,10 @@ from __future__ import annotations
 
 import re
 
+import pytest
+
 from rclpy.duration import Infinite
+from rclpy.endpoint_info import EndpointTypeEnum, ServiceEndpointInfo
 from rclpy.qos import LivelinessPolicy, QoSProfile
 from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 from rclpy.type_hash import TypeHash
@@ -86,3 +89,69 @@ def test_type_hashes():
     )
     known = TypeHash.from_string(HASH)
     assert (known.version, known.value.hex(), str(known)) == (1, HASH[7:], HASH)
+
+
+def test_a_service_s_text_has_its_two_endpoints():
+    """The block of `ros2 service info -v` of Lyrical."""
+    qos = QoSProfile(
+        depth=1000,
+        lifespan=Infinite,
+        deadline=Infinite,
+        liveliness=LivelinessPolicy.AUTOMATIC,
+        liveliness_lease_duration=Infinite,
+    )
+    info = ServiceEndpointInfo(
+        node_name="turtlesim",
+        node_namespace="/",
+        service_type="turtlesim_msgs/srv/Spawn",
+        service_type_hash=TypeHash.from_string(HASH),
+        qos_profiles=[qos, qos],
+        endpoint_gids=[[1, 171], [2, 0]],
+        endpoint_type=EndpointTypeEnum.CLIENT,
+        endpoint_count=2,
+    )
+    lines = [
+        "Node name: turtlesim",
+        "Node namespace: /",
+        "Service type: turtlesim_msgs/srv/Spawn",
+        f"Service type hash: {HASH}",
+        "Endpoint type: CLIENT",
+        "Endpoint count: 2",
+        "GIDs:",
+        " - Request Writer : 02.00",
+        " - Response Reader : 01.ab",
+        "QoS profiles:",
+        " - Request Writer :",
+        "      Reliability: RELIABLE",
+        "      History (Depth): KEEP_LAST (1000)",
+    ]
+    assert str(info).splitlines()[: len(lines)] == lines
+    assert str(info).splitlines()[18] == " - Response Reader :"
+    info.endpoint_type = EndpointTypeEnum.SERVER
+    assert str(info).splitlines()[7:9] == [
+        " - Request Reader : 01.ab",
+        " - Response Writer : 02.00",
+    ]
+
+
+def test_a_service_s_text_on_zenoh_has_one_endpoint():
+    qos = QoSProfile(depth=10)
+    info = ServiceEndpointInfo(qos_profiles=[qos], endpoint_gids=[[1, 2]], endpoint_count=1)
+    lines = str(info).splitlines()
+    assert lines[5:9] == [
+        "Endpoint count: 1",
+        "GID: 01.02",
+        "QoS profile:",
+        "  Reliability: RELIABLE",
+    ]
+
+
+@pytest.mark.parametrize("kind", [TopicEndpointInfo, ServiceEndpointInfo])
+def test_values_of_other_types_are_refused(kind):
+    info = kind(node_name="a", endpoint_type=2)
+    assert info.endpoint_type is EndpointTypeEnum.SUBSCRIPTION
+    with pytest.raises(AssertionError, match="expected an object of type str, got None"):
+        info.node_name = None
+    with pytest.raises(AssertionError, match="expected an object of type str"):
+        kind(node_namespace=3)
+    assert kind(node_name="a") == kind(node_name="a") != kind(node_name="b")

@@ -13,6 +13,7 @@ PROGRAM = """
 import rclpy
 from example_interfaces.srv import AddTwoInts
 from rclpy.duration import Duration
+from rclpy.experimental import AsyncNode
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from rclpy.client import Client
 from rclpy.node import Node
@@ -69,6 +70,27 @@ class Managed(LifecycleNode):
         return TransitionCallbackReturn.SUCCESS
 
 
+async def answer(
+    request: AddTwoInts.Request, response: AddTwoInts.Response
+) -> AddTwoInts.Response:
+    return response
+
+
+async def ask() -> str:
+    async with AsyncNode("asking") as node:
+        node.create_service(AddTwoInts, "add", answer)
+        client = node.create_client(AddTwoInts, "add")
+        await client.wait_for_service()
+        response = await client.call(AddTwoInts.Request(a=1, b=2))
+        number: int = response.sum
+        buffer = Buffer()
+        TransformListener(buffer, node)
+        await buffer.lookup_transform_async("a", "b", Time())
+        async for message in node.create_subscription(String, "chatter", None, 10):
+            return f"{number} {message.data}"
+    return ""
+
+
 def main() -> None:
     rclpy.init()
     node = Talker()
@@ -83,6 +105,7 @@ from example_interfaces.srv import AddTwoInts
 from geometry_msgs.msg import PointStamped
 from message_filters import Cache, Subscriber
 from rclpy.action import ActionClient
+from rclpy.experimental import AsyncNode
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.task import Future
@@ -107,8 +130,13 @@ points = Subscriber(node, PointStamped, "points")
 points.registerCallback(heard)
 points.registerCallback(print, "further", "arguments")
 Cache(points).getInterval(Time(), Time())[0].pint
+asynchronous = AsyncNode("b")
+asynchronous.create_subscription(String, "a", heard, 1)
+asynchronous.create_rate(1.0)
+async def ask() -> None:
+    (await asynchronous.create_client(AddTwoInts, "add").call(AddTwoInts.Request())).som
 """
-MISTAKEN_LINES = [13, 14, 15, 17, 19, 20, 22, 23, 24, 25, 26, 28, 30]
+MISTAKEN_LINES = [14, 15, 16, 18, 20, 21, 23, 24, 25, 26, 27, 29, 31, 33, 34, 36]
 
 
 @pytest.mark.slow

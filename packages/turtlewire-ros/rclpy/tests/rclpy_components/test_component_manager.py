@@ -118,6 +118,27 @@ def test_a_component_gets_what_the_request_says(call):
     assert node.get_logger().get_effective_level() == 10
 
 
+@pytest.mark.parametrize("plugin", [f"{MODULE}::Talker", f"{MODULE}:Talker"])
+def test_a_class_has_the_name_of_a_component_of_cpp(call, plugin):
+    response = call(LoadNode, "load_node", package_name="test", plugin_name=plugin)
+    assert response.full_node_name == "/talker"
+
+
+@pytest.mark.parametrize(
+    ("plugin", "says"),
+    [
+        ("no_such_module::Talker", "Load a class of nodes in Python: 'package.module.Class'"),
+        (f"{MODULE}::Nobody", f"{MODULE} has Talker, Fails"),
+    ],
+)
+def test_the_log_says_what_can_be_loaded(call, capfd, monkeypatch, plugin, says):
+    monkeypatch.setattr(sys.modules[MODULE], "__all__", ["Talker", "Fails"], raising=False)
+    assert not call(LoadNode, "load_node", package_name="test", plugin_name=plugin).success
+    errors = capfd.readouterr().err
+    assert says in errors
+    assert "Traceback" not in errors
+
+
 def test_a_component_has_its_own_name_and_defaults(call):
     assert load(call).full_node_name == "/talker"
     assert CREATED[0].text == "nothing"  # the container's arguments are the container's
@@ -176,6 +197,9 @@ def test_unloading(call):
             f"{MODULE}.NoNode",
             "TypeError: 'test_components.NoNode' creates a dict, which is not a node",
         ),
+        ("no_such_module::Talker", "Could not find requested resource in ament index"),
+        (f"{MODULE}::Nobody", "Failed to find class with the requested plugin name."),
+        (f"{MODULE}::Fails", "ValueError: no battery"),
         (
             "Talker",
             "ValueError: 'Talker' is not a component of test; expected 'package.module.Class'",

@@ -6,8 +6,8 @@ import math
 
 import pytest
 
-from joint_state_publisher.description import DescriptionError, Options, read_joints
-from joint_state_publisher.joints import Mimic
+from joint_state_publisher.description import DescriptionError, JointOptions, read_joints
+from joint_state_publisher.joints import MimicRule
 from turtlewire.urdf.faults import XACRO_LEFT
 
 LIMIT = '<limit lower="-1" upper="2" effort="1" velocity="3"/>'
@@ -16,7 +16,7 @@ LIMIT = '<limit lower="-1" upper="2" effort="1" velocity="3"/>'
 def read(*joints: str, warnings: list[str] | None = None, **options):
     told = [] if warnings is None else warnings
     text = f"<robot name='r'><link name='a'/>{''.join(joints)}</robot>"
-    return read_joints(text, Options(**{"zeros": {}, "mimics": {}, **options}), told.append)
+    return read_joints(text, JointOptions(**{"zeros": {}, "mimics": {}, **options}), told.append)
 
 
 def robot(content: str) -> str:
@@ -50,7 +50,7 @@ def test_elements_of_xacro_and_limits_the_wrong_way_round_are_warnings():
         + joint("j", "revolute", '<limit lower="2" upper="1"/>')
         + "</robot>"
     )
-    read_joints(text, Options({}, {}), warnings.append)
+    read_joints(text, JointOptions({}, {}), warnings.append)
     assert warnings == [
         XACRO_LEFT,
         "Joint 'j' cannot move: its lower limit, 2, is above its upper limit, 1.",
@@ -78,13 +78,13 @@ def test_soft_limits_narrow_the_limits(uses, limits):
 def test_mimics():
     mimic = LIMIT + '<mimic joint="b" multiplier="-2" offset="0.5"/>'
     described = [joint("a", "revolute", mimic), joint("b", "revolute"), joint("c", "revolute")]
-    by_parameter = {"c": Mimic("b", 3.0)}
+    by_parameter = {"c": MimicRule("b", 3.0)}
     joints = read(*described, mimics=by_parameter)
-    assert joints.mimics == {"a": Mimic("b", -2.0, 0.5), "c": Mimic("b", 3.0, 0.0)}
+    assert joints.mimics == {"a": MimicRule("b", -2.0, 0.5), "c": MimicRule("b", 3.0, 0.0)}
     assert read(*described, use_mimic_tags=False).mimics == {}
 
 
-def test_a_mimic_of_nothing_is_free_and_told():
+def test_a_mimic_of_an_unknown_joint_moves_freely_with_a_warning():
     warnings: list[str] = []
     joints = read(joint("a", "revolute", LIMIT + '<mimic joint="gone"/>'), warnings=warnings)
     assert joints.state().positions == [0.0]
@@ -121,7 +121,7 @@ def test_a_mimic_of_nothing_is_free_and_told():
 )
 def test_errors(text, error):
     with pytest.raises(DescriptionError, match=error):
-        read_joints(text, Options({}, {}), print)
+        read_joints(text, JointOptions({}, {}), print)
 
 
 def test_sdf():
@@ -130,6 +130,6 @@ def test_sdf():
         <axis><limit><lower>-1</lower><upper>1</upper></limit></axis></joint>
       <joint name="b" type="ball"/><joint name="c" type="continuous"/>
     </model></sdf>"""
-    joints = read_joints(text, Options({}, {}), print)
+    joints = read_joints(text, JointOptions({}, {}), print)
     assert joints.order == ["a", "c"]
     assert joints.free["a"].minimum == -1.0

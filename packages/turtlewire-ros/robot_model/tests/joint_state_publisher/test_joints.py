@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from joint_state_publisher.joints import FreeJoint, JointSet, Mimic, MimicLoopError
+from joint_state_publisher.joints import FreeJoint, JointSet, MimicLoopError, MimicRule
 
 NUMBERS = st.floats(-100, 100)
 FACTORS = st.floats(-4, 4)
@@ -19,7 +19,7 @@ def chain(*mimics: tuple[float, float], position: float = 0.0) -> JointSet:
     joints = JointSet(order=[f"j{k}" for k in range(len(mimics) + 1)])
     joints.free["j0"] = FreeJoint("j0", "revolute", -200, 200, 0, position=position)
     for k, (factor, offset) in enumerate(mimics):
-        joints.mimics[f"j{k + 1}"] = Mimic(f"j{k}", factor, offset)
+        joints.mimics[f"j{k + 1}"] = MimicRule(f"j{k}", factor, offset)
     return joints
 
 
@@ -33,7 +33,7 @@ def test_a_chain_of_mimics_is_one_formula_after_the_other(position, mimics):
 
 def test_a_circle_of_mimics_is_named():
     joints = chain((1, 0), (1, 0))
-    joints.mimics["j0"] = Mimic("j2")
+    joints.mimics["j0"] = MimicRule("j2")
     del joints.free["j0"]
     with pytest.raises(
         MimicLoopError, match=r"infinite recursive mimic chain: \['j0', 'j2', 'j1', 'j0'\]"
@@ -73,3 +73,20 @@ def test_a_source_gives_what_it_has():
     assert state.velocities == []
     with pytest.raises(ValueError, match="2 names but 1 values of position"):
         joints.take(["j0", "j1"], [1.0], [], [])
+
+
+@pytest.mark.parametrize(
+    ("kind", "visited"),
+    [
+        # A step onto a limit is not a step over it: the joint turns with the next one.
+        ("revolute", [0.5, 1.0, 1.0, 0.5, 0.0, -0.5, -1.0, -1.0, -0.5]),
+        ("continuous", [0.5, 1.0, -1.0, -0.5, 0.0, 0.5, 1.0, -1.0, -0.5]),
+    ],
+)
+def test_a_sweep_reaches_both_limits(kind, visited):
+    joint = FreeJoint("j", kind, -1.0, 1.0, 0.0, position=0.0)
+    found = []
+    for _ in visited:
+        joint.sweep(0.5)
+        found.append(joint.position)
+    assert found == visited

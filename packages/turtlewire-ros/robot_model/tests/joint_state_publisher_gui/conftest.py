@@ -7,8 +7,8 @@ import queue
 
 import pytest
 
-from joint_state_publisher.joints import FreeJoint, JointSet, Mimic
-from joint_state_publisher_gui.screen import Screen
+from joint_state_publisher.joints import FreeJoint, JointSet, MimicRule
+from joint_state_publisher_gui.screen import SliderScreen
 from joint_state_publisher_gui.sliders import Sliders
 
 
@@ -22,7 +22,7 @@ def make_joints() -> JointSet:
             "elbow": FreeJoint("elbow", "revolute", -1.0, 2.0, 0.0, 2.5, position=0.0),
             "swivel": FreeJoint("swivel", "continuous", -math.pi, math.pi, 0.0, position=0.0),
         },
-        {"wrist": Mimic("elbow", -0.5, 0.25), "twin": Mimic("swivel", 1.0, 0.0)},
+        {"wrist": MimicRule("elbow", -0.5, 0.25), "twin": MimicRule("swivel", 1.0, 0.0)},
     )
 
 
@@ -33,7 +33,7 @@ class Gui:
         self.joints = make_joints()
         self.sliders = Sliders(self.joints)
         self.commands: queue.SimpleQueue = queue.SimpleQueue()
-        self.screen = Screen("/joint_state_publisher", self.sliders, self._obey)
+        self.screen = SliderScreen("/joint_state_publisher", self.sliders, self._obey)
 
     def _obey(self, command) -> None:
         self.sliders.obey(command)

@@ -1,7 +1,7 @@
 """What a real robot_state_publisher sent and logged (`tests/golden/robots`), and what ours does.
 
-Kinematics, parameters, descriptions, refusals and exit codes are equal. Log lines are equal but for
-those that ours adds (see `docs/compatibility.md`), which are checked to be there.
+Kinematics, parameters, descriptions, refusals and exit codes are equal. Log lines are equal too;
+ours adds some (see `docs/compatibility.md`), and the tests check that they are there.
 """
 
 from __future__ import annotations

@@ -67,7 +67,7 @@ def test_both_know_when_a_joint_was_published_last(native_rig):
     rig.send(joint_state(1000, "turn"))
     rig.send(joint_state(1100, "turn"))  # native
     rig.send(joint_state(1120, "turn", "more"))  # Python; `more` was never published
-    rig.send(joint_state(1140, "turn", "more"))  # skipped by Python, which tells it
+    rig.send(joint_state(1140, "turn", "more"))  # skipped by Python, which reports it
     rig.send(joint_state(1150, "turn"))  # native: skipped
     rig.send(joint_state(1170, "turn"))
     assert stamps_ms(rig.transforms()) == [1000, 1100, 1120, 1170]

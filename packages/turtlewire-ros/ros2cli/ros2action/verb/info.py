@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ros2action.verb import VerbExtension
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.completion import action_names
 from ros2cli.discovery import discovered_graph
+from ros2cli.json_lines import JSON_ARGUMENT, print_json, with_types
 
 if TYPE_CHECKING:
     import argparse
+
+    from ros2cli.graph import NamesAndTypes
 
 __all__ = ["ARGUMENTS", "InfoVerb", "main"]
 
@@ -24,6 +27,7 @@ ARGUMENTS = (
     ),
     argument("-t", "--show-types", action="store_true", help="Also show the types"),
     argument("-c", "--count", action="store_true", help="Show only their number"),
+    JSON_ARGUMENT,
 )
 
 
@@ -36,12 +40,28 @@ def main(args: argparse.Namespace) -> None:
         sides = {"clients": "subscription", "servers": "publisher"}
         found = {side: action_nodes(graph, args.action_name, kind) for side, kind in sides.items()}
         known = dict(actions(graph))
+    if args.json:
+        _print_json(found, args)
+    else:
+        _print_text(found, args)
+    say_what_was_meant(args.action_name, known)
+
+
+def _print_text(found: dict[str, NamesAndTypes], args: argparse.Namespace) -> None:
     print(f"Action: {args.action_name}")
     for side, nodes in found.items():
         print(f"Action {side}: {len(nodes)}")
         for name, types in () if args.count else nodes:
             print(f"    {name} [{', '.join(types)}]" if args.show_types else f"    {name}")
-    say_what_was_meant(args.action_name, known)
+
+
+def _print_json(found: dict[str, NamesAndTypes], args: argparse.Namespace) -> None:
+    data: dict[str, Any] = {"action": args.action_name}
+    for side, nodes in found.items():
+        data[f"{side.removesuffix('s')}_count"] = len(nodes)
+        if not args.count:
+            data[side] = with_types("node", nodes)
+    print_json(data)
 
 
 @verb_of_module

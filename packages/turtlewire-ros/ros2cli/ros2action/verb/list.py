@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from ros2action.verb import VerbExtension
 from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import discovered_graph
+from ros2cli.json_lines import JSON_ARGUMENT
 from ros2cli.listing import SHOW_TYPES, count_argument, print_names_and_types
 
 if TYPE_CHECKING:
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
 
 __all__ = ["ARGUMENTS", "ListVerb", "main"]
 
-ARGUMENTS = (SHOW_TYPES, count_argument("action"))
+ARGUMENTS = (SHOW_TYPES, count_argument("action"), JSON_ARGUMENT)
 
 
 def main(args: argparse.Namespace) -> None:
@@ -23,7 +24,7 @@ def main(args: argparse.Namespace) -> None:
 
     with discovered_graph() as graph:
         found = actions(graph)
-    print_names_and_types(found, args)
+    print_names_and_types("action", found, args)
 
 
 @verb_of_module

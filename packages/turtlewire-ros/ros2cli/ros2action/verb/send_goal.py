@@ -10,7 +10,8 @@ from ros2cli.arguments import argument, exclusive
 from ros2cli.builtin import verb_of_module
 from ros2cli.completion import action_names, action_types, goal_values
 from ros2cli.node import NODE_NAME_PREFIX
-from ros2cli.values import read_values, shortened
+from ros2cli.values import read_values, shortened, unsigned_int
+from turtlewire.distro import LYRICAL, since
 
 if TYPE_CHECKING:
     import argparse
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = ["ARGUMENTS", "NODE_NAME_PREFIX", "SendGoalVerb", "main"]
 
-_CANCEL_TIMEOUT_S = 5.0
+_DEFAULT_CANCEL_TIMEOUT_S = 5.0
 
 
 ARGUMENTS = (
@@ -45,6 +46,14 @@ ARGUMENTS = (
         required=True,
     ),
     argument("-f", "--feedback", action="store_true", help="Show the feedback"),
+    argument(
+        "-t",
+        "--timeout",
+        metavar="N",
+        type=unsigned_int,
+        help="Wait at most N seconds for the action server, in Lyrical also for each of its answers"
+        " (default: no limit)",
+    ),
 )
 
 
@@ -78,10 +87,14 @@ def main(args: argparse.Namespace) -> str | None:
         service = f"{action}/_action/send_goal"
         try:
             print("Waiting for an action server to become available...")
+            # Before the wait, which a server that would misread the goal could never end.
             require_callable(direct.graph, service)
             if not client.server_is_ready():
                 say_why_to_wait("action", action, action_class, known)
-            if not direct.wait_for_server(service, client.server_is_ready):
+            if not direct.wait_for_server(service, client.server_is_ready, args.timeout):
+                if args.timeout is not None and direct.node.context.ok():
+                    return f"No server of the action '{action}' came within {args.timeout} s"
+                # Without a limit, the wait ends without a server only at a signal.
                 raise KeyboardInterrupt
             _run(direct, client, goal, args)
         finally:
@@ -92,6 +105,8 @@ def main(args: argparse.Namespace) -> str | None:
 def _run(direct: DirectNode, client: Any, goal: Any, args: argparse.Namespace) -> None:
     from rosidl_runtime_py import message_to_yaml
 
+    # Up to Kilted, the time is that of the wait for a server.
+    limit = args.timeout if since(LYRICAL) else None
     accepted = False
     # Feedback has a topic of its own, on which it may overtake the answer to the goal.
     early: list[Any] = []
@@ -104,11 +119,11 @@ def _run(direct: DirectNode, client: Any, goal: Any, args: argparse.Namespace) -
 
     print(f"Sending goal:\n     {message_to_yaml(goal)}")
     server = f"action '{args.action_name}'"
-    handle = direct.answer(
-        client.send_goal_async(goal, show if args.feedback else None),
-        server,
-        client.server_is_ready,
-    )
+    sent = client.send_goal_async(goal, show if args.feedback else None)
+    try:
+        handle = direct.answer(sent, server, client.server_is_ready, limit)
+    except TimeoutError:
+        raise _timed_out("acceptance", limit) from None
     if not handle.accepted:
         print("Goal was rejected.")
         return
@@ -118,24 +133,36 @@ def _run(direct: DirectNode, client: Any, goal: Any, args: argparse.Namespace) -
         show(message)
     result_future = handle.get_result_async()
     try:
-        result = direct.answer(result_future, server, client.server_is_ready)
-    except KeyboardInterrupt:
-        _cancel(direct, handle)
+        result = direct.answer(result_future, server, client.server_is_ready, limit)
+    except (KeyboardInterrupt, TimeoutError) as error:
+        _cancel(direct, handle, limit)
+        if isinstance(error, TimeoutError):
+            raise _timed_out("result", limit) from None
         raise
     print(f"Result:\n    {message_to_yaml(result.result)}")
     print(f"Goal finished with status: {_status_name(result.status)}")
 
 
-def _cancel(direct: DirectNode, handle: Any) -> None:
+def _cancel(direct: DirectNode, handle: Any, limit: float | None) -> None:
     """Ask the server to stop, while the context is still open after Ctrl-C."""
     print("Canceling goal...")
-    response = direct.result(handle.cancel_goal_async(), _CANCEL_TIMEOUT_S)
+    time_left = _DEFAULT_CANCEL_TIMEOUT_S if limit is None else limit
+    try:
+        response = direct.result(handle.cancel_goal_async(), time_left)
+    except TimeoutError:
+        if limit is None:
+            raise
+        raise _timed_out("cancellation", limit) from None
     if response.goals_canceling and list(response.goals_canceling[0].goal_id.uuid) == list(
         handle.goal_id.uuid
     ):
         print("Goal canceled.")
     else:
         print("Failed to cancel goal.")
+
+
+def _timed_out(what: str, limit: float | None) -> RuntimeError:
+    return RuntimeError(f"Timed out waiting for goal {what} after {limit} seconds.")
 
 
 def _status_name(status: int) -> str:

@@ -66,7 +66,7 @@ class CommandExtension:
 def get_command_extensions(
     group_name: str, *, exclude_names: Iterable[str] | None = None
 ) -> dict[str, Any]:
-    """Instances of the commands of a group by name."""
+    """Return the instances of the commands of a group by name."""
     return named_extensions(group_name, exclude_names)
 
 
@@ -121,12 +121,13 @@ def add_subparsers_on_demand(
     words = _words_after(cli_name) if argv is None else argv
     entries = get_entry_points(group_name)
     chosen = next((word for word in words if not word.startswith("-")), None)
+    # Without a chosen one, the help needs all classes for their summaries.
     load = {chosen} if chosen in entries else set(entries)
     loaded = get_command_extensions(group_name, exclude_names=set(entries) - load)
     for name in sorted(entries):
         extension = loaded.get(name)
         if extension is None and name in load:
-            continue  # it has been said that it is broken
+            continue  # its failure has been reported
         sub = _add_parser(group, cli_name, name, extension, hide_extensions)
         if extension is not None:
             sub.set_defaults(**{dest: extension})
@@ -146,7 +147,7 @@ def _group(
 
 
 def _words_after(cli_name: str) -> list[str]:
-    """Return the words of this process behind the last one of ``cli_name``."""
+    """Return the words of this process after the last one of ``cli_name``."""
     import sys
 
     command = cli_name.rpartition(" ")[2]
@@ -163,6 +164,7 @@ def _add_parser(
 ) -> argparse.ArgumentParser:
     summary = get_first_line_doc(extension) if extension is not None else ""
     prog = f"{cli_name} {name}"
+    # Without `help`, argparse leaves a parser out of its list.
     if name in (hidden or ()):
         return group.add_parser(name, description=summary, prog=prog)
     return group.add_parser(name, help=summary, description=summary, prog=prog)

@@ -55,6 +55,7 @@ class DirectNode:
             rclpy.init(args=[])
             self.node: Node = rclpy.create_node(
                 node_name or hidden_node_name(),
+                # As in ROS 2, this node has no services for other tools.
                 start_parameter_services=False,
                 parameter_overrides=overrides,
             )
@@ -67,6 +68,7 @@ class DirectNode:
         Args:
             node: A node of rclpy, or a thing with one in its attribute ``node``.
         """
+        # Without the constructor, which would make a node.
         direct = DirectNode.__new__(DirectNode)
         direct.node = getattr(node, "node", node)
         direct._spin_time = None
@@ -111,6 +113,7 @@ class DirectNode:
         try:
             rclpy.spin(self.node)
         except ExternalShutdownException as error:
+            # A signal such as SIGTERM ends a verb as Ctrl-C does.
             raise KeyboardInterrupt from error
 
     def wait_for(
@@ -141,6 +144,7 @@ class DirectNode:
         if other is not None:
             other.add_done_callback(look)
         try:
+            # After the listener is added, so that no change is missed.
             look()
             self.result(fulfilled, timeout)
         except TimeoutError:
@@ -168,6 +172,8 @@ class DirectNode:
         from turtlewire.wire.services import require_callable
 
         def look() -> bool:
+            if not self.node.context.ok():  # where is_ready() raises
+                return False
             require_callable(self.graph, service)
             return is_ready()
 
@@ -188,7 +194,7 @@ class DirectNode:
     def answer(
         self, future: Any, server: str, is_served: Callable[[], bool], timeout: float | None = None
     ) -> Any:
-        """Handle callbacks until a server has answered; its answer.
+        """Handle callbacks until a server has answered; return its answer.
 
         Args:
             future: The answer to come.
@@ -210,7 +216,7 @@ class DirectNode:
         return future.result()
 
     def result(self, future: Any, timeout: float | None = None) -> Any:
-        """Handle callbacks until a future is done; its result.
+        """Handle callbacks until a future is done; return its result.
 
         Raises:
             KeyboardInterrupt: At Ctrl-C.
@@ -230,7 +236,7 @@ class DirectNode:
         return future.result()
 
     def get_action_names_and_types(self) -> list[tuple[str, list[str]]]:
-        """Names and types of all actions."""
+        """Return the names and types of all actions."""
         from rclpy.action import get_action_names_and_types
 
         return get_action_names_and_types(self.node)
@@ -238,7 +244,7 @@ class DirectNode:
     def get_action_client_names_and_types_by_node(
         self, remote_node_name: str, remote_node_namespace: str
     ) -> list[tuple[str, list[str]]]:
-        """Names and types of the actions that a node may start."""
+        """Return the names and types of the actions that a node may start."""
         from rclpy.action import get_action_client_names_and_types_by_node as ask
 
         return ask(self.node, remote_node_name, remote_node_namespace)
@@ -246,7 +252,7 @@ class DirectNode:
     def get_action_server_names_and_types_by_node(
         self, remote_node_name: str, remote_node_namespace: str
     ) -> list[tuple[str, list[str]]]:
-        """Names and types of the actions that a node offers."""
+        """Return the names and types of the actions that a node offers."""
         from rclpy.action import get_action_server_names_and_types_by_node as ask
 
         return ask(self.node, remote_node_name, remote_node_namespace)

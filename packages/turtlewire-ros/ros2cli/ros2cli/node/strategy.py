@@ -19,10 +19,11 @@ class NodeStrategy(direct.DirectNode):
 
     Args:
         args: The command line, with the arguments of `add_arguments`; None for the defaults.
+        node_name: Name of the node; by default one made of the process id.
     """
 
-    def __init__(self, args: argparse.Namespace | None) -> None:
-        super().__init__(args)
+    def __init__(self, args: argparse.Namespace | None, *, node_name: str | None = None) -> None:
+        super().__init__(args, node_name=node_name)
 
     @property
     def daemon_node(self) -> DaemonNode | None:

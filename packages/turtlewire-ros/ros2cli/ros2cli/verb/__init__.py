@@ -50,5 +50,5 @@ class VerbExtension:
 
 
 def get_verb_extensions(name: str) -> dict[str, Any]:
-    """Instances of the verbs of a group by name."""
+    """Return the instances of the verbs of a group by name."""
     return named_extensions(name)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ros2cli.arguments import argument
+from ros2cli.arguments import argument, timeout_argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.node.direct import DirectNode
 from ros2cli.output import tell_failed_call
+from ros2component.containers import LIST_TIMEOUT_S
 from ros2component.options import container_node_names
 from ros2component.verb import VerbExtension
 
@@ -20,6 +21,7 @@ __all__ = ["ARGUMENTS", "ListVerb", "main"]
 
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
+    timeout_argument(LIST_TIMEOUT_S),
     argument(
         "container_node_name",
         nargs="?",
@@ -47,7 +49,8 @@ def main(args: argparse.Namespace) -> int:
             if args.containers_only:
                 continue
             try:
-                answer = ask(direct, name, "list_nodes", ListNodes, ListNodes.Request())
+                request = ListNodes.Request()
+                answer = ask(direct, name, "list_nodes", ListNodes, request, args.timeout)
             except RuntimeError as error:
                 if chosen:
                     raise

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ros2cli.arguments import argument
+from ros2cli.arguments import argument, timeout_argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.node.direct import DirectNode
@@ -19,6 +19,7 @@ __all__ = ["ARGUMENTS", "LoadVerb", "main"]
 
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
+    timeout_argument(),
     argument(
         "container_node_name", help="Full name of the container", completer=container_node_names
     ),
@@ -34,7 +35,8 @@ def main(args: argparse.Namespace) -> str | None:
 
     with DirectNode(args) as direct:
         container = require_container(direct.graph, args.container_node_name)
-        answer = ask(direct, container, "load_node", LoadNode, load_request(args))
+        request = load_request(args)
+        answer = ask(direct, container, "load_node", LoadNode, request, args.timeout)
     if not answer.success:
         return f"Failed to load component: {answer.error_message}"
     if args.quiet:

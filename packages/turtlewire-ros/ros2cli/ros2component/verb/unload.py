@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ros2cli.arguments import argument
+from ros2cli.arguments import argument, timeout_argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.node.direct import DirectNode
@@ -21,6 +21,7 @@ __all__ = ["ARGUMENTS", "UnloadVerb", "main"]
 
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
+    timeout_argument(),
     argument(
         "container_node_name", help="Full name of the container", completer=container_node_names
     ),
@@ -38,7 +39,7 @@ def main(args: argparse.Namespace) -> int:
         container = require_container(direct.graph, args.container_node_name)
         for number in args.component_uid:
             request = UnloadNode.Request(unique_id=number)
-            answer = ask(direct, container, "unload_node", UnloadNode, request)
+            answer = ask(direct, container, "unload_node", UnloadNode, request, args.timeout)
             if answer.success:
                 print(f"Unloaded component {number} from '{container}' container node")
             else:

@@ -4,30 +4,64 @@ A package adds a check by an entry point in the group ``ros2doctor.checks``, and
 ``ros2doctor.report``: `run_checks`, `generate_reports` and ``ros2 doctor`` include them. One that
 fails is one line on stderr.
 
-========  ====================================
-module    what it holds
-========  ====================================
-`format`  how reports and warnings are printed
-========  ====================================
+===================  =============================================
+module               what it holds
+===================  =============================================
+`action`             the actions of the domain
+`environment`        environment variables
+`format`             how reports and warnings are printed
+`graph_snapshot`     the endpoints of the domain, discovered once
+`network`            network interfaces
+`platform`           this computer, and the distribution
+`qos_compatibility`  publishers and subscriptions that do not match
+`reporting`          the base classes of checks and reports
+`rmw`                the middleware
+`service`            the services of the domain
+`topic`              the topics of the domain
+===================  =============================================
+
+`run_checks` examines more than the checks of these modules, transforms included.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ros2doctor.api.format import doctor_error, doctor_warn
+from ros2doctor.api.environment import (
+    ALL_ENVIRONMENT_VARIABLES,
+    RCUTILS_ENVIRONMENT_VARIABLES,
+    RMW_CONNEXTDDS_ENVIRONMENT_VARIABLES,
+    RMW_CYCLONEDDS_ENVIRONMENT_VARIABLES,
+    RMW_ENVIRONMENT_VARIABLES,
+    RMW_FASTRTPS_ENVIRONMENT_VARIABLES,
+    RMW_ZENOH_CPP_ENVIRONMENT_VARIABLES,
+    ROS_ENVIRONMENT_VARIABLES,
+)
+from ros2doctor.api.format import doctor_warn
+from ros2doctor.api.reporting import DoctorCheck, DoctorReport, Report, Result, result_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator
 
 __all__ = [
+    "ALL_ENVIRONMENT_VARIABLES",
+    "RCUTILS_ENVIRONMENT_VARIABLES",
+    "RMW_CONNEXTDDS_ENVIRONMENT_VARIABLES",
+    "RMW_CYCLONEDDS_ENVIRONMENT_VARIABLES",
+    "RMW_ENVIRONMENT_VARIABLES",
+    "RMW_FASTRTPS_ENVIRONMENT_VARIABLES",
+    "RMW_ZENOH_CPP_ENVIRONMENT_VARIABLES",
+    "ROS_ENVIRONMENT_VARIABLES",
     "DoctorCheck",
     "DoctorReport",
     "Report",
     "Result",
     "doctor_warn",
     "generate_reports",
+    "get_service_names",
     "get_topic_names",
+    "own_reports",
+    "print_warning_notice",
     "reports_of_others",
     "run_checks",
     "run_checks_of_others",
@@ -35,66 +69,12 @@ __all__ = [
 
 
 _T = TypeVar("_T")
-
-
-class DoctorCheck:
-    """Base of checks."""
-
-    def category(self) -> str:
-        """Return the checked category, for example ``network``."""
-        raise NotImplementedError
-
-    def check(self) -> Result:
-        """Check it."""
-        raise NotImplementedError
-
-
-class DoctorReport:
-    """Base of reports."""
-
-    def category(self) -> str:
-        """Return the reported category, for example ``network``."""
-        raise NotImplementedError
-
-    def report(self) -> Report | list[Report]:
-        """Report it."""
-        raise NotImplementedError
-
-
-class Report:
-    """A title, and lines of a name and a value each.
-
-    Args:
-        name: The title.
-    """
-
-    __slots__ = ("items", "name")
-
-    def __init__(self, name: str) -> None:
-        self.name = name
-        self.items: list[tuple[str, Any]] = []
-
-    def add_to_report(self, item_name: str, item_info: Any) -> None:
-        """Add a line."""
-        self.items.append((item_name, item_info))
-
-
-class Result:
-    """How many errors and warnings a check has found."""
-
-    __slots__ = ("error", "warning")
-
-    def __init__(self) -> None:
-        self.error = 0
-        self.warning = 0
-
-    def add_error(self) -> None:
-        """Count an error."""
-        self.error += 1
-
-    def add_warning(self) -> None:
-        """Count a warning."""
-        self.warning += 1
+_WARNING = f"""
+{"=" * 80}
+!!! WARNING !!!
+The report includes all ROS 2 endpoint information and system platform information.
+Please review the report before sharing, as it may contain sensitive or private data.
+{"=" * 80}"""
 
 
 def run_checks(
@@ -131,18 +111,44 @@ def generate_reports(
     """Return the reports of ``ros2 doctor --report``, with other packages'.
 
     Args:
-        categories: Only these: the titles of the own ones, and what the others say; None for all.
+        categories: Only these, for example ``network``; None for all.
         exclude_packages: Accepted as in ROS 2.
     """
-    from ros2doctor.system_report import sections
+    return own_reports(categories) + reports_of_others(categories)
 
-    found = []
-    for title, facts in sections():
-        if categories is None or title in categories:
-            report = Report(title)
-            report.items += facts
-            found.append(report)
-    return found + reports_of_others(categories)
+
+def own_reports(categories: Collection[str] | None = None) -> list[Report]:
+    """Return the reports of this package; of these categories, or all."""
+    from ros2doctor.api import (
+        action,
+        environment,
+        network,
+        platform,
+        qos_compatibility,
+        rmw,
+        service,
+        topic,
+    )
+    from ros2doctor.api.graph_snapshot import one_snapshot
+
+    reports: list[DoctorReport] = [
+        platform.PlatformReport(),
+        network.NetworkReport(),
+        rmw.RMWReport(),
+        platform.RosdistroReport(),
+        environment.EnvironmentReport(),
+        topic.TopicReport(),
+        service.ServiceReport(),
+        action.ActionReport(),
+        qos_compatibility.QoSCompatibilityReport(),
+    ]
+    with one_snapshot():
+        return [
+            report
+            for each in reports
+            if categories is None or each.category() in categories
+            for report in _as_list(each.report())
+        ]
 
 
 def reports_of_others(categories: Collection[str] | None = None) -> list[Report]:
@@ -151,14 +157,17 @@ def reports_of_others(categories: Collection[str] | None = None) -> list[Report]
     def reports(extension: DoctorReport) -> list[Report]:
         if categories is not None and extension.category() not in categories:
             return []
-        made = extension.report()
-        return made if isinstance(made, list) else [made]
+        return _as_list(extension.report())
 
     return [report for made in _called("ros2doctor.report", reports) for report in made]
 
 
+def _as_list(made: Report | list[Report]) -> list[Report]:
+    return made if isinstance(made, list) else [made]
+
+
 def get_topic_names(skip_topics: Collection[str] = ()) -> list[str]:
-    """Names of the topics there are now, but hidden ones and those to skip."""
+    """Return the names of the topics there are now, except hidden ones and ``skip_topics``."""
     from ros2cli.discovery import discovered_graph
     from ros2cli.graph import topics
 
@@ -166,8 +175,22 @@ def get_topic_names(skip_topics: Collection[str] = ()) -> list[str]:
         return [name for name, _ in topics(graph) if name not in skip_topics]
 
 
+def get_service_names(skip_services: Collection[str] = ()) -> list[str]:
+    """Return the names of the services there are now, except hidden ones and ``skip_services``."""
+    from ros2cli.discovery import discovered_graph
+    from ros2cli.graph import services
+
+    with discovered_graph() as graph:
+        return [name for name, _ in services(graph) if name not in skip_services]
+
+
+def print_warning_notice() -> None:
+    """Print what to consider before a report is shared."""
+    print(_WARNING)
+
+
 def _outcomes_of_others() -> list[tuple[str, Result]]:
-    """Category and result of each check of other packages."""
+    """Return category and result of each check of other packages."""
 
     def outcome(check: DoctorCheck) -> tuple[str, Result]:
         result = check.check()
@@ -213,12 +236,4 @@ class _OwnCheck(DoctorCheck):
     def check(self) -> Result:
         from turtlewire.doctor.examination import examine
 
-        result = Result()
-        for finding in examine():
-            if finding.is_problem:
-                result.add_error()
-                doctor_error(f"{finding.text}\n{finding.remedy}")
-            else:
-                result.add_warning()
-                doctor_warn(f"{finding.text}\n{finding.remedy}")
-        return result
+        return result_of(examine())

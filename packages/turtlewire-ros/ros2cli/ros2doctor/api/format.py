@@ -29,7 +29,7 @@ def format_print(report: Any) -> None:
 
 
 def compute_padding(report_items: Collection[tuple[str, Any]]) -> int:
-    """Length of the longest name."""
+    """Return the length of the longest name."""
     return max((len(name) for name, _ in report_items), default=0)
 
 

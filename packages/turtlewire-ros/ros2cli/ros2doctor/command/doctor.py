@@ -59,11 +59,9 @@ def main(args: argparse.Namespace) -> int:
     from ros2doctor.api.format import format_print
 
     if args.report:
-        from ros2doctor.system_report import system_report
-
-        print(system_report())
-        for other in api.reports_of_others():
-            format_print(other)
+        for report in api.generate_reports():
+            format_print(report)
+        api.print_warning_notice()
         return 0
     from turtlewire.doctor.examination import examine, full_report
 

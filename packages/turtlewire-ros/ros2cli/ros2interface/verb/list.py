@@ -45,7 +45,7 @@ def print_kind(kind: str) -> None:
     from turtlewire import msg
 
     print(f"{TITLES[kind]}:")
-    for package, names in sorted(msg.interface_names().items()):
+    for package, names in sorted(msg.interfaces().items()):
         for name in sorted(names[kind]):
             print(f"    {package}/{kind}/{name}")
 

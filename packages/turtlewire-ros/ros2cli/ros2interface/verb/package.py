@@ -25,12 +25,13 @@ ARGUMENTS = (
 
 def main(args: argparse.Namespace) -> str | None:
     """Print the full names."""
-    from ros2cli.suggestion import did_you_mean
+    from ros2cli.suggestion import did_you_mean, source_meant
     from turtlewire import msg
 
-    packages = msg.interface_names()
+    packages = msg.interfaces()
     if args.package_name not in packages:
-        return f"Unknown package '{args.package_name}'{did_you_mean(args.package_name, packages)}"
+        name = args.package_name
+        return f"Unknown package '{name}'{source_meant(name) or did_you_mean(name, packages)}"
     wanted = {"msg": args.only_msgs, "srv": args.only_srvs, "action": args.only_actions}
     for kind, is_wanted in wanted.items():
         if is_wanted or not any(wanted.values()):

@@ -28,7 +28,7 @@ def main(args: argparse.Namespace) -> None:
 
     wanted = {"msg": args.only_msgs, "srv": args.only_srvs, "action": args.only_actions}
     kinds = [kind for kind in wanted if wanted[kind]] or list(wanted)
-    found = sorted(msg.interface_names().items())
+    found = sorted(msg.interfaces().items())
     print_packages(package for package, names in found if any(names[kind] for kind in kinds))
 
 

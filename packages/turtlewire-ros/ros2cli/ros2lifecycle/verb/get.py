@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ros2cli.arguments import argument
+from ros2cli.arguments import argument, timeout_argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.node.direct import DirectNode
 from ros2cli.output import tell_failed_call
-from ros2lifecycle.managed_nodes import HIDDEN_ARGUMENT, managed_node_names
+from ros2lifecycle.managed_nodes import DEFAULT_TIMEOUT_S, HIDDEN_ARGUMENT, managed_node_names
 from ros2lifecycle.verb import VerbExtension
 
 if TYPE_CHECKING:
@@ -21,6 +21,7 @@ __all__ = ["ARGUMENTS", "GetVerb", "main"]
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
     HIDDEN_ARGUMENT,
+    timeout_argument(DEFAULT_TIMEOUT_S),
     argument(
         "node_name",
         nargs="?",
@@ -42,7 +43,8 @@ def main(args: argparse.Namespace) -> int:
             managed_nodes(direct.graph, hidden=args.include_hidden_nodes) if one is None else [one]
         ):
             try:
-                answer = ask(direct, GetState, f"{name}/get_state", GetState.Request())
+                service, request = f"{name}/get_state", GetState.Request()
+                answer = ask(direct, GetState, service, request, args.timeout)
             except RuntimeError as error:
                 if one:
                     raise

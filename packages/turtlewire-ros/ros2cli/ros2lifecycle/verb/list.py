@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ros2cli.arguments import argument
+from ros2cli.arguments import argument, timeout_argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.node.direct import DirectNode
-from ros2lifecycle.managed_nodes import HIDDEN_ARGUMENT, managed_node_names
+from ros2lifecycle.managed_nodes import DEFAULT_TIMEOUT_S, HIDDEN_ARGUMENT, managed_node_names
 from ros2lifecycle.verb import VerbExtension
 
 if TYPE_CHECKING:
@@ -20,6 +20,7 @@ __all__ = ["ARGUMENTS", "ListVerb", "main"]
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
     HIDDEN_ARGUMENT,
+    timeout_argument(DEFAULT_TIMEOUT_S),
     argument("node_name", help="Full name of the node", completer=managed_node_names),
     argument(
         "-a",
@@ -38,9 +39,8 @@ def main(args: argparse.Namespace) -> None:
     service = "get_transition_graph" if args.all else "get_available_transitions"
     with DirectNode(args) as direct:
         name = require_managed_node(direct.graph, args)
-        answer = ask(
-            direct, GetAvailableTransitions, f"{name}/{service}", GetAvailableTransitions.Request()
-        )
+        request = GetAvailableTransitions.Request()
+        answer = ask(direct, GetAvailableTransitions, f"{name}/{service}", request, args.timeout)
     for offered in answer.available_transitions:
         print(f"- {offered.transition.label} [{offered.transition.id}]")
         print(f"\tStart: {offered.start_state.label}\n\tGoal: {offered.goal_state.label}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ros2cli.arguments import argument
+from ros2cli.arguments import argument, timeout_argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.node.direct import DirectNode
@@ -21,6 +21,7 @@ __all__ = ["ARGUMENTS", "SetVerb", "main"]
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
     HIDDEN_ARGUMENT,
+    timeout_argument(),
     argument("node_name", help="Full name of the node", completer=managed_node_names),
     argument(
         "transition",
@@ -42,6 +43,7 @@ def main(args: argparse.Namespace) -> str | None:
             GetAvailableTransitions,
             f"{name}/get_available_transitions",
             GetAvailableTransitions.Request(),
+            args.timeout,
         )
         offered = [item.transition for item in answer.available_transitions]
         chosen = next(
@@ -51,7 +53,9 @@ def main(args: argparse.Namespace) -> str | None:
             known = "".join(f"\n- {item.label} [{item.id}]" for item in offered)
             return f"Unknown transition requested, available ones are:{known}"
         request = ChangeState.Request(transition=Transition(id=chosen.id, label=chosen.label))
-        if not ask(direct, ChangeState, f"{name}/change_state", request).success:
+        service = f"{name}/change_state"
+        if not ask(direct, ChangeState, service, request, args.timeout).success:
+            # As in ROS 2, this is not a failure of the command.
             tell("Transitioning failed")
             return None
     print("Transitioning successful")

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph, hidden_node_name
+from ros2cli.json_lines import JSON_ARGUMENT, print_json_list
 from ros2cli.listing import HIDDEN_NODES, count_argument, print_names
 from ros2cli.output import tell
 from ros2node.verb import VerbExtension
@@ -21,6 +22,7 @@ ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
     argument("-a", "--all", action="store_true", help=HIDDEN_NODES),
     count_argument("node"),
+    JSON_ARGUMENT,
 )
 
 
@@ -37,7 +39,10 @@ def main(args: argparse.Namespace) -> None:
             "WARNING: Be aware that there are nodes in the graph that share an exact name, "
             "which can have unintended side effects."
         )
-    print_names(names, args)
+    if args.json:
+        print_json_list([{"node": name} for name in names], args)
+    else:
+        print_names(names, args)
 
 
 @verb_of_module

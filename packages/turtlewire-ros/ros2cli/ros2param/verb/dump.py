@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.builtin import verb_of_module
+from ros2cli.json_lines import JSON_ARGUMENT, print_json
 from ros2cli.node.direct import DirectNode
 from ros2param.options import node_arguments
 from ros2param.parameters import RemoteParameters
@@ -17,7 +18,7 @@ __all__ = ["ARGUMENTS", "PARAMETER_SEPARATOR_STRING", "DumpVerb", "insert", "mai
 
 PARAMETER_SEPARATOR_STRING = "."
 
-ARGUMENTS = (*node_arguments(),)
+ARGUMENTS = (*node_arguments(), JSON_ARGUMENT)
 
 
 def main(args: argparse.Namespace) -> None:
@@ -35,7 +36,11 @@ def main(args: argparse.Namespace) -> None:
         insert(
             tree, name.split(PARAMETER_SEPARATOR_STRING), _plain(parameter_value_to_python(message))
         )
-    print(yaml.safe_dump({remote.node_name: {"ros__parameters": tree}}, default_flow_style=False))
+    file = {remote.node_name: {"ros__parameters": tree}}
+    if args.json:
+        print_json(file)
+    else:
+        print(yaml.safe_dump(file, default_flow_style=False))
 
 
 def insert(tree: dict[str, Any], path: list[str], value: Any) -> None:

@@ -28,7 +28,7 @@ class PackageNotFound(Exception):
 
 
 def get_package_names() -> Any:
-    """Names of all installed packages."""
+    """Return the names of all installed packages."""
     from turtlewire_ros.prefix import package_names
 
     return package_names().keys()
@@ -42,7 +42,7 @@ def get_prefix_path(package_name: str) -> str | None:
 
 
 def get_executable_paths(*, package_name: str) -> list[str]:
-    """Paths of the executables of a package, sorted.
+    """Return the paths of the executables of a package, sorted.
 
     Raises:
         PackageNotFound: There is no such package.
@@ -56,5 +56,5 @@ def get_executable_paths(*, package_name: str) -> list[str]:
 
 
 def package_name_completer(**kwargs: Any) -> list[str]:
-    """Names of all installed packages."""
+    """Return the names of all installed packages."""
     return completion.packages(**kwargs)

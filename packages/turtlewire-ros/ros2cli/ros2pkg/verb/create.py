@@ -82,6 +82,7 @@ def main(args: argparse.Namespace) -> str | None:
             f"\nAborted!\nThe directory already exists: {folder}\n"
             "Remove it, or choose another destination directory or package name"
         )
+    # As ROS 2 fills it in.
     email = args.maintainer_email or f"{args.maintainer_name}@todo.todo"
     _print_plan(args, email)
     _write(folder, _files(args, email))

@@ -11,6 +11,8 @@ from ros2cli.arguments import argument
 from ros2cli.builtin import command_of_module
 from ros2cli.command import CommandExtension
 from ros2cli.completion import arguments_of_executable, executables, packages
+from ros2cli.helpers import interactive_select
+from ros2cli.selection import OPTIONAL
 from ros2run.child import run
 
 __all__ = ["ARGUMENTS", "RunCommand", "main", "named", "run_and_tell"]
@@ -22,8 +24,10 @@ ARGUMENTS = (
         help="Command to put before the executable, for example a debugger: "
         "--prefix 'gdb -ex run --args'",
     ),
-    argument("package_name", help="Name of the package", completer=packages),
-    argument("executable_name", help="Name of the executable", completer=executables),
+    argument("package_name", nargs=OPTIONAL, help="Name of the package", completer=packages),
+    argument(
+        "executable_name", nargs=OPTIONAL, help="Name of the executable", completer=executables
+    ),
     argument(
         "argv",
         nargs=argparse.REMAINDER,
@@ -37,18 +41,24 @@ def main(args: argparse.Namespace) -> int | str:
     """Run the executable, and end as it ends."""
     from turtlewire_ros.executables import argv_for, executable_paths
 
-    paths = executable_paths(args.package_name)
+    package = args.package_name or interactive_select(packages(), "Select package:")
+    if package is None:
+        return "No package selected"
+    paths = executable_paths(package)
     if paths is None:
         from ros2cli.suggestion import package_meant
 
-        raise RuntimeError(
-            f"Package '{args.package_name}' not found{package_meant(args.package_name)}"
-        )
-    found = named(paths, args.executable_name)
+        raise RuntimeError(f"Package '{package}' not found{package_meant(package)}")
+    executable = args.executable_name
+    if executable is None:
+        executable = interactive_select(map(os.path.basename, paths), "Select executable:")
+        if executable is None:
+            return "No executable selected"
+    found = named(paths, executable)
     if not found:
         from turtlewire_ros.workspace_hints import executable_hint
 
-        hint = executable_hint(args.package_name, args.executable_name)
+        hint = executable_hint(package, executable)
         return f"No executable found\n{hint}".rstrip()
     if len(found) > 1:
         return "Multiple executables found:" + "".join(f"\n- {path}" for path in found)

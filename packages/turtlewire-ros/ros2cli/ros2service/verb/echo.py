@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.completion import service_names, service_types
-from ros2cli.qos_options import QOS_ARGUMENTS, with_options
-from ros2cli.values import unsigned_int
+from ros2cli.message_text import DEFAULT_TRUNCATE_LENGTH, TEXT_ARGUMENTS, event_text
+from ros2cli.qos import QOS_ARGUMENTS, with_options
 from ros2service.verb import VerbExtension
 
 if TYPE_CHECKING:
@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from turtlewire.wire.base import Graph
 
 __all__ = ["ARGUMENTS", "DEFAULT_TRUNCATE_LENGTH", "EchoVerb", "main"]
-
-DEFAULT_TRUNCATE_LENGTH = 128
 
 ARGUMENTS = (
     argument(
@@ -31,20 +29,7 @@ ARGUMENTS = (
         completer=service_types,
     ),
     *QOS_ARGUMENTS,
-    argument(
-        "--csv", action="store_true", help="One line of comma-separated values for each event"
-    ),
-    argument("-f", "--full-length", action="store_true", help="Do not shorten arrays and strings"),
-    argument(
-        "-l",
-        "--truncate-length",
-        type=unsigned_int,
-        default=DEFAULT_TRUNCATE_LENGTH,
-        help="Length to which arrays and strings are shortened",
-    ),
-    argument("--no-arr", action="store_true", help="Show only the types of arrays"),
-    argument("--no-str", action="store_true", help="Show only the lengths of strings"),
-    argument("--flow-style", action="store_true", help="Write sequences on one line"),
+    *TEXT_ARGUMENTS,
 )
 
 
@@ -53,7 +38,7 @@ def main(args: argparse.Namespace) -> str | None:
     from ros2cli.node.direct import DirectNode
 
     if args.service_type is not None:
-        # A wrong type is refused before anything is started.
+        # A wrong type is rejected before anything is started.
         _service_class(args.service_type, f"The service type '{args.service_type}' is invalid")
     with DirectNode(args) as direct:
         service = direct.node.resolve_service_name(args.service_name)
@@ -64,7 +49,7 @@ def main(args: argparse.Namespace) -> str | None:
         topic = f"{service}/_service_event"
         qos = with_options(args, "services_default")
         subscription = direct.node.create_subscription(
-            srv_type.Event, topic, lambda event: print(_text(event, args)), qos
+            srv_type.Event, topic, lambda event: print(event_text(event, args)), qos
         )
         if subscription.get_publisher_count() < 1:
             print(
@@ -81,7 +66,9 @@ def _service_class(name: str, refusal: str) -> Any:
     try:
         return get_service(name)
     except (AttributeError, ModuleNotFoundError, ValueError):
-        raise RuntimeError(refusal) from None
+        from ros2cli.suggestion import source_meant
+
+        raise RuntimeError(f"{refusal}{source_meant(name)}") from None
 
 
 def _type_of_service(graph: Graph, service: str) -> str | None:
@@ -94,26 +81,6 @@ def _type_of_service(graph: Graph, service: str) -> str | None:
             f"[{', '.join(types)}]"
         )
     return types[0] if types else None
-
-
-def _text(event: Any, args: argparse.Namespace) -> str:
-    from rclpy.service_introspection import EventType
-    from rosidl_runtime_py import message_to_csv, message_to_yaml
-
-    length = None if args.full_length else args.truncate_length
-    if args.csv:
-        return message_to_csv(event, truncate_length=length, no_arr=args.no_arr, no_str=args.no_str)
-    text = message_to_yaml(
-        event,
-        truncate_length=length,
-        no_arr=args.no_arr,
-        no_str=args.no_str,
-        flow_style=args.flow_style,
-    )
-    number = event.info.event_type
-    if number in list(EventType):  # the wire may say anything
-        text = text.replace(f"event_type: {number}\n", f"event_type: {EventType(number).name}\n", 1)
-    return text + "---"
 
 
 @verb_of_module

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
+from ros2cli.json_lines import JSON_ARGUMENT
 from ros2cli.listing import SHOW_TYPES, count_argument, hidden_argument, print_names_and_types
 from ros2service.verb import VerbExtension
 
@@ -14,7 +15,13 @@ if TYPE_CHECKING:
 
 __all__ = ["ARGUMENTS", "ListVerb", "main"]
 
-ARGUMENTS = (*STRATEGY_ARGUMENTS, SHOW_TYPES, count_argument("service"), hidden_argument("service"))
+ARGUMENTS = (
+    *STRATEGY_ARGUMENTS,
+    SHOW_TYPES,
+    count_argument("service"),
+    hidden_argument("service"),
+    JSON_ARGUMENT,
+)
 
 
 def main(args: argparse.Namespace) -> None:
@@ -23,7 +30,7 @@ def main(args: argparse.Namespace) -> None:
 
     with discovered_graph(args.spin_time) as graph:
         found = services(graph, hidden=args.include_hidden_services)
-    print_names_and_types(found, args)
+    print_names_and_types("service", found, args)
 
 
 @verb_of_module

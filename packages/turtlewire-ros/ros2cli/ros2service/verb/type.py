@@ -8,6 +8,7 @@ from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.completion import service_names
 from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
+from ros2cli.json_lines import JSON_ARGUMENT
 from ros2cli.listing import print_types
 from ros2service.verb import VerbExtension
 
@@ -21,6 +22,7 @@ ARGUMENTS = (
     argument(
         "service_name", help="Name of the service, for example /spawn", completer=service_names
     ),
+    JSON_ARGUMENT,
 )
 
 
@@ -30,7 +32,7 @@ def main(args: argparse.Namespace) -> int:
 
     with discovered_graph(args.spin_time) as graph:
         known = dict(services(graph, hidden=True))
-    return print_types("service", args.service_name, known)
+    return print_types("service", args.service_name, known, as_json=args.json)
 
 
 @verb_of_module

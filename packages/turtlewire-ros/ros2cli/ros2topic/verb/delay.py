@@ -10,6 +10,8 @@ from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.completion import topic_names
 from ros2cli.discovery import SPIN_ARGUMENTS
+from ros2cli.json_lines import JSON_ARGUMENT, print_json
+from ros2cli.qos import QOS_ARGUMENTS, with_options
 from ros2cli.values import positive_int
 from ros2topic.verb import VerbExtension
 from ros2topic.verb.hz import spread
@@ -20,6 +22,8 @@ if TYPE_CHECKING:
 __all__ = ["ARGUMENTS", "DEFAULT_WINDOW_SIZE", "DelayVerb", "ROSTopicDelay", "main"]
 
 DEFAULT_WINDOW_SIZE = 10000
+
+_KEYS = ("topic", "average", "min", "max", "std_dev", "window")
 
 ARGUMENTS = (
     argument(
@@ -33,24 +37,29 @@ ARGUMENTS = (
         default=DEFAULT_WINDOW_SIZE,
         help="How many messages count",
     ),
+    *QOS_ARGUMENTS,
     *SPIN_ARGUMENTS,
+    JSON_ARGUMENT,
 )
 
 
 def main(args: argparse.Namespace) -> None:
     """Print the delay every second, while messages come."""
-    from rclpy.qos import qos_profile_sensor_data
     from ros2cli.node.direct import DirectNode
     from ros2topic.api import type_of_topic
 
     with DirectNode(args) as direct:
         topic = direct.node.resolve_topic_name(args.topic_name)
-        kind = type_of_topic(direct, topic, blocking=True)
+        kind = type_of_topic(direct, topic, blocking=True, as_json=args.json)
         if "header" not in kind.get_fields_and_field_types():
             raise RuntimeError("msg does not have header")
         delay = ROSTopicDelay(direct.node, args.window)
-        direct.node.create_subscription(kind, topic, delay.callback_delay, qos_profile_sensor_data)
-        direct.node.create_timer(1.0, delay.print_delay)
+        # Best effort matches every publisher, and a lost message does not change the delay.
+        qos = with_options(args, "sensor_data")
+        direct.node.create_subscription(kind, topic, delay.callback_delay, qos)
+        direct.node.create_timer(
+            1.0, lambda: delay.print_json(topic) if args.json else delay.print_delay()
+        )
         direct.spin()
 
 
@@ -84,7 +93,7 @@ class ROSTopicDelay:
             self._is_new = True
 
     def get_delay(self) -> tuple[float, float, float, float, int] | None:
-        """Mean, minimum, maximum and deviation of the delay [s], and how many messages count.
+        """Return mean, minimum, maximum and deviation of the delay [s], and the messages counted.
 
         Returns:
             None if no message came since the last call.
@@ -107,6 +116,16 @@ class ROSTopicDelay:
                 f"\tmin: {shortest:.3f}s max: {longest:.3f}s"
                 f" std dev: {deviation:.5f}s window: {count}"
             )
+
+    def print_json(self, topic: str) -> None:
+        """Print the delay [s] as a JSON object, if messages came since the last call.
+
+        Args:
+            topic: The name of the topic.
+        """
+        found = self.get_delay()
+        if found is not None:
+            print_json(dict(zip(_KEYS, (topic, *found), strict=True)))
 
 
 @verb_of_module

@@ -9,9 +9,17 @@ from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.completion import topic_names, topic_types
 from ros2cli.discovery import STRATEGY_ARGUMENTS
-from ros2cli.output import tell
-from ros2cli.qos_options import QOS_ARGUMENTS, asked_for, matching_publishers, with_options
-from ros2cli.values import positive_float, unsigned_int
+from ros2cli.json_lines import JSON_ARGUMENT, print_json
+from ros2cli.message_text import (
+    DEFAULT_TRUNCATE_LENGTH,
+    TEXT_ARGUMENTS,
+    message_csv,
+    message_yaml,
+)
+from ros2cli.output import clear_terminal, tell
+from ros2cli.qos import QOS_ARGUMENTS, choose_qos
+from ros2cli.selection import OPTIONAL, select_topic
+from ros2cli.values import positive_float
 from ros2topic.verb import VerbExtension
 
 if TYPE_CHECKING:
@@ -22,11 +30,14 @@ if TYPE_CHECKING:
 
 __all__ = ["ARGUMENTS", "DEFAULT_TRUNCATE_LENGTH", "EchoVerb", "main", "make_filter"]
 
-DEFAULT_TRUNCATE_LENGTH = 128
-
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
-    argument("topic_name", help="Name of the topic, for example /tf", completer=topic_names),
+    argument(
+        "topic_name",
+        nargs=OPTIONAL,
+        help="Name of the topic, for example /tf",
+        completer=topic_names,
+    ),
     argument(
         "message_type",
         nargs="?",
@@ -35,20 +46,14 @@ ARGUMENTS = (
     ),
     *QOS_ARGUMENTS,
     argument(
-        "--csv", action="store_true", help="One line of comma-separated values for each message"
+        "--field",
+        dest="fields",
+        metavar="FIELD",
+        action="append",
+        default=[],
+        help="Only this field, for example pose.position.x or ranges.[0]; may be repeated",
     ),
-    argument("--field", metavar="FIELD", help="Only this field, for example pose.position.x"),
-    argument("-f", "--full-length", action="store_true", help="Do not shorten arrays and strings"),
-    argument(
-        "-l",
-        "--truncate-length",
-        type=unsigned_int,
-        default=DEFAULT_TRUNCATE_LENGTH,
-        help="Length to which arrays and strings are shortened",
-    ),
-    argument("--no-arr", action="store_true", help="Show only the types of arrays"),
-    argument("--no-str", action="store_true", help="Show only the lengths of strings"),
-    argument("--flow-style", action="store_true", help="Write sequences on one line"),
+    *TEXT_ARGUMENTS,
     argument(
         "--lost-messages",
         action="store_true",
@@ -72,7 +77,13 @@ ARGUMENTS = (
         action="store_true",
         help="Show when a message was sent and received",
     ),
+    argument("-c", "--clear", action="store_true", help="Clear the terminal before each message"),
+    argument("-n", "--node-name", help="Name of the listening node"),
+    JSON_ARGUMENT,
 )
+
+#: Options that change the text of a message; JSON shows decoded messages whole, in one format.
+_TEXT_ONLY = ("csv", "flow_style", "no_arr", "no_str", "raw", "clear")
 
 
 def main(args: argparse.Namespace) -> str | None:
@@ -84,28 +95,30 @@ def main(args: argparse.Namespace) -> str | None:
     from ros2topic.api import message_class, type_of_topic
     from turtlewire.msg import type_name
 
+    if told := _refused(args):
+        return told
     if args.message_type is not None:
-        message_class(args.message_type)  # refused before anything is started
+        message_class(args.message_type)  # rejected before anything is started
     keep = make_filter(args.filter_expr)
-    with DirectNode(args) as direct:
-        topic = direct.node.resolve_topic_name(args.topic_name)
+    with DirectNode(args, node_name=args.node_name) as direct:
+        name = args.topic_name or select_topic(direct.graph, "Select topic to echo:")
+        if name is None:
+            return None
+        topic = direct.node.resolve_topic_name(name)
         kind = (
-            type_of_topic(direct, topic)
+            type_of_topic(direct, topic, as_json=args.json)
             if args.message_type is None
             else message_class(args.message_type)
         )
         if kind is None:
             raise RuntimeError("Could not determine the type for the passed topic")
-        if not direct.node.count_publishers(topic):  # of publishers the subscription will warn
+        if not direct.node.count_publishers(topic):  # otherwise the subscription itself warns
             known = direct.graph.topic_names_and_types()
             warn_of_other_type("topic", topic, type_name(kind), known)
             say_what_was_meant(topic, known)
-        _check_field(kind, args.field)
-        qos = (
-            with_options(args, "sensor_data")
-            if asked_for(args)
-            else matching_publishers(direct.graph, topic)
-        )
+        for field in args.fields:
+            _check_field(kind, field)
+        qos = choose_qos(direct, topic, args)
         end = Future()
         printer = _Printer(args, keep, end)
         direct.node.create_subscription(
@@ -115,6 +128,19 @@ def main(args: argparse.Namespace) -> str | None:
         warn_if_silent(direct.node, topic, tell)
         direct.result(end)
     return None
+
+
+def _refused(args: argparse.Namespace) -> str | None:
+    """Return an error if an option does not apply to JSON; None otherwise."""
+    found = [f"--{name.replace('_', '-')}" for name in _TEXT_ONLY if getattr(args, name)]
+    if args.truncate_length != DEFAULT_TRUNCATE_LENGTH:
+        found.append("--truncate-length")
+    if not args.json or not found:
+        return None
+    return (
+        f"Cannot specify both --json and {' or '.join(found)}: --json prints each message whole, "
+        "as one JSON object per line"
+    )
 
 
 class _Printer:
@@ -143,50 +169,54 @@ class _Printer:
             return
         if self._timer is not None:
             self._timer.reset()
-        value = _field(message, self._args.field)
-        self._print(value, info if self._args.include_message_info else {})
+        if self._args.clear:
+            clear_terminal()
+        if self._args.json:
+            self._print_json(message, info)
+        else:
+            self._print_text(message, info)
         if self._args.once:
             self._finish()
+
+    def _print_json(self, message: Any, info: dict[str, Any]) -> None:
+        fields = {field: _field(message, field) for field in self._args.fields}
+        shown = fields or message
+        print_json({"info": info, "message": shown} if self._args.include_message_info else shown)
+
+    def _print_text(self, message: Any, info: dict[str, Any]) -> None:
+        values = [_field(message, field) for field in self._args.fields] or [message]
+        for index, value in enumerate(values):
+            # The information precedes the first field.
+            self._print(value, info if self._args.include_message_info and index == 0 else {})
+        if not self._args.csv:
+            print("---")
 
     def _print(self, value: Any, info: dict[str, Any]) -> None:
         """Print a value, after the information about its message if there is any."""
         args = self._args
-        length = None if args.full_length else args.truncate_length
+        # A field may be a plain value.
         if args.raw or not hasattr(value, "SLOT_TYPES"):
             if info:
                 print(f"---Got new message, message info:---\n{info}\n---Message data:---")
-            print(value, end="\n" if args.csv else "\n---\n")
+            print(value)
         elif args.csv:
-            from rosidl_runtime_py import message_to_csv
-
-            text = message_to_csv(
-                value, truncate_length=length, no_arr=args.no_arr, no_str=args.no_str
-            )
-            print(",".join([*map(str, info.values()), text]))
+            print(",".join([*map(str, info.values()), message_csv(value, args)]))
         else:
-            import yaml
-
-            from rosidl_runtime_py import message_to_yaml
-
-            text = message_to_yaml(
-                value,
-                truncate_length=length,
-                no_arr=args.no_arr,
-                no_str=args.no_str,
-                flow_style=args.flow_style,
-            )
+            text = message_yaml(value, args)
             if info:
+                import yaml
+
                 print(yaml.dump(info), end="---\n")
-            print(text, end="---\n")
+            print(text, end="")
 
 
-def _field(message: Any, path: str | None) -> Any:
+def _field(message: Any, path: str) -> Any:
     """Return a field of a message: names joined by dots, with indices in brackets.
 
     Raises:
         RuntimeError: The field does not exist.
     """
-    for name, index in re.findall(r"([^.\[\]]+)|\[(\d+)\]", path or ""):
+    for name, index in re.findall(r"([^.\[\]]+)|\[(\d+)\]", path):
         try:
             message = getattr(message, name) if name else message[int(index)]
         except (AttributeError, IndexError, TypeError) as error:  # noqa: PERF203
@@ -196,9 +226,10 @@ def _field(message: Any, path: str | None) -> Any:
     return message
 
 
-def _check_field(kind: Any, path: str | None) -> None:
-    """Refuse a field that no message of the type has, before the first one arrives."""
-    if path is not None and "[" not in path:
+def _check_field(kind: Any, path: str) -> None:
+    """Reject a field that no message of the type has, before the first one arrives."""
+    # An index may be valid in a message, but not in the empty sequence of a default value.
+    if "[" not in path:
         _field(kind(), path)
 
 
@@ -224,11 +255,14 @@ def _lost(args: argparse.Namespace) -> Any:
     from rclpy.event_handler import SubscriptionEventCallbacks
 
     def report(status: Any) -> None:
-        print(
+        text = (
             f"A message was lost!!!\n\ttotal count change:{status.total_count_change}\n"
-            f"\ttotal count: {status.total_count}",
-            end="---\n",
+            f"\ttotal count: {status.total_count}"
         )
+        if args.json:
+            tell(text)
+        else:
+            print(text, end="---\n")
 
     return SubscriptionEventCallbacks(message_lost=report)
 

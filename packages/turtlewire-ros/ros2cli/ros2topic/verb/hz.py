@@ -11,21 +11,25 @@ from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
-from ros2cli.completion import topic_names
 from ros2cli.discovery import SPIN_ARGUMENTS
+from ros2cli.json_lines import JSON_ARGUMENT, print_json
+from ros2cli.output import clear_terminal
 from ros2cli.values import positive_int
+from ros2topic.several import SEVERAL_TOPICS, choose, print_table, refused, subscribe
 from ros2topic.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Callable, Collection
+    from collections.abc import Callable, Collection, Sequence
 
 __all__ = ["ARGUMENTS", "DEFAULT_WINDOW_SIZE", "HzVerb", "ROSTopicHz", "main", "spread"]
 
 DEFAULT_WINDOW_SIZE = 10000
 
+_COLUMNS = ("topic", "rate", "min_delta", "max_delta", "std_dev", "window")
+
 ARGUMENTS = (
-    argument("topic_name", help="Name of the topic, for example /tf", completer=topic_names),
+    *SEVERAL_TOPICS,
     argument(
         "-w",
         "--window",
@@ -42,31 +46,37 @@ ARGUMENTS = (
     ),
     argument("--wall-time", action="store_true", help="Use the wall clock with simulated time too"),
     *SPIN_ARGUMENTS,
+    JSON_ARGUMENT,
 )
 
 
-def main(args: argparse.Namespace) -> None:
-    """Print the rate every second, while messages come."""
-    from rclpy.qos import qos_profile_sensor_data
+def main(args: argparse.Namespace) -> str | None:
+    """Print the rates every second, while messages come."""
     from ros2cli.node.direct import DirectNode
-    from ros2topic.api import type_of_topic
     from ros2topic.verb.echo import make_filter
 
+    if told := refused(args):
+        return told
     keep = make_filter(args.filter_expr)
+    topics: list[str] = []
     with DirectNode(args) as direct:
-        topic = direct.node.resolve_topic_name(args.topic_name)
-        kind = type_of_topic(direct, topic, blocking=True)
-        wall_time = args.wall_time or not args.use_sim_time
-        hz = ROSTopicHz(direct.node, args.window, keep, wall_time)
-        direct.node.create_subscription(
-            kind,
-            topic,
-            functools.partial(hz.callback_hz, topic=topic),
-            qos_profile_sensor_data,
+        if not choose(direct, args, "hz"):
+            return None
+        hz = ROSTopicHz(direct.node, args.window, keep, args.wall_time or not args.use_sim_time)
+        # Before the subscriptions, because a topic may have to be waited for.
+        direct.node.create_timer(
+            1.0, lambda: hz.print_json(topics) if args.json else hz.print_hz(topics, args.all)
+        )
+        subscribe(
+            direct,
+            args,
+            topics,
+            lambda topic: functools.partial(hz.callback_hz, topic=topic),
+            # Undecoded, unless a filter needs the fields.
             raw=keep is None,
         )
-        direct.node.create_timer(1.0, functools.partial(hz.print_hz, topic))
         direct.spin()
+    return None
 
 
 def spread(values: Collection[float]) -> tuple[float, float]:
@@ -142,7 +152,7 @@ class ROSTopicHz:
         self._arrivals(topic).msg_tn = value
 
     def get_times(self, topic: str | None = None) -> list[int]:
-        """Times between the messages."""
+        """Return the times between the messages."""
         return self._arrivals(topic).times
 
     def set_times(self, value: list[int], topic: str | None = None) -> None:
@@ -167,6 +177,7 @@ class ROSTopicHz:
                 arrivals.times = []
             else:
                 arrivals.times.append(now - arrivals.msg_tn)
+                # A window of n messages has n - 1 intervals.
                 del arrivals.times[: -max(self.window_size - 1, 1)]
             arrivals.msg_tn = now
 
@@ -185,18 +196,58 @@ class ROSTopicHz:
         mean, deviation = spread(times)
         return (1.0 / mean if mean > 0 else 0.0), min(times), max(times), deviation, len(times)
 
-    def print_hz(self, topic: str | None = None) -> None:
-        """Print the rate, if messages came since the last call."""
-        found = self.get_hz(topic)
-        if found is not None:
-            rate, shortest, longest, deviation, count = found
-            print(
-                f"average rate: {rate * 1e9:.3f}\n"
-                f"\tmin: {shortest / 1e9:.3f}s max: {longest / 1e9:.3f}s"
-                f" std dev: {deviation / 1e9:.5f}s window: {count + 1}"
-            )
+    def print_hz(
+        self, topic: str | Sequence[str] | None = None, clear_screen: bool = False
+    ) -> None:
+        """Print the rates of topics, if messages came since the last call.
+
+        Args:
+            topic: The topic, or several, which are shown as a table.
+            clear_screen: Whether the terminal is cleared first.
+        """
+        topics = [topic] if topic is None or isinstance(topic, str) else topic
+        found = self._news(topics)
+        if not found:
+            return
+        if clear_screen:
+            clear_terminal()
+        shown = [(name, *_texts(*figures)) for name, figures in found]
+        if len(topics) > 1:
+            print_table(_COLUMNS, [[str(cell) for cell in row] for row in shown])
+            return
+        _, rate, shortest, longest, deviation, window = shown[0]
+        print(
+            f"average rate: {rate}\n"
+            f"\tmin: {shortest}s max: {longest}s std dev: {deviation}s window: {window}"
+        )
+
+    def print_json(self, topics: Sequence[str]) -> None:
+        """Print a JSON object for each topic that had messages since the last call.
+
+        The rate is in hertz, and the times are in seconds.
+        """
+        for name, (rate, shortest, longest, deviation, count) in self._news(topics):
+            figures = (rate * 1e9, shortest / 1e9, longest / 1e9, deviation / 1e9, count + 1)
+            print_json(dict(zip(_COLUMNS, (name, *figures), strict=True)))
+
+    def _news(
+        self, topics: Sequence[str | None]
+    ) -> list[tuple[str | None, tuple[float, int, int, float, int]]]:
+        return [(name, each) for name in topics if (each := self.get_hz(name)) is not None]
+
+
+def _texts(
+    rate: float, shortest: int, longest: int, deviation: float, count: int
+) -> tuple[str, ...]:
+    return (
+        f"{rate * 1e9:.3f}",
+        f"{shortest / 1e9:.3f}",
+        f"{longest / 1e9:.3f}",
+        f"{deviation / 1e9:.5f}",
+        str(count + 1),
+    )
 
 
 @verb_of_module
 class HzVerb(VerbExtension):
-    """Show the rate of a topic."""
+    """Show the rates of topics."""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
+from ros2cli.json_lines import JSON_ARGUMENT, print_json
 from ros2cli.listing import (
     SHOW_TYPES,
     count_argument,
@@ -30,6 +31,7 @@ ARGUMENTS = (
     count_argument("topic"),
     hidden_argument("topic"),
     argument("-v", "--verbose", action="store_true", help="Show how many publish and subscribe"),
+    JSON_ARGUMENT,
 )
 
 
@@ -40,9 +42,10 @@ def main(args: argparse.Namespace) -> None:
     with discovered_graph(args.spin_time) as graph:
         found = topics(graph, hidden=args.include_hidden_topics)
         if args.verbose and not args.count:
-            _print_verbose(graph, found)
+            show = _print_verbose_json if args.json else _print_verbose
+            show(graph, found)
         else:
-            print_names_and_types(found, args)
+            print_names_and_types("topic", found, args)
 
 
 def _print_verbose(graph: Graph, found: NamesAndTypes) -> None:
@@ -58,6 +61,20 @@ def _print_verbose(graph: Graph, found: NamesAndTypes) -> None:
             if count:
                 print(f" * {name} [{', '.join(types)}] {count} {word}{'' if count == 1 else 's'}")
         print()
+
+
+def _print_verbose_json(graph: Graph, found: NamesAndTypes) -> None:
+    from ros2cli.graph import endpoints_of_topic
+
+    for name, types in found:
+        print_json(
+            {
+                "topic": name,
+                "types": types,
+                "publisher_count": len(endpoints_of_topic(graph, name, "publisher")),
+                "subscription_count": len(endpoints_of_topic(graph, name, "subscription")),
+            }
+        )
 
 
 @verb_of_module

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import sys
 import time
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument, exclusive
 from ros2cli.builtin import verb_of_module
-from ros2cli.completion import message_values, topic_names, topic_types
+from ros2cli.completion import files, message_values, topic_names, topic_types
 from ros2cli.discovery import SPIN_ARGUMENTS
 from ros2cli.output import tell
-from ros2cli.qos_options import QOS_ARGUMENTS, with_options
-from ros2cli.values import positive_float, positive_int, read_values, shortened
+from ros2cli.qos import QOS_ARGUMENTS, with_options
+from ros2cli.values import positive_float, positive_int, read_documents, read_values, shortened
 from ros2cli.values import unsigned_int as nonnegative_int
 from ros2topic.verb import VerbExtension
 
@@ -46,6 +47,12 @@ ARGUMENTS = (
             completer=message_values,
         ),
         argument("--stdin", action="store_true", help="Read the values from stdin"),
+        argument(
+            "--yaml-file",
+            metavar="FILE",
+            help="Publish the YAML documents of this file, one after the other, and end",
+            completer=files,
+        ),
     ),
     argument(
         "-r", "--rate", metavar="N", type=positive_float, default=1.0, help="Messages a second"
@@ -92,46 +99,75 @@ def main(args: argparse.Namespace) -> str | None:
     from ros2cli.node.direct import DirectNode
     from ros2cli.suggestion import field_meant, say_what_was_meant, warn_of_other_type
     from ros2topic.api import message_class
-    from rosidl_runtime_py import set_message_fields
     from turtlewire.msg import type_name
 
-    message = message_class(args.message_type)()
-    values = read_values(sys.stdin.read() if args.stdin else args.values)
+    kind = message_class(args.message_type)
+    documents = _documents(args)
     try:
-        stamps = set_message_fields(message, values, expand_header_auto=True, expand_time_now=True)
+        messages = [_filled(kind, values) for values in documents]
     except Exception as error:  # noqa: BLE001  any value may be wrong in any way
         return f"Failed to populate field: {shortened(error)}{field_meant(error)}"
-    times = 1 if args.once else args.times
+    asked = 1 if args.once else args.times
+    times = min(asked or len(messages), len(messages)) if args.yaml_file else asked
     with DirectNode(args, node_name=args.node_name, lingers=True) as direct:
         topic = direct.node.resolve_topic_name(args.topic_name)
-        if not direct.node.count_subscribers(topic):  # of subscriptions the publisher will warn
+        if not direct.node.count_subscribers(topic):  # otherwise the publisher itself warns
             known = direct.graph.topic_names_and_types()
-            warn_of_other_type("topic", topic, type_name(type(message)), known)
+            warn_of_other_type("topic", topic, type_name(kind), known)
             say_what_was_meant(topic, known)
         publisher = direct.node.create_publisher(
-            type(message), args.topic_name, with_options(args, "default")
+            kind, args.topic_name, with_options(args, "default")
         )
         warn_if_unheard(direct.node, publisher, tell)
         wanted = args.wait_matching_subscriptions
         message_or_none = _wait_for_subscriptions(
             direct,
             publisher,
-            (1 if times else 0) if wanted is None else wanted,
+            (1 if asked else 0) if wanted is None else wanted,
             args.max_wait_time_secs,
         )
         if message_or_none is not None:
             return message_or_none
         print("publisher: beginning loop")
-        _publish(args, direct, publisher, message, stamps, times)
+        _publish(args, direct, publisher, messages, times)
         if times:
             direct.pause(args.keep_alive)
     return None
 
 
+def _documents(args: argparse.Namespace) -> list[dict[str, Any]]:
+    """Return the values of the messages on the command line.
+
+    Raises:
+        RuntimeError: The values are wrong, or their file cannot be read or is empty.
+        yaml.YAMLError: The values are not YAML.
+    """
+    if args.yaml_file is None:
+        return [read_values(sys.stdin.read() if args.stdin else args.values)]
+    try:
+        text = Path(args.yaml_file).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or "it is not text"
+        raise RuntimeError(f"Cannot read '{args.yaml_file}': {reason}") from None
+    documents = read_documents(text)
+    if not documents:
+        raise RuntimeError(f"The file '{args.yaml_file}' holds no YAML document")
+    return documents
+
+
+def _filled(kind: Any, values: dict[str, Any]) -> tuple[Any, list[Any]]:
+    """Return a message, and the stamps in it that are set when it is published."""
+    from rosidl_runtime_py import set_message_fields
+
+    message = kind()
+    stamps = set_message_fields(message, values, expand_header_auto=True, expand_time_now=True)
+    return message, stamps
+
+
 def _wait_for_subscriptions(
     direct: DirectNode, publisher: Any, wanted: int, limit: float | None
 ) -> str | None:
-    """Wait; a text when the time is over."""
+    """Wait; return a message if the time is over."""
     deadline = None if limit is None else time.monotonic() + limit
     while (count := publisher.get_subscription_count()) < wanted:
         print(f"Waiting for at least {wanted} matching subscription(s)...")
@@ -153,8 +189,7 @@ def _publish(
     args: argparse.Namespace,
     direct: DirectNode,
     publisher: Any,
-    message: Any,
-    stamps: list[Any],
+    messages: list[tuple[Any, list[Any]]],
     times: int,
 ) -> None:
     from rclpy.task import Future
@@ -166,7 +201,9 @@ def _publish(
         nonlocal count
         if end.done():
             return
+        message, stamps = messages[count % len(messages)]
         now = direct.node.get_clock().now().to_msg()
+        # Stamps that the user wrote as `now`, or in a header `auto`.
         for stamp in stamps:
             stamp.sec, stamp.nanosec = now.sec, now.nanosec
         count += 1
@@ -176,6 +213,7 @@ def _publish(
         if count == times:
             end.set_result(None)
 
+    # At once, because the timer waits for a period.
     publish_next()
     timer = direct.node.create_timer(1.0 / args.rate, publish_next)
     direct.result(end)

@@ -9,6 +9,7 @@ from ros2cli.builtin import verb_of_module
 from ros2cli.completion import topic_names
 from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
 from ros2cli.listing import print_types
+from ros2cli.selection import OPTIONAL, select_topic
 from ros2topic.verb import VerbExtension
 
 if TYPE_CHECKING:
@@ -18,7 +19,12 @@ __all__ = ["ARGUMENTS", "TypeVerb", "main"]
 
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
-    argument("topic_name", help="Name of the topic, for example /tf", completer=topic_names),
+    argument(
+        "topic_name",
+        nargs=OPTIONAL,
+        help="Name of the topic, for example /tf",
+        completer=topic_names,
+    ),
 )
 
 
@@ -27,8 +33,9 @@ def main(args: argparse.Namespace) -> int:
     from ros2cli.graph import topics
 
     with discovered_graph(args.spin_time) as graph:
+        name = args.topic_name or select_topic(graph, "Select topic for type:")
         known = dict(topics(graph, hidden=True))
-    return print_types("topic", args.topic_name, known)
+    return 0 if name is None else print_types("topic", name, known)
 
 
 @verb_of_module

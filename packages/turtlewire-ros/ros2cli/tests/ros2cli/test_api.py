@@ -101,6 +101,7 @@ def test_parameters_and_states(node, peer):
     (value,) = api.call_get_parameters(**where, parameter_names=["speed"]).values
     assert api.get_value(parameter_value=value) == 2.5
     assert api.get_parameter_type_string(value.type) == "double"
+    assert api.get_parameter_value(string_value="2.5") == value
     new = [Parameter("speed", value=1.0).to_parameter_msg()]
     assert api.call_set_parameters(**where, parameters=new).results[0].successful
     (found,) = api.call_describe_parameters(**where, parameter_names=["speed"]).descriptors

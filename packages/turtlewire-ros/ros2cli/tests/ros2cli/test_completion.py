@@ -19,7 +19,7 @@ from turtlewire.wire.qos import QoS
 
 
 def offered_at_last(line):
-    """Press TAB again while it offers nothing: it gives up soon, too soon beside much load."""
+    """Press TAB again while it offers nothing: under load, it gives up too soon."""
     return next((found for _ in range(20) if (found := offered(line))), set())
 
 

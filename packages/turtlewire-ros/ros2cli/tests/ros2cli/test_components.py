@@ -85,7 +85,8 @@ def test_registered_types(ros2, tmp_path, monkeypatch):
     folder.mkdir(parents=True)
     (folder / "some_package").write_text("some::Talker;lib/libtalker.so\nsome::Other;lib/libo.so\n")
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
-    assert done(ros2("types")) == "some_package\n  some::Talker\n  some::Other"
+    # Behind them are those of the packages that are installed.
+    assert done(ros2("types")).startswith("some_package\n  some::Talker\n  some::Other")
     assert done(ros2("types", "some_package")) == "some::Talker\nsome::Other"
     told = done(ros2("types", "nobody"), status=1)
     assert told == "No components registered for package 'nobody'"

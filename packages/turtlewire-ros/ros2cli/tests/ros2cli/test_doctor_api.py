@@ -1,4 +1,4 @@
-"""`ros2doctor.api`: checks and reports, with those of other packages."""
+"""`ros2doctor.api`: checks and reports, including other packages'."""
 
 from __future__ import annotations
 
@@ -8,8 +8,26 @@ import sys
 import pytest
 
 from ros2cli.main import main
-from ros2doctor.api import Report, Result, generate_reports, run_checks, run_checks_of_others
+from ros2doctor.api import (
+    Report,
+    Result,
+    generate_reports,
+    get_service_names,
+    print_warning_notice,
+    run_checks,
+    run_checks_of_others,
+)
+from ros2doctor.api.action import ActionReport
+from ros2doctor.api.environment import ALL_ENVIRONMENT_VARIABLES, EnvironmentReport
 from ros2doctor.api.format import compute_padding, doctor_warn, format_print
+from ros2doctor.api.network import InterfaceFlags, NetworkCheck, NetworkReport
+from ros2doctor.api.platform import PlatformCheck
+from ros2doctor.api.qos_compatibility import QoSCompatibilityCheck, QoSCompatibilityReport
+from ros2doctor.api.topic import TopicCheck, TopicReport
+from turtlewire import msg
+from turtlewire.wire import open_context
+from turtlewire.wire.base import TypeId
+from turtlewire.wire.qos import QoS, Reliability
 
 CHECKS = """
 from ros2doctor.api import DoctorCheck, DoctorReport, Report, Result
@@ -71,7 +89,9 @@ def test_checks_of_other_packages_count(tires):
 
 def test_reports_have_titles_and_lines(tires, capsys):
     assert [each.name for each in generate_reports()] == [
-        *("PLATFORM INFORMATION", "RMW MIDDLEWARE", "ROS 2 INFORMATION", "TOPIC LIST", "TIRES")
+        *("PLATFORM INFORMATION", "NETWORK CONFIGURATION", "RMW MIDDLEWARE", "ROS 2 INFORMATION"),
+        *("ROS ENVIRONMENT", "TOPIC LIST", "SERVICE LIST", "ACTION LIST"),
+        *("QOS COMPATIBILITY LIST", "TIRES"),
     ]
     (report,) = generate_reports(categories=["tires"])
     report.add_to_report("longest name", 0)
@@ -106,7 +126,9 @@ def test_the_command_runs_the_checks_of_others(tires, capsys):
     shown = capsys.readouterr().out
     assert shown.endswith("\n1/1 check(s) of other packages failed\n\nFailed modules: tires\n")
     assert main(["doctor", "--report"]) == 0
-    assert capsys.readouterr().out.endswith("\n   TIRES\nfront : 2.1\n")
+    report = capsys.readouterr().out
+    print_warning_notice()
+    assert report.endswith(f"\n   TIRES\nfront : 2.1\n{capsys.readouterr().out}")
 
 
 def test_parts():
@@ -124,3 +146,81 @@ def test_the_report_of_the_command_is_the_same():
     shown = subprocess.run(run, capture_output=True, text=True, check=True, timeout=840).stdout
     assert "\n   PLATFORM INFORMATION\nsystem " in shown
     assert "\n   TOPIC LIST\n" in shown
+
+
+def test_reports_of_one_category():
+    assert [each.name for each in generate_reports(categories=["platform"])] == [
+        "PLATFORM INFORMATION",
+        "ROS 2 INFORMATION",
+    ]
+    assert generate_reports(categories=["none"]) == []
+    report, other = Report("x"), Report("x")
+    assert report == other
+    report.add_to_report("a", 1)
+    assert report != other
+
+
+def test_the_variables_that_are_set(monkeypatch):
+    for name in ALL_ENVIRONMENT_VARIABLES:
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("CYCLONEDDS_URI", "<x/>")
+    monkeypatch.setenv("ROS_PACKAGE_PATH", "/p")
+    monkeypatch.setenv("ROS_HOME", "/h")
+    assert EnvironmentReport().report().items == [
+        ("ROS environment variables", "ROS_HOME=/h, ROS_PACKAGE_PATH=/p"),
+        ("rcutils environment variables", ""),
+        ("rmw environment variables", "CYCLONEDDS_URI=<x/>"),
+    ]
+
+
+def test_checks_of_topics(capsys):
+    context = open_context()
+    try:
+        kind = TypeId("std_msgs/msg/String", msg.type_hash("std_msgs/msg/String"))
+        node = context.create_node("talker")
+        node.create_publisher("/alone", kind, QoS())
+        node.create_subscription("/unsaid", kind, QoS())
+        with pytest.warns(UserWarning, match="detected on") as warned:
+            assert TopicCheck().check().warning == 2
+        assert [str(each.message) for each in warned] == [
+            "Publisher without subscriber detected on /alone.",
+            "Subscriber without publisher detected on /unsaid.",
+        ]
+        assert QoSCompatibilityReport().report().items == [
+            ("compatibility status", "No publisher/subscriber pairs found")
+        ]
+        node.create_subscription("/alone", kind, QoS())
+        node.create_publisher("/unsaid", kind, QoS(reliability=Reliability.BEST_EFFORT))
+        assert TopicCheck().check().warning == 0
+        result = QoSCompatibilityCheck().check()
+        assert (result.error, result.warning) == (1, 0)
+        fault = "Best effort publisher and reliable subscription"
+        told = f"ERROR: QoS compatibility error found on topic [/unsaid]: ERROR: {fault}"
+        assert told in capsys.readouterr().err
+        assert [value for _, value in QoSCompatibilityReport().report().items] == [
+            *("/alone [std_msgs/msg/String]", "/talker", "/talker", "OK"),
+            *("/unsaid [std_msgs/msg/String]", "/talker", "/talker", f"ERROR: {fault}"),
+        ]
+        assert ("topic", "/alone") in TopicReport().report().items
+        assert ActionReport().report().items[0] == ("action", "none")
+        assert get_service_names() == []
+    finally:
+        context.close()
+
+
+def test_the_interfaces(monkeypatch):
+    report = NetworkReport().report()
+    assert report.name == "NETWORK CONFIGURATION"
+    assert next(name for name, _ in report.items) == "device"
+    assert str(InterfaceFlags("nothing")) == ""
+    if sys.platform == "linux":
+        assert ("inet", "127.0.0.1") in report.items
+        assert "LOOPBACK" in InterfaceFlags("lo").flags
+        assert str(InterfaceFlags("lo")).endswith("UP,LOOPBACK>")
+    assert NetworkCheck().check().error == 0  # it is not to look for others
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET")
+    monkeypatch.setattr("turtlewire.doctor.setup_findings.multicast_works", lambda: False)
+    assert NetworkCheck().check().error == 1
+    monkeypatch.setenv("ROS_DISTRO", "electric")
+    with pytest.warns(UserWarning, match="ROS_DISTRO is 'electric'"):
+        assert PlatformCheck().check().error == 0

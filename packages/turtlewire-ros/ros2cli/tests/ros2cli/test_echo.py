@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
+import functools
+import sys
 from types import SimpleNamespace
 
 import pytest
 
+import rclpy
 from rclpy.task import Future
-from ros2cli.main import make_parser
+from ros2cli.main import main, make_parser
 from ros2topic.verb.echo import _field, _Printer, make_filter
+from std_msgs.msg import String
 from turtlewire.msg import get_message
+
+ROS2 = (
+    sys.executable,
+    "-c",
+    "import sys; from ros2cli.main import main; sys.exit(main(sys.argv[1:]))",
+)
 
 
 def test_fields_by_names_and_indices():
@@ -17,7 +27,7 @@ def test_fields_by_names_and_indices():
         transforms=[get_message("geometry_msgs/msg/TransformStamped")(child_frame_id="a")]
     )
     assert _field(message, "transforms[0].child_frame_id") == "a"
-    assert _field(message, None) is message
+    assert _field(message, "transforms.[0].child_frame_id") == "a"
 
 
 @pytest.mark.parametrize("path", ["nope", "transforms[3]", "transforms.x"])
@@ -96,3 +106,45 @@ def test_each_message_puts_the_end_off(capsys):
 def test_message_infos_have_the_formats_of_ros_2(capsys, options, message, expected):
     printer("-i", *options).show(message, INFO)
     assert capsys.readouterr().out == expected
+
+
+def test_several_fields_of_a_message(capsys):
+    message = get_message("geometry_msgs/msg/TransformStamped")(child_frame_id="a")
+    shown = printer("--field", "child_frame_id", "--field", "transform.translation", "-i")
+    shown.show(message, INFO)
+    told = f"---Got new message, message info:---\n{INFO}\n---Message data:---\n"
+    assert capsys.readouterr().out == f"{told}a\nx: 0.0\ny: 0.0\nz: 0.0\n---\n"
+    shown = printer("--field", "transform.translation", "--field", "child_frame_id", "--csv")
+    shown.show(message, INFO)
+    assert capsys.readouterr().out == "0.0,0.0,0.0\na\n"
+
+
+def test_the_terminal_is_cleared_before_each_message(capsys):
+    shown = printer("--clear")
+    for number in (4, 5):
+        shown.show(get_message("std_msgs/msg/Int32")(data=number), INFO)
+    clear = "\x1b[H\x1b[2J"
+    assert capsys.readouterr().out == f"{clear}data: 4\n---\n{clear}data: 5\n---\n"
+
+
+def test_the_name_of_the_node_and_escaped_text_after_clearing(run):
+    with rclpy.init(args=[]) as context:
+        node = rclpy.create_node("talker")
+        publisher = node.create_publisher(String, "chatter", 1)
+        echo = run(*ROS2, "topic", "echo", "/chatter", "-c", "--node-name", "listener", "--once")
+        ears = functools.partial(node.get_subscriptions_info_by_topic, "/chatter")
+        assert context.wait_for_graph(
+            lambda: [ear.node_name for ear in ears()] == ["listener"], 60_000_000_000
+        )
+        assert publisher.get_subscription_count() == 1
+        publisher.publish(String(data="\x1b[2J"))
+        assert echo.wait() == 0
+    assert echo.text == '\x1b[H\x1b[2Jdata: "\\e[2J"\n---'
+
+
+def test_a_wrong_one_of_several_fields_is_rejected(capsys):
+    words = ("/chatter", "std_msgs/msg/String", "--field", "data", "--field", "date")
+    assert main(["topic", "echo", *words]) == 1
+    assert capsys.readouterr().err == (
+        "Invalid field 'date': 'String' object has no attribute 'date'\nDid you mean: data\n"
+    )

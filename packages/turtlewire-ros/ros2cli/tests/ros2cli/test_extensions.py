@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 import re
+import socket
 import sys
+import time
 
 import pytest
 
+import rclpy
 from ros2cli.installed import declared
-from ros2cli.main import main, make_parser
-from ros2doctor.verb.hello import _Hello
+from ros2cli.main import main
+from ros2doctor.verb.hello import (
+    HelloMulticastUDPReceiver,
+    HelloMulticastUDPSender,
+    HelloPublisher,
+    HelloSubscriber,
+    SummaryTable,
+)
 
 ROS2 = "from ros2cli.main import main; import sys; sys.exit(main(sys.argv[1:]))"
 
@@ -32,33 +41,66 @@ def test_every_extension_point_is_listed(capsys):
     assert [point.partition(":")[0] for point in points] == titles
 
 
-class FakeGroup:
-    """A group in which two others speak."""
+def test_the_table_counts_other_hosts(capsys):
+    table = SummaryTable()
+    table.increment_send()
+    table.increment_send()
+    table.increment_pub()
+    table.increment_sub("mars")
+    table.increment_receive("moon")
+    table.increment_receive("moon")
+    table.format_print_summary("/canyouhearme", 1.0)
+    shown = capsys.readouterr().out
+    assert shown.startswith(
+        "Greetings in 1.0 s: 1 published, 2 sent\nTopic /canyouhearme: heard 1 other hosts\n"
+    )
+    assert re.search(r"mars +1\n", shown)
+    assert "\nGroup 225.0.0.1:49150: heard 1 other hosts\n" in shown
+    assert re.search(r"moon +2\n", shown)
+    table.reset()
+    table.format_print_summary("/canyouhearme", 1.0)
+    assert "heard 0 other hosts" in capsys.readouterr().out
 
-    def __init__(self):
-        self.sent = []
 
-    def send(self, data):
-        self.sent.append(data)
+def test_greetings_of_other_hosts_are_counted(monkeypatch, capsys):
+    ours, theirs = SummaryTable(), SummaryTable()
+    with rclpy.init():
+        node = rclpy.create_node("hello")
+        monkeypatch.setattr("socket.gethostname", lambda: "mars")
+        publisher = HelloPublisher(node, "hear_me", theirs)
+        monkeypatch.undo()
+        subscription = HelloSubscriber(node, "hear_me", ours)
+        end = time.monotonic() + 60
+        shown = ""
+        while "mars" not in shown and time.monotonic() < end:
+            publisher.publish()
+            rclpy.spin_once(node, timeout_sec=0.1)
+            ours.format_print_summary("hear_me", 1)
+            shown = capsys.readouterr().out
+        assert "Topic hear_me: heard 1 other hosts\n    mars" in shown
+        publisher.destroy()
+        subscription.destroy()
 
-    def received(self):
-        yield self.sent[-1], ("127.0.0.1", 1)
-        yield b"hello, it's me moon", ("127.0.0.1", 2)
-        yield b"", ("127.0.0.1", 3)
 
-
-def test_the_table_counts_other_hosts():
-    args = make_parser(["doctor", "hello"]).parse_args(["doctor", "hello"])
-    hello = _Hello(args, FakeGroup())
-    hello.greet()
-    hello.greet()
-    hello.hear("topic", "hello, it's me mars")
-    hello.hear("topic", hello.greeting)
-    table = hello.table()
-    assert table.startswith("Greetings sent: 2\nTopic /canyouhearme: heard 1 other hosts\n")
-    assert re.search(r"mars +1\n", table)
-    assert re.search(r"moon +2\n", table)
-    assert "heard 0 other hosts" in hello.table()
+def test_datagrams_of_other_hosts_are_counted(monkeypatch, capsys):
+    table = SummaryTable()
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    receiver = HelloMulticastUDPReceiver(table, port=port, timeout=60)
+    sender = HelloMulticastUDPSender(table, port=port, ttl=1)
+    sender.send()
+    receiver.recv()  # our own
+    with monkeypatch.context() as moved:
+        moved.setattr("socket.gethostname", lambda: "mars")
+        sender.send()
+    receiver.recv()
+    receiver.shutdown()
+    sender.shutdown()
+    table.format_print_summary("/x", 1, port=port)
+    shown = capsys.readouterr().out
+    assert "Greetings in 1 s: 0 published, 2 sent\nTopic /x: heard 0 other hosts\n" in shown
+    assert re.search(rf"Group 225.0.0.1:{port}: heard 1 other hosts\n    mars +1\n", shown)
 
 
 def test_hello_ends_after_a_table(run):

@@ -52,7 +52,7 @@ def test_every_verb_is_escaped(monkeypatch, capsys, raised):
 
 
 class HostileGraph:
-    """The graph beside a peer that announces names and types which ROS 2 would refuse."""
+    """The graph with a peer that announces names and types that ROS 2 would reject."""
 
     def __init__(self):
         node = NodeInfo(f"{EVIL}\nnode", "/", "/")

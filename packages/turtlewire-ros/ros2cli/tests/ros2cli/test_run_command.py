@@ -58,6 +58,27 @@ def test_a_signal_to_ros2_run_ends_the_executable(run, package, number):
     assert "Traceback" not in program.text
 
 
+@pytest.mark.parametrize("distro", ["jazzy", "kilted"])
+@pytest.mark.parametrize(
+    ("number", "name"),
+    [(signal.SIGINT, "Interrupt"), (signal.SIGTERM, "Terminated"), (signal.SIGHUP, None)],
+)
+def test_the_signal_is_told_from_kilted_on(run, package, distro, number, name):
+    package("stay", "#!/bin/sh\necho ready\nexec sleep 1000\n")
+    program = run(
+        sys.executable,
+        "-c",
+        "import sys; from ros2cli.main import main; sys.exit(main(['run', 'p', 'stay']))",
+        environment={"ROS_DISTRO": distro},
+    )
+    program.wait_for("ready")
+    program.process.send_signal(number)
+    assert program.wait() != 0
+    told = [line for line in program.text.splitlines() if "Received" in line]
+    is_told = name is not None and distro == "kilted"
+    assert told == ([f"[ros2run]: Received signal:  {name}"] if is_told else [])
+
+
 def test_python_scripts_run_on_this_interpreter(package, capfd):
     package("which", "#!/nowhere/bin/python3\nimport sys\nprint(sys.executable)\n")
     assert main(["run", "p", "which"]) == 0

@@ -1,4 +1,4 @@
-"""`ros2 service echo` beside a service that has introspection on."""
+"""`ros2 service echo` with a service that has introspection on."""
 
 from __future__ import annotations
 

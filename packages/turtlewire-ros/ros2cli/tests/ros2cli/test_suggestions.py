@@ -82,7 +82,8 @@ def test_commands_that_are_not_here(capsys, command):
         main([command, "list"])
     (told,) = capsys.readouterr().err.splitlines()
     assert told.startswith(f"ros2 {command}: ")
-    assert ("ros2_control is C++" in told) == (command == "control")
+    clone = "git clone -b jazzy https://github.com/ros-controls/ros2_control; "
+    assert (clone in told) == (command == "control")
     assert ("RMW_IMPLEMENTATION=rmw_zenoh_cpp" in told) == (command == "security")
 
 
@@ -154,6 +155,77 @@ def test_a_type_without_its_package(capsys, name):
     ]
 
 
+@pytest.mark.parametrize(
+    ("line", "error"),
+    [
+        ("interface show nav2_msgs/action/Spin", "Unknown package 'nav2_msgs'"),
+        ("interface package nav2_msgs", "Unknown package 'nav2_msgs'"),
+        ("interface proto nav2_msgs/action/Spin", "ModuleNotFoundError: No module named"),
+        ("pkg prefix nav2_msgs", "Package not found"),
+        ("topic pub /x nav2_msgs/msg/Costmap", "The passed message type is invalid"),
+        ("topic echo /x nav2_msgs/msg/Costmap", "The passed message type is invalid"),
+        ("service call /x nav2_msgs/srv/SaveMap", "The passed service type is invalid"),
+        ("service echo /x nav2_msgs/srv/SaveMap", "The service type 'nav2_msgs/srv/SaveMap' is"),
+        ("action send_goal /x nav2_msgs/action/Spin {}", "The passed action type is invalid"),
+    ],
+)
+def test_an_interface_package_to_clone(capsys, line, error):
+    told, hint = errors(capsys, *line.split())
+    assert told.startswith(error)
+    assert hint.startswith("nav2_msgs does not come with turtlewire.")
+    assert "git clone -b jazzy https://github.com/ros-navigation/navigation2" in hint
+
+
+@pytest.mark.parametrize(
+    ("line", "error", "repository"),
+    [
+        ("run controller_manager spawner", "Package 'controller_manager' not found",
+            "ros-controls/ros2_control"),
+        ("pkg prefix controller_manager", "Package not found", "ros-controls/ros2_control"),
+        ("pkg prefix nav2_simple_commander", "Package not found", "ros-navigation/navigation2"),
+    ],
+)  # fmt: skip
+def test_a_python_package_to_clone(capsys, line, error, repository):
+    told, hint = errors(capsys, *line.split())
+    assert told == error
+    package = line.split()[2 if line.startswith("pkg") else 1]
+    assert f"git clone -b jazzy https://github.com/{repository};" in hint
+    assert f"colcon build --packages-up-to {package} && source install/setup.bash" in hint
+
+
+def test_a_command_whose_package_is_cloned(capsys, tmp_path, monkeypatch):
+    folder = tmp_path / "src/ros2_control/ros2controlcli"
+    folder.mkdir(parents=True)
+    (folder / "package.xml").write_text("<package><name>ros2controlcli</name></package>")
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SystemExit, match="2"):
+        main(["control", "list_controllers"])
+    told = capsys.readouterr().err
+    assert told.startswith("ros2 control: 'ros2controlcli' is in src/ros2_control/ros2controlcli, ")
+
+
+def test_a_topic_whose_interface_package_is_to_be_cloned(capsys):
+    context = open_context()
+    type_id = TypeId("px4_msgs/msg/VehicleOdometry", "RIHS01_" + "0" * 64)
+    context.create_node("px4").create_publisher("/fmu/out/vehicle_odometry", type_id, QoS())
+    told, hint = errors(capsys, "topic", "echo", "/fmu/out/vehicle_odometry")
+    context.close()
+    assert told == "The message type 'px4_msgs/msg/VehicleOdometry' is invalid"
+    assert "git clone -b main https://github.com/PX4/px4_msgs" in hint
+
+
+def test_an_interface_package_that_is_cloned(capsys, tmp_path, monkeypatch):
+    folder = tmp_path / "src/navigation2/nav2_msgs"
+    folder.mkdir(parents=True)
+    (folder / "package.xml").write_text("<package><name>nav2_msgs</name></package>")
+    monkeypatch.chdir(tmp_path)
+    _, hint = errors(capsys, "interface", "show", "nav2_msgs/action/Spin")
+    assert hint == (
+        "'nav2_msgs' is in src/navigation2/nav2_msgs, but it is not built: "
+        "colcon build --packages-select nav2_msgs && source install/setup.bash"
+    )
+
+
 @pytest.mark.usefixtures("pose_publisher")
 def test_types_to_find(capsys):
     def told(*words):
@@ -162,7 +234,7 @@ def test_types_to_find(capsys):
 
     assert told("topic", "find", "turtlesim/msg/Pose") == ("/turtle1/pose\n", "")
     assert told("topic", "find", "Pose").err == (
-        "Did you mean: geometry_msgs/msg/Pose, turtlesim/msg/Pose, turtlesim_msgs/msg/Pose\n"
+        "Did you mean: geometry_msgs/msg/Pose, turtlesim/msg/Pose\n"
     )
     assert told("topic", "find", "turtlesim/msg/Color") == ("", "")  # it exists, but no topic
     near = told("service", "find", "std_srvs/srv/Emty")

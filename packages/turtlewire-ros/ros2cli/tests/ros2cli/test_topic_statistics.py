@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rclpy.time import Time
+from ros2interface.verb.show import InterfaceTextLine
 from ros2topic.verb.bw import ROSTopicBandwidth
 from ros2topic.verb.delay import ROSTopicDelay
 from ros2topic.verb.hz import ROSTopicHz
@@ -68,6 +69,14 @@ def test_time_that_begins_anew_empties_the_window(capsys):
     assert capsys.readouterr().out.startswith("average rate: 2.000\n")
 
 
+def test_messages_of_one_moment_do_not_begin_anew():
+    hz = rates(10, [5, 5])
+    assert hz.get_times() == [0]
+    assert hz.get_hz() == (0.0, 0, 0, 0.0, 1), "no time has passed, so there is no rate"
+    assert rates(10, [5, 5, 9, 9]).get_times() == [0, 4, 0]
+    assert rates(10, [5, 4]).get_times() == []
+
+
 @given(st.lists(st.integers(1, 10**12), min_size=2, max_size=50), st.integers(1, 20))
 def test_a_window_never_holds_more_than_was_asked_for(steps, window):
     times, now = [], 0
@@ -100,9 +109,25 @@ def test_corrections_of_the_wall_clock_are_no_intervals(monkeypatch):
     ("size", "text"),
     [
         (24, "240 B/s from 5 messages\n\tMessage size mean: 24 B min: 24 B max: 24 B\n"),
+        (99, "990 B/s from 5 messages\n\tMessage size mean: 99 B min: 99 B max: 99 B\n"),
+        (
+            100,
+            "1.00 KB/s from 5 messages\n\tMessage size mean: 0.10 KB min: 0.10 KB max: 0.10 KB\n",
+        ),
         (
             2400,
             "24.00 KB/s from 5 messages\n\tMessage size mean: 2.40 KB min: 2.40 KB max: 2.40 KB\n",
+        ),
+        (
+            99_999,
+            (
+                "999.99 KB/s from 5 messages\n\tMessage size mean: 100.00 KB min: 100.00 KB "
+                "max: 100.00 KB\n"
+            ),
+        ),
+        (
+            100_000,
+            "1.00 MB/s from 5 messages\n\tMessage size mean: 0.10 MB min: 0.10 MB max: 0.10 MB\n",
         ),
         (
             240_000,
@@ -118,6 +143,24 @@ def test_units_of_the_bandwidth_follow_the_rate(monkeypatch, capsys, size, text)
         bandwidth.callback(bytes(size))
     bandwidth.print_bw()
     assert capsys.readouterr().out == text
+
+
+def test_the_table_leaves_out_topics_that_were_silent_since_the_last_one(monkeypatch, capsys):
+    now = iter(range(100))
+    monkeypatch.setattr(time, "monotonic", lambda: next(now))
+    bandwidth = ROSTopicBandwidth(Node(), 100)
+
+    def shown(*heard):
+        for topic in heard * 2:
+            bandwidth.callback(b"x", topic=topic)
+        bandwidth.print_bw(["/a", "/b"])
+        return [line.split()[0] for line in capsys.readouterr().out.splitlines()[2:] if line]
+
+    assert shown("/a", "/b") == ["/a", "/b"]
+    assert shown("/b") == ["/b"]
+    assert shown() == []
+    assert shown("/a") == ["/a"]
+    assert shown("/a", "/b") == ["/a", "/b"]
 
 
 def test_one_message_has_no_bandwidth(capsys):
@@ -143,3 +186,33 @@ def test_delays(capsys):
     assert capsys.readouterr().out == text
     delay.print_delay()
     assert capsys.readouterr().out == ""
+
+
+def test_bandwidths_count_the_newest_messages_of_each_topic():
+    bandwidth = ROSTopicBandwidth(None, 2)
+    for size in (1, 2, 3):
+        bandwidth.callback(bytes(size), "/a")
+    bandwidth.callback(b"x", "/b")
+    assert (bandwidth.get_sizes("/a"), bandwidth.get_sizes("/b")) == ([2, 3], [1])
+    assert len(bandwidth.get_times("/a")) == 2
+    assert bandwidth.get_last_printed_tn("/a") == 0.0
+    bandwidth.set_times([0.0, 1.0], "/a")
+    bandwidth.set_sizes([4, 6], "/a")
+    bandwidth.set_last_printed_tn(1.0, "/a")
+    assert bandwidth.get_bw("/a")[1:] == (2, 5, 4, 6)
+    assert bandwidth.get_last_printed_tn("/a") == 1.0
+
+
+def test_lines_of_definitions():
+    line = InterfaceTextLine("turtlesim", "msg/Path", "Pose[] poses  # where it was")
+    assert line.nested_type == "turtlesim/msg/Pose"
+    assert (line.is_comment(), line.is_trailing_comment()) == (False, True)
+    assert line.trailing_comment == "# where it was"
+    assert str(line) == "Pose[] poses  # where it was"
+    comment = InterfaceTextLine("p", "msg/M", "  # alone")
+    assert (comment.is_comment(), comment.is_trailing_comment()) == (True, False)
+    assert comment.trailing_comment is None
+    header = InterfaceTextLine("p", "msg/M", "Header header")
+    assert (header.nested_type, header.trailing_comment) == ("std_msgs/msg/Header", None)
+    for text in ("int32 MAX=3", "---", "", "string text '# no comment'"):
+        assert InterfaceTextLine("p", "msg/M", text).nested_type is None

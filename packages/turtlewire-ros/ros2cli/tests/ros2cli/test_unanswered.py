@@ -132,6 +132,14 @@ def test_that_there_is_nothing_at_all_is_said(run):
     ros2(run, "service", "call", "/x", "std_srvs/srv/Empty").wait_for("^No node offers any service")
 
 
+def test_a_goal_waits_no_longer_than_it_is_told(run):
+    words = "action send_goal /nobody example_interfaces/action/Fibonacci {} --timeout"
+    verb = ros2(run, *words.split(), "1")
+    assert verb.wait() == 1
+    assert verb.text.endswith("No server of the action '/nobody' came within 1 s")
+    assert ros2(run, *words.split(), "-1").wait() == 2
+
+
 def test_a_class_that_is_no_service(run):
     verb = ros2(run, "service", "call", "/x", "std_msgs/msg/String")
     assert verb.wait() == 1

@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING, Any
 
-from ros2bag.options import STORAGES, bag_path
+from ros2bag.options import STORAGES, bag_path, existing_file
 from ros2bag.verb import VerbExtension
-from ros2cli.arguments import argument
+from ros2cli.arguments import argument, exclusive
 from ros2cli.builtin import verb_of_module
 from ros2cli.completion import files
 
@@ -46,15 +46,24 @@ class _Input(argparse.Action):
 
 
 ARGUMENTS = (
-    argument(
-        "-i",
-        "--input",
+    exclusive(
+        argument(
+            "-i",
+            "--input",
+            action=_Input,
+            nargs="+",
+            metavar=("uri", "storage_id"),
+            help="A bag to read, and optionally its storage; may be given several times",
+            completer=files,
+        ),
+        argument(
+            "--input-options",
+            metavar="FILE",
+            type=existing_file,
+            help="YAML file whose key input_bags lists the bags to read",
+            completer=files,
+        ),
         required=True,
-        action=_Input,
-        nargs="+",
-        metavar=("uri", "storage_id"),
-        help="A bag to read, and optionally its storage; may be given several times",
-        completer=files,
     ),
     argument(
         "-o",
@@ -69,8 +78,13 @@ ARGUMENTS = (
 def main(args: argparse.Namespace) -> None:
     """Write the messages of the bags into others."""
     from rosbag2_py import StorageOptions, bag_rewrite
+    from rosbag2_py._rewrite import input_bags
 
-    inputs = [StorageOptions(uri=uri, storage_id=storage) for uri, storage in args.input]
+    inputs = (
+        [StorageOptions(uri=uri, storage_id=storage) for uri, storage in args.input]
+        if args.input_options is None
+        else input_bags(args.input_options)
+    )
     bag_rewrite(inputs, args.output_options)
 
 

@@ -28,7 +28,7 @@ ARGUMENTS = (
 def main(args: argparse.Namespace) -> None:
     """Print what the bag holds."""
     from rosbag2_py import Info
-    from rosbag2_py._metadata import is_service_event
+    from rosbag2_py._metadata import action_of, is_service_event
 
     if args.verbose and not args.topic_name:
         Info().read_metadata_and_output_service_verbose(args.bag_path, args.storage)
@@ -39,8 +39,9 @@ def main(args: argparse.Namespace) -> None:
         _tell_of_other_encodings(args.bag_path)
         return
     for item in metadata.topics_with_message_count:
-        if not is_service_event(item.topic_metadata.name, item.topic_metadata.type):
-            print(item.topic_metadata.name)
+        name, kind = item.topic_metadata.name, item.topic_metadata.type
+        if not (is_service_event(name, kind) or action_of(name, kind)):
+            print(name)
 
 
 def _tell_of_other_encodings(path: str) -> None:

@@ -14,6 +14,7 @@ from ros2bag.options import (
     REMAP,
     STORAGE,
     STORAGE_CONFIG,
+    absolute,
     bag_topics,
     event_topics,
     qos_overrides,
@@ -23,7 +24,7 @@ from ros2bag.verb import VerbExtension
 from ros2cli.arguments import argument, exclusive
 from ros2cli.builtin import verb_of_module
 from ros2cli.node import NODE_NAME_PREFIX
-from ros2cli.values import positive_float
+from ros2cli.values import positive_float, unsigned_int
 
 if TYPE_CHECKING:
     from rosbag2_py import PlayOptions
@@ -33,6 +34,7 @@ __all__ = ["ARGUMENTS", "NODE_NAME_PREFIX", "PlayVerb", "main", "positive_float"
 
 def _more_than_zero(text: str) -> float:
     value = _number(text)
+    # Not `value <= 0`, so that NaN is rejected as well.
     if not value > 0 or math.isinf(value):
         raise argparse.ArgumentTypeError(f"{text} is not in the valid range (> 0.0)")
     return value
@@ -74,6 +76,13 @@ ARGUMENTS = (
         default=[],
         help="Services whose events to play (default: all)",
     ),
+    argument(
+        "--actions",
+        metavar="action",
+        nargs="+",
+        default=[],
+        help="Actions to play (default: all)",
+    ),
     argument("-e", "--regex", default="", help="Play topics and services whose names match"),
     argument(
         "-x", "--exclude-regex", default="", help="Leave out topics and services whose names match"
@@ -93,6 +102,9 @@ ARGUMENTS = (
         default=[],
         help="Services whose events to leave out",
     ),
+    argument(
+        "--exclude-actions", metavar="action", nargs="+", default=[], help="Actions to leave out"
+    ),
     QOS_OVERRIDES,
     argument("-l", "--loop", action="store_true", help="Restart at the end"),
     REMAP,
@@ -102,6 +114,7 @@ ARGUMENTS = (
             "--clock",
             type=_more_than_zero,
             nargs="?",
+            # rosbag2's rate.
             const=40,
             default=0,
             help="Publish /clock at this rate [Hz]; 40 if no rate is given",
@@ -166,6 +179,25 @@ ARGUMENTS = (
         help="Send recorded requests to services instead of publishing their events",
     ),
     argument(
+        "--send-actions-as-client",
+        action="store_true",
+        help="Send recorded goals to action servers instead of publishing the topics of actions",
+    ),
+    argument(
+        "--progress-bar-update-rate",
+        metavar="HZ",
+        type=int,
+        default=3,
+        help="How often to draw the progress [Hz] (default: 3); 0 for never, negative for always",
+    ),
+    argument(
+        "--progress-bar-separation-lines",
+        metavar="N",
+        type=unsigned_int,
+        default=2,
+        help="Accepted as in ROS 2; the progress is one line",
+    ),
+    argument(
         "--service-requests-source",
         choices=("service_introspection", "client_introspection"),
         default="service_introspection",
@@ -195,10 +227,13 @@ def _play_options(args: argparse.Namespace) -> PlayOptions:
         rate=args.rate,
         topics_to_filter=args.topics,
         services_to_filter=event_topics(args.services),
+        actions_to_filter=[absolute(name) for name in args.actions],
         regex_to_filter=args.regex,
         exclude_regex_to_filter=args.exclude_regex,
         exclude_topics_to_filter=args.exclude_topics,
         exclude_service_events_to_filter=event_topics(args.exclude_services),
+        exclude_actions_to_filter=[absolute(name) for name in args.exclude_actions],
+        send_actions_as_client=args.send_actions_as_client,
         topic_qos_profile_overrides=qos_overrides(args.qos_profile_overrides_path),
         loop=args.loop,
         topic_remapping_options=remap_words(args.remap),
@@ -212,6 +247,8 @@ def _play_options(args: argparse.Namespace) -> PlayOptions:
         start_offset=args.start_offset,
         disable_keyboard_controls=args.disable_keyboard_controls,
         wait_acked_timeout=args.wait_for_all_acked,
+        progress_bar_update_rate=args.progress_bar_update_rate,
+        progress_bar_separation_lines=args.progress_bar_separation_lines,
         publish_service_requests=args.publish_service_requests,
         service_requests_source=ServiceRequestsSource[args.service_requests_source.upper()],
     )

@@ -17,18 +17,31 @@ from ros2bag.options import (
     qos_overrides,
 )
 from ros2bag.verb import VerbExtension
+from ros2cli import arguments
 from ros2cli.arguments import argument, exclusive
 from ros2cli.builtin import verb_of_module
-from ros2cli.completion import files, message_types, service_names, topic_names
+from ros2cli.completion import action_names, files, message_types, service_names, topic_names
 from ros2cli.node import NODE_NAME_PREFIX
-from ros2cli.values import unsigned_int
+from ros2cli.values import positive_int, unsigned_int
+from turtlewire.distro import KILTED, LYRICAL, since
 
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Iterable
 
     from rosbag2_py import RecordOptions, StorageOptions
 
-__all__ = ["ARGUMENTS", "NODE_NAME_PREFIX", "RecordVerb", "main"]
+__all__ = [
+    "ARGUMENTS",
+    "NODE_NAME_PREFIX",
+    "RecordVerb",
+    "add_recorder_arguments",
+    "check_necessary_argument",
+    "main",
+    "parse_repeat_transient_local_topics",
+    "split_key_value",
+    "validate_parsed_arguments",
+]
 
 _ERROR, _WARN = "[ERROR] [ros2bag]: ", "[WARN] [ros2bag]: "
 _NOTHING_CHOSEN = (
@@ -39,30 +52,31 @@ _TWO_CLOCKS = (
     "--use-sim-time and --no-discovery both set, but are incompatible settings. The /clock topic "
     "needs to be discovered to record with sim time."
 )
+_FILES_ALONE = "--max-bag-files argument requires either --max-bag-size or --max-bag-duration"
 _FORMAT_ALONE = "Invalid choice: Cannot specify compression format without a compression mode."
 _POSITIONAL = (
     'Positional "topics" argument deprecated. Please use optional "--topics" argument instead.'
 )
 
+_TOPICS = argument(
+    "--topics",
+    metavar="topic",
+    nargs="+",
+    default=[],
+    help="Names of topics to record",
+    completer=topic_names,
+)
+_POSITIONAL_TOPICS = argument(
+    "topics_positional",
+    metavar="topic",
+    nargs="*",
+    default=[],
+    help="Names of topics to record; --topics is better",
+    completer=topic_names,
+)
+
 ARGUMENTS = (
-    exclusive(
-        argument(
-            "topics_positional",
-            metavar="topic",
-            nargs="*",
-            default=[],
-            help="Names of topics to record; --topics is better",
-            completer=topic_names,
-        ),
-        argument(
-            "--topics",
-            metavar="topic",
-            nargs="+",
-            default=[],
-            help="Names of topics to record",
-            completer=topic_names,
-        ),
-    ),
+    _TOPICS if since(LYRICAL) else exclusive(_POSITIONAL_TOPICS, _TOPICS),
     argument(
         "-o", "--output", help="Folder of the new bag (default: named after the current time)"
     ),
@@ -82,6 +96,14 @@ ARGUMENTS = (
         completer=service_names,
     ),
     argument(
+        "--actions",
+        metavar="action",
+        nargs="+",
+        default=[],
+        help="Actions to record: feedback, status, and the events of their services",
+        completer=action_names,
+    ),
+    argument(
         "--topic-types",
         metavar="type",
         nargs="+",
@@ -89,9 +111,21 @@ ARGUMENTS = (
         help="Types of topics to record",
         completer=message_types,
     ),
-    argument("-a", "--all", action="store_true", help="Record all topics and service events"),
+    argument(
+        "--static-topics-path",
+        type=existing_file,
+        help="YAML file with topics and types to subscribe to at once, without a publisher",
+        completer=files,
+    ),
+    argument(
+        "-a",
+        "--all",
+        action="store_true",
+        help="Record all topics and service events, and from Kilted on all actions",
+    ),
     argument("--all-topics", action="store_true", help="Record all topics"),
     argument("--all-services", action="store_true", help="Record the events of all services"),
+    argument("--all-actions", action="store_true", help="Record all actions"),
     argument(
         "-e", "--regex", default="", help="Record topics and services whose names contain a match"
     ),
@@ -123,6 +157,14 @@ ARGUMENTS = (
         completer=service_names,
     ),
     argument(
+        "--exclude-actions",
+        metavar="action",
+        nargs="+",
+        default=[],
+        help="Actions to leave out",
+        completer=action_names,
+    ),
+    argument(
         "--include-unpublished-topics",
         action="store_true",
         help="Also record topics that have only subscriptions",
@@ -137,6 +179,7 @@ ARGUMENTS = (
         "-p",
         "--polling-interval",
         type=unsigned_int,
+        # rosbag2's default.
         default=100,
         help="Interval between two looks at the graph [ms]",
     ),
@@ -166,8 +209,34 @@ ARGUMENTS = (
         help="Time after which to start a new file [s]; 0 for a single file",
     ),
     argument(
+        "--max-bag-files",
+        metavar="N",
+        type=unsigned_int,
+        default=0,
+        help="Keep the N newest files of the bag; 0 for all",
+    ),
+    argument(
+        "--repeat-transient-local",
+        metavar="topic[=DEPTH]",
+        nargs="+",
+        default=[],
+        help="Write the last DEPTH messages (default: 1) of latched topics again into each further "
+        "file and snapshot",
+        completer=topic_names,
+    ),
+    argument(
+        "--repeat-all-transient-local",
+        metavar="DEPTH",
+        nargs="?",
+        type=positive_int,
+        const=1,
+        default=0,
+        help="The same for all latched topics (default: 1)",
+    ),
+    argument(
         "--max-cache-size",
         type=unsigned_int,
+        # rosbag2's default.
         default=100 * 1024 * 1024,
         help="Size of the queue in front of the disk [bytes]; 0 for no limit",
     ),
@@ -223,25 +292,83 @@ ARGUMENTS = (
 
 def main(args: argparse.Namespace) -> str | None:
     """Record until Ctrl-C."""
-    if args.topics_positional:
+    if getattr(args, "topics_positional", []):  # gone in Lyrical
         print(f"{_WARN}{_POSITIONAL}")
+        # The two forms exclude each other, so nothing is overwritten.
         args.topics = args.topics_positional
-    wrong = _wrong_combination(args)
+    wrong = validate_parsed_arguments(args, args.output)
     if wrong is not None:
-        return f"{_ERROR}{wrong}"
+        return wrong
     from rosbag2_py import Recorder
 
-    storage, options = _storage_options(args), _record_options(args)
+    try:
+        storage, options = _storage_options(args), _record_options(args)
+    except ValueError as error:
+        return f"{_ERROR}{error}"
     Recorder(args.log_level).record(storage, options, args.node_name)
     return None
 
 
-def _wrong_combination(args: argparse.Namespace) -> str | None:
-    """Return the conflict between options, if any; print which options override others."""
-    topics, services = args.all or args.all_topics, args.all or args.all_services
-    chosen = (args.regex, args.topics, args.topic_types, args.services)
-    if not (topics or services or any(chosen)):
+def add_recorder_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add all options of ``ros2 bag record`` to a command line."""
+    arguments.add_arguments(parser, ARGUMENTS)
+
+
+def check_necessary_argument(args: argparse.Namespace) -> bool:
+    """Return True if an option chooses what to record."""
+    everything = (args.all, args.all_topics, args.all_services, args.all_actions)
+    by_name = (args.topics, args.topic_types, args.services, args.actions)
+    return any((*everything, args.regex, args.static_topics_path, *by_name))
+
+
+def split_key_value(entry: str, default_value: str = "") -> tuple[str, str]:
+    """Split ``key=value`` at the first sign; the default stands for a missing value.
+
+    Args:
+        entry: A word of the command line.
+        default_value: Stands for a value that is not given.
+    """
+    key, sign, value = entry.partition("=")
+    return key, value if sign else default_value
+
+
+def parse_repeat_transient_local_topics(values: Iterable[str]) -> dict[str, int]:
+    """Return how many messages to repeat, by topic.
+
+    Args:
+        values: Words such as ``/tf_static=10``; a name alone means one message.
+
+    Raises:
+        ValueError: A word has no name, or its depth is not a number above zero.
+    """
+    depths = {}
+    for word in values:
+        topic, depth = split_key_value(word, "1")
+        if not topic or not depth.isdecimal() or not int(depth):
+            raise ValueError(
+                f"--repeat-transient-local takes TOPIC or TOPIC=DEPTH with a depth from 1, "
+                f"not '{word}'"
+            )
+        depths[absolute(topic)] = int(depth)
+    return depths
+
+
+def validate_parsed_arguments(args: argparse.Namespace, uri: str | None) -> str | None:
+    """Return the conflict between options, if any; print which options override others.
+
+    Args:
+        args: The command line.
+        uri: Folder of the new bag; None for a folder with a new name.
+    """
+    wrong = _wrong_combination(args, uri)
+    return None if wrong is None else f"{_ERROR}{wrong}"
+
+
+def _wrong_combination(args: argparse.Namespace, uri: str | None) -> str | None:
+    if not check_necessary_argument(args):
         return _NOTHING_CHOSEN
+    topics, services = args.all or args.all_topics, args.all or args.all_services
+    # As in ROS 2, only warnings: the wider option wins.
     for name, given in (("--topics", args.topics), ("--topic-types", args.topic_types)):
         if topics and given:
             print(f"{_WARN}--all or --all-topics will override {name}")
@@ -249,12 +376,14 @@ def _wrong_combination(args: argparse.Namespace) -> str | None:
         print(f"{_WARN}--all or --all-services will override --services")
     if (topics or services) and args.regex:
         print(f"{_WARN}--all, --all-topics or --all-services will override --regex")
-    if args.output and os.path.exists(args.output):
-        return f"Output folder '{args.output}' already exists."
+    if uri and os.path.exists(uri):
+        return f"Output folder '{uri}' already exists."
     if args.use_sim_time and args.no_discovery:
         return _TWO_CLOCKS
     if args.compression_format and args.compression_mode == "none":
         return _FORMAT_ALONE
+    if args.max_bag_files and not (args.max_bag_size or args.max_bag_duration):
+        return _FILES_ALONE
     return _useless_exclusion(args, topics, services)
 
 
@@ -286,6 +415,12 @@ def _useless_exclusion(args: argparse.Namespace, topics: bool, services: bool) -
             services or regex,
             "--all, --all-services or --regex",
         ),
+        (
+            "--exclude-actions",
+            args.exclude_actions,
+            args.all or args.all_actions or regex,
+            "--all, --all-actions or --regex",
+        ),
     ):
         if given and not useful:
             return f"{name} argument requires either {needs}"
@@ -296,10 +431,12 @@ def _storage_options(args: argparse.Namespace) -> StorageOptions:
     from rosbag2_py import StorageOptions
 
     return StorageOptions(
+        # ROS 2's pattern of names, in local time.
         uri=args.output or time.strftime("rosbag2_%Y_%m_%d-%H_%M_%S"),
         storage_id=args.storage,
         max_bagfile_size=args.max_bag_size,
         max_bagfile_duration=args.max_bag_duration,
+        max_bag_files=args.max_bag_files,
         max_cache_size=args.max_cache_size,
         storage_preset_profile=args.storage_preset_profile,
         storage_config_uri=args.storage_config_file or "",
@@ -320,11 +457,19 @@ def _record_options(args: argparse.Namespace) -> RecordOptions:
         topics=[absolute(name) for name in args.topics],
         topic_types=args.topic_types,
         services=event_topics(args.services),
+        all_actions=args.all_actions or (args.all and since(KILTED)),
+        actions=[absolute(name) for name in args.actions],
+        exclude_actions=[absolute(name) for name in args.exclude_actions],
         exclude_topics=[absolute(name) for name in args.exclude_topics],
         exclude_topic_types=args.exclude_topic_types,
         exclude_service_events=event_topics(args.exclude_services),
         rmw_serialization_format=args.serialization_format,
         topic_polling_interval=timedelta(milliseconds=args.polling_interval),
+        repeat_transient_local_messages=parse_repeat_transient_local_topics(
+            args.repeat_transient_local
+        ),
+        repeat_all_transient_local_depth=args.repeat_all_transient_local,
+        static_topics_uri=args.static_topics_path or "",
         regex=args.regex,
         exclude_regex=args.exclude_regex,
         compression_mode=args.compression_mode,

@@ -50,6 +50,89 @@ def test_a_player_plays_to_the_end_and_can_be_cancelled(peer):  # noqa: F811 - t
     assert not thread.is_alive()
 
 
+def wait_for_node(peer, name, *, present=True):  # noqa: F811
+    def is_so():
+        return (name in peer.node.get_node_names()) is present
+
+    assert peer.context.wire.graph.wait_for(is_so, 60 * SECOND)
+
+
+def test_a_recorder_that_is_steered(peer, tmp_path):  # noqa: F811 - the fixture
+    options = rosbag2_py.RecordOptions(topics=["/latched"], disable_keyboard_controls=True)
+    recorder = rosbag2_py.Recorder(storage(tmp_path / "out"), options, "info", "own_recorder")
+    recorder.start_spin()
+    assert not recorder.is_paused()
+    publisher = peer.publisher("/latched", LATCHED)
+    recorder.record()
+    peer.heard(publisher)
+    wait_for_node(peer, "own_recorder")
+    publisher.publish(String(data="first"))
+    assert publisher.wait_for_all_acked()
+    recorder.pause()
+    assert recorder.is_paused()
+    recorder.resume()
+    publisher.publish(String(data="second"))
+    assert publisher.wait_for_all_acked()
+    recorder.stop()
+    recorder.stop_spin()
+    assert texts(tmp_path / "out", "/latched") == ["first", "second"]
+    with pytest.raises(RuntimeError, match="nothing is recorded"):
+        recorder.pause()
+    with pytest.raises(RuntimeError, match="Bag directory already exists"):
+        recorder.record()
+
+
+def test_a_player_that_is_steered(peer):  # noqa: F811 - the fixture
+    got = peer.listen("/b")
+    options = rosbag2_py.PlayOptions(rate=50.0, start_paused=True, disable_keyboard_controls=True)
+    player = rosbag2_py.Player([storage(SMALL)], options, node_name="own_player")
+    player.start_spin()
+    wait_for_node(peer, "own_player")
+    assert player.get_starting_time() == 1_800_000_000 * SECOND
+    assert player.get_playback_duration() > 2 * SECOND
+    assert player.play()
+    assert not player.play()
+    assert player.wait_for_playback_to_start(60)
+    assert player.is_paused()
+    assert not player.wait_for_playback_to_finish(0)
+    assert player.burst(0) > 7
+    peer.wait_for(lambda: len(got) == 7)
+    assert not player.play_next()
+    player.seek(player.get_starting_time())
+    assert player.play_next()
+    player.resume()
+    assert not player.is_paused()
+    assert player.wait_for_playback_to_finish(60)
+    peer.wait_for(lambda: len(got) == 14)
+    player.pause()
+    assert player.play()
+    assert player.wait_for_playback_to_start_exclusively()
+    player.stop()
+    assert player.wait_for_playback_to_finish_exclusively()
+
+
+def test_a_steered_player_ends_with_its_object(peer):  # noqa: F811 - the fixture
+    player = rosbag2_py.Player(storage(SMALL), rosbag2_py.PlayOptions(start_paused=True))
+    player.play()
+    wait_for_node(peer, "rosbag2_player")
+    del player
+    wait_for_node(peer, "rosbag2_player", present=False)
+
+
+def test_steering_without_a_bag_is_an_error(tmp_path):
+    with pytest.raises(RuntimeError, match="there is no bag at nothing"):
+        rosbag2_py.Player(storage("nothing"), rosbag2_py.PlayOptions())
+    with pytest.raises(RuntimeError, match="expected one bag to play, got 2"):
+        rosbag2_py.Player([storage(SMALL), storage(SMALL)], rosbag2_py.PlayOptions())
+    with pytest.raises(RuntimeError, match="this Player has no bag"):
+        rosbag2_py.Player().pause()
+    with pytest.raises(RuntimeError, match="this Recorder has no bag"):
+        rosbag2_py.Recorder("debug").record()
+    options = rosbag2_py.RecordOptions(topics=["/a b"])
+    with pytest.raises(RuntimeError, match="'/a b' cannot be the name of a topic"):
+        rosbag2_py.Recorder(storage(tmp_path / "x"), options).record()
+
+
 def test_a_bag_that_is_not_there():
     with pytest.raises(RuntimeError, match="there is no bag at nothing"):
         rosbag2_py.Player().play(storage("nothing"), rosbag2_py.PlayOptions())
@@ -132,11 +215,11 @@ def test_rewrite_knows_every_key_and_joins_bags(tmp_path, capfd):
     assert (tmp_path / "wrong" / "metadata.yaml").exists()
 
 
-def test_a_rewrite_whose_second_bag_exists_leaves_a_whole_first_one(tmp_path):
+def test_a_rewrite_whose_second_bag_exists_leaves_no_empty_first_one(tmp_path):
     (tmp_path / "second").mkdir()
     (tmp_path / "out.yaml").write_text(
         f"output_bags:\n- uri: {tmp_path}/first\n- uri: {tmp_path}/second\n"
     )
     with pytest.raises(RuntimeError, match="Bag directory already exists"):
         rosbag2_py.bag_rewrite([storage(SMALL)], str(tmp_path / "out.yaml"))
-    assert (tmp_path / "first" / "metadata.yaml").exists()
+    assert not (tmp_path / "first").exists()

@@ -75,7 +75,7 @@ def messages(count):
     return [BagMessage("/a", "t", i, i, b"") for i in range(count)]
 
 
-@pytest.mark.parametrize("size", [1, 2, 3, 1000])
+@pytest.mark.parametrize("size", [-1, 0, 1, 2, 3, 1000])
 def test_all_messages_come_in_order(size):
     source = ReadAhead(iter(messages(500)), size)
     found = []

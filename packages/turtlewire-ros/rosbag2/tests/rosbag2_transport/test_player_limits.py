@@ -7,9 +7,10 @@ import threading
 import pytest
 
 from rosbag2_py import PlayOptions
-from rosbag2_transport.player import Player
+from rosbag2_transport.player import BagPlayer
 from std_msgs.msg import String
 from turtlewire.bag import BagWriter
+from turtlewire.errors import BagError
 
 SECOND = 1_000_000_000
 START = 1_800_000_000 * SECOND
@@ -25,7 +26,7 @@ def player(peer, tmp_path):
     players = []
 
     def make(**options):
-        made = Player(peer.node, str(tmp_path / "bag"), PlayOptions(**options))
+        made = BagPlayer(peer.node, str(tmp_path / "bag"), PlayOptions(**options))
         made.sent = []
         made.on_publish.append(lambda message: made.sent.append(message.log_time_ns - START))
         players.append(made)
@@ -47,7 +48,9 @@ def test_a_message_at_the_last_moment_is_played(player, until, sent):
     assert bounded.end_ns == START + until
 
 
-@pytest.mark.parametrize(("offset_ns", "sent"), [(10, [10, 20, 30]), (11, [20, 30])])
+@pytest.mark.parametrize(
+    ("offset_ns", "sent"), [(10, [10, 20, 30]), (11, [20, 30]), (30, [30]), (31, [])]
+)
 def test_a_message_at_the_offset_is_played(player, offset_ns, sent):
     late = player(start_offset=offset_ns / SECOND)
     late.play()
@@ -85,3 +88,34 @@ def start():
     for thread in threads:
         thread.join(60)
         assert not thread.is_alive()
+
+
+def test_a_playback_that_failed_can_be_played_again(player, monkeypatch, start):
+    steered = player(start_paused=True)
+    failures = []
+
+    def play():
+        with pytest.raises(BagError) as error:
+            steered.play()
+        failures.append(str(error.value))
+
+    def damaged(*_args, **_options):
+        raise BagError("a chunk is damaged")
+
+    start(play)
+    assert steered.wait_until_started(60)
+    with monkeypatch.context() as patch:
+        patch.setattr(steered._bag, "messages", damaged)
+        steered.seek(START + 10)
+    with steered.changed:
+        assert steered.changed.wait_for(lambda: not steered._playing, 60)
+    steered.resume()
+    steered.play()
+    assert steered.sent == [0, 10, 20, 30]
+    assert failures == ["a chunk is damaged"]
+
+
+@pytest.mark.parametrize(("delay", "logged"), [(0.0, False), (1e-9, True)])
+def test_only_a_delay_is_logged(player, capfd, delay, logged):
+    player(delay=delay).play()
+    assert ("Sleep" in capfd.readouterr().err) is logged

@@ -15,8 +15,9 @@ from types import SimpleNamespace
 import pytest
 
 from rosbag2_transport import play, rewrite
-from rosbag2_transport.progress import ProgressLine, bytes_text, time_text
+from rosbag2_transport.progress import ProgressLine, time_text
 from turtlewire.bag.playback import PlayClock
+from turtlewire.bag.times import size_text
 
 SECOND = 1_000_000_000
 
@@ -40,6 +41,16 @@ def test_it_is_drawn_on_a_terminal_and_never_wraps(monkeypatch):
             shown += os.read(outer, 1000)
     os.close(outer)
     assert shown.startswith(b"\rabcdefghijklmnopqrs\x1b[K\r")
+
+
+def test_the_rate_is_that_of_the_option(monkeypatch):
+    monkeypatch.setattr(sys, "stderr", io.StringIO())
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
+    with ProgressLine(lambda: "text", 0) as line:
+        assert not line._thread.is_alive()
+    assert sys.stderr.getvalue() == ""
+    periods = {rate: ProgressLine(str, rate)._seconds for rate in (None, 1, 4, 1000, -1)}
+    assert periods == {None: 0.5, 1: 1, 4: 0.25, 1000: 1 / 30, -1: 1 / 30}
 
 
 def test_nothing_is_drawn_elsewhere(monkeypatch):
@@ -78,9 +89,14 @@ def test_times_and_sizes():
         "1:01.0",
         "1:01:01.5",
     ]
-    assert [bytes_text(n) for n in (0, 1023, 1536, 5 << 40)] == [
+    assert [size_text(n) for n in (0, 1023, 1536, 5 << 40)] == [
         "0 B",
         "1023 B",
         "1.5 KiB",
         "5.0 TiB",
     ]
+
+
+def test_a_size_changes_its_unit_at_a_power_of_1024():
+    sizes = (1023, 1024, 1024**2 - 1, 1024**2)
+    assert [size_text(size) for size in sizes] == ["1023 B", "1.0 KiB", "1024.0 KiB", "1.0 MiB"]

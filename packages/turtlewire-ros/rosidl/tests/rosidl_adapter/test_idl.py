@@ -16,6 +16,7 @@ from rosidl_adapter.cli import convert_files_to_idl
 from rosidl_adapter.main import main
 from rosidl_adapter.msg import convert_msg_to_idl
 from turtlewire import msg
+from turtlewire.msg.registry import interface_path
 
 STAMPED = """# Where and when.
 builtin_interfaces/Time stamp
@@ -108,14 +109,14 @@ def converted(folder, package, path, text):
 def all_interfaces(*kinds):
     return [
         f"{package}/{kind}/{name}"
-        for package, of in msg.interface_names().items()
+        for package, of in msg.interfaces().items()
         for kind in kinds
         for name in of[kind]
     ]
 
 
 def source(name):
-    return pathlib.Path(msg.interface_path(name)).read_text()
+    return pathlib.Path(interface_path(name)).read_text()
 
 
 def read_by_rosbags(text):

@@ -25,7 +25,8 @@ from rosidl_parser.definition import (
 from rosidl_parser.parser import parse_idl_file, parse_idl_string
 from rosidl_runtime_py.utilities import get_interface
 from turtlewire.errors import InterfaceError
-from turtlewire.msg import interface_names, interface_path
+from turtlewire.msg import interfaces
+from turtlewire.msg.registry import interface_path
 
 SHAPE = r"""
 // a comment
@@ -112,7 +113,7 @@ def parsed(name):
 def test_all_fields_have_the_types_that_classes_have():
     names = [
         f"{package}/{kind}/{name}"
-        for package, kinds in interface_names().items()
+        for package, kinds in interfaces().items()
         for kind in kinds
         for name in kinds[kind]
     ]

@@ -11,7 +11,8 @@ import pytest
 from turtlesim import page_commands
 from turtlesim.crowd import Crowd
 from turtlesim.model import TICK_NS, Pen, World
-from turtlesim.screen import Scene, Screen, pen_of
+from turtlesim.picture import Scene, pen_of
+from turtlesim.screen import Screen
 from turtlesim.transform_view import TransformView
 from turtlewire.wire import open_context
 
@@ -100,7 +101,7 @@ class Simulator:
             self.world.spawn(*command)
         elif isinstance(command, page_commands.Teleport):
             self.world.turtles[command.turtle].teleport_absolute(*command[1:])
-        elif isinstance(command, page_commands.Pen):
+        elif isinstance(command, page_commands.PenChange):
             *pen, off = command[1:]
             self.world.turtles[command.turtle].set_pen(Pen(*pen), off=off)
         elif isinstance(command, page_commands.Background):

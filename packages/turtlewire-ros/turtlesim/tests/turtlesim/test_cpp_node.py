@@ -1,4 +1,4 @@
-"""Nodes that answer to parameters as nodes of C++ do; the texts are those of the captures."""
+"""Nodes that answer to parameters as C++ nodes do; the texts are the captures'."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ import pytest
 from rclpy.publisher import Publisher
 from turtlesim import turtle_endpoints, turtlesim_node
 from turtlesim.crowd import Crowd
-from turtlesim.drawing import Drawing
+from turtlesim.drawing import StrokeHistory
 from turtlesim.model import TICK_NS, Pen, World
 from turtlesim.msg import Color, Pose
 from turtlesim.path import PathImage
@@ -43,7 +43,7 @@ def command(world: World, numbers: random.Random) -> None:
 def test_a_crowd_moves_as_its_turtles_do_one_by_one():
     """Over five seconds of random commands: poses, strokes, sensors and walls, bit for bit."""
     alone, together, crowd = World(), World(), Crowd()
-    boards = Drawing(), Drawing()
+    boards = StrokeHistory(), StrokeHistory()
     for world in (alone, together):
         populate(world, 150)
     numbers = random.Random(7), random.Random(7)
@@ -157,7 +157,7 @@ def test_messages_without_a_subscription_are_not_created(monkeypatch, crowd_from
 
 def test_a_drawing_keeps_the_newest_strokes_of_a_crowd(monkeypatch):
     monkeypatch.setattr("turtlesim.drawing._OLDER", 25)
-    board = Drawing()
+    board = StrokeHistory()
     chunks = [np.full(50, k, dtype="<u4").tobytes() for k in range(9)]  # ten records each
     for chunk in chunks[:5]:
         board.add_records(chunk)

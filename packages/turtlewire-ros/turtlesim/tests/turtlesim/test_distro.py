@@ -11,6 +11,7 @@ import sys
 import pytest
 
 from turtlewire import msg
+from turtlewire.msg.registry import interface_path
 
 LOOK = """
 import rclpy, turtlesim.msg, turtlesim.srv, turtlesim.action
@@ -62,12 +63,10 @@ def test_both_packages_hold_the_same_but_for_the_name():
     """The hash of a type covers its name, so that a peer of the other distribution is never taken
     for one of ours.
     """
-    names = msg.interface_names()
-    assert names["turtlesim_msgs"] == names["turtlesim"]
-    for kind, found in names["turtlesim"].items():
+    for kind, found in msg.interfaces()["turtlesim"].items():
         for name in found:
             old, new = (
-                msg.interface_path(f"{package}/{kind}/{name}")
+                interface_path(f"{package}/{kind}/{name}")
                 for package in ("turtlesim", "turtlesim_msgs")
             )
             with open(old, encoding="utf-8") as one, open(new, encoding="utf-8") as other:
@@ -75,3 +74,28 @@ def test_both_packages_hold_the_same_but_for_the_name():
             assert msg.type_hash(f"turtlesim/{kind}/{name}") != msg.type_hash(
                 f"turtlesim_msgs/{kind}/{name}"
             )
+
+
+LISTEN = """
+import rclpy
+from turtlesim.msg import Pose as Theirs
+from turtlesim_msgs.msg import Pose
+
+rclpy.init(args=[])
+node = rclpy.create_node("node")
+node.create_publisher(Theirs, "/turtle1/pose", 1)
+node.create_subscription(Pose, "/turtle1/pose", print, 1)
+"""
+
+
+@pytest.mark.parametrize("distro", ["jazzy", "lyrical"])
+def test_a_listener_of_another_distribution_is_told_the_remedy(distro):
+    done = subprocess.run(
+        [sys.executable, "-c", LISTEN],
+        env=os.environ | {"RMW_IMPLEMENTATION": "local", "ROS_DISTRO": distro},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    remedy = "Type export ROS_DISTRO=lyrical in both terminals"
+    assert (remedy in done.stderr) == (distro == "jazzy"), done.stderr

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
+from types import SimpleNamespace
+
 import pytest
 
-from turtlesim.draw_square import SquarePlan
+from turtlesim.draw_square import SquarePlan, _left_of
 from turtlesim.model import TICK_NS, World
 
 
@@ -36,3 +39,9 @@ def test_four_sides_and_four_turns_come_back_to_the_start():
         "New goal",
         *(8 * ["Reached goal", "New goal"]),
     ]
+
+
+def test_a_turn_to_the_left_ends_between_minus_pi_and_pi():
+    headings = (0.0, math.pi / 2, 0.75 * math.pi, math.pi)
+    turned = [_left_of(SimpleNamespace(x=1.0, y=2.0, theta=theta)).theta for theta in headings]
+    assert turned == pytest.approx([math.pi / 2, math.pi, -0.75 * math.pi, -math.pi / 2])

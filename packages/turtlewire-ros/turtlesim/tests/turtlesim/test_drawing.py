@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from turtlesim import drawing
-from turtlesim.drawing import RECORD_SIZE, Drawing
+from turtlesim.drawing import RECORD_SIZE, StrokeHistory
 from turtlesim.model import DEFAULT_PEN, Pen, Stroke
 
 
@@ -24,7 +24,7 @@ def walk(points: list[tuple[float, float]], pen: Pen = DEFAULT_PEN) -> list[Stro
 
 
 def test_a_new_reader_gets_everything_and_an_old_one_the_rest():
-    board = Drawing()
+    board = StrokeHistory()
     for stroke in walk([(0, 0), (1, 0), (2, 0)]):
         board.add("turtle1", stroke)
     restart, data, position = board.since(-1)
@@ -38,7 +38,7 @@ def test_a_new_reader_gets_everything_and_an_old_one_the_rest():
 
 
 def test_clear_makes_every_reader_start_again():
-    board = Drawing()
+    board = StrokeHistory()
     board.add("turtle1", Stroke(0, 0, 1, 0, DEFAULT_PEN))
     _, _, position = board.since(-1)
     board.clear()
@@ -52,7 +52,7 @@ def test_clear_makes_every_reader_start_again():
 
 def test_a_reader_that_fell_back_too_far_starts_again(monkeypatch):
     monkeypatch.setattr(drawing, "_RECENT", 10)
-    board = Drawing()
+    board = StrokeHistory()
     for stroke in walk([(k, 0) for k in range(6)]):
         board.add("turtle1", stroke)
     _, _, position = board.since(-1)
@@ -68,7 +68,7 @@ def test_a_reader_that_fell_back_too_far_starts_again(monkeypatch):
 
 def test_pens_turtles_and_jumps_are_never_joined(monkeypatch):
     monkeypatch.setattr(drawing, "_RECENT", 0)
-    board = Drawing()
+    board = StrokeHistory()
     red = Pen(255, 0, 0, 3)
     board.add("a", Stroke(0, 0, 1, 0, DEFAULT_PEN))
     board.add("b", Stroke(0, 5, 1, 5, DEFAULT_PEN))
@@ -89,7 +89,7 @@ def test_pens_turtles_and_jumps_are_never_joined(monkeypatch):
 def test_older_lines_are_bounded(monkeypatch):
     monkeypatch.setattr(drawing, "_RECENT", 3)
     monkeypatch.setattr(drawing, "_OLDER", 5)
-    board = Drawing()
+    board = StrokeHistory()
     for k in range(100):
         board.add("a", Stroke(k, 0, k, 5, DEFAULT_PEN))
     _, data, _ = board.since(-1)

@@ -139,7 +139,7 @@ def test_loss_is_found_with_its_share_and_rhythm(scene):
     )
 
 
-def test_loss_refuses_what_is_no_share():
+def test_loss_rejects_a_share_outside_0_to_1():
     with pytest.raises(ValueError, match="from 0 to 1, not 90"):
         Loss(90)
 

@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from turtlesim.model import (
+    COMMAND_LIFETIME_NS,
     DEFAULT_PEN,
     FIELD_SIZE,
     TICK_NS,
@@ -242,3 +243,13 @@ def test_strokes_join_where_the_turtle_went(forward, turning):
     world.spawn_centred().drive(forward, 0.0, turning)
     strokes = [tick.move_stroke for (tick,) in run(world, 63)]
     assert all(a[2:4] == b[:2] for a, b in itertools.pairwise(strokes))
+
+
+def test_a_command_holds_for_exactly_its_lifetime():
+    turtle = World().spawn_centred()
+    turtle.drive(1.0, 0.0, 0.0)
+    turtle.age_command(0)
+    turtle.age_command(COMMAND_LIFETIME_NS)
+    assert turtle.forward == 1.0
+    turtle.age_command(COMMAND_LIFETIME_NS + 1)
+    assert turtle.forward == 0.0

@@ -346,7 +346,7 @@ def test_invalid_page_messages_are_answered(simulator):
         raw.send('{"type": "drive", "turtle": "turtle1", "linear": "fast", "angular": 0}')
         texts = [message for _ in range(20) if isinstance(message := raw.recv(timeout=60), str)]
         assert [json.loads(text) for text in texts] == [
-            {"type": "error", "text": "linear is a number between -1000000 and 1000000"}
+            {"type": "error", "text": "linear must be a number from -1000000 to 1000000"}
         ]
         raw.send("[" * 60_000)
         answers = (message for _ in range(100) if isinstance(message := raw.recv(timeout=60), str))

@@ -160,7 +160,7 @@ def test_arrow_keys_on_a_name_drive_the_turtle_of_that_name_only(simulator, open
     assert commands_after(simulator, page, "ArrowUp") == [page_commands.Drive("turtle2", 2.0, 0.0)]
 
 
-def test_letters_turn_nobody_when_they_are_switched_off(simulator, open_page):
+def test_disabled_letter_keys_do_not_turn_the_turtle(simulator, open_page):
     page = opened(simulator, open_page)
     turn = [page_commands.Rotate("turtle1", 0.7854)]
     assert page.is_checked("#letter-keys")

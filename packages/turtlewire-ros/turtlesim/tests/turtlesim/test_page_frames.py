@@ -150,12 +150,8 @@ def test_axes_of_a_tilted_and_of_an_endless_frame(simulator):
     view = simulator.screen.transforms
     view.join()
     half = math.sqrt(0.5)
-    view._buffer.set_transform(
-        "world", "turned", 1, (1.0, 2.0, 5.0), (0.0, 0.0, half, half), "test"
-    )
-    view._buffer.set_transform(
-        "world", "upright", 1, (1.0, 2.0, 0.0), (half, 0.0, 0.0, half), "test"
-    )
+    view._buffer.set_static_transform("world", "turned", (1.0, 2.0, 5.0), (0.0, 0.0, half, half))
+    view._buffer.set_static_transform("world", "upright", (1.0, 2.0, 0.0), (half, 0.0, 0.0, half))
     axes = view.axes("world", ["world", "turned", "upright", "nowhere"])
     assert axes.keys() == {"world", "turned", "upright"}
     assert axes["turned"] == pytest.approx([1.0, 2.0, 0.0, 1.0, -1.0, 0.0])

@@ -49,7 +49,7 @@ def test_the_pen_of_the_driven_turtle(simulator, open_page):
     wait_until(lambda: simulator.turtle1.pen_on)
     assert simulator.turtle1.pen == Pen(255, 136, 0, 10)
     kinds = {type(command) for command in simulator.commands}
-    assert kinds == {page_commands.Pen, page_commands.Drive}
+    assert kinds == {page_commands.PenChange, page_commands.Drive}
 
 
 def test_a_pen_that_a_node_sets_is_shown(simulator, open_page):

@@ -568,7 +568,7 @@ class TestPace:
         assert values == [1, 2, 3]
         assert world.sim._scene().pens == (("#090807", 5, True),)
         world.call(SetPen, "/turtle1/set_pen", r=1, g=1, b=1, width=2, off=1)
-        assert world.sim._screen._scene.pens == (("#090807", 5, False),)
+        assert world.sim._screen._picture.scene.pens == (("#090807", 5, False),)
 
 
 def test_a_faster_simulation_has_its_speed_as_a_parameter(make_world):
@@ -590,6 +590,7 @@ def test_a_faster_simulation_has_its_speed_as_a_parameter(make_world):
     ("words", "said"),
     [
         ("--haedless", "turtlesim_node: ignored: --haedless. Did you mean: --headless, --help\n"),
+        ("--headles", "turtlesim_node: ignored: --headles. Did you mean: --headless, --help\n"),
         ("--sped=2", "turtlesim_node: ignored: --sped=2. Did you mean: --speed\n"),
         ("word", "turtlesim_node: ignored: word. See --help\n"),
         ("--headless --ros-args -r __node:=sim", ""),

@@ -27,7 +27,7 @@ from turtlewire import msg
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from turtlewire.wire.local.bus import Bus, Sender
+    from turtlewire.wire.local.bus import Bus, LocalSender
     from turtlewire.wire.local.endpoint import Message
 
 __all__ = [
@@ -225,7 +225,7 @@ class FaultyTransforms:
 
     def __init__(self, bus: Bus) -> None:
         self._bus = bus
-        self._held: list[tuple[float, int, Sender, Message]] = []
+        self._held: list[tuple[float, int, LocalSender, Message]] = []
         self._numbers = itertools.count()
         self._now = 0.0
         self.faults: list[Fault] = []
@@ -235,18 +235,19 @@ class FaultyTransforms:
         self._bus.tamper = self._tamper
 
     def close(self) -> None:
-        """Let messages pass again; drop those that are held."""
+        """Let messages pass again; drop the held ones."""
         self._bus.tamper = None
         self._held.clear()
 
     def advance(self, now: float) -> None:
         """Deliver what is due at this simulated time [s]."""
         self._now = now
+        # Times are sums of steps, so a rounding error must not hold a message for another step.
         while self._held and self._held[0][0] <= now + 1e-9:
             _, _, sender, message = heapq.heappop(self._held)
             sender.deliver(message)
 
-    def _tamper(self, sender: Sender, message: Message) -> None:
+    def _tamper(self, sender: LocalSender, message: Message) -> None:
         if sender.topic not in _TOPICS or not self.faults:
             sender.deliver(message)
             return
@@ -257,8 +258,10 @@ class FaultyTransforms:
             delay = self._delay(transform, sender.topic)
             if delay is None:
                 continue
+            # A message for each transform, because each may have another delay.
             changed = (msg.serialize(kind(transforms=[transform])), info)
             if delay > 0.0:
+                # The number keeps the order of equal times, and senders cannot be compared.
                 item = (self._now + delay, next(self._numbers), sender, changed)
                 heapq.heappush(self._held, item)
             else:

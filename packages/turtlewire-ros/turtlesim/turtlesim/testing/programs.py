@@ -56,6 +56,7 @@ def nodes_of(main: Callable[[], object], arguments: Sequence[str] = ()) -> list[
                 f"main() ended the program: {exit_}", "Check its command line arguments."
             ) from exit_
         finally:
+            # What `_hand_over` has set.
             for node in found:
                 vars(node).pop("destroy_node", None)
     if not found:
@@ -118,6 +119,7 @@ def _spin(node: Node, executor: Executor | None = None) -> NoReturn:
 
 def _spin_executor(executor: Executor) -> NoReturn:
     nodes = list(executor.get_nodes())
+    # A node has one executor, and the stage adds it to its own.
     for node in nodes:
         executor.remove_node(node)
     _hand_over(nodes)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from rclpy.publisher import Publisher
-    from turtlesim.model import Pose
+    from turtlesim.model import TurtlePose
     from turtlesim.testing.faults import Fault
 
 __all__ = ["Simulation"]
@@ -63,7 +63,7 @@ class Simulation(Stage):
         self.come_to_rest()
 
     def close(self) -> None:
-        """Destroy all nodes, those that were added too, and leave the domain."""
+        """Destroy all nodes, including added ones, and leave the domain."""
         self._faulty.close()
         super().close()
 
@@ -101,7 +101,7 @@ class Simulation(Stage):
         publisher.publish(message)
         self.come_to_rest()
 
-    def pose(self, turtle: str) -> Pose:
+    def pose(self, turtle: str) -> TurtlePose:
         """Return a turtle's pose now.
 
         Raises:
@@ -123,7 +123,7 @@ class Simulation(Stage):
     # Faults
 
     def inject(self, fault: Fault) -> None:
-        """Switch a fault of :mod:`turtlesim.testing.faults` on, beside those that are on."""
+        """Switch a fault of :mod:`turtlesim.testing.faults` on, in addition to the active ones."""
         self._faulty.faults.append(fault)
         fault.begin(self)
 

@@ -98,6 +98,7 @@ class Stage:
     def _arguments(self, parameters: dict[str, object]) -> Iterator[None]:
         """Give nodes that are made inside these parameters."""
         context = rclpy.get_default_context()
+        # Nodes read these when they are made. A context has only one set, so it is swapped.
         outer, context._arguments = (
             context.arguments,
             Arguments.parse_global(["--ros-args", *_as_arguments(parameters)]),
@@ -120,6 +121,7 @@ class Stage:
             RuntimeError: The nodes call each other without an end.
         """
         for _ in range(_MOST_CALLBACKS):
+            # First: the middleware's thread would have done this by now.
             self._reader.run()
             try:
                 ready = self._executor._rclpy_scheduler.next(0)
@@ -138,7 +140,7 @@ class _ReaderInStep:
         self._work: deque[Callable[[], None]] = deque()
 
     def submit(self, work: Callable[[], None]) -> None:
-        """Run ``call`` before the next callback."""
+        """Run ``work`` before the next callback."""
         self._work.append(work)
 
     def run(self) -> None:
@@ -170,6 +172,7 @@ def _as_arguments(parameters: dict[str, object]) -> list[str]:
     name = parameters.pop("name", None)
     renamed = [] if name is None else ["-r", f"__node:={name}"]
     values = {"use_sim_time": True, **parameters}
+    # JSON is YAML, as which parameters are read.
     return renamed + [
         part for key, value in values.items() for part in ("-p", f"{key}:={json.dumps(value)}")
     ]

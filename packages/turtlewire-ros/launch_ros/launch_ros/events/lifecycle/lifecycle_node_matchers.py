@@ -9,7 +9,7 @@ from launch_ros.utilities.namespace_utils import make_namespace_absolute
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from launch_ros.events.named_node import NamedNode
+    from launch_ros.events.matchers.matches_node_name import NamedNode
 
 __all__ = ["matches_node_name"]
 

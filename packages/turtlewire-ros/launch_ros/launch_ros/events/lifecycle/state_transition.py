@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from launch.event import Event
 
 if TYPE_CHECKING:
-    from launch_ros.events.named_node import NamedNode
+    from launch_ros.events.matchers.matches_node_name import NamedNode
 
 __all__ = ["StateTransition"]
 
@@ -17,7 +17,7 @@ class StateTransition(Event):
 
     Args:
         action: The action that runs it.
-        msg: What it said, a ``lifecycle_msgs/msg/TransitionEvent``.
+        msg: The message of the node, a ``lifecycle_msgs/msg/TransitionEvent``.
     """
 
     name = "launch_ros.events.lifecycle.StateTransition"
@@ -38,8 +38,13 @@ class StateTransition(Event):
 
     @property
     def timestamp(self) -> int:
-        """Time of the transition in nanoseconds."""
+        """Time of the transition in nanoseconds, until Kilted."""
         return int(self._msg.timestamp)
+
+    @property
+    def stamp(self) -> Any:
+        """Time of the transition (``builtin_interfaces/msg/Time``), in Lyrical."""
+        return self._msg.stamp
 
     @property
     def transition(self) -> str:

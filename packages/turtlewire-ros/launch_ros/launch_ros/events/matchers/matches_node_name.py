@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from launch_ros.utilities.namespace_utils import make_namespace_absolute
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from launch_ros.events.named_node import NamedNode
+__all__ = ["NamedNode", "matches_node_name"]
 
-__all__ = ["matches_node_name"]
+
+class NamedNode(Protocol):
+    """What events know of a ``Node`` or ``LifecycleNode``."""
+
+    @property
+    def node_name(self) -> str:
+        """Full name of the node."""
 
 
 def matches_node_name(node_name: str) -> Callable[[NamedNode], bool]:

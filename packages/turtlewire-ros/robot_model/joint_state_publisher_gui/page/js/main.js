@@ -1,7 +1,7 @@
 // What the page consists of, and how its parts are connected.
 
-import { Connection } from "./connection.js";
-import { JointRow } from "./joint_row.js";
+import { Connection } from "../kit/connection.js";
+import { JointRow } from "../kit/joint_row.js";
 
 const MESSAGE_MS = 8000;
 const part = Object.fromEntries([...document.querySelectorAll("[id]")].map((el) => [el.id, el]));
@@ -13,18 +13,17 @@ let degrees = false;
 /** The joint that is being changed by hand: states that are on their way must not move it back. */
 let held = null;
 
-const connection = new Connection({
-  onState(state) {
-    part.connection.dataset.state = state;
-    const lost = "connection lost, trying again …";
-    part.connection.textContent = state === "live" ? "connected" : lost;
-  },
-  onMessage(message) {
-    if (message.type === "joints") takeJoints(message);
-    else if (message.type === "state") takeState(message);
-    else if (message.type === "error") say(message.text);
-  },
+const connection = new Connection(showState, {
+  joints: takeJoints,
+  state: takeState,
+  error: ({ text }) => say(text),
 });
+
+function showState(state) {
+  part.connection.dataset.state = state;
+  const lost = "connection lost, trying again …";
+  part.connection.textContent = state === "live" ? "connected" : lost;
+}
 
 function takeJoints({ version: newVersion, node, robot, joints }) {
   version = newVersion;

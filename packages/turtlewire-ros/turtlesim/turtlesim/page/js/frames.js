@@ -1,4 +1,4 @@
-// The binary frames of the stream, and the place between two of them at which the display is.
+// The frames of the stream, and the place between two of them at which the display is.
 
 export const FIELD_METRES = 499 / 45;
 export const IMAGE_PIXELS = 500;
@@ -6,27 +6,23 @@ export const PIXELS_PER_METRE = 45;
 const TICK_MS = 16;
 const POSE_FLOATS = 5;
 const STROKE_WORDS = 5;
-const HEADER_WORDS = 5;
 const JUMP_METRES = 1.5;
 
 /**
- * Take a frame apart. Poses are [x, y, theta, v, w] for each turtle; strokes are [colour and width,
- * x0, y0, x1, y1].
+ * The frame in a packet. Poses are [x, y, theta, v, w] for each turtle; strokes are [colour and
+ * width, x0, y0, x1, y1].
  */
-export function decodeFrame(buffer) {
-  const header = new Uint32Array(buffer, 0, HEADER_WORDS);
-  const [tick, version, turtleCount, strokeCount, restart] = header;
-  const strokesAt = 4 * (HEADER_WORDS + POSE_FLOATS * turtleCount);
+export function frameOf({ tick, version, restart, arrays: { poses, strokes } }) {
   return {
     tick,
     version,
-    turtleCount,
-    restart: restart === 1,
-    poses: new Float32Array(buffer, 4 * HEADER_WORDS, POSE_FLOATS * turtleCount),
+    restart,
+    poses,
+    turtleCount: poses.length / POSE_FLOATS,
     strokes: {
-      count: strokeCount,
-      points: new Float32Array(buffer, strokesAt, STROKE_WORDS * strokeCount),
-      pens: new Uint32Array(buffer, strokesAt, STROKE_WORDS * strokeCount),
+      count: strokes.length / STROKE_WORDS,
+      points: new Float32Array(strokes.buffer, strokes.byteOffset, strokes.length),
+      pens: strokes,
     },
   };
 }

@@ -1,12 +1,12 @@
 // What TF knows: the tree of frames with rate and age, and where one frame is as another sees it.
 
-import { byName, isFound } from "./names.js";
+import { byId } from "../kit/dom.js";
+import { byName, isFound } from "../kit/names.js";
 import { transformInWords } from "./words.js";
 
 const STALE_SECONDS = 1;
 const MOST_FRAMES = 200;
 const FEW = 8; // so many are seen at a glance
-const byId = (id) => document.getElementById(id);
 
 export class FramesPanel {
   #onWatch;

@@ -1,12 +1,14 @@
 // Wiring: the stream feeds field and panels; keys, buttons and the pointer feed the stream.
 
+import { Connection } from "../kit/connection.js";
+import { byId } from "../kit/dom.js";
+import { download } from "../kit/download.js";
+import { switchLetterKeys } from "../kit/letter_keys.js";
 import { listenForRotating } from "./compass.js";
-import { Connection } from "./connection.js";
 import { listenForDriving } from "./controls.js";
 import { Field } from "./field.js";
-import { FIELD_METRES, Playback, decodeFrame, poseOf } from "./frames.js";
+import { FIELD_METRES, Playback, frameOf, poseOf } from "./frames.js";
 import { FramesPanel } from "./frames_panel.js";
-import { switchLetterKeys } from "./letter_keys.js";
 import { Panel } from "./panel.js";
 import { Pointer } from "./pointer.js";
 import { paceInWords } from "./words.js";
@@ -14,7 +16,6 @@ import { controlWorld } from "./world_controls.js";
 
 const PANEL_MS = 100;
 const DESCRIPTION_MS = 2000;
-const byId = (id) => document.getElementById(id);
 
 const field = new Field(byId("ground"), byId("turtles"));
 const playback = new Playback();
@@ -34,13 +35,12 @@ let driven = null;
 let chosen = "turtle1";
 let axes = null; // as they came last
 
-const connection = new Connection({
-  onState: takeState,
-  onScene: takeScene,
-  onTransforms: (message) => framesPanel.show(message),
-  onAxes: (frames) => (axes = frames),
-  onFrame: takeFrame,
-  onError: (text) => console.error(`turtlesim rejected a command: ${text}`),
+const connection = new Connection(takeState, {
+  scene: takeScene,
+  tf: (message) => framesPanel.show(message),
+  axes: ({ frames }) => (axes = frames),
+  frame: takeFrame,
+  error: ({ text }) => console.error(`turtlesim rejected a command: ${text}`),
 });
 
 const showSettings = controlWorld((command) => connection.send(command), () => driven);
@@ -64,8 +64,8 @@ function takeScene(message) {
   panel.showHint(scene.missing, (name) => spawn({ x: 4, y: 2, theta: 0, name }));
 }
 
-function takeFrame(buffer) {
-  const frame = decodeFrame(buffer);
+function takeFrame(packet) {
+  const frame = frameOf(packet);
   field.addStrokes(frame.strokes, frame.restart);
   const isCurrent = frame.version === scene.version;
   frame.axes = framesPanel.drawn ? axes : null;
@@ -145,10 +145,4 @@ byId("axes").onclick = ({ currentTarget }) => {
   currentTarget.setAttribute("aria-pressed", String(framesPanel.drawn));
 };
 
-byId("picture").onclick = async () => {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(await field.picture());
-  link.download = `turtlesim-${new Date().toISOString().slice(0, 19).replaceAll(":", "-")}.png`;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
-};
+byId("picture").onclick = async () => download(await field.picture(), "turtlesim", "png");

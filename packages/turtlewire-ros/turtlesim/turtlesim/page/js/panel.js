@@ -1,11 +1,11 @@
 // The texts around the field: who is where, who is driven, what is missing.
 
-import { byName } from "./names.js";
+import { byId, setText } from "../kit/dom.js";
+import { byName } from "../kit/names.js";
 import { Roster } from "./roster.js";
 import { fieldInWords, placeInWords, seenFrom } from "./words.js";
 
 const MOST_SENTENCES = 3;
-const byId = (id) => document.getElementById(id);
 
 export class Panel {
   #names = [];
@@ -87,8 +87,4 @@ export class Panel {
     const text = parts.filter(Boolean).join("; ");
     if (text) this.announce(text);
   }
-}
-
-function setText(element, text) {
-  if (element.textContent !== text) element.textContent = text;
 }

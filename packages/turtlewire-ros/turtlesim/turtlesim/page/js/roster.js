@@ -1,11 +1,11 @@
 // The list of the turtles with their numbers.
 
+import { byId } from "../kit/dom.js";
 import { lookOf } from "./looks.js";
-import { byName, isFound } from "./names.js";
+import { byName, isFound } from "../kit/names.js";
 
 const MOST_ROWS = 60; // more are found by a search
 const FEW = 8; // so many are seen at a glance
-const byId = (id) => document.getElementById(id);
 
 export class Roster {
   #rows = new Map();

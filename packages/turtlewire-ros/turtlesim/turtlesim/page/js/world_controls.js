@@ -1,6 +1,7 @@
 // The driven turtle's pen, the background, the pace: set here, and shown as they are.
 
-const byId = (id) => document.getElementById(id);
+import { byId } from "../kit/dom.js";
+
 
 /**
  * Send what the user changes; `driven()` is the name of the driven turtle or null. Returns

@@ -1,0 +1,51 @@
+"""Keeps the nodes of a launch apart from all others on this computer."""
+
+from __future__ import annotations
+
+import contextlib
+from typing import TYPE_CHECKING, Any
+
+from launch.action import Action
+from launch.event_handlers import OnShutdown
+from turtlewire.testing import reserved_domain
+
+if TYPE_CHECKING:
+    from launch.event import Event
+    from launch.launch_context import LaunchContext
+
+__all__ = ["EnableRmwIsolation"]
+
+_VARIABLE = "ROS_DOMAIN_ID"
+
+
+class EnableRmwIsolation(Action):
+    """Gives the processes and contexts that start afterwards a ROS domain in which nobody else is.
+
+    It sets ``ROS_DOMAIN_ID``, and restores it when the launch shuts down.
+
+    Args:
+        **kwargs: See :class:`Action`.
+    """
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._reservation = contextlib.ExitStack()
+        self._former: str | None = None
+
+    def execute(self, context: LaunchContext) -> None:
+        """Choose the domain.
+
+        Raises:
+            RuntimeError: All domains from 1 to 101 are in use.
+        """
+        domain = self._reservation.enter_context(reserved_domain())
+        self._former = context.environment.get(_VARIABLE)
+        context.environment[_VARIABLE] = str(domain)
+        context.register_event_handler(OnShutdown(on_shutdown=self._end))
+
+    def _end(self, _event: Event, context: LaunchContext) -> None:
+        if self._former is None:
+            context.environment.pop(_VARIABLE, None)
+        else:
+            context.environment[_VARIABLE] = self._former
+        self._reservation.close()

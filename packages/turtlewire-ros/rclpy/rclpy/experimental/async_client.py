@@ -1,0 +1,87 @@
+"""Service clients of asynchronous nodes."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING, Any
+
+from rclpy._typing import RequestT, ResponseT, SrvT_co
+from rclpy.client import BaseClient
+
+from ._async_entity import AsyncEndpoint
+from ._graph_wait import wait_for_graph
+
+if TYPE_CHECKING:
+    from rclpy._node.state import NodeState
+    from rclpy.qos import QoSProfile
+    from turtlewire.msg import Service as ServiceClass
+    from turtlewire.wire import base
+
+__all__ = ["AsyncClient"]
+
+
+class AsyncClient(AsyncEndpoint, BaseClient[SrvT_co]):
+    """Calls a service; made by :meth:`AsyncNode.create_client`.
+
+    Nothing has a timeout of its own: use ``async with asyncio.timeout(…)``.
+
+    Attributes:
+        srv_type: The service class.
+        srv_name: Name of the service, as it was given.
+        qos_profile: Quality of service of requests and responses.
+    """
+
+    def __init__(
+        self,
+        wire: base.Client,
+        srv_type: type[SrvT_co],
+        srv_name: str,
+        qos_profile: QoSProfile,
+        core: NodeState,
+    ) -> None:
+        super().__init__(wire, srv_type, srv_name, qos_profile, None, core)
+
+    async def call(
+        self: AsyncClient[ServiceClass[RequestT, ResponseT]], request: RequestT
+    ) -> ResponseT:
+        """Send a request and return its response, while the node runs.
+
+        A cancelled call forgets its request: a late response is ignored. There may be several calls
+        at a time.
+
+        Raises:
+            RuntimeError: The client was destroyed before.
+            asyncio.CancelledError: The client was destroyed during the call.
+            TypeError: ``request`` is not a ``srv_type.Request``.
+            UncallableServiceError: A server of the service would misread the request.
+        """
+        if self._destroyed:
+            raise RuntimeError("Calling a destroyed client is forbidden")
+        future: Any = self._request(request)
+        try:
+            response: ResponseT = await future
+        finally:
+            self._forget(future)
+        if future.cancelled():
+            raise asyncio.CancelledError
+        return response
+
+    async def wait_for_service(self, *, check_interval: float = 0.1) -> None:  # noqa: ARG002
+        """Wait until a server is there.
+
+        Args:
+            check_interval: Ignored, because nothing polls: changes of the graph end the wait.
+
+        Raises:
+            InvalidHandle: The client was destroyed, before or during the wait.
+            RCLError: The context was shut down.
+        """
+        await wait_for_graph(self._context, self._look_for_server)
+
+    def _close(self) -> None:
+        super()._close()
+        with self._lock:
+            pending = list(self._pending.values())
+        for future in pending:
+            future.cancel()
+        self._context.wake_waits()  # for wait_for_service()

@@ -1,0 +1,53 @@
+"""Services of asynchronous nodes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rclpy._typing import SrvT_co
+from rclpy.impl.hints import with_hint
+from rclpy.service import BaseService
+
+from ._async_entity import AsyncEndpoint
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rclpy._node.state import NodeState
+    from rclpy.qos import QoSProfile
+    from turtlewire.wire import base
+
+__all__ = ["AsyncService"]
+
+
+class AsyncService(AsyncEndpoint, BaseService[SrvT_co]):
+    """Answers requests; made by :meth:`AsyncNode.create_service`.
+
+    The callback, ``def`` or ``async def``, is called with a request and an empty response, and
+    returns the response. Requests wait until the callback of the former one has ended, unless the
+    service is concurrent.
+
+    Attributes:
+        srv_type: The service class.
+        srv_name: Name of the service, as it was given.
+        callback: What answers.
+        qos_profile: Quality of service of requests and responses.
+    """
+
+    def __init__(
+        self,
+        wire: base.Service,
+        srv_type: type[SrvT_co],
+        srv_name: str,
+        callback: Callable[[Any, Any], Any],
+        qos_profile: QoSProfile,
+        core: NodeState,
+        *,
+        concurrent: bool = False,
+    ) -> None:
+        self._concurrent = concurrent
+        super().__init__(wire, srv_type, srv_name, callback, None, qos_profile, core)
+
+    def _wrong_response(self, response: Any) -> TypeError:
+        # As in ROS 2, without a text.
+        return with_hint(TypeError(), str(super()._wrong_response(response)))

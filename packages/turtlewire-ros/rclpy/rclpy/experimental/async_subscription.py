@@ -1,0 +1,94 @@
+"""Subscriptions of asynchronous nodes."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING, Any
+
+from rclpy._typing import MsgT
+from rclpy.subscription import BaseSubscription, MessageInfo
+from rclpy.utilities import get_rmw_implementation_identifier
+
+from ._async_entity import AsyncEndpoint, TaskGroup
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from typing_extensions import Self
+
+    from rclpy._node.state import NodeState
+    from rclpy.qos import QoSProfile
+    from turtlewire.wire import base
+
+__all__ = ["AsyncSubscription"]
+
+
+class AsyncSubscription(AsyncEndpoint, BaseSubscription[MsgT]):
+    """Receives the messages of a topic; made by :meth:`AsyncNode.create_subscription`.
+
+    With a callback, each message waits in the middleware until the callback of the former one has
+    ended, or is handled at once in a task of its own if the subscription is concurrent. Without
+    one, the program iterates over it: ``async for message in subscription``.
+
+    Attributes:
+        msg_type: Class of its messages.
+        raw: Whether messages are given as serialized bytes.
+        qos_profile: Its quality of service.
+    """
+
+    def __init__(
+        self,
+        wire: base.Subscription,
+        msg_type: type[MsgT],
+        callback: Callable[..., Any] | None,
+        qos_profile: QoSProfile,
+        raw: bool,
+        core: NodeState,
+        *,
+        concurrent: bool = False,
+    ) -> None:
+        self._is_iterated = callback is None
+        self._turn = asyncio.Lock()  # several tasks may iterate
+        self._concurrent = concurrent
+        handler = _nothing if callback is None else callback
+        super().__init__(wire, msg_type, handler, None, qos_profile, raw, core)
+
+    def _start(self, group: TaskGroup) -> None:
+        if not self._is_iterated:
+            super()._start(group)
+
+    def _info(self, info: base.MessageInfo) -> MessageInfo:
+        gid = {
+            "implementation_identifier": get_rmw_implementation_identifier(),
+            "data": info.publisher_gid,
+        }
+        return {**super()._info(info), "publisher_gid": gid}
+
+    def __aiter__(self) -> Self:
+        """Iterate over the messages until the subscription is destroyed.
+
+        Several iterations share the messages.
+
+        Raises:
+            RuntimeError: The subscription has a callback, which gets the messages.
+        """
+        if not self._is_iterated:
+            raise RuntimeError(
+                f"The messages of '{self.topic}' go to the callback of this subscription: create "
+                "it with None as the callback to iterate over them"
+            )
+        return self
+
+    async def __anext__(self) -> MsgT:
+        async with self._turn:
+            while not self._destroyed:
+                work = self._take()
+                if work is not None:
+                    message: MsgT = work[1][0]
+                    return message
+                await self._until_ready()
+        raise StopAsyncIteration
+
+
+def _nothing(_message: Any) -> None:
+    """Stand for the callback of a subscription that is iterated."""

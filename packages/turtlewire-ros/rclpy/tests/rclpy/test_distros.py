@@ -1,0 +1,355 @@
+"""What Kilted and Lyrical changed in rclpy; each program runs in a process of a distribution."""
+
+from __future__ import annotations
+
+import pytest
+from tests.distros import OUTCOME, lines_in
+
+START = """
+import rclpy
+from example_interfaces.action import Fibonacci
+from example_interfaces.srv import AddTwoInts
+from rclpy.action import ActionClient, ActionServer
+from rclpy.duration import Duration, Infinite
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import InvalidQoSProfileException, QoSProfile
+
+rclpy.init(args=["program", "--ros-args", "--log-level", "fatal"])
+node = rclpy.create_node("node")
+"""
+
+
+def said(distro, program):
+    return lines_in(distro, OUTCOME + START + program)
+
+
+@pytest.mark.parametrize(
+    ("distro", "expected"),
+    [
+        ("jazzy", "False []"),
+        (
+            "kilted",
+            (
+                "False ['DeprecationWarning: Deprecated in favor of "
+                ":py:classmethod:RcutilsLogger.warning:.']"
+            ),
+        ),
+        (
+            "lyrical",
+            "AttributeError: 'RcutilsLogger' object has no attribute 'warn'",
+        ),
+    ],
+)
+def test_warn_of_a_logger(distro, expected):
+    assert said(distro, "print(outcome(lambda: node.get_logger().warn('text')))") == [expected]
+
+
+@pytest.mark.parametrize(
+    ("distro", "kind"), [("jazzy", "UserWarning"), ("kilted", "UserWarning"), ("lyrical", None)]
+)
+def test_a_declaration_of_a_name_alone(distro, kind):
+    (first, *_) = said(distro, "print(outcome(lambda: node.declare_parameter('speed').value))")
+    if kind:
+        assert first.startswith(f"None ['{kind}: when declaring parameter named ")
+    else:
+        assert first == (
+            "TypeError: when declaring parameter named 'speed', declaring a parameter only "
+            "providing its name is not allowed. You have to either:"
+        )
+
+
+@pytest.mark.parametrize(
+    ("distro", "expected"),
+    [("jazzy", "None []"), ("kilted", "TimeoutError: "), ("lyrical", "TimeoutError: ")],
+)
+def test_a_call_that_takes_too_long(distro, expected):
+    program = """
+client = node.create_client(AddTwoInts, "add")
+print(outcome(lambda: client.call(AddTwoInts.Request(), timeout_sec=0.01)))
+"""
+    assert said(distro, program) == [expected]
+
+
+@pytest.mark.parametrize(
+    ("distro", "expected"),
+    [
+        ("jazzy", "node []"),
+        (
+            "kilted",
+            "InvalidHandle: cannot use Destroyable because destruction was requested",
+        ),
+    ],
+)
+def test_a_node_after_the_shutdown_of_its_context(distro, expected):
+    program = """
+other = rclpy.context.Context()
+other.init(args=[])
+kept = rclpy.create_node("kept", context=other)
+executor = SingleThreadedExecutor()
+executor.add_node(node)
+rclpy.shutdown()
+print(outcome(node.get_name))
+is_alive = outcome(node.get_name).startswith("node")
+print(kept.get_name(), executor.get_nodes() == ([node] if is_alive else []))
+node.destroy_node()
+"""
+    assert said(distro, program) == [expected, "kept True"]
+
+
+@pytest.mark.parametrize(
+    ("distro", "text"),
+    [
+        ("jazzy", "('Invalid QoSProfile', 'History and/or depth settings are required.')"),
+        ("kilted", "History and/or depth settings are required."),
+    ],
+)
+def test_a_profile_without_history_and_depth(distro, text):
+    assert said(distro, "print(outcome(QoSProfile))") == [f"InvalidQoSProfileException: {text}"]
+
+
+@pytest.mark.parametrize(("distro", "seconds"), [("jazzy", 900), ("kilted", 10), ("lyrical", 10)])
+def test_results_of_actions_are_kept_for(distro, seconds):
+    program = """
+server = ActionServer(node, Fibonacci, "fibonacci", lambda goal: Fibonacci.Result())
+print(server._result_timeout_ns / 1e9)
+"""
+    assert said(distro, program) == [f"{seconds}.0"]
+
+
+ACTION = """
+server = ActionServer(node, Fibonacci, "fibonacci", execute)
+client = ActionClient(node, Fibonacci, "fibonacci")
+client.wait_for_server()
+heard = []
+hear = lambda message: heard.append(list(message.feedback.sequence))
+sending = client.send_goal_async(Fibonacci.Goal(), hear)
+rclpy.spin_until_future_complete(node, sending)
+result = sending.result().get_result_async()
+rclpy.spin_until_future_complete(node, result)
+"""
+
+
+@pytest.mark.parametrize(
+    ("distro", "feedback"),
+    [("jazzy", "[[1], [2]]"), ("kilted", "[[1], [2]]"), ("lyrical", "[[1]]")],
+)
+def test_feedback_after_the_end_of_a_goal(distro, feedback):
+    program = """
+def execute(goal):
+    goal.publish_feedback(Fibonacci.Feedback(sequence=[1]))
+    goal.succeed()
+    goal.publish_feedback(Fibonacci.Feedback(sequence=[2]))
+    return Fibonacci.Result()
+""" + ACTION.replace("result = sending", "rclpy.spin_once(node, timeout_sec=0.5); result = sending")
+    assert said(distro, program + "print(heard)") == [feedback]
+
+
+def test_a_goal_that_the_program_ends_by_its_handle():
+    program = """
+def accepted(goal):
+    print(goal.status)
+    goal.executing()
+    goal.executing()
+    print(goal.status)
+    goal.succeed(Fibonacci.Result(sequence=[7]))
+    goal.succeed if goal.is_active else print("done")
+
+server = ActionServer(node, Fibonacci, "fibonacci", handle_accepted_callback=accepted)
+""" + ACTION.replace('server = ActionServer(node, Fibonacci, "fibonacci", execute)', "")
+    program += "print(result.result().status, list(result.result().result.sequence))"
+    assert said("jazzy", program) == ["1", "2", "done", "4 [7]"]
+
+
+@pytest.mark.parametrize(
+    ("distro", "text"),
+    [
+        ("jazzy", "TypeError: "),
+        (
+            "kilted",
+            (
+                "TypeError: Expected goal type (<class "
+                "'example_interfaces.action._fibonacci.Metaclass_Fibonacci_Goal'>) but received "
+                "(<class 'example_interfaces.action._fibonacci.Fibonacci_Result'>)"
+            ),
+        ),
+    ],
+)
+def test_a_goal_of_another_type(distro, text):
+    program = """
+client = ActionClient(node, Fibonacci, "fibonacci")
+print(outcome(lambda: client.send_goal_async(Fibonacci.Result())))
+"""
+    assert said(distro, program) == [text]
+
+
+@pytest.mark.parametrize("module", ["qos_event", "topic_endpoint_info"])
+def test_modules_that_lyrical_dropped(module):
+    program = f"import importlib; print(outcome(lambda: importlib.import_module('rclpy.{module}')))"
+    assert said("kilted", program)[0].startswith("<module")
+    assert said("lyrical", program) == [f"ModuleNotFoundError: No module named 'rclpy.{module}'"]
+
+
+def test_jazzy_has_the_names_that_came_later():
+    program = """
+from rclpy.endpoint_info import EndpointTypeEnum
+from rclpy.timer import TimerInfo
+print([kind.name for kind in EndpointTypeEnum])
+second = Duration(seconds=1)
+print((second + second * 0.5 - Duration(nanoseconds=1)).nanoseconds)
+print(second * float("inf") == Infinite)
+print(outcome(lambda: second * float("nan")))
+print(outcome(lambda: second * float("-inf")))
+for wrong in (lambda: 2 * second, lambda: -second, lambda: second + 1):
+    print(outcome(wrong)[:9])
+told = []
+def tick(info: TimerInfo): told.append(info)
+timer = node.create_timer(0.01, tick)
+while not told:
+    rclpy.spin_once(node)
+timer.callback = lambda: told.append("plain")
+while "plain" not in told:
+    rclpy.spin_once(node)
+late = told[0].actual_call_time - told[0].expected_call_time
+print(late.nanoseconds >= 0, told[0].actual_call_time.clock_type.name)
+with rclpy.init(context=rclpy.context.Context()) as context:
+    print(context.ok())
+print(context.ok())
+"""
+    assert said("jazzy", program) == [
+        "['INVALID', 'PUBLISHER', 'SUBSCRIPTION', 'CLIENT', 'SERVER']",
+        "1499999999",
+        "True",
+        "ValueError: Can't multiply duration with nan",
+        "ValueError: Can't multiply duration with -inf",
+        *["TypeError"] * 3,
+        "True ROS_TIME",
+        "True",
+        "False",
+    ]
+
+
+def test_jazzy_has_the_members_that_came_later():
+    program = """
+from datetime import datetime
+from rclpy.clock import ClockType
+from rclpy.task import FutureState
+from rclpy.time import Time
+
+moment = Time(seconds=1_700_000_000, nanoseconds=250_000_000)
+print(moment.to_datetime() == datetime.fromtimestamp(1_700_000_000.25))
+print(outcome(lambda: Time(clock_type=ClockType.STEADY_TIME).to_datetime()))
+print([state.name for state in FutureState])
+server = ActionServer(node, Fibonacci, "fibonacci", lambda goal: Fibonacci.Result())
+print(node.get_action_names_and_types())
+print(node.get_action_server_names_and_types_by_node("node", "/"))
+print(node.get_action_client_names_and_types_by_node("node", "/"))
+rclpy.try_shutdown(uninstall_handlers=True)
+rclpy.try_shutdown()
+print(rclpy.ok())
+"""
+    fibonacci = "[('/fibonacci', ['example_interfaces/action/Fibonacci'])]"
+    assert said("jazzy", program) == [
+        "True",
+        "TypeError: Time object's clock type should be either ROS_TIME or SYSTEM_TIME",
+        "['PENDING', 'CANCELLED', 'FINISHED']",
+        fibonacci,
+        fibonacci,
+        "[]",
+        "False",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("given", "depth", "durability"),
+    [("", 1000, "TRANSIENT_LOCAL"), (", rosout_qos_profile=7", 7, "VOLATILE")],
+)
+def test_the_quality_of_service_of_rosout(given, depth, durability):
+    program = f"""
+loud = rclpy.create_node("loud"{given})
+(info,) = [i for i in node.get_publishers_info_by_topic("/rosout") if i.node_name == "loud"]
+print(info.qos_profile.depth, info.qos_profile.durability.name)
+"""
+    assert said("jazzy", program) == [f"{depth} {durability}"]
+
+
+def test_rosout_is_a_preset_since_kilted():
+    program = "from rclpy.qos import QoSPresetProfiles; print(QoSPresetProfiles.short_keys()[-1])"
+    assert said("jazzy", program) == ["action_status_default"]
+    assert said("kilted", program) == ["rosout_default"]
+
+
+@pytest.mark.parametrize("middleware", ["local", "rmw_cyclonedds_cpp"])
+@pytest.mark.parametrize(
+    ("distro", "type_hash"),
+    [
+        ("kilted", "INVALID"),
+        (
+            "lyrical",
+            "RIHS01_e118de6bf5eeb66a2491b5bda11202e7b68f198d6f67922cf30364858239c81a",
+        ),
+    ],
+)
+def test_services_announce_their_hash(middleware, distro, type_hash):
+    program = """
+service = node.create_service(AddTwoInts, "add", print)
+client = node.create_client(AddTwoInts, "add")
+client.wait_for_service()
+for infos in (node.get_servers_info_by_service("add"), node.get_clients_info_by_service("add")):
+    print(*(info.service_type_hash for info in infos))
+"""
+    choice = f"import os; os.environ['RMW_IMPLEMENTATION'] = '{middleware}'"
+    assert lines_in(distro, choice + START + program) == [type_hash] * 2
+
+
+CLOCKS = """
+from rclpy.clock import Clock, ClockType, ROSClock
+clock = Clock(clock_type=ClockType.ROS_TIME)
+print(type(clock).__name__, clock, clock.ros_time_is_active)
+print(outcome(ROSClock))
+print(type(node.get_clock()).__name__)
+"""
+
+
+@pytest.mark.parametrize(
+    ("distro", "expected"),
+    [
+        (
+            "kilted",
+            [
+                "ROSClock Clock(clock_type=ROS_TIME) False",
+                "Clock(clock_type=ROS_TIME) []",
+                "ROSClock",
+            ],
+        ),
+        (
+            "lyrical",
+            [
+                "Clock Clock(clock_type=ROS_TIME) False",
+                (
+                    "ROSClock(clock_type=ROS_TIME) ['DeprecationWarning: Use "
+                    "Clock(clock_type=ClockType.ROS_TIME) instead']"
+                ),
+                "Clock",
+            ],
+        ),
+    ],
+)
+def test_clocks_of_ros_time(distro, expected):
+    assert said(distro, CLOCKS) == expected
+
+
+@pytest.mark.parametrize(
+    ("distro", "subject"),
+    [("kilted", "Subscription.__init__():"), ("lyrical", "Subscription")],
+)
+def test_a_callback_of_a_wrong_shape(distro, subject):
+    program = """
+from std_msgs.msg import String
+print(outcome(lambda: node.create_subscription(String, "t", lambda: None, 1)))
+"""
+    assert said(distro, program) == [
+        (
+            f"RuntimeError: {subject} callback should be either be callable with one argument"
+            "(to get only the message) or two (to get message and message info)"
+        )
+    ]

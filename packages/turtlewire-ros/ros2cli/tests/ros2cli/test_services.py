@@ -1,0 +1,143 @@
+"""`ros2 service call` with times, and `ros2 service info -v`."""
+
+from __future__ import annotations
+
+import re
+import sys
+
+import pytest
+
+from ros2cli.main import main
+
+SERVERS = """
+import threading
+import rclpy
+from std_srvs.srv import SetBool
+from nav_msgs.srv import GetPlan
+rclpy.init()
+node = rclpy.create_node("servers", namespace="/some")
+def plan(request, response):
+    response.plan.header = request.start.header
+    return response
+planner = node.create_service(GetPlan, "/plan", plan)
+sleeper = node.create_service(SetBool, "/sleep", lambda *_: threading.Event().wait())
+client = node.create_client(SetBool, "/sleep")
+print("ready", flush=True)
+rclpy.spin(node)
+"""
+
+
+@pytest.fixture
+def servers(run):
+    run(sys.executable, "-c", SERVERS).wait_for("ready")
+
+
+def told(capsys, words, status=0):
+    assert main(["service", *words.split()]) == status
+    return capsys.readouterr()
+
+
+def test_a_call_waits_no_longer_than_it_is_told(servers, capsys):
+    _, error = told(capsys, "call /sleep std_srvs/srv/SetBool {} --timeout 1", 1)
+    assert error == "Timed out waiting for response from service /sleep (timeout: 1.0s)\n"
+    with pytest.raises(SystemExit):
+        main(["service", "call", "/sleep", "std_srvs/srv/SetBool", "--timeout", "0"])
+    assert "argument --timeout: value must be positive" in capsys.readouterr().err
+
+
+def test_stamps_have_the_time_of_each_call(run, servers):
+    program = "import sys; from ros2cli.main import main; sys.exit(main(sys.argv[1:]))"
+    words = ("call", "/plan", "nav_msgs/srv/GetPlan", "{start: {header: auto}}", "-r", "20")
+    verb = run(sys.executable, "-c", program, "service", *words, "--qos-depth", "3")
+    stamp = r"response:\n.*?Time\(sec=(\d+), nanosec=(\d+)\)"
+    verb.wait_for("^response:", count=2)
+    verb.wait_for("plan=", count=2)
+    verb.process.terminate()
+    verb.wait()
+    first, second = [
+        int(seconds) * 10**9 + int(rest) for seconds, rest in re.findall(stamp, verb.text)[:2]
+    ]
+    assert first > 1e18
+    assert first + 0.04e9 < second
+
+
+def test_wrong_qos_of_a_call(capsys):
+    with pytest.raises(SystemExit):
+        main(["service", "call", "/x", "std_srvs/srv/Empty", "--qos-reliability", "sometimes"])
+    assert "invalid choice: 'sometimes'" in capsys.readouterr().err
+
+
+HASH = "RIHS01_abe9e4bb6b41b40e6789712c00ec8871923e089af3f667a79992a428cff2da0a"
+QOS = """      Reliability: RELIABLE
+      History (Depth): KEEP_LAST (10)
+      Durability: VOLATILE
+      Lifespan: Infinite
+      Deadline: Infinite
+      Liveliness: AUTOMATIC
+      Liveliness lease duration: Infinite
+"""
+
+
+def block(kind, writer, reader):
+    first, second = f" - Request {writer} :", f" - Response {reader} :"
+    return f"""Node name: servers
+Node namespace: /some
+Service type: std_srvs/srv/SetBool
+Service type hash: INVALID
+Endpoint type: {kind}
+Endpoint count: 2
+GIDs:
+{first} GID
+{second} GID
+QoS profiles:
+{first}
+{QOS}{second}
+{QOS}
+"""
+
+
+def test_clients_and_servers_in_detail(servers, capsys):
+    shown, _ = told(capsys, "info -v /sleep")
+    gids = re.findall(r"(?:[0-9a-f]{2}\.){15}[0-9a-f]{2}", shown)
+    assert len(set(gids)) == 4
+    client, server = block("CLIENT", "Writer", "Reader"), block("SERVER", "Reader", "Writer")
+    text = f"Type: std_srvs/srv/SetBool\nClients count: 1\n{client}Services count: 1\n{server}"
+    assert re.sub(r"(?:[0-9a-f]{2}\.){15}[0-9a-f]{2}", "GID", shown) == text
+    counts = "Type: std_srvs/srv/SetBool\nClients count: 1\nServices count: 1\n"
+    assert told(capsys, "info /sleep").out == counts
+    told_of = "Unknown service '/slep'\nDid you mean: /sleep\n"
+    assert told(capsys, "info -v /slep", 1) == ("", told_of)
+
+
+def test_each_client_of_a_node_has_its_own_endpoints(run, capsys):
+    program = SERVERS.replace(
+        'print("ready"', 'another = node.create_client(SetBool, "/sleep")\nprint("ready"'
+    )
+    run(sys.executable, "-c", program).wait_for("ready")
+    shown, _ = told(capsys, "info -v /sleep")
+    assert shown.count("Endpoint type: CLIENT\nEndpoint count: 2\n") == 2
+    assert len(set(re.findall(r"(?:[0-9a-f]{2}\.){15}[0-9a-f]{2}", shown))) == 6
+
+
+def details(run, environment):
+    """Return what `ros2 service info -v` shows, with servers and command in an environment."""
+    run(sys.executable, "-c", SERVERS, environment=environment).wait_for("ready")
+    program = "import sys; from ros2cli.main import main; sys.exit(main(sys.argv[1:]))"
+    verb = run(
+        sys.executable, "-c", program, "service", "info", "-v", "/sleep", environment=environment
+    )
+    assert verb.wait() == 0
+    return verb.text
+
+
+def test_lyrical_announces_the_hash_of_a_service(run):
+    assert details(run, {"ROS_DISTRO": "lyrical"}).count(f"Service type hash: {HASH}\n") == 2
+
+
+def test_on_zenoh_a_client_has_one_endpoint(run):
+    text = details(run, {"RMW_IMPLEMENTATION": "rmw_zenoh_cpp"})
+    one = "Endpoint count: 1\nGID: GID\nQoS profile:\n  Reliability: RELIABLE\n"
+    text = re.sub(r"(?:[0-9a-f]{2}\.){15}[0-9a-f]{2}", "GID", text)
+    assert text.count(f"Endpoint type: CLIENT\n{one}") == 1
+    assert text.count(f"Endpoint type: SERVER\n{one}") == 1
+    assert text.count(f"hash: {HASH}\n") == 2

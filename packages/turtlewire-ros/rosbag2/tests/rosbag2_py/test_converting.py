@@ -1,0 +1,162 @@
+"""Converting bags of ROS 1 and of other definitions, with `rosbags` as the oracle."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+from mcap.reader import make_reader
+from mcap.writer import Writer as McapWriter
+from rosbags.rosbag1 import Writer
+from rosbags.rosbag2 import StoragePlugin
+from rosbags.rosbag2 import Writer as Writer2
+from rosbags.typesys import Stores, get_typestore
+from tests.bags import START
+from tests.rosbags_messages import assert_contains, contents, random_message, write_ros1
+
+from ros2cli.main import main
+from rosbag2_py import SequentialReader
+from turtlewire.bag import open_bag
+
+ROS1 = get_typestore(Stores.ROS1_NOETIC)
+FOXY = get_typestore(Stores.ROS2_FOXY)
+JAZZY = get_typestore(Stores.ROS2_JAZZY)
+
+
+def convert(tmp_path, name, *inputs, storage="mcap"):
+    """Run ``ros2 bag convert`` into a folder; returns its exit code."""
+    options = tmp_path / f"{name}.yaml"
+    options.write_text(
+        f"output_bags:\n- uri: {tmp_path / name}\n  storage_id: {storage}\n  all: true\n"
+    )
+    words = [word for path in inputs for word in ("-i", str(path))]
+    return main(["bag", "convert", *words, "-o", str(options)])
+
+
+def test_all_types_from_ros1_to_mcap_to_sqlite_to_mcap(tmp_path):
+    # rosbags expects another hash of Char than ROS 2 has, and then reads nothing.
+    write_ros1(tmp_path / "old.bag", ROS1, sorted(ROS1.fielddefs.keys() - {"std_msgs/msg/Char"}))
+    assert convert(tmp_path, "one", tmp_path / "old.bag") == 0
+    assert convert(tmp_path, "two", tmp_path / "one", storage="sqlite3") == 0
+    assert convert(tmp_path, "three", tmp_path / "two") == 0
+    expected = contents(tmp_path / "old.bag")
+    assert len(expected) > 400
+    for name in ("one", "two", "three"):
+        found = contents(tmp_path / name)
+        assert [each[:2] for each in found] == [each[:2] for each in expected]
+        for (topic, _, message), (_, _, old) in zip(found, expected, strict=True):
+            assert_contains(message, old, f"{name} {topic}")
+
+
+def test_characters_of_ros1(tmp_path):
+    """`rosbags` does not read this type from bags of ROS 2, but decodes its bytes."""
+    name = "std_msgs/msg/Char"
+    (raw,) = write_ros1(tmp_path / "old.bag", ROS1, [name]).values()
+    assert convert(tmp_path, "one", tmp_path / "old.bag") == 0
+    assert convert(tmp_path, "two", tmp_path / "one", storage="sqlite3") == 0
+    assert convert(tmp_path, "three", tmp_path / "two") == 0
+    (path,) = (tmp_path / "three").glob("*.mcap")
+    with path.open("rb") as stream:
+        found = [message.data for _, _, message in make_reader(stream).iter_messages()]
+    assert len(found) == 3
+    for data, old in zip(found, raw, strict=True):
+        assert JAZZY.deserialize_cdr(data, name).data == ROS1.deserialize_ros1(old, name).data
+
+
+@pytest.mark.parametrize("plugin", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
+def test_all_types_of_ros2_through_both_storages(tmp_path, plugin):
+    dice = random.Random(3)
+    names = sorted(JAZZY.fielddefs.keys() - {"std_msgs/msg/Char"})
+    with Writer2(tmp_path / "old", version=9, storage_plugin=plugin) as writer:
+        for name in names:
+            connection = writer.add_connection(f"/{name}", name, typestore=JAZZY)
+            for number in range(3):
+                message = random_message(JAZZY, name, dice)
+                writer.write(connection, START + number, bytes(JAZZY.serialize_cdr(message, name)))
+    assert convert(tmp_path, "one", tmp_path / "old") == 0
+    assert convert(tmp_path, "two", tmp_path / "one", storage="sqlite3") == 0
+    assert convert(tmp_path, "three", tmp_path / "two") == 0
+    expected = contents(tmp_path / "old")
+    assert len(expected) == 3 * len(names) > 450
+    for name in ("one", "two", "three"):
+        found = contents(tmp_path / name)
+        assert [each[:2] for each in found] == [each[:2] for each in expected]
+        for (topic, _, message), (_, _, old) in zip(found, expected, strict=True):
+            assert_contains(message, old, f"{name} {topic}")
+
+
+def test_a_topic_that_cannot_be_converted_is_named(tmp_path, capfd):
+    with Writer(tmp_path / "odd.bag") as writer:
+        odd = writer.add_connection(
+            "/odd", "odd/msg/One", msgdef="no definition\n", md5sum="0" * 32
+        )
+        writer.write(odd, START, b"abc")
+        text = writer.add_connection("/text", "std_msgs/msg/String", typestore=ROS1)
+        writer.write(text, START + 1, b"\2\0\0\0hi")
+    assert convert(tmp_path, "out", tmp_path / "odd.bag") == 1
+    assert "left out: /odd (ros1 odd/msg/One)." in capfd.readouterr().err
+    with open_bag(tmp_path / "out") as bag:
+        assert [(each.topic, each.decode().data) for each in bag] == [("/text", "hi")]
+
+
+def test_messages_without_bytes_do_not_end_a_conversion(tmp_path, capfd):
+    with (tmp_path / "short.mcap").open("wb") as file:
+        writer = McapWriter(file)
+        writer.start()
+        schema = writer.register_schema("std_msgs/String", "ros2msg", b"string data")
+        channel = writer.register_channel("/text", "cdr", schema)
+        for number, data in enumerate([b"", b"\0\1\0\0\3\0\0\0hi\0"]):
+            writer.add_message(channel, START + number, data, START)
+        writer.finish()
+    assert convert(tmp_path, "out", tmp_path / "short.mcap") == 1
+    assert "Messages of /text have no bytes: left out." in capfd.readouterr().err
+    with open_bag(tmp_path / "out") as bag:
+        assert [each.decode().data for each in bag] == ["hi"]
+
+
+def test_a_refused_conversion_leaves_no_bag(tmp_path, capfd):
+    with Writer(tmp_path / "odd.bag") as writer:
+        odd = writer.add_connection(
+            "/odd", "odd/msg/Two", msgdef="no definition\n", md5sum="0" * 32
+        )
+        writer.write(odd, START, b"abc")
+    assert convert(tmp_path, "out", tmp_path / "odd.bag") == 1
+    assert "/odd (ros1 odd/msg/Two)" in capfd.readouterr().err
+    options = tmp_path / "two.yaml"
+    options.write_text(
+        f"output_bags:\n- {{uri: {tmp_path / 'out'}, all: true}}\n"
+        f"- {{uri: {tmp_path / 'odd.bag'}, all: true}}\n"
+    )
+    assert main(["bag", "convert", "-i", str(tmp_path / "odd.bag"), "-o", str(options)]) == 1
+    options.write_text(f"output_bags:\n- {{uri: {tmp_path / 'out'}, regex: '('}}\n")
+    assert main(["bag", "convert", "-i", str(tmp_path / "odd.bag"), "-o", str(options)]) == 1
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
+def test_bags_of_different_definitions_are_merged_by_ours(tmp_path, storage):
+    name = "sensor_msgs/msg/Range"
+    written = []
+    for number, store in enumerate([FOXY, JAZZY]):
+        message = random_message(store, name, random.Random(number))
+        written.append(message)
+        with Writer2(tmp_path / f"in{number}", version=9, storage_plugin=storage) as writer:
+            connection = writer.add_connection("/range", name, typestore=store)
+            writer.write(connection, START + number, store.serialize_cdr(message, name))
+    assert convert(tmp_path, "out", tmp_path / "in0", tmp_path / "in1") == 0
+    found = [message for _, _, message in contents(tmp_path / "out")]
+    assert_contains(found, written)
+    assert [found[0].variance, found[1].variance] == [0.0, written[1].variance]
+
+
+def test_scripts_read_older_messages_as_those_that_are_installed(tmp_path):
+    name = "sensor_msgs/msg/Range"
+    message = random_message(FOXY, name, random.Random(1))
+    with Writer2(tmp_path / "old", version=9, storage_plugin=StoragePlugin.MCAP) as writer:
+        connection = writer.add_connection("/range", name, typestore=FOXY)
+        writer.write(connection, START, FOXY.serialize_cdr(message, name))
+    reader = SequentialReader()
+    reader.open_uri(str(tmp_path / "old"))
+    _, data, _ = reader.read_next()
+    reader.close()
+    assert_contains(JAZZY.deserialize_cdr(data, name), message)

@@ -1,0 +1,14 @@
+"""The base classes of interfaces, as ROS 2's package of this name from Lyrical on.
+
+========================  ===========================================
+module                    what it holds
+========================  ===========================================
+`interface_base_classes`  bases of messages, services and actions
+========================  ===========================================
+"""
+
+from __future__ import annotations
+
+from rosidl_pycommon.interface_base_classes import BaseAction, BaseImpl, BaseMessage, BaseService
+
+__all__ = ["BaseAction", "BaseImpl", "BaseMessage", "BaseService"]
