@@ -12,7 +12,7 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.utilities import remove_ros_args
 from turtlewire_ros.prefix import share_directory
-from turtlewire_view.foxglove import FoxgloveServer, Options
+from turtlewire_view.foxglove import BridgeOptions, FoxgloveServer
 
 __all__ = ["FoxgloveBridge", "main"]
 
@@ -85,10 +85,10 @@ class FoxgloveBridge(Node):
         self._server.close()
         super().destroy_node()
 
-    def _options(self) -> Options:
+    def _options(self) -> BridgeOptions:
         """Return the settings, from parameters of the same names."""
         values: dict[str, Any] = {}
-        for name, default in vars(Options()).items():
+        for name, default in vars(BridgeOptions()).items():
             if name == "use_sim_time":  # each node has it
                 values[name] = self.get_parameter(name).value
             elif isinstance(default, tuple):  # no list of a launch file is empty
@@ -98,7 +98,7 @@ class FoxgloveBridge(Node):
                 values[name] = self.declare_parameter(name, default, _FIXED).value
         self._refuse_tls()
         self._tell_what_has_no_effect()
-        return Options(**values)
+        return BridgeOptions(**values)
 
     def _refuse_tls(self) -> None:
         if self.declare_parameter("tls", False, _FIXED).value:

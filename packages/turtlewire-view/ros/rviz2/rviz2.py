@@ -10,6 +10,7 @@ import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.utilities import remove_ros_args
 from turtlewire.program import program
+from turtlewire.terminal.parser import SuggestingParser
 from turtlewire.web.desktop import open_browser, wanted_lan
 from turtlewire.web.lan import invite
 from turtlewire_view import LiveSource, Viewer
@@ -61,7 +62,7 @@ def _ignored(words: list[str]) -> str:
 
 def _parse(words: list[str]) -> tuple[argparse.Namespace, list[str]]:
     """RViz's options, and all other words; options about RViz's window mean nothing."""
-    parser = argparse.ArgumentParser(prog="rviz2", description=_DESCRIPTION)
+    parser = SuggestingParser(prog="rviz2", description=_DESCRIPTION)
     parser.add_argument("-d", "--display-config", default="", help="A .rviz file to show")
     parser.add_argument("-f", "--fixed-frame", default="", help="Look from this frame first")
     parser.add_argument("--lan", action="store_true", help="Also serve other devices")

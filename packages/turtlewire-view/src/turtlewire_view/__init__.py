@@ -15,6 +15,9 @@ module              what it holds
 `source`            `Source`, `Timeline`: what frames and messages come from, and at which time
 `live`              `LiveSource`: the wire
 `bag_source`        `BagSource`: a bag with its own time
+`buffer_source`     `BufferSource`: a buffer of the program
+`robot_source`      `RobotSource`: a robot with joints that pages move
+`named_robots`      the robot of a path, or of a name of ``robot_descriptions``
 `bag_stamps`        which stamps belong to a time of a bag, where they are of another clock
 `parameter_watch`   asks a node for a parameter
 `frames`            `FrameScene`: all poses in one frame, at one time, as one array
@@ -23,13 +26,15 @@ module              what it holds
 `display_feed`      a display of a page: waits for transforms, makes packets
 `displays`          what to draw for each type of message
 `meshes`            meshes of packages: addresses to URLs, URLs to files
+`package_folders`   where packages lie: named by the user, around a URDF, in the ament index
+`page_commands`     what the page may send
 `page_requests`     publish with a tool, save a view
 `rviz_file`         views of ``.rviz`` files
 `rviz_writing`      views as ``.rviz`` files
 `rviz_camera`       the camera of such files
 `rviz_options`      options of RViz's displays and of the page's
 `tools`             what Publish Point, 2D Pose Estimate and 2D Goal Pose publish
-`packets`           a JSON header and arrays as bytes
+`showing`           ``turtlewire.show``
 `view_command`      ``turtlewire view``
 `foxglove`          the server of Foxglove's protocol: topics for Foxglove and Lichtblick
 `foxglove_command`  ``turtlewire foxglove``
@@ -43,13 +48,19 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from turtlewire_view.bag_source import BagSource
+    from turtlewire_view.buffer_source import BufferSource
     from turtlewire_view.live import LiveSource
     from turtlewire_view.viewer import Viewer
 
 #: Loaded when they are used: the command line reads its options, and a live view no bag, without.
-_MODULES = {"BagSource": "bag_source", "LiveSource": "live", "Viewer": "viewer"}
+_MODULES = {
+    "BagSource": "bag_source",
+    "BufferSource": "buffer_source",
+    "LiveSource": "live",
+    "Viewer": "viewer",
+}
 
-__all__ = ["BagSource", "LiveSource", "Viewer"]
+__all__ = ["BagSource", "BufferSource", "LiveSource", "Viewer"]
 
 
 def __getattr__(name: str) -> object:

@@ -7,13 +7,13 @@ import threading
 from typing import TYPE_CHECKING
 
 from turtlewire.bag import open_bag
-from turtlewire.bag.encodings import is_cdr, not_in_cdr
+from turtlewire.bag.encodings import is_decodable, not_in_cdr
 from turtlewire.bag.playback import PlayClock, ReadAhead
 from turtlewire.errors import BagError
 from turtlewire.tf.buffer import Buffer
 from turtlewire_view.bag_stamps import StampsOfLog
 from turtlewire_view.live import MAX_FRAMES, frames_left_out, stamp_range_ns
-from turtlewire_view.source import ParameterAnswer, TimelineState, Topic
+from turtlewire_view.source import Joints, ParameterAnswer, TimelineState, Topic
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -42,6 +42,7 @@ class BagSource:
     """
 
     kind = "bag"
+    joints: Joints | None = None
 
     def __init__(
         self, path: str | os.PathLike[str], *, max_frames: int | None = MAX_FRAMES
@@ -53,7 +54,7 @@ class BagSource:
             self._topics = [
                 Topic(name, info.type, 1)
                 for name, info in sorted(bag.topics.items())
-                if is_cdr(info)
+                if is_decodable(info)
             ]
         self.name = os.path.basename(os.path.normpath(os.fspath(path)))
         self.buffer = self._read_frames(max_frames)
@@ -125,13 +126,13 @@ class BagSource:
         """Call ``call()`` on the player's thread."""
         self._changed = call
 
-    def forget_former_time(self) -> None:
-        """The bag has one time only."""
+    def drop_old_timeline(self) -> None:
+        """Do nothing: the clock of a bag never restarts."""
 
     def stamp_ns(self) -> int:
-        """Return the time of the bag, or what its transforms' stamps were then; never 0."""
+        """Return the time of the bag, or what its transforms' stamps were then."""
         now_ns = self.now_ns()
-        return max(1, now_ns if self._stamps is None else self._stamps.at(now_ns))
+        return now_ns if self._stamps is None else self._stamps.at(now_ns)
 
     def state(self) -> TimelineState:
         """Return the bag's time."""
@@ -216,7 +217,7 @@ class BagSource:
                 if not missing or start_ns > at_ns:
                     return
                 last = {
-                    message.topic: message.data
+                    message.topic: message.upgraded_data()
                     for message in bag.messages(missing, start_ns=start_ns, end_ns=at_ns)
                 }
                 for topic, data in last.items():
@@ -244,7 +245,7 @@ class BagSource:
         now_ns = self.now_ns()
         while ahead is not None and (message := ahead.peek()) and message.log_time_ns <= now_ns:
             ahead.pop()
-            _give(sinks[message.topic], message.data)
+            _give(sinks[message.topic], message.upgraded_data())
 
     def _wait(self, wanted: int) -> None:
         """Wait for the next frame, or for a request while nothing moves."""

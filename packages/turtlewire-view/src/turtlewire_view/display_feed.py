@@ -17,8 +17,8 @@ import numpy as np
 
 from turtlewire import msg
 from turtlewire.errors import CdrError, ExtrapolationException, TransformException
+from turtlewire.web.packets import encode_packet
 from turtlewire_view.displays.content import Content, Removal, Status
-from turtlewire_view.packets import encode_packet
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -42,18 +42,33 @@ _NO_MESSAGE = Status("warn", "No messages received")
 
 
 class Base:
-    """What poses refer to: the frame, what is subtracted from its coordinates, and the buffer."""
+    """What poses refer to: the frame, what is subtracted from its coordinates, and the buffer.
 
-    __slots__ = ("buffer", "fixed", "origin")
+    With ``own_frames``, each message is shown in its own frame, because there are no transforms.
+    """
 
-    def __init__(self, buffer: Buffer, fixed: str, origin: tuple[float, float, float]) -> None:
+    __slots__ = ("buffer", "fixed", "origin", "own_frames")
+
+    def __init__(
+        self,
+        buffer: Buffer,
+        fixed: str,
+        origin: tuple[float, float, float],
+        *,
+        own_frames: bool = False,
+    ) -> None:
         self.buffer = buffer
         self.fixed = fixed
         self.origin = origin
+        self.own_frames = own_frames
 
     def same_place(self, other: Base) -> bool:
         """Return True if poses in both are equal."""
-        return self.fixed == other.fixed and self.origin == other.origin
+        return (self.fixed, self.origin, self.own_frames) == (
+            other.fixed,
+            other.origin,
+            other.own_frames,
+        )
 
     def arrays(self, content: Content) -> dict[str, NDArray[Any]]:
         """Return the arrays of a content, with those that depend on where it is.
@@ -66,7 +81,15 @@ class Base:
         stamps = np.array([content.stamp_ns], dtype=np.int64)
         if content.placed.stamps_ns is not None:
             stamps = np.concatenate([stamps, content.placed.stamps_ns])
-        matrices = self.buffer.lookup_batch(self.fixed, content.frame_id, stamps, matrices=True)
+        if self.own_frames:
+            matrices = np.tile(np.eye(4), (len(stamps), 1, 1))
+            return {**content.arrays, **content.placed.arrays(matrices)}
+        if not stamps.all():  # a message with the stamp 0 is drawn at the latest time
+            newest = self.buffer.lookup_transform(self.fixed, content.frame_id).stamp_ns
+            stamps = np.where(stamps == 0, newest or 0, stamps)
+        matrices = self.buffer.lookup_transforms(
+            self.fixed, content.frame_id, stamps, matrices=True
+        )
         if not np.isfinite(matrices).all():
             raise TransformException(f"A pose of {content.frame_id!r} is not finite.")
         return {**content.arrays, **content.placed.arrays(matrices)}
@@ -78,8 +101,10 @@ class Base:
             TransformException: The pose is unknown.
         """
         assert content.frame_id is not None
+        if self.own_frames:
+            return [*np.subtract(content.anchor, self.origin).tolist(), 0.0, 0.0, 0.0, 1.0]
         fixed_from_frame = self.buffer.lookup_transform(
-            self.fixed, content.frame_id, content.stamp_ns
+            self.fixed, content.frame_id, content.stamp_ns or None
         )
         matrix = fixed_from_frame.as_matrix()
         place = matrix[:3, :3] @ np.asarray(content.anchor) + matrix[:3, 3] - self.origin
@@ -95,7 +120,7 @@ class DisplayFeed:
     Attributes:
         ask: Asks for a parameter, as :meth:`turtlewire_view.source.Source.ask_parameter`.
         ends: What :meth:`close` calls.
-        on_packages: Gets the packages whose files the page will ask for.
+        on_packages: Gets names and folders of packages whose files the page will ask for.
         types: Message types by topic.
 
     Args:
@@ -119,7 +144,6 @@ class DisplayFeed:
         self.types = types
         self.paused = False
         self._classes = {topic: msg.get_message(each) for topic, each in types.items()}
-        self._decode = msg.deserialize_rows if display.reads_rows else msg.deserialize
         self._on_work, self._on_packets = on_work, on_packets
         self._lock = threading.Lock()
         self._inbox: deque[tuple[str, bytes]] = deque(maxlen=_MOST_MESSAGES)
@@ -141,7 +165,7 @@ class DisplayFeed:
         self._answer: ParameterAnswer | None = None
         self.ask: Ask | None = None
         self.ends: list[Callable[[], None]] = []
-        self.on_packages: Callable[[tuple[str, ...]], None] = _nothing
+        self.on_packages: Callable[[tuple[tuple[str, str], ...]], None] = _nothing
 
     @property
     def waits(self) -> bool:
@@ -233,7 +257,9 @@ class DisplayFeed:
 
     def _outputs(self, topic: str, cdr: bytes) -> list[Output]:
         try:
-            message: Any = self._decode(self._classes[topic], cdr)
+            message: Any = msg.deserialize(
+                self._classes[topic], cdr, arrays=self.display.reads_rows
+            )
         except CdrError as error:
             return [Status.of("error", f"A message on {topic} cannot be read: {error}")]
         return self._guarded(lambda: self.display.content(message))
@@ -376,7 +402,7 @@ def _is_too_old(error: TransformException, content: Content, base: Base) -> bool
         return False
     assert content.frame_id is not None
     try:
-        newest = base.buffer.latest_common_time(base.fixed, content.frame_id)
+        newest = base.buffer.lookup_transform(base.fixed, content.frame_id).stamp_ns
     except TransformException:
         return False
-    return newest > content.last_stamp_ns
+    return newest is not None and newest > content.last_stamp_ns

@@ -13,7 +13,7 @@ from turtlewire.terminal.printable import printable
 if TYPE_CHECKING:
     import argparse
 
-    from turtlewire_view.foxglove import Options
+    from turtlewire_view.foxglove import BridgeOptions
 
 __all__ = ["add_foxglove_command"]
 
@@ -23,12 +23,18 @@ that this command prints. Other pages than those of these apps and of this compu
 
 def add_foxglove_command(commands: Any) -> None:
     """Add the verb to the command's parser."""
+    from turtlewire_view.package_folders import add_package_option
+
     summary = "Serve topics, services and parameters to Foxglove and Lichtblick"
     parser = commands.add_parser(
-        "foxglove", help=summary, description=summary, epilog=_EPILOG, allow_abbrev=False
+        "foxglove",
+        help=summary,
+        description=summary,
+        epilog=_EPILOG,
     )
     _add_place(parser)
     _add_offers(parser)
+    add_package_option(parser)
     parser.add_argument(
         "--send-buffer-limit",
         type=int,
@@ -96,7 +102,9 @@ def _foxglove(args: argparse.Namespace) -> int:
     from turtlewire import wire
     from turtlewire.errors import WireError
     from turtlewire_view.foxglove import FoxgloveServer
+    from turtlewire_view.foxglove.assets import share_folder
 
+    named = dict(args.package)
     try:
         options = _options(args)
     except ValueError as error:
@@ -108,7 +116,9 @@ def _foxglove(args: argparse.Namespace) -> int:
             context = wire.open_context()
             stack.callback(context.close)
             node = context.create_node("foxglove_bridge")
-            server = FoxgloveServer(context, node, options, _Log())
+            server = FoxgloveServer(
+                context, node, options, _Log(), lambda name: named.get(name) or share_folder(name)
+            )
             stack.callback(server.close)
             _say_where(server.url, options)
             ended.wait()
@@ -122,15 +132,15 @@ def _foxglove(args: argparse.Namespace) -> int:
     return 0
 
 
-def _options(args: argparse.Namespace) -> Options:
-    from turtlewire_view.foxglove import Options
+def _options(args: argparse.Namespace) -> BridgeOptions:
+    from turtlewire_view.foxglove import BridgeOptions
     from turtlewire_view.foxglove.protocol import CAPABILITIES
 
     everything = (".*",)
     capabilities = tuple(CAPABILITIES)
     if args.read_only:
         capabilities = ("connectionGraph", "assets", "time")
-    return Options(
+    return BridgeOptions(
         port=args.port,
         address=args.address,
         topic_whitelist=tuple(args.topic or everything),
@@ -145,7 +155,7 @@ def _options(args: argparse.Namespace) -> Options:
     )
 
 
-def _say_where(url: str, options: Options) -> None:
+def _say_where(url: str, options: BridgeOptions) -> None:
     print(f"Foxglove and Lichtblick connect to {url} (Ctrl-C ends)", flush=True)
     if not options.is_local:
         print(options.warning, flush=True)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from turtlewire.tf.buffer import Buffer
 
-__all__ = ["FRAME_TIMEOUT_S", "FrameScene", "Frames", "Structure"]
+__all__ = ["FRAME_TIMEOUT_S", "FrameScene", "Frames", "TreeStructure"]
 
 #: Beyond this distance from the origin [m], 32-bit coordinates would be wrong by a millimetre.
 _FAR_M = 10_000.0
@@ -25,7 +25,7 @@ _FARTHEST_M = 1.5e11
 FRAME_TIMEOUT_S = 15.0
 
 
-class Structure(NamedTuple):
+class TreeStructure(NamedTuple):
     """Which frames there are; it changes rarely.
 
     Attributes:
@@ -59,7 +59,7 @@ class Frames(NamedTuple):
         known: (N,) 1 for each frame that has a finite pose at that time.
     """
 
-    structure: Structure
+    structure: TreeStructure
     fixed: str
     origin: tuple[float, float, float]
     poses: NDArray[np.float32]
@@ -69,6 +69,10 @@ class Frames(NamedTuple):
     def arrays(self) -> dict[str, NDArray[Any]]:
         """Return a packet's arrays."""
         return {"poses": self.poses, "stamps": self.stamps, "known": self.known}
+
+
+#: The time of poses that always hold.
+_NO_TIME = np.iinfo(np.int64).min
 
 
 class _Rows(NamedTuple):
@@ -87,32 +91,32 @@ class FrameScene:
     """Computes frames for one page. Not thread-safe."""
 
     def __init__(self) -> None:
-        self._structure = Structure(0, [], [], [], [], [])
+        self._structure = TreeStructure(0, [], [], [], [], [])
         self._index: dict[str, int] = {}
-        self._frame_strings: list[str] = []
+        self._names_seen: list[str] = []
         self._rows: dict[str, tuple[list[str], NDArray[np.intp]]] = {}
         self._origin = (0.0, 0.0, 0.0)
 
     @property
-    def structure(self) -> Structure:
+    def structure(self) -> TreeStructure:
         """The frames of the last look."""
         return self._structure
 
-    def look(self, buffer: Buffer, fixed: str = "", stamp_ns: int = 0) -> Frames:
+    def look(self, buffer: Buffer, fixed: str = "", stamp_ns: int | None = None) -> Frames:
         """Compute all poses.
 
         Args:
             buffer: The frames.
             fixed: The frame to look from; empty, or one that does not exist, takes the root of the
                 largest tree.
-            stamp_ns: 0 takes the newest time that each frame has in common with the fixed one. A
+            stamp_ns: None takes the newest time that each frame has in common with the fixed one. A
                 frame whose data end before the stamp stays where it was for as long as RViz shows
                 it.
         """
-        frame_strings = buffer.frame_strings()
-        if frame_strings != self._frame_strings:
+        names = buffer.frames()
+        if names != self._names_seen:
             self.read_structure(buffer)
-            self._frame_strings = frame_strings
+            self._names_seen = names
         structure = self._structure
         is_there = fixed in self._index
         tree = structure.trees[self._index[fixed]] if is_there else 0
@@ -122,7 +126,7 @@ class FrameScene:
         for number, root in enumerate(structure.roots):
             target = shown if number == tree else root
             self._fill(rows, buffer, target, stamp_ns)
-            if stamp_ns and not known[np.asarray(structure.trees) == number].all():
+            if stamp_ns is not None and not known[np.asarray(structure.trees) == number].all():
                 self._fill_last_seen(rows, buffer, target, stamp_ns)
         with np.errstate(invalid="ignore"):
             known &= (np.abs(poses) < _FARTHEST_M).all(axis=1)
@@ -150,13 +154,13 @@ class FrameScene:
             former.roots,
             former.loops,
         ):
-            self._structure = Structure(
+            self._structure = TreeStructure(
                 former.version + 1, names, parents, trees, roots, tree.loops
             )
             self._index = index
             self._rows.clear()
 
-    def _fill(self, out: _Rows, buffer: Buffer, target: str, stamp_ns: int) -> None:
+    def _fill(self, out: _Rows, buffer: Buffer, target: str, stamp_ns: int | None) -> None:
         """Look up all frames in ``target``, and put them in the rows of the structure."""
         try:
             names, found, times_ns = buffer.lookup_all(target, stamp_ns)
@@ -167,13 +171,14 @@ class FrameScene:
             rows = np.array([self._index.get(name, -1) for name in names], np.intp)
             self._rows[target] = (names, rows)
         there = rows >= 0  # a frame may have come since the structure was read
+        times_ns[times_ns == _NO_TIME] = 0
         out.poses[rows[there]], out.stamps[rows[there]] = found[there], times_ns[there] / 1e9
         out.known[rows[there]] = 1
 
     def _fill_last_seen(self, out: _Rows, buffer: Buffer, target: str, stamp_ns: int) -> None:
         """Put frames whose newest data are a little older than the stamp where they were then."""
         last = _no_rows(len(out.known))
-        self._fill(last, buffer, target, 0)
+        self._fill(last, buffer, target, None)
         age = stamp_ns / 1e9 - last.stamps
         rows = (out.known == 0) & (last.known == 1) & (age >= 0) & (age <= FRAME_TIMEOUT_S)
         out.poses[rows], out.stamps[rows], out.known[rows] = last.poses[rows], last.stamps[rows], 1

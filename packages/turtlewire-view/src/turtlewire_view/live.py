@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
+import copy
 import os
 import threading
 import time
 from collections import Counter
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Protocol, cast
 
 from turtlewire import msg, wire
-from turtlewire.errors import WireError
-from turtlewire.tf import inspection
 from turtlewire.tf.buffer import Buffer
-from turtlewire.tf.listener import TransformListener
+from turtlewire.tf.listener import NOTHING_RECEIVED, TransformListener
 from turtlewire.tf.restarts import RestartWatch
 from turtlewire.wire.base import TypeId
+from turtlewire.wire.names import validate_namespace
 from turtlewire.wire.qos import Durability, QoS, Reliability, fit_subscription
 from turtlewire_view.parameter_watch import ParameterWatch
-from turtlewire_view.source import ParameterAnswer, TimelineState, Topic
+from turtlewire_view.source import Joints, ParameterAnswer, TimelineState, Topic
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "MAX_FRAMES",
+    "HasHistory",
     "LiveSource",
     "LiveTimeline",
     "frames_left_out",
@@ -36,7 +37,7 @@ __all__ = [
 #: How much history the page can go back to: longer than the ten seconds of tf2, for a lesson
 #: explains what happened before.
 _HISTORY_NS = 60 * 10**9
-#: Robots have some hundreds. With so many, the server takes a fifth of a core for each page.
+#: Robots have a few hundred frames. With 5,000, the server uses a fifth of a core for each page.
 MAX_FRAMES = 5_000
 #: Stamps below are of a simulation, and no system time [ns].
 _WALL_TIME_FROM_NS = 10**18
@@ -59,6 +60,7 @@ class LiveSource:
     """
 
     kind = "live"
+    joints: Joints | None = None
 
     def __init__(
         self,
@@ -72,6 +74,7 @@ class LiveSource:
         self.name = f"ROS_DOMAIN_ID {self._context.domain_id}"
         self.history_ns = history_ns
         self.buffer = Buffer(history_ns, max_frames)
+        self.buffer._hint_if_empty = NOTHING_RECEIVED
         self._restarts = RestartWatch(self.buffer)
         self._changed: Callable[[], None] = _nothing
         self._lock = threading.Lock()
@@ -80,7 +83,7 @@ class LiveSource:
         self._node = self._context.create_node(_NODE_NAME.format(os.getpid()))
         self._listener = TransformListener(self.buffer, self._node, context=self._context)
         self._ends = [
-            self.buffer.add_change_listener(self._tell),
+            self.buffer.on_change(self._tell),
             self._context.graph.add_listener(self._take_graph),
         ]
 
@@ -130,11 +133,12 @@ class LiveSource:
         self, node: str, name: str, on_answer: Callable[[ParameterAnswer], None]
     ) -> Callable[[], None]:
         """Ask the node's parameter service."""
-        try:
-            return ParameterWatch(self._context, self._node, node, name, on_answer).close
-        except WireError as error:
-            on_answer(ParameterAnswer(problem=f"{node!r} is not the name of a node: {error}"))
+        # The name of a node with its namespace has the form of a namespace.
+        if fault := validate_namespace(node):
+            problem = f"{node!r} is not the name of a node: {fault.message}"
+            on_answer(ParameterAnswer(problem=problem))
             return _nothing
+        return ParameterWatch(self._context, self._node, node, name, on_answer).close
 
     def publish(self, topic: str, type_name: str, cdr: bytes) -> int:
         """Send a message, and give how many subscriptions there are.
@@ -156,7 +160,7 @@ class LiveSource:
         """Call ``call()`` on the wire's reader thread."""
         self._changed = call
 
-    def forget_former_time(self) -> None:
+    def drop_old_timeline(self) -> None:
         """Clear the buffer when a simulation or a bag has started again."""
         self._restarts.look()
 
@@ -180,22 +184,36 @@ class LiveSource:
         self._changed()
 
 
-class LiveTimeline:
-    """Follows the wire; while paused, a copy of the buffer stays as it was."""
+class HasHistory(Protocol):
+    """A source whose buffer grows."""
 
-    def __init__(self, source: LiveSource) -> None:
+    @property
+    def buffer(self) -> Buffer:
+        """Its frames."""
+        ...
+
+    @property
+    def history_ns(self) -> int:
+        """Length of the history before the newest stamp that a page can show."""
+        ...
+
+
+class LiveTimeline:
+    """Follows the source; while paused, a copy of the buffer stays as it was."""
+
+    def __init__(self, source: HasHistory) -> None:
         self._source = source
         self._lock = threading.Lock()
         self._kept: Buffer | None = None
-        self._stamp_ns = 0
+        self._stamp_ns: int | None = None
 
     @property
     def buffer(self) -> Buffer:
         """Shown buffer: the source's, or its copy."""
         return self._kept or self._source.buffer
 
-    def stamp_ns(self) -> int:
-        """0 while it follows the wire."""
+    def stamp_ns(self) -> int | None:
+        """None while it follows the source."""
         return self._stamp_ns
 
     def state(self) -> TimelineState:
@@ -203,7 +221,7 @@ class LiveTimeline:
         with self._lock:
             oldest, newest = self._range()
             live = self._kept is None
-            now = newest if live else self._stamp_ns
+            now = newest if self._stamp_ns is None else self._stamp_ns
         simulated = newest < _WALL_TIME_FROM_NS
         return TimelineState(now / 1e9, oldest / 1e9, newest / 1e9, live, live, 1.0, simulated)
 
@@ -211,23 +229,23 @@ class LiveTimeline:
         """Keep what there is; new data does not change the picture."""
         with self._lock:
             if self._kept is None:
-                self._kept = inspection.loads(inspection.dumps(self._source.buffer))
-                self._stamp_ns = newest_stamp_ns(self._kept) or 0
+                self._kept = copy.copy(self._source.buffer)
+                self._stamp_ns = newest_stamp_ns(self._kept)
 
     def play(self) -> None:
-        """Follow the wire again."""
+        """Follow the source again."""
         with self._lock:
-            self._kept, self._stamp_ns = None, 0
+            self._kept, self._stamp_ns = None, None
 
     def seek(self, stamp_ns: int) -> None:
         """Pause, and show this time."""
         self.pause()
         with self._lock:
             oldest, newest = self._range()
-            self._stamp_ns = max(1, min(max(stamp_ns, oldest), newest))
+            self._stamp_ns = min(max(stamp_ns, oldest), newest)
 
     def set_speed(self, factor: float) -> None:
-        """The wire has only one speed."""
+        """Live data has only one speed."""
 
     def _range(self) -> tuple[int, int]:
         """Return the times that the page can show, without transforms that ended long ago."""
@@ -303,7 +321,7 @@ def frames_left_out(buffer: Buffer) -> str:
 
 def stamp_range_ns(buffer: Buffer) -> tuple[int, int] | None:
     """Return the oldest and the newest stamp of links that are not static."""
-    moving = [link for link in inspection.links(buffer) if link.samples and not link.static]
+    moving = [link for link in buffer.links() if link.samples and not link.static]
     if not moving:
         return None
     return min(link.oldest_ns for link in moving), max(link.newest_ns for link in moving)

@@ -1,23 +1,27 @@
 """Meshes of packages for the page: addresses in descriptions to URLs, and URLs to files.
 
-Descriptions and markers name files as ``package://<package>/<path>``. The page may only ask for
-meshes and textures of packages that a description or marker named, below their share folders.
+Descriptions and markers name files as ``package://<package>/<path>``, and descriptions in a file
+also by path. The page may only ask for meshes and textures of packages, and of folders with such
+paths, that a description or marker named.
 """
 
 from __future__ import annotations
 
+import io
 import logging
 import os
-import re
-import sys
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, NamedTuple
 from urllib.parse import quote, unquote, urlsplit
 
 from turtlewire.terminal.printable import printable
-from turtlewire.web import Content
+from turtlewire.web import WebContent
+from turtlewire_view.package_folders import PACKAGE_NAME
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
+
+    from turtlewire_view.package_folders import PackageFolders
 
 __all__ = [
     "MEDIA_TYPES",
@@ -42,13 +46,14 @@ MEDIA_TYPES = {
     ".jpeg": "image/jpeg",
     ".webp": "image/webp",
     ".bmp": "image/bmp",
+    ".tif": "image/png",  # converted
+    ".tiff": "image/png",
 }
+_TIFF = (".tif", ".tiff")
 #: What the page has a loader for.
 _MESHES = (".stl", ".dae", ".obj", ".glb", ".gltf")
-_PACKAGE_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 _LARGEST_FILE = 256 * 2**20
 _PREFIX = "/mesh/"
-_MARKERS = os.path.join("share", "ament_index", "resource_index", "packages")
 _logger = logging.getLogger(__name__)
 
 
@@ -58,12 +63,12 @@ class MeshAddress(NamedTuple):
     Attributes:
         url: Path on the server, None if the address is refused.
         problem: Why it is refused.
-        packages: The package that must be permitted, if any.
+        packages: Name and folder of the package that must be permitted, if any.
     """
 
     url: str | None
     problem: str
-    packages: tuple[str, ...] = ()
+    packages: tuple[tuple[str, str], ...] = ()
 
     def header(self) -> dict[str, str]:
         """Return the header for the page: ``url`` or ``problem``."""
@@ -77,50 +82,57 @@ class MeshFile(NamedTuple):
     media_type: str
 
 
-def mesh_address(uri: str, *, texture: bool = False) -> MeshAddress:
-    """Return the URL path of a ``package://`` address, or of a ``file://`` one below a package.
+def mesh_address(uri: str, packages: PackageFolders, *, texture: bool = False) -> MeshAddress:
+    """Return the URL path of a ``package://`` address, a ``file://`` one, or a path.
 
-    It is refused if there is no such file.
+    It is refused if there is no such file, or if the file belongs to no package: see
+    :meth:`PackageFolders.owner_of`.
 
     Args:
         uri: The address as the description gives it.
+        packages: Where packages lie.
         texture: Whether it is of an image.
     """
     if uri.startswith("package://"):
         package, _, path = uri.removeprefix("package://").partition("/")
-        return _address(uri, package, unquote(path), texture)
-    if uri.startswith(("file://", "/")):
-        file = os.path.normpath(unquote(urlsplit(uri).path) if uri.startswith("file:") else uri)
-        for package, path in _owners(file):
-            return _address(uri, package, path, texture)
+        return _address(uri, package, unquote(path), packages.folder(package), texture)
+    is_path = bool(uri) and "://" not in uri
+    if not uri.startswith(("file://", "/")) and not (is_path and packages.path_beside(uri)):
+        return MeshAddress(
+            None,
+            f"'{uri}' is not loaded: only package:// addresses are, and file:// ones of packages",
+        )
+    path = unquote(urlsplit(uri).path) if uri.startswith("file:") else uri
+    file = packages.path_beside(path) or os.path.normpath(path)
+    owner = packages.owner_of(file)
+    if owner is None:
         return MeshAddress(
             None,
             f"'{uri}' is not below the share folder of a package; "
             "name it package://<package>/<path>",
         )
-    return MeshAddress(
-        None, f"'{uri}' is not loaded: only package:// addresses are, and file:// ones of packages"
-    )
+    inside = os.path.relpath(file, owner[1]).replace(os.sep, "/")
+    return _address(uri, owner[0], inside, owner[1], texture)
 
 
-def file_of_package(uri: str) -> str | None:
+def file_of_package(uri: str, packages: PackageFolders) -> str | None:
     """The path of a ``package://`` address; None if it is none, or there is no such package."""
     package, _, path = uri.removeprefix("package://").partition("/")
     path = unquote(path)
-    return None if _problem(package, path) else _file_of(package, path) or None
+    return None if _problem(package, path) else _file_in(packages.folder(package), path) or None
 
 
 class MeshLibrary:
     """The files that the page may ask for."""
 
     def __init__(self) -> None:
-        self._permitted: set[str] = set()
+        self._permitted: dict[str, str] = {}
 
-    def permit(self, packages: Iterable[str]) -> None:
-        """Serve meshes and textures of these packages from now on. For any thread."""
+    def permit(self, packages: Iterable[tuple[str, str]]) -> None:
+        """Serve meshes and textures of packages from now on: names and folders. For any thread."""
         self._permitted.update(packages)
 
-    def answer(self, url_path: str) -> Content | None:
+    def answer(self, url_path: str) -> WebContent | None:
         """Return the file that the page asks for, as :class:`turtlewire.web.Server` wants it."""
         if not url_path.startswith(_PREFIX):
             return None
@@ -128,8 +140,16 @@ class MeshLibrary:
         if isinstance(found, str):
             _logger.warning("The page did not get %s: %s", printable(url_path), printable(found))
             return None
+        if found.path.lower().endswith(_TIFF):
+            try:
+                return WebContent(_png_of_tiff(found.path), found.media_type)
+            except ValueError as error:
+                _logger.warning(
+                    "The page did not get %s: %s", printable(url_path), printable(str(error))
+                )
+                return None
         with open(found.path, "rb") as file:
-            return Content(file.read(), found.media_type)
+            return WebContent(file.read(), found.media_type)
 
     def find(self, url_path: str) -> MeshFile | str:
         """Return the file of ``/mesh/<package>/<path>``, or the line with the reason.
@@ -146,20 +166,38 @@ class MeshLibrary:
         media_type = MEDIA_TYPES.get(os.path.splitext(path)[1].lower())
         if media_type is None:
             return f"'{path}' is neither a mesh nor a texture"
-        file = _file_of(package, path)
+        file = _file_in(self._permitted[package], path)
         missing = _missing(package, path, file)
         return missing or MeshFile(file, media_type)
 
 
-def _share_folder(package: str) -> str | None:
-    """Return the share folder of a package, from the first prefix that has it."""
-    for prefix in _prefixes():
-        if os.path.isfile(os.path.join(prefix, _MARKERS, package)):
-            return os.path.normpath(os.path.join(prefix, "share", package))
-    return None
+def _png_of_tiff(path: str) -> bytes:
+    """Return an image as PNG, because browsers do not show TIFF.
+
+    Raises:
+        ValueError: The image cannot be read, or Pillow is not installed.
+    """
+    if problem := _without_pillow(path):
+        raise ValueError(problem)
+    from PIL import Image
+
+    png = io.BytesIO()
+    try:
+        with Image.open(path, formats=["TIFF"]) as image:
+            image.convert("RGBA").save(png, "PNG")
+    except (OSError, SyntaxError, Image.DecompressionBombError) as error:
+        raise ValueError(f"the TIFF file cannot be read: {error}") from error
+    return png.getvalue()
 
 
-def _address(uri: str, package: str, path: str, texture: bool) -> MeshAddress:
+def _without_pillow(path: str) -> str:
+    """Return what to install for a TIFF file; empty if nothing is missing."""
+    if not path.lower().endswith(_TIFF) or find_spec("PIL") is not None:
+        return ""
+    return f"'{path}' needs Pillow: pip install 'turtlewire-view[tiff]'"
+
+
+def _address(uri: str, package: str, path: str, folder: str | None, texture: bool) -> MeshAddress:
     problem = _problem(package, path)
     if not problem:
         suffix = os.path.splitext(path)[1].lower()
@@ -167,15 +205,15 @@ def _address(uri: str, package: str, path: str, texture: bool) -> MeshAddress:
             problem = f"'{path}' is not an image that browsers can show"
         elif not texture and suffix not in _MESHES:
             problem = f"'{path}' is not a mesh that the page can read ({', '.join(_MESHES)})"
-    problem = problem or _missing(package, path, _file_of(package, path))
-    if problem:
+    problem = problem or _missing(package, path, _file_in(folder, path)) or _without_pillow(path)
+    if problem or folder is None:
         return MeshAddress(None, f"'{uri}' is not loaded: {problem}")
-    return MeshAddress(_PREFIX + package + "/" + quote(path), "", (package,))
+    return MeshAddress(_PREFIX + package + "/" + quote(path), "", ((package, folder),))
 
 
 def _problem(package: str, path: str) -> str:
     """Return why a file with this name is not served, or an empty string."""
-    if not _PACKAGE_NAME.fullmatch(package):
+    if not PACKAGE_NAME.fullmatch(package):
         return f"'{package}' is not the name of a package"
     parts = path.split("/")
     if any(part in {"", ".", ".."} for part in parts):
@@ -185,39 +223,20 @@ def _problem(package: str, path: str) -> str:
     return ""
 
 
-def _file_of(package: str, path: str) -> str:
+def _file_in(folder: str | None, path: str) -> str:
     """Return the path of a package's file; empty if the package does not exist."""
-    share = _share_folder(package)
-    return "" if share is None else os.path.join(share, *path.split("/"))
+    return "" if folder is None else os.path.join(folder, *path.split("/"))
 
 
 def _missing(package: str, path: str, file: str) -> str:
     """Return why a file cannot be served, or an empty string."""
     if not file:
-        return f"there is no package '{package}' in AMENT_PREFIX_PATH"
+        return (
+            f"there is no package '{package}' in AMENT_PREFIX_PATH; to say where it is, start with "
+            f"--package {package}=FOLDER"
+        )
     if not os.path.isfile(file):
         return f"the package '{package}' has no file '{path}'"
     if os.path.getsize(file) > _LARGEST_FILE:
         return f"'{path}' is larger than {_LARGEST_FILE // 2**20} MiB"
     return ""
-
-
-def _prefixes() -> list[str]:
-    paths = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
-    return [*filter(None, paths), sys.prefix]
-
-
-def _owners(file: str) -> Iterable[tuple[str, str]]:
-    """Package and path in it, for each share folder that a file lies in."""
-    for package, folder in _shares():
-        if file.startswith(folder + os.sep):
-            yield package, os.path.relpath(file, folder).replace(os.sep, "/")
-
-
-def _shares() -> Iterable[tuple[str, str]]:
-    """Packages and their share folders, in the order in which ROS 2 searches."""
-    for prefix in _prefixes():
-        markers = os.path.join(prefix, _MARKERS)
-        if os.path.isdir(markers):
-            for package in sorted(os.listdir(markers)):
-                yield package, os.path.normpath(os.path.join(prefix, "share", package))

@@ -45,12 +45,9 @@ class ParameterWatch:
     Args:
         context: The participant.
         node: Whose client asks.
-        owner: Fully qualified name of the node that has the parameter.
+        owner: Fully qualified, valid name of the node that has the parameter.
         parameter: The parameter's name.
         on_answer: Called with each answer, in their order, on the watch's thread.
-
-    Raises:
-        WireError: ``owner`` is not the name of a node.
     """
 
     def __init__(

@@ -115,11 +115,11 @@ def load_rviz(path: str | os.PathLike[str]) -> SavedView:
         with open(path, encoding="utf-8", errors="replace") as file:
             text = file.read(_LONGEST_FILE + 1)
     except OSError as error:
-        raise RvizFileError(f"{path} cannot be read: {error.strerror or error}") from error
+        raise RvizFileError(f"{path} cannot be read: {error.strerror or error}") from None
     try:
         return read_rviz(text)
     except RvizFileError as error:
-        raise RvizFileError(f"{path} is not an RViz view: {error}") from error
+        raise RvizFileError(f"{path} is not an RViz view: {error}") from None
 
 
 def read_rviz(text: str) -> SavedView:

@@ -178,6 +178,33 @@ _COVARIANCE = _flag("show_covariance", "Covariance/Value")
 
 _NAMESPACES = (_Option("namespaces", "Namespaces", _read_namespaces, _write_namespaces),)
 
+_MEASUREMENT = (
+    _ALPHA,
+    _number("size", "Size (m)"),
+    _flag("usual_bounds", "Autocompute Intensity Bounds"),
+    _number("min", "Min Intensity"),
+    _number("max", "Max Intensity"),
+    _flag("rainbow", "Use rainbow"),
+    _flag("invert_rainbow", "Invert Rainbow"),
+    _color("min_color", "Min Color"),
+    _color("max_color", "Max Color"),
+)
+
+
+def _twist_or_wrench(straight: str, turning: str) -> tuple[_Option, ...]:
+    """``straight`` and ``turning``: RViz's words for the two vectors."""
+    return (
+        _color("linear_color", f"{straight} Color"),
+        _color("angular_color", f"{turning} Color"),
+        _ALPHA,
+        _number("linear_scale", f"{straight} Arrow Scale"),
+        _number("angular_scale", f"{turning} Arrow Scale"),
+        _number("width", "Arrow Width"),
+        _whole("history_length", "History Length"),
+        _flag("hide_small_values", "Hide Small Values"),
+    )
+
+
 #: RViz's display to the page's kind and its options.
 CLASSES: dict[str, tuple[str, tuple[_Option, ...]]] = {
     "RobotModel": (
@@ -198,6 +225,7 @@ CLASSES: dict[str, tuple[str, tuple[_Option, ...]]] = {
         ),
     ),
     "PointCloud2": ("point_cloud", _POINTS),
+    "PointCloud": ("point_cloud", _POINTS),
     "LaserScan": ("laser_scan", _POINTS),
     "Marker": ("marker", _NAMESPACES),
     "MarkerArray": ("marker", _NAMESPACES),
@@ -258,6 +286,25 @@ CLASSES: dict[str, tuple[str, tuple[_Option, ...]]] = {
         ),
     ),
     "Range": ("range", (_color("color", "Color"), _ALPHA)),
+    "GridCells": ("grid_cells", (_color("color", "Color"), _ALPHA)),
+    "CameraInfo": (
+        "camera_info",
+        (
+            _number("far", "Far clip"),
+            _flag("show_polygons", "Show polygons"),
+            _color("color", "Color"),
+            _ALPHA,
+            _flag("show_edges", "Show edges"),
+            _color("edge_color", "Edge color"),
+        ),
+    ),
+    "TwistStamped": ("twist_or_wrench", _twist_or_wrench("Linear", "Angular")),
+    "AccelStamped": ("twist_or_wrench", _twist_or_wrench("Linear", "Angular")),
+    "Wrench": ("twist_or_wrench", _twist_or_wrench("Force", "Torque")),
+    "Temperature": ("measurement", _MEASUREMENT),
+    "RelativeHumidity": ("measurement", _MEASUREMENT),
+    "FluidPressure": ("measurement", _MEASUREMENT),
+    "Illuminance": ("measurement", _MEASUREMENT),
     "Image": (
         "image",
         (
@@ -272,6 +319,14 @@ _BY_TYPE = {
     "visualization_msgs/msg/MarkerArray": "MarkerArray",
     "visualization_msgs/msg/Marker": "Marker",
     "geometry_msgs/msg/PoseWithCovarianceStamped": "PoseWithCovariance",
+    "sensor_msgs/msg/PointCloud": "PointCloud",
+    "geometry_msgs/msg/TwistStamped": "TwistStamped",
+    "geometry_msgs/msg/AccelStamped": "AccelStamped",
+    "geometry_msgs/msg/WrenchStamped": "Wrench",
+    "sensor_msgs/msg/Temperature": "Temperature",
+    "sensor_msgs/msg/RelativeHumidity": "RelativeHumidity",
+    "sensor_msgs/msg/FluidPressure": "FluidPressure",
+    "sensor_msgs/msg/Illuminance": "Illuminance",
 }
 
 

@@ -2,37 +2,35 @@
 
 from __future__ import annotations
 
-import json
-import math
 import time
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from turtlewire.errors import TurtlewireError
-from turtlewire.terminal.printable import printable
+from turtlewire.web import CommandSession
+from turtlewire.web.commands import CommandError
+from turtlewire.web.packets import encode_packet
+from turtlewire_view import page_commands
 from turtlewire_view.display_feed import Base, DisplayFeed
 from turtlewire_view.displays.options import OptionError
 from turtlewire_view.frames import FrameScene
-from turtlewire_view.packets import encode_packet
-from turtlewire_view.page_requests import RequestError, message_of_tool, text_of_view
+from turtlewire_view.page_requests import message_of_tool, text_of_view
 from turtlewire_view.rviz_file import RvizFileError, read_rviz
-from turtlewire_view.tree import TreeTable, path_between, relation
+from turtlewire_view.tree import TreeTable, missing_frame, path_between, relation
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from turtlewire_view.frames import Frames
     from turtlewire_view.rviz_file import SavedView
     from turtlewire_view.source import Source
 
-__all__ = ["Host", "ViewCommandError", "ViewSession"]
+__all__ = ["SessionHost", "ViewSession"]
 
 _FRAMES_S, _RELATION_S, _TREE_S = 1 / 31, 0.1, 1.0
-_LONGEST_NAME = 1000
 _MOST_DISPLAYS = 100
 
 
-class ViewCommandError(ValueError):
-    """A command of a page that makes no sense; the text is its answer."""
-
-
-class Host(Protocol):
+class SessionHost(Protocol):
     """What a session needs of the view; it is :class:`turtlewire_view.viewer.Viewer`."""
 
     source: Source
@@ -76,10 +74,11 @@ class _Wish(NamedTuple):
     options: dict[str, object]
 
 
-class ViewSession:
+class ViewSession(CommandSession):
     """The server's thread calls all methods but :meth:`base`."""
 
-    def __init__(self, viewer: Host) -> None:
+    def __init__(self, viewer: SessionHost) -> None:
+        super().__init__(page_commands.READER)
         self._viewer = viewer
         self._source = viewer.source
         self._timeline = viewer.source.new_timeline()
@@ -93,21 +92,22 @@ class ViewSession:
         self._base = Base(self._timeline.buffer, "", (0.0, 0.0, 0.0))
         self._said: dict[str, Any] = {}
         self._due: dict[str, float] = {}
-        self._answers: list[bytes] = [viewer.hello(), *viewer.first_view()]
-        self._commands = {
-            "fixed": self._set_fixed,
-            "relation": self._set_relation,
-            "add": self._add,
-            "remove": self._remove,
-            "options": self._set_options,
-            "budget": self._set_budget,
-            "pause": self._pause,
-            "play": self._play,
-            "seek": self._seek,
-            "speed": self._set_speed,
-            "publish": self._publish,
-            "save": self._save,
-            "load": self._load,
+        self._answers += [viewer.hello(), *viewer.first_view()]
+        self._actions: dict[type, Callable[[Any], None]] = {
+            page_commands.ChooseFixedFrame: self._set_fixed,
+            page_commands.ChooseRelation: self._set_relation,
+            page_commands.AddDisplay: self._add,
+            page_commands.RemoveDisplay: self._remove,
+            page_commands.ChangeDisplay: self._set_options,
+            page_commands.SetBudget: self._set_budget,
+            page_commands.PauseTime: self._pause,
+            page_commands.PlayTime: self._play,
+            page_commands.SeekTime: self._seek,
+            page_commands.ChangePace: self._set_speed,
+            page_commands.PublishWithTool: self._publish,
+            page_commands.SaveView: self._save,
+            page_commands.LoadView: self._load,
+            page_commands.MoveJoints: self._move,
         }
 
     @property
@@ -120,28 +120,26 @@ class ViewSession:
         """The displays; for any thread."""
         return list(self._feeds.values())
 
-    def outgoing(self) -> list[str | bytes]:
-        """Return the messages that the page does not have yet."""
-        packets, self._answers = self._answers, []
+    def news(self) -> list[str | bytes]:
+        """Return the packets that the page does not have yet."""
+        packets: list[str | bytes] = []
         if self._is_due("tree", _TREE_S):
             packets += self._tree()
         if self._is_due("frames", _FRAMES_S):
-            packets += self._frames()
+            packets += [*self._joints(), *self._frames()]
         if self._relation is not None and self._is_due("relation", _RELATION_S):
             packets.append(self._relate(*self._relation))
         for feed in self._feeds.values():
             packets += feed.take_packets()
-        return list(packets)
+        return packets
 
-    def receive(self, message: str | bytes) -> None:
-        """Take a command; a wrong one is answered by an ``error``."""
+    def obey(self, command: Any) -> None:
+        """Carry out a command; one that fails is answered by an ``error``."""
         try:
-            self._run(message)
-        except (ViewCommandError, TurtlewireError) as error:
-            self._refuse(error)
-
-    def _refuse(self, error: Exception) -> None:
-        self._answers.append(encode_packet({"type": "error", "text": printable(str(error))}))
+            self._actions[type(command)](command)
+        except TurtlewireError as error:
+            self.refuse(error)
+        self._due.clear()
 
     def closed(self) -> None:
         """The page is gone."""
@@ -150,19 +148,6 @@ class ViewSession:
         self._feeds.clear()
         self._wishes.clear()
         self._viewer.forget(self)
-
-    def _run(self, message: str | bytes) -> None:
-        try:
-            command = json.loads(message)
-        except (ValueError, RecursionError):
-            raise ViewCommandError("The page sent invalid JSON.") from None
-        kind = command.get("type") if isinstance(command, dict) else None
-        run = self._commands.get(kind) if isinstance(kind, str) else None
-        if run is None:
-            known = ", ".join(self._commands)
-            raise ViewCommandError(f"There is no command {kind!r:.100}; there are {known}.")
-        run(command)
-        self._due.clear()
 
     # What is sent.
 
@@ -176,7 +161,9 @@ class ViewSession:
     def _frames(self) -> list[bytes]:
         frames = self._scene.look(self._timeline.buffer, self._fixed, self._timeline.stamp_ns())
         structure = frames.structure
-        base = Base(self._timeline.buffer, frames.fixed, frames.origin)
+        # No transform of a bag is still to come.
+        own_frames = self._source.kind == "bag" and not structure.names
+        base = Base(self._timeline.buffer, frames.fixed, frames.origin, own_frames=own_frames)
         if not base.same_place(self._base) or base.buffer is not self._base.buffer:
             self._base = base
             self._viewer.work()
@@ -197,12 +184,23 @@ class ViewSession:
         if packets or key != self._said.get("frames"):
             self._said["frames"] = key
             head = {"type": "frames", "version": structure.version, "origin": list(frames.origin)}
-            stamp = self._timeline.stamp_ns() / 1e9 or float(frames.stamps.max(initial=0.0))
+            stamp = self._shown_s(frames)
             packets.append(encode_packet({**head, "stamp": stamp}, arrays))
         return packets
 
+    def _joints(self) -> list[bytes]:
+        joints = self._source.joints
+        if joints is None:
+            return []
+        if "joints" not in self._said:
+            self._said["joints"] = joints.description()
+            first = [encode_packet({"type": "joints", "joints": self._said["joints"]})]
+        else:
+            first = []
+        return first + self._if_new("positions", {"type": "positions", "of": joints.positions()})
+
     def _tree(self) -> list[bytes]:
-        self._source.forget_former_time()
+        self._source.drop_old_timeline()
         buffer, now_ns = self._timeline.buffer, self._source.now_ns()
         self._scene.read_structure(buffer)
         rows = self._table.rows(buffer, now_ns)
@@ -213,9 +211,15 @@ class ViewSession:
             self._follow_types(topics)
         packets += news
         packets += self._if_new("time", {"type": "time", **self._timeline.state()._asdict()})
-        text = self._source.problem
-        status = {"type": "status", "id": None, "level": "error" if text else "ok", "text": text}
+        problem = self._source.problem
+        typo = missing_frame(self._fixed, self._scene.structure.names)
+        level = "error" if problem else "warn" if typo else "ok"
+        status = {"type": "status", "id": None, "level": level, "text": problem or typo}
         return packets + self._if_new("status", status)
+
+    def _shown_s(self, frames: Frames) -> float:
+        stamp_ns = self._timeline.stamp_ns()
+        return float(frames.stamps.max(initial=0.0)) if stamp_ns is None else stamp_ns / 1e9
 
     def _relate(self, target: str, source: str) -> bytes:
         answer = relation(self._timeline.buffer, target, source, self._timeline.stamp_ns())
@@ -232,22 +236,20 @@ class ViewSession:
 
     # What a page may ask for.
 
-    def _set_fixed(self, command: dict[str, Any]) -> None:
-        self._fixed = _text(command, "frame")
+    def _set_fixed(self, command: page_commands.ChooseFixedFrame) -> None:
+        self._fixed = command.frame
 
-    def _set_relation(self, command: dict[str, Any]) -> None:
-        if command.get("target") is None:
-            self._relation = None
-        else:
-            self._relation = _text(command, "target"), _text(command, "source")
+    def _set_relation(self, command: page_commands.ChooseRelation) -> None:
+        target, source = command
+        self._relation = None if target is None else (target, source)
 
-    def _add(self, command: dict[str, Any]) -> None:
-        name, kind, topic = (_text(command, word) for word in ("id", "kind", "topic"))
+    def _add(self, command: page_commands.AddDisplay) -> None:
+        name, kind, topic, options = command
         if name in self._feeds:
-            raise ViewCommandError(f"There is a display {name!r} already.")
+            raise CommandError(f"There is a display {name!r} already.")
         if len(self._feeds) >= _MOST_DISPLAYS:
-            raise ViewCommandError(f"There are {_MOST_DISPLAYS} displays already.")
-        wish = _Wish(kind, topic, _options(command))
+            raise CommandError(f"There are {_MOST_DISPLAYS} displays already.")
+        wish = _Wish(kind, topic, options)
         self._feeds[name] = self._viewer.new_feed(name, *wish)
         self._wishes[name] = wish
         self._share_budget()
@@ -263,8 +265,8 @@ class ViewSession:
                 continue
             try:
                 new = self._viewer.new_feed(name, *wish)
-            except (ViewCommandError, TurtlewireError) as error:
-                self._refuse(error)
+            except (CommandError, TurtlewireError) as error:
+                self.refuse(error)
                 continue
             new.paused = feed.paused
             self._feeds[name] = new
@@ -272,26 +274,26 @@ class ViewSession:
             self._share_budget()
             self._viewer.work()
 
-    def _remove(self, command: dict[str, Any]) -> None:
-        name = _text(command, "id")
+    def _remove(self, command: page_commands.RemoveDisplay) -> None:
+        (name,) = command
         feed = self._feeds.pop(name, None)
         if feed is not None:
             del self._wishes[name]
             feed.close()
             self._share_budget()
 
-    def _set_options(self, command: dict[str, Any]) -> None:
-        name = _text(command, "id")
+    def _set_options(self, command: page_commands.ChangeDisplay) -> None:
+        name, options = command
         if name not in self._feeds:
-            raise ViewCommandError(f"There is no display {name!r}.")
+            raise CommandError(f"There is no display {name!r}.")
         try:
-            self._feeds[name].set_options(_options(command))
-            self._wishes[name] = self._wishes[name]._replace(options=_options(command))
+            self._feeds[name].set_options(options)
+            self._wishes[name] = self._wishes[name]._replace(options=options)
         except OptionError as error:
-            raise ViewCommandError(f"This stays as it was: {error}.") from error
+            raise CommandError(f"This stays as it was: {error}.") from error
 
-    def _set_budget(self, command: dict[str, Any]) -> None:
-        self._budget = int(_number(command, "points", least=1))
+    def _set_budget(self, command: page_commands.SetBudget) -> None:
+        self._budget = int(command.points)
         self._share_budget()
 
     def _share_budget(self) -> None:
@@ -299,76 +301,55 @@ class ViewSession:
             for feed in self._feeds.values():
                 feed.display.budget = max(1, self._budget // len(self._feeds))
 
-    def _pause(self, command: dict[str, Any]) -> None:
-        del command
+    def _pause(self, _command: page_commands.PauseTime) -> None:
         self._timeline.pause()
         self._hold_displays(held=self._source.kind == "live")
 
-    def _play(self, command: dict[str, Any]) -> None:
-        del command
+    def _play(self, _command: page_commands.PlayTime) -> None:
         self._timeline.play()
         self._hold_displays(held=False)
 
-    def _seek(self, command: dict[str, Any]) -> None:
-        self._timeline.seek(round(_number(command, "stamp", least=0.0) * 1e9))
+    def _seek(self, command: page_commands.SeekTime) -> None:
+        self._timeline.seek(round(command.stamp * 1e9))
         self._hold_displays(held=self._source.kind == "live")
 
-    def _set_speed(self, command: dict[str, Any]) -> None:
-        self._timeline.set_speed(_number(command, "factor", least=1e-9))
+    def _set_speed(self, command: page_commands.ChangePace) -> None:
+        self._timeline.set_speed(command.factor)
 
-    def _publish(self, command: dict[str, Any]) -> None:
+    def _publish(self, command: page_commands.PublishWithTool) -> None:
         frame = self._base.fixed
         try:
             sent = message_of_tool(command, frame, self._base.origin, self._source.now_ns())
-        except RequestError as error:
-            raise ViewCommandError(f"Nothing was published: {error}.") from error
+        except CommandError as error:
+            raise CommandError(f"Nothing was published: {error}.") from error
         heard = self._source.publish(*sent) > 0
-        answer = {"type": "published", "topic": sent.topic, "heard": heard}
-        self._answers.append(encode_packet(answer))
+        self.answer({"type": "published", "topic": sent.topic, "heard": heard})
 
-    def _save(self, command: dict[str, Any]) -> None:
+    def _save(self, command: page_commands.SaveView) -> None:
         types = {topic.name: topic.type_name for topic in self._source.topics()}
         try:
-            former = self._viewer.documents.get(str(command.get("document")))
+            former = self._viewer.documents.get(command.document or "")
             text = text_of_view(command, types, former)
-        except RequestError as error:
-            raise ViewCommandError(f"The view was not saved: {error}.") from error
-        self._answers.append(encode_packet({"type": "saved", "text": text}))
+        except CommandError as error:
+            raise CommandError(f"The view was not saved: {error}.") from error
+        self.answer({"type": "saved", "text": text})
 
-    def _load(self, command: dict[str, Any]) -> None:
-        text = command.get("text")
+    def _load(self, command: page_commands.LoadView) -> None:
         try:
-            view = read_rviz(text if isinstance(text, str) else "")
+            view = read_rviz(command.text)
         except RvizFileError as error:
-            raise ViewCommandError(f"This is not a view: {error}.") from error
+            raise CommandError(f"This is not a view: {error}.") from error
         self._viewer.keep_document(view)
-        self._answers.append(encode_packet(view.header()))
+        self.answer(view.header())
+
+    def _move(self, command: page_commands.MoveJoints) -> None:
+        if self._source.joints is None:
+            raise CommandError("Here are no joints to move.")
+        try:
+            self._source.joints.move(command.positions)
+        except ValueError as error:
+            raise CommandError(f"Nothing was moved: {error}") from error
 
     def _hold_displays(self, *, held: bool) -> None:
         for feed in self._feeds.values():
             feed.paused = held
-
-
-def _text(command: dict[str, Any], word: str) -> str:
-    value = command.get(word)
-    if not isinstance(value, str) or len(value) > _LONGEST_NAME:
-        raise ViewCommandError(f"{word!r} must be a string of at most {_LONGEST_NAME} characters.")
-    return value
-
-
-def _number(command: dict[str, Any], word: str, *, least: float) -> float:
-    value = command.get(word)
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise ViewCommandError(f"{word!r} must be a number.")
-    if not least <= value < 1e12 or not math.isfinite(value):
-        raise ViewCommandError(
-            f"{word!r} must be a number from {least:g} to 1e12, got {value!r:.50}."
-        )
-    return value
-
-
-def _options(command: dict[str, Any]) -> dict[str, object]:
-    options = command.get("options", {})
-    if not isinstance(options, dict):
-        raise ViewCommandError("'options' must be an object.")
-    return options

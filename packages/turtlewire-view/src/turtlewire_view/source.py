@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from turtlewire.tf.buffer import Buffer
 
-__all__ = ["ParameterAnswer", "Source", "Timeline", "TimelineState", "Topic"]
+__all__ = ["Joints", "ParameterAnswer", "Source", "Timeline", "TimelineState", "Topic"]
 
 
 class Topic(NamedTuple):
@@ -49,6 +49,29 @@ class TimelineState(NamedTuple):
     simulated: bool
 
 
+class Joints(Protocol):
+    """The joints of a robot; all pages share them. Thread-safe."""
+
+    def description(self) -> list[dict[str, Any]]:
+        """Return name, kind, limits and formula of each joint, in the order of the file."""
+        ...
+
+    def positions(self) -> list[float]:
+        """Return where the joints of :meth:`description` are [rad or m]."""
+        ...
+
+    def move(self, positions: Mapping[str, Any]) -> None:
+        """Move joints, within their limits.
+
+        Args:
+            positions: Positions of free joints by name [rad or m].
+
+        Raises:
+            ValueError: The robot has no such joint, or a position is not a finite number.
+        """
+        ...
+
+
 class Timeline(Protocol):
     """The time that a page shows, and the frames then. Thread-safe."""
 
@@ -57,8 +80,8 @@ class Timeline(Protocol):
         """Buffer of the frames."""
         ...
 
-    def stamp_ns(self) -> int:
-        """Return the time of the frames to show; 0 for the newest of each."""
+    def stamp_ns(self) -> int | None:
+        """Return the time of the frames to show; None for the newest of each."""
         ...
 
     def state(self) -> TimelineState:
@@ -88,10 +111,12 @@ class Source(Protocol):
     Attributes:
         kind: ``live`` or ``bag``.
         name: What the page calls it.
+        joints: The joints that pages can move, or None.
     """
 
     kind: str
     name: str
+    joints: Joints | None
 
     @property
     def problem(self) -> str:
@@ -143,7 +168,7 @@ class Source(Protocol):
         """
         ...
 
-    def forget_former_time(self) -> None:
+    def drop_old_timeline(self) -> None:
         """Drop frames of a time before the last restart of the simulation."""
         ...
 

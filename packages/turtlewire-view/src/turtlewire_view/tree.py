@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from turtlewire.errors import ExtrapolationException, TransformException
+from turtlewire.geometry.conversions import euler_from_quaternion
 from turtlewire.terminal.suggestion import did_you_mean
-from turtlewire.tf import inspection
-from turtlewire.tf.conversions import euler_from_quaternion
 from turtlewire_view.frames import FRAME_TIMEOUT_S
 from turtlewire_view.words import transform_in_words
 
@@ -19,11 +18,14 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from turtlewire.tf.buffer import Buffer
+    from turtlewire.tf.links import Link
 
-__all__ = ["TreeTable", "path_between", "relation"]
+__all__ = ["TreeTable", "missing_frame", "path_between", "relation"]
 
 #: The delay of a link is the smallest age of its newest sample in this many looks, one a second.
 _LOOKS = 10
+#: Frames that are named where no name is similar.
+_MOST_NAMED = 10
 
 
 class TreeTable:
@@ -38,19 +40,19 @@ class TreeTable:
 
         Its rate is in Hz, its times in seconds; a static link has neither rate, age nor delay.
         """
-        links = [link for link in inspection.links(buffer) if link.samples]
+        links = [link for link in buffer.links() if link.samples]
         self._delays = {link.child_frame: self._delayed(link, now_ns) for link in links}
         self._newest_ns = {link.child_frame: link.newest_ns for link in links}
         return [self._row(link, now_ns) for link in links]
 
-    def _delayed(self, link: inspection.LinkInfo, now_ns: int) -> deque[float]:
+    def _delayed(self, link: Link, now_ns: int) -> deque[float]:
         """The ages of new samples: what has no newer one grows older, and is not more delayed."""
         delays = self._delays.get(link.child_frame, deque(maxlen=_LOOKS))
         if self._newest_ns.get(link.child_frame) not in (None, link.newest_ns):
             delays.append(link.age_ns(now_ns) / 1e9)
         return delays
 
-    def _row(self, link: inspection.LinkInfo, now_ns: int) -> dict[str, Any]:
+    def _row(self, link: Link, now_ns: int) -> dict[str, Any]:
         moving = not link.static
         return {
             "name": link.child_frame,
@@ -64,14 +66,23 @@ class TreeTable:
         }
 
 
-def relation(buffer: Buffer, target: str, source: str, stamp_ns: int) -> dict[str, Any]:
+def missing_frame(frame: str, known: Sequence[str]) -> str:
+    """Return a hint if a frame does not exist, or an empty string, as before the first frame."""
+    if not frame or not known or frame in known:
+        return ""
+    some, rest = ", ".join(known[:_MOST_NAMED]), len(known) - _MOST_NAMED
+    frames = f"The frames are {some}{f' and {rest} more' if rest > 0 else ''}"
+    return f"There is no frame {frame!r}. {did_you_mean(frame, known) or frames}"
+
+
+def relation(buffer: Buffer, target: str, source: str, stamp_ns: int | None) -> dict[str, Any]:
     """Describe the pose of ``source`` in ``target``, or why it is unknown.
 
     Translations are in metres, rotations xyzw, rpy in radians about fixed axes; numbers that are
     not finite are None.
     """
     answer: dict[str, Any] = {"target": target, "source": source}
-    known = buffer.frame_strings()
+    known = buffer.frames()
     for frame in (target, source):
         if frame not in known:
             text = f"There is no frame {frame!r}."
@@ -79,13 +90,13 @@ def relation(buffer: Buffer, target: str, source: str, stamp_ns: int) -> dict[st
     try:
         target_from_source = _lookup(buffer, target, source, stamp_ns)
     except TransformException as error:
-        hint = "" if stamp_ns else _ended_link(buffer, error)
+        hint = _ended_link(buffer, error) if stamp_ns is None else ""
         return {**answer, "error": str(error), "hint": hint or error.hint}
     translation, rotation = target_from_source.translation, target_from_source.rotation
     rpy = euler_from_quaternion(rotation).tolist()
     return {
         **answer,
-        "stamp": target_from_source.stamp_ns / 1e9,
+        "stamp": (target_from_source.stamp_ns or 0) / 1e9,
         "translation": _finite(translation),
         "rotation": _finite(rotation),
         "rpy": _finite(rpy),
@@ -94,15 +105,19 @@ def relation(buffer: Buffer, target: str, source: str, stamp_ns: int) -> dict[st
     }
 
 
-def _lookup(buffer: Buffer, target: str, source: str, stamp_ns: int) -> Any:
+def _lookup(buffer: Buffer, target: str, source: str, stamp_ns: int | None) -> Any:
     """Return the transform at a stamp, or the last one before as long as the picture shows that."""
     try:
         return buffer.lookup_transform(target, source, stamp_ns)
     except ExtrapolationException:
-        newest_ns = buffer.latest_common_time(target, source) if stamp_ns else 0
-        if newest_ns and 0 <= stamp_ns - newest_ns <= FRAME_TIMEOUT_S * 1e9:
-            return buffer.lookup_transform(target, source, newest_ns)
-        raise
+        if stamp_ns is None:
+            raise
+        newest = buffer.lookup_transform(target, source)
+        if newest.stamp_ns is None or not (
+            0 <= stamp_ns - newest.stamp_ns <= FRAME_TIMEOUT_S * 1e9
+        ):
+            raise
+        return newest
 
 
 def _ended_link(buffer: Buffer, error: TransformException) -> str:
@@ -111,11 +126,14 @@ def _ended_link(buffer: Buffer, error: TransformException) -> str:
         return ""
     ended = [
         link
-        for link in inspection.links(buffer)
+        for link in buffer.links()
         if link.samples and not link.static and link.newest_ns == error.requested_ns
     ]
     if not ended:
         return ""
+    assert error.requested_ns is not None
+    assert error.newest_ns is not None
+    assert error.oldest_ns is not None  # of an error of the past
     gap, kept = error.newest_ns - error.requested_ns, error.newest_ns - error.oldest_ns
     senders = " and ".join(sorted({sender.name for sender in ended[0].senders}))
     return (

@@ -1,4 +1,4 @@
-"""`turtlewire view`: live frames, or the frames of a bag, in the browser, in 3D."""
+"""`turtlewire view`: live frames, a bag or a robot, in the browser, in 3D."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import argparse
 
+    from turtlewire_view.package_folders import PackageFolders
     from turtlewire_view.source import Source
 
 __all__ = ["add_view_command"]
@@ -20,13 +21,19 @@ def add_view_command(commands: Any) -> None:
     """Add ``view`` to the command's words."""
     from turtlewire.terminal.file_arguments import complete_bags, reporting_errors
     from turtlewire.web.options import add_page_options
+    from turtlewire_view.package_folders import add_package_option
 
-    summary = "Show live frames, or the frames of a bag, in 3D in the browser"
-    parser = commands.add_parser("view", help=summary, description=summary, allow_abbrev=False)
-    bag = parser.add_argument(
-        "bag", nargs="?", metavar="BAG", help="Show this bag instead of the network"
+    summary = "Show live frames, a bag or a robot in 3D in the browser"
+    parser = commands.add_parser("view", help=summary, description=summary)
+    what = parser.add_argument(
+        "what",
+        nargs="?",
+        metavar="BAG|ROBOT",
+        help="Show this bag or robot instead of the network: the path of a bag or of a .urdf file, "
+        "or a name of the PyPI package robot_descriptions, such as panda",
     )
-    bag.completer = complete_bags
+    what.completer = complete_bags
+    add_package_option(parser)
     parser.add_argument(
         "--fixed-frame",
         default="",
@@ -64,7 +71,7 @@ def _view(args: argparse.Namespace) -> int:
     lan = args.lan or wanted_lan()
     try:
         saved = None if args.display_config is None else load_rviz(args.display_config)
-        source = _source(args.bag, args.max_frames)
+        source, packages = _source(args)
     except RvizFileError as error:
         print(f"turtlewire view: {error}", file=sys.stderr)
         return 2
@@ -73,7 +80,9 @@ def _view(args: argparse.Namespace) -> int:
         return 2
     with contextlib.ExitStack() as stack:
         stack.callback(source.close)
-        viewer = Viewer(source, args.fixed_frame, port=args.port, lan=lan, saved=saved)
+        viewer = Viewer(
+            source, args.fixed_frame, port=args.port, lan=lan, saved=saved, packages=packages
+        )
         stack.pop_all()
         stack.callback(viewer.close)  # closes the source, too
         if args.port and args.port != urlsplit(viewer.url).port:
@@ -86,21 +95,37 @@ def _view(args: argparse.Namespace) -> int:
     return 0
 
 
-def _source(bag: str | None, max_frames: int | None) -> Source:
-    limit: dict[str, Any] = {} if max_frames is None else {"max_frames": max_frames}
-    if bag is None:
+def _source(args: argparse.Namespace) -> tuple[Source, PackageFolders]:
+    from turtlewire_view.named_robots import find_robot
+    from turtlewire_view.package_folders import PackageFolders
+
+    what: str | None = args.what
+    named = dict(args.package)
+    limit: dict[str, Any] = {} if args.max_frames is None else {"max_frames": args.max_frames}
+    if what is None:
         from turtlewire_view.live import LiveSource
 
-        return LiveSource(**limit)
-    if bag.endswith(".rviz"):
+        return LiveSource(**limit), PackageFolders(named)
+    if what.endswith(".rviz"):
         from turtlewire_view.rviz_file import RvizFileError
 
-        raise RvizFileError(f"{bag} is not a bag. To load an RViz file: -d {bag}")
-    from turtlewire_view.bag_source import BagSource
+        raise RvizFileError(f"{what} is not a bag. To load an RViz file: -d {what}")
+    found = find_robot(what, named)
+    if found is not None:
+        from turtlewire_view.robot_source import RobotSource
 
-    source = BagSource(bag, **limit)
-    if source.problem:
-        print(source.problem, flush=True)
+        return RobotSource(found.robot), found.packages
+    return _bag(what, args.fixed_frame, limit), PackageFolders(named)
+
+
+def _bag(path: str, fixed_frame: str, limit: dict[str, Any]) -> Source:
+    from turtlewire_view.bag_source import BagSource
+    from turtlewire_view.tree import missing_frame
+
+    source = BagSource(path, **limit)
+    for text in (source.problem, missing_frame(fixed_frame, source.buffer.frames())):
+        if text:
+            print(text, flush=True)
     return source
 
 

@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
+import contextlib
 import threading
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.web import Server
+from turtlewire.web.commands import CommandError
 from turtlewire.web.desktop import wanted_port
+from turtlewire.web.packets import encode_packet
 from turtlewire_view.display_feed import DisplayFeed
 from turtlewire_view.displays import display_for, display_types
 from turtlewire_view.displays.options import OptionError
 from turtlewire_view.meshes import MeshLibrary
-from turtlewire_view.packets import encode_packet
-from turtlewire_view.session import ViewCommandError, ViewSession
+from turtlewire_view.package_folders import PackageFolders
+from turtlewire_view.session import ViewSession
 
 if TYPE_CHECKING:
+    from types import TracebackType
+
+    from typing_extensions import Self
+
     from turtlewire_view.rviz_file import SavedView
     from turtlewire_view.source import Source
 
@@ -30,6 +37,10 @@ _MOST_DOCUMENTS = 16
 
 #: GLTF files may hold their pictures and numbers themselves.
 _SOURCES = {"connect-src": "data: blob:"}
+#: The servers of notebooks run on this computer, or are reached through a tunnel to it.
+_EMBEDDED = {
+    "frame-ancestors": "http://localhost:* http://127.0.0.1:* https://localhost:* vscode-webview:"
+}
 
 
 class Viewer:
@@ -44,6 +55,8 @@ class Viewer:
         port: Preferred TCP port; None takes turtlesim's rule (`TURTLEWIRE_PORT`, 7070).
         saved: What pages show first, of a ``.rviz`` file.
         lan: Whether to serve all devices of the network (see :mod:`turtlewire.web.lan`).
+        embeds: True if pages of this computer, such as notebooks, may embed the page.
+        packages: Where packages with meshes lie; None takes the ament index.
 
     Attributes:
         url: The page's address.
@@ -61,6 +74,8 @@ class Viewer:
         port: int | None = None,
         lan: bool = False,
         saved: SavedView | None = None,
+        embeds: bool = False,
+        packages: PackageFolders | None = None,
     ) -> None:
         self.source = source
         self.fixed_frame = fixed_frame
@@ -69,6 +84,7 @@ class Viewer:
         self._changed, self._work = threading.Event(), threading.Event()
         self._closing = threading.Event()
         self._meshes = MeshLibrary()
+        self._packages = packages or PackageFolders()
         if saved is not None and fixed_frame:
             saved = replace(saved, fixed=fixed_frame)
         self._saved = saved
@@ -82,7 +98,7 @@ class Viewer:
             lan=lan,
             answer=self._meshes.answer,
             immutable="/vendor/",
-            sources=_SOURCES,
+            sources=_SOURCES | (_EMBEDDED if embeds else {}),
         )
         self.url = self._server.url
         self._threads = [
@@ -93,8 +109,15 @@ class Viewer:
             thread.start()
         source.on_change(self._take_change)
 
+    def wait(self) -> None:
+        """Wait until the view is closed or Ctrl-C is pressed."""
+        with contextlib.suppress(KeyboardInterrupt):
+            self._closing.wait()
+
     def close(self) -> None:
-        """Close the pages' connections and the source."""
+        """Close the pages' connections and the source. Idempotent."""
+        if self._closing.is_set():
+            return
         self._closing.set()
         self._changed.set()
         self._work.set()
@@ -102,6 +125,24 @@ class Viewer:
             thread.join()
         self._server.close()
         self.source.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def _repr_html_(self) -> str:
+        """Return the page for a notebook, and a link for kernels on other computers."""
+        return (
+            f'<iframe src="{self.url}" width="100%" height="480" style="border: 0"></iframe>'
+            f'<p><a href="{self.url}" target="_blank">{self.url}</a></p>'
+        )
 
     def hello(self) -> bytes:
         """Return the first packet of a page."""
@@ -132,7 +173,7 @@ class Viewer:
         """Subscribe for a display.
 
         Raises:
-            ViewCommandError: The display or topic does not exist, or an option is invalid.
+            CommandError: The display or topic does not exist, or an option is invalid.
             WireError: The topic cannot be subscribed.
         """
         topics = sorted(self.source.topics(), key=lambda each: each.publishers)
@@ -143,14 +184,15 @@ class Viewer:
             asked = next(iter(of_kind), "")
         type_name = types_there.get(topic) or asked
         if type_name not in of_kind or not (topic or kind == "robot_model"):
-            raise ViewCommandError(f"No display {kind!r} shows {topic} of type {type_name or '?'}.")
+            raise CommandError(f"No display {kind!r} shows {topic} of type {type_name or '?'}.")
         display_type = of_kind[type_name]
         types = {topic: type_name} if topic else {}  # a robot may come from a parameter or file
         types |= {topic + suffix: each for suffix, each in display_type.companions.items()}
         try:
             display = display_type(options)
         except OptionError as error:
-            raise ViewCommandError(f"{topic or kind} is not shown: {error}.") from error
+            raise CommandError(f"{topic or kind} is not shown: {error}.") from error
+        display.packages = self._packages
         feed = DisplayFeed(name, display, types, lambda _: self._work.set(), self._changed.set)
         feed.on_packages = self._meshes.permit
         feed.ask = self.source.ask_parameter

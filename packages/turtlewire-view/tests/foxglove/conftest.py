@@ -15,7 +15,7 @@ from rclpy.node import Node
 from turtlewire import msg, wire
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import QoS
-from turtlewire_view.foxglove import FoxgloveServer, Options
+from turtlewire_view.foxglove import BridgeOptions, FoxgloveServer
 
 LIMIT = 60
 
@@ -204,7 +204,7 @@ def robot():
 
 @pytest.fixture
 def serve(log):
-    """Starts servers; options are those of `Options`."""
+    """Starts servers; options are those of `BridgeOptions`."""
     started = []
 
     def start(find_share=None, **options):
@@ -212,7 +212,7 @@ def serve(log):
         started.append(context.close)
         node = context.create_node("foxglove_bridge")
         more = {} if find_share is None else {"find_share": find_share}
-        server = FoxgloveServer(context, node, Options(**{"port": 0, **options}), log, **more)
+        server = FoxgloveServer(context, node, BridgeOptions(**{"port": 0, **options}), log, **more)
         started.append(server.close)
         server.graph = context.graph
         return server

@@ -1,5 +1,6 @@
 """`turtlewire foxglove`: its words, its address, and its end."""
 
+import json
 import signal
 import socket
 import sys
@@ -28,6 +29,19 @@ def test_it_tells_its_address_serves_and_ends_at_ctrl_c(foxglove):
         program.type("\x03")
         assert program.wait() == 130
     assert "Traceback" not in program.text
+
+
+def test_files_of_a_named_package_are_served(foxglove, tmp_path):
+    (tmp_path / "tip.stl").write_text("tip")
+    program = foxglove("--port", "0", "--package", f"arm={tmp_path}")
+    url = program.wait_for(r"connect to (ws://127\.0\.0\.1:\d+) ")[0][1]
+    with connect(url, subprotocols=["foxglove.websocket.v1"]) as client:
+        uri = "package://arm/tip.stl"
+        client.send(json.dumps({"op": "fetchAsset", "uri": uri, "requestId": 7}))
+        answer = next(each for each in client if isinstance(each, bytes) and each[0] == 4)
+    assert answer.endswith(b"tip")
+    program.process.send_signal(signal.SIGTERM)
+    assert program.wait() == 0
 
 
 def test_sigterm_ends_it_cleanly_although_a_client_does_not_answer(foxglove):

@@ -16,7 +16,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 from turtlewire import msg
-from turtlewire_view.foxglove.channel import Channel
+from turtlewire_view.foxglove.channel import FoxgloveChannel
 from turtlewire_view.foxglove.origins import refusal
 from turtlewire_view.foxglove.protocol import (
     ClientMessage,
@@ -305,7 +305,7 @@ def test_nothing_stays_of_clients_and_topics_that_have_gone(serve, client, robot
     client(server).channel("/last")  # the server has seen all that came before
     gc.collect()
     kinds = [type(each) for each in gc.get_objects()]
-    assert kinds.count(FoxgloveSession) == kinds.count(Channel) == 1
+    assert kinds.count(FoxgloveSession) == kinds.count(FoxgloveChannel) == 1
 
 
 def test_a_server_is_closed_twice_and_with_clients(serve, client):

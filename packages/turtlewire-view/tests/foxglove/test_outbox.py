@@ -2,6 +2,7 @@
 
 import struct
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -62,6 +63,27 @@ def test_the_largest_topic_loses_its_oldest_messages_and_says_so_once():
     assert notes.lost == [2]
 
 
+@pytest.mark.parametrize(
+    ("last", "kept"), [(0, [60, 40, 0]), (1, [40, 1]), (60, [40, 60]), (61, [61]), (101, [101])]
+)
+def test_messages_that_fit_exactly_are_kept(last, kept):
+    notes = Notes(limit=100)
+    notes.outbox.put(1, 0, bytes(60))
+    notes.outbox.put(1, 1, bytes(40))
+    notes.outbox.put(1, 2, bytes(last))
+    assert notes.lost == ([] if last == 0 else [1])
+    assert [len(frame) - 13 for frame in notes.taken()] == kept
+
+
+def test_a_subscription_that_begins_again_tells_again_of_its_loss():
+    notes = Notes(limit=100)
+    for _ in range(2):
+        for _ in range(3):
+            notes.outbox.put(1, 0, bytes(60))
+        notes.outbox.forget(1)
+    assert notes.lost == [1, 1]
+
+
 def test_an_ended_subscription_leaves_nothing():
     notes = Notes()
     notes.outbox.put(1, 0, bytes(90))
@@ -70,21 +92,41 @@ def test_an_ended_subscription_leaves_nothing():
     notes.outbox.put(2, 0, bytes(60))
     notes.outbox.put(2, 0, bytes(30))
     assert not notes.lost
+    notes.outbox.send("before the end")
+    notes.outbox.set_time(b"before the end")
+    assert not notes.outbox.is_empty
     notes.outbox.close()
+    assert notes.outbox.is_empty
     notes.outbox.put(2, 0, b"")
     notes.outbox.send("late")
+    notes.outbox.set_time(b"late")
     assert notes.taken() == []
 
 
 def test_a_client_that_reads_nothing_is_given_up():
     notes = Notes()
-    for _ in range(500):
+    for _ in range(499):
         notes.outbox.send("{}")
+    assert not notes.outbox.is_crowded
+    notes.outbox.send("{}")
     assert notes.outbox.is_crowded
-    for _ in range(10_000):
+    for _ in range(4499):
+        notes.outbox.send("{}")
+    assert notes.floods == 0
+    for _ in range(2):
         notes.outbox.send("{}")
     assert notes.floods == 1
     assert notes.taken() == []
+
+
+def test_large_frames_crowd_until_they_are_taken():
+    notes = Notes()
+    notes.outbox.send(bytes((1 << 20) - 1))
+    assert not notes.outbox.is_crowded
+    notes.outbox.send(b"1")
+    assert notes.outbox.is_crowded
+    notes.outbox.take()
+    assert not notes.outbox.is_crowded
 
 
 @given(

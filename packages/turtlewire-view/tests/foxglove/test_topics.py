@@ -308,9 +308,9 @@ def test_wrong_subscriptions_are_refused_with_a_reason(client, robot):
     assert one.status() == (1, "there is no subscription 9")
 
 
-@given(st.sampled_from(sorted(msg.interface_names())))
+@given(st.sampled_from(sorted(msg.interfaces())))
 def test_every_type_has_a_definition(package):
-    for kind, names in msg.interface_names()[package].items():
+    for kind, names in msg.interfaces()[package].items():
         for name in names:
             for full in {
                 "msg": [f"{package}/msg/{name}"],

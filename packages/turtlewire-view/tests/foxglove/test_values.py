@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from turtlewire import msg
 from turtlewire.errors import CdrError, InterfaceError
 from turtlewire.msg.parser import parse_message
-from turtlewire_view.foxglove.connections import Connections, difference
+from turtlewire_view.foxglove.connections import GraphConnections, difference
 from turtlewire_view.foxglove.json_messages import cdr_from_json, json_from_message
 from turtlewire_view.foxglove.parameter_values import from_json, to_json
 from turtlewire_view.foxglove.schemas import full_name, schema
@@ -152,7 +152,7 @@ def test_parts_of_services_and_actions_are_written_as_a_file_would_be():
 
 def test_a_written_definition_means_what_was_parsed():
     """The text of a request is read back by the parser of .msg files."""
-    names = msg.interface_names()
+    names = msg.interfaces()
     for package, kinds in names.items():
         for name in kinds["srv"]:
             request = msg.get_service(f"{package}/srv/{name}").Request
@@ -170,14 +170,14 @@ def test_names_of_types():
 
 
 def test_only_changes_are_sent():
-    empty = Connections({}, {}, {})
-    now = Connections({"/a": ["/n"]}, {"/a": ["/m"], "/b": ["/m"]}, {"/s": ["/n"]})
+    empty = GraphConnections({}, {}, {})
+    now = GraphConnections({"/a": ["/n"]}, {"/a": ["/m"], "/b": ["/m"]}, {"/s": ["/n"]})
     told = difference(empty, now)
     assert told["publishedTopics"] == [{"name": "/a", "publisherIds": ["/n"]}]
     assert [each["name"] for each in told["subscribedTopics"]] == ["/a", "/b"]
     assert told["advertisedServices"] == [{"name": "/s", "providerIds": ["/n"]}]
     assert not any(difference(now, now).values())
-    later = Connections({}, {"/a": ["/m"]}, {})
+    later = GraphConnections({}, {"/a": ["/m"]}, {})
     told = difference(now, later)
     assert told["publishedTopics"] == [{"name": "/a", "publisherIds": []}]
     assert (told["removedTopics"], told["removedServices"]) == (["/b"], ["/s"])

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from turtlewire.web import Server
-from turtlewire_view.packets import encode_packet
+from turtlewire.web.packets import encode_packet
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

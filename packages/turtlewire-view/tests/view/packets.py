@@ -9,7 +9,9 @@ import numpy as np
 
 
 def decode_packet(data):
-    """The header, with each array in place of its description."""
+    """The header, with each array in place of its description; or what a text says."""
+    if isinstance(data, str):
+        return json.loads(data)
     (length,) = struct.unpack_from("<I", data)
     header = json.loads(data[4 : 4 + length])
     start = 4 + length

@@ -18,6 +18,7 @@ class StillSource:
     history_ns = 60 * 10**9
     listeners = 1
     problem = ""
+    joints = None
 
     def __init__(self) -> None:
         self.buffer = Buffer()
@@ -31,7 +32,7 @@ class StillSource:
         self.put_frame("base", "tip", (0, 1, 0))
 
     def put_frame(self, parent, child, place):
-        self.buffer.set_transform(parent, child, 0, place, (0, 0, 0, 1), static=True)
+        self.buffer.set_static_transform(parent, child, place, (0, 0, 0, 1))
         self._changed()
 
     def offer(self, topic, message):
@@ -74,7 +75,7 @@ class StillSource:
         self.published.append((topic, type_name, cdr))
         return self.listeners
 
-    def forget_former_time(self):
+    def drop_old_timeline(self):
         pass
 
     def on_change(self, call):

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import signal
 import socket
 import sys
 from pathlib import Path
+from urllib.request import urlopen
 
 import pytest
 from tests.bags import write_bag
@@ -56,6 +58,41 @@ def test_a_bag_is_shown_without_the_network(view, tmp_path):
     assert program.wait() == 0
 
 
+def test_a_robot_is_shown_with_meshes_of_a_named_package(view, tmp_path):
+    mesh = "package://arm/tip.stl"
+    (tmp_path / "tip.stl").write_text("tip")
+    (tmp_path / "arm.urdf").write_text(
+        f'<robot name="arm"><link name="base"><visual><geometry><mesh filename="{mesh}"/>'
+        "</geometry></visual></link></robot>"
+    )
+    program = view(tmp_path / "arm.urdf", "--package", f"arm={tmp_path}", "--port", "0")
+    address = address_of(program)
+    with connect(f"ws{address}live", max_size=None) as page:
+        page.send(json.dumps({"type": "add", "id": "a", "kind": "robot_model",
+                              "topic": "/robot_description", "options": {}}))  # fmt: skip
+        packets = map(decode_packet, page)
+        robot = next(each for each in packets if each["type"] == "display")
+    shown = robot["links"][0]["visuals"][0]["mesh"]
+    assert shown == {"name": mesh, "url": "/mesh/arm/tip.stl"}
+    with urlopen(f"http{address}mesh/arm/tip.stl") as answer:
+        assert answer.read() == b"tip"
+    program.process.send_signal(signal.SIGTERM)
+    assert program.wait() == 0
+
+
+def test_a_fixed_frame_that_does_not_exist_is_hinted_at(view, tmp_path):
+    bag = write_bag(tmp_path / "made")
+    hint = "There is no frame 'bas_link'. Did you mean: base_link"
+    program = view(bag, "--port", "0", "--fixed-frame", "bas_link")
+    with connect(f"ws{address_of(program)}live", max_size=None) as page:
+        packets = map(decode_packet, page)
+        status = next(each for each in packets if each["type"] == "status")
+    assert (status["level"], status["text"]) == ("warn", hint)
+    program.process.send_signal(signal.SIGTERM)
+    assert program.wait() == 0
+    assert program.text.startswith(f"{hint}\n")
+
+
 def test_a_file_of_rviz_is_what_the_page_shows_first(view, tmp_path):
     file = tmp_path / "robot.rviz"
     file.write_text(
@@ -84,6 +121,9 @@ def test_a_file_of_rviz_is_what_the_page_shows_first(view, tmp_path):
         (["no_such_bag"], "turtlewire view: "),
         (["robot.rviz"], "robot.rviz is not a bag. To load an RViz file: -d robot.rviz"),
         (["a", "b"], "unrecognized arguments: b"),
+        (["none.urdf"], "none.urdf: No such file or directory"),
+        (["no_robot"], "pip install 'turtlewire-view[robots]'"),
+        (["--package", "arm"], "argument --package: 'arm' is not NAME=FOLDER, such as arm=src/arm"),
     ],
 )
 def test_wrong_words(view, words, answer):

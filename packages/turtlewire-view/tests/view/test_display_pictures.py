@@ -5,11 +5,13 @@ from __future__ import annotations
 
 import base64
 import copy
+import io
 import json
 import struct
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from .looking_down import (  # noqa: F401 - fixtures
     BLUE,
@@ -42,6 +44,60 @@ DAE = """<?xml version="1.0"?>
   </visual_scene></library_visual_scenes>
   <scene><instance_visual_scene url="#s"/></scene>
 </COLLADA>"""
+
+
+def painted_dae(unit, effect, images=""):
+    """A square of 1 m that faces up, its corners in the unit [m], with an effect of its own."""
+    corners = " ".join(f"{x / unit} {y / unit} 0" for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)))
+    return f"""<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+  <asset><unit name="own" meter="{unit}"/><up_axis>Y_UP</up_axis></asset>
+  <library_images>{images}</library_images>
+  <library_effects><effect id="e"><profile_COMMON>{effect}</profile_COMMON></effect>
+  </library_effects>
+  <library_materials><material id="m"><instance_effect url="#e"/></material></library_materials>
+  <library_geometries><geometry id="g"><mesh>
+    <source id="p"><float_array id="pf" count="12">{corners}</float_array>
+      <technique_common><accessor source="#pf" count="4" stride="3"><param name="X" type="float"/>
+        <param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common>
+    </source>
+    <source id="n"><float_array id="nf" count="3">0 0 1</float_array>
+      <technique_common><accessor source="#nf" count="1" stride="3"><param name="X" type="float"/>
+        <param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common>
+    </source>
+    <source id="t"><float_array id="tf" count="8">0 0 1 0 1 1 0 1</float_array>
+      <technique_common><accessor source="#tf" count="4" stride="2"><param name="S" type="float"/>
+        <param name="T" type="float"/></accessor></technique_common></source>
+    <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+    <triangles count="2" material="s"><input semantic="VERTEX" source="#v" offset="0"/>
+      <input semantic="NORMAL" source="#n" offset="1"/>
+      <input semantic="TEXCOORD" source="#t" offset="2" set="0"/>
+      <p>0 0 0 1 0 1 2 0 2 0 0 0 2 0 2 3 0 3</p></triangles>
+  </mesh></geometry></library_geometries>
+  <library_visual_scenes><visual_scene id="vs"><node><instance_geometry url="#g"><bind_material>
+    <technique_common><instance_material symbol="s" target="#m">
+      <bind_vertex_input semantic="UV" input_semantic="TEXCOORD" input_set="0"/>
+    </instance_material></technique_common></bind_material></instance_geometry></node>
+  </visual_scene></library_visual_scenes>
+  <scene><instance_visual_scene url="#vs"/></scene>
+</COLLADA>"""
+
+
+def diffuse(inner, params=""):
+    return f"""{params}<technique sid="c"><lambert><diffuse>{inner}</diffuse></lambert>
+        </technique>"""
+
+
+GREEN_DAE = painted_dae(0.001, diffuse("<color>0 1 0 1</color>"))
+IMAGE_DAE = painted_dae(
+    1,
+    diffuse(
+        '<texture texture="sampler" texcoord="UV"/>',
+        """<newparam sid="surface"><surface type="2D"><init_from>i</init_from></surface></newparam>
+        <newparam sid="sampler"><sampler2D><source>surface</source></sampler2D></newparam>""",
+    ),
+    '<image id="i"><init_from>four.tif</init_from></image>',
+)
 _CORNERS = base64.b64encode(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)).decode()
 GLTF = json.dumps(
     {
@@ -293,6 +349,13 @@ def bmp(rows):
     return b"BM" + struct.pack("<IHHI", 54 + len(pixels), 0, 0, 54) + head + pixels
 
 
+def tiff(rows):
+    """The same as a TIFF file."""
+    file = io.BytesIO()
+    Image.fromarray(np.array(rows, np.uint8)).save(file, "TIFF")
+    return file.getvalue()
+
+
 def textured(name, **values):
     """A square of 2 m, on which the image's first row lies in the north."""
     UV = get("visualization_msgs/msg/UVCoordinate")  # noqa: N806
@@ -327,6 +390,12 @@ def test_a_texture_comes_with_the_marker(scene):
 @pytest.mark.usefixtures("package")
 def test_a_texture_of_a_package(scene):
     scene.show("marker", textured("package://arm/meshes/four.bmp"))
+    expect_image(scene)
+
+
+@pytest.mark.usefixtures("package")
+def test_a_texture_that_browsers_do_not_read(scene):
+    scene.show("marker", textured("package://arm/meshes/four.tif"))
     expect_image(scene)
 
 
@@ -365,6 +434,9 @@ def package(tmp_path, monkeypatch):
     (meshes / "lost.obj").write_text("mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     (meshes / "flat.dae").write_text(DAE)
     (meshes / "flat.gltf").write_text(GLTF)
+    (meshes / "green.dae").write_text(GREEN_DAE)
+    (meshes / "image.dae").write_text(IMAGE_DAE)
+    (meshes / "four.tif").write_bytes(tiff([[RED, BLUE], [GREEN, BLUE]]))
     (meshes / "broken.stl").write_bytes(stl(corners)[:90])
     (meshes / "broken.dae").write_text("<img src=x>")
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
@@ -446,6 +518,41 @@ def test_robot_model(scene):
     scene.wait_until(f"async () => (await ({PIXELS})([[1, -2, 0]]))[0][2] < 200")
     scene.set_option("visual", False)
     scene.expect_ground((0.2, 0.7, 0), (2, 1, 0))
+
+
+def show_meshes(scene, *visuals):
+    """A robot of ``(x, file, scale, material)`` in ``base``."""
+    shapes = "".join(
+        f"""<visual><origin xyz="{x} 0 0"/><geometry><mesh
+        filename="package://arm/meshes/{file}" scale="{scale}"/></geometry>{material}</visual>"""
+        for x, file, scale, material in visuals
+    )
+    text = f"""<robot name="r"><link name="base">{shapes}</link></robot>"""
+    scene.topic += "/robot_description"
+    scene.show("robot_model", get("std_msgs/msg/String")(data=text))
+
+
+@pytest.mark.usefixtures("package")
+def test_millimetres_and_materials_of_a_dae_file(scene):
+    red = '<material name="own"><color rgba="1 0 0 1"/></material>'
+    show_meshes(scene, (-1, "green.dae", "1 1 1", ""), (0, "green.dae", "2 0.5 1", red))
+    scene.expect(((0.1, 0.1, 0), GREEN), ((0.9, 0.9, 0), GREEN), tolerance=110)
+    scene.expect_red((1.1, 0.4, 0), (2.9, 0.4, 0))
+    scene.expect_ground((0.5, 1.1, 0), (-0.1, 0.5, 0), (1.5, 0.6, 0), (3.1, 0.4, 0))
+
+
+@pytest.mark.usefixtures("package")
+def test_an_image_of_a_dae_file_that_browsers_do_not_read(scene):
+    show_meshes(scene, (0, "image.dae", "2 2 1", ""))
+    scene.expect_red((1.5, 1.5, 0))  # between the edges of the picture's four pixels
+    scene.expect(((2.5, 1.5, 0), BLUE), ((2.5, 0.5, 0), BLUE), tolerance=110)
+    scene.expect(((1.5, 0.5, 0), GREEN), tolerance=110)
+
+
+@pytest.mark.usefixtures("package")
+def test_a_dae_file_without_materials_has_the_colour_of_what_has_none(scene):
+    show_meshes(scene, (0, "flat.dae", "1 1 1", ""))
+    scene.expect_red((1.2, 0.2, 0))
 
 
 def test_a_link_without_a_frame_is_named(scene):
@@ -574,3 +681,54 @@ def test_names_with_markup_stay_text(scene):
     scene.show("marker", message)
     scene.expect_status("marker <img src=x onerror=window.hacked=1>/1: the marker is invisible")
     assert scene.page.evaluate("window.hacked") is None
+
+
+def test_a_wrench(scene):
+    message = stamped("geometry_msgs/msg/WrenchStamped", "base")
+    message.wrench.force.x, message.wrench.torque.y = 1.0, -1.0
+    scene.show("twist_or_wrench", message, width=3, hide_small_values=False)
+    scene.expect_red((1.5, 0, 0), (2.4, 0, 0))
+    yellow = f"""async () => {{
+        const [[r, g, b], ring] = await ({PIXELS})([[1, -0.6, 0], [1.5, -1, 0]]);
+        return r > b + 60 && g > b + 60 && ring[0] > ring[2] + 60;
+    }}"""
+    scene.wait_until(yellow)
+    scene.expect_ground((1, 0.6, 0), (-1, 0, 0))
+    message.wrench.force.x, message.wrench.torque.y = 0.0005, 0.0
+    scene.set_option("hide_small_values", True)
+    scene.send(message)
+    scene.expect_ground((1, 0, 0), (1.5, 0, 0), (1, -0.6, 0))
+
+
+def test_a_temperature(scene):
+    message = stamped("sensor_msgs/msg/Temperature", "base", temperature=100.0)
+    scene.show("measurement", message, size=1, text_size=0)
+    scene.expect_red((1, 0, 0), (1.3, 0, 0))
+    scene.expect_ground((1.7, 0, 0))
+    scene.set_option("text_size", 1)
+    ink = f"async () => (await ({PIXELS})([...Array(60).keys()].map((k) => [k / 20 - 1, 0, 0])))"
+    scene.wait_until(f"{ink}.some(([r, g, b]) => Math.max(r, g, b) < 200 && Math.abs(r - b) < 20)")
+
+
+def test_grid_cells(scene):
+    message = stamped(
+        "nav_msgs/msg/GridCells", "base", cell_width=1.0, cell_height=0.5,
+        cells=points((0, 0, 0), (1, 1, 0)),
+    )  # fmt: skip
+    scene.show("grid_cells", message, color="#ff0000")
+    scene.expect_red((0.6, 0.2, 0), (1.4, 0.2, 0), (2.4, 1.2, 0))
+    scene.expect_ground((0.4, 0, 0), (1, 0.35, 0), (1, 1, 0))
+
+
+def test_camera_info(scene):
+    k = [100.0, 0, 100.0, 0, 100.0, 50.0, 0, 0, 1.0]
+    message = stamped("sensor_msgs/msg/CameraInfo", "base", width=200, height=100, k=k)
+    scene.show("camera_info", message, color="#ff0000", alpha=1, show_edges=False)
+    scene.expect(((1.8, 0.4, 0), RED), ((0.2, -0.4, 0), RED), ((1, 0.6, 0), GROUND))
+    scene.set_option("far", 2)
+    scene.expect(((1, 0.9, 0), RED), ((1, 1.1, 0), GROUND))
+    scene.set_option("show_polygons", False)
+    scene.expect_ground((1, 0.9, 0))
+    scene.set_option("edge_color", "#0000ff")
+    scene.set_option("show_edges", True)
+    scene.expect(((1, 1, 0), BLUE))

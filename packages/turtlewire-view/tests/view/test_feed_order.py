@@ -31,7 +31,7 @@ class Page:
         return [decode_packet(packet) for packet in self.feed.take_packets()]
 
     def know(self, frame):
-        self.buffer.set_transform("map", frame, 0, (1, 2, 3), (0, 0, 0, 1), static=True)
+        self.buffer.set_static_transform("map", frame, (1, 2, 3), (0, 0, 0, 1))
 
 
 @pytest.fixture

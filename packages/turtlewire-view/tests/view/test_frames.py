@@ -23,7 +23,10 @@ def buffer():
 
 def put(buffer, parent, child, place, stamp_s, *, static=False):
     stamp_ns = round(stamp_s * SECOND)
-    assert buffer.set_transform(parent, child, stamp_ns, place, IDENTITY, static=static) == ""
+    if static:
+        buffer.set_static_transform(parent, child, place)
+    else:
+        buffer.set_transform(parent, child, stamp_ns, place)
 
 
 def places(frames):
@@ -63,7 +66,8 @@ def test_frames_whose_data_end_stay_as_long_as_rviz_shows_them(buffer):
     frames = scene.look(buffer, "map", 16 * SECOND)
     assert places(frames)["base"] == (2, 0, 0)
     assert frames.stamps[frames.structure.names.index("base")] == 2
-    assert places(scene.look(buffer, "map", 18 * SECOND))["base"] is None
+    assert places(scene.look(buffer, "map", 17 * SECOND))["base"] == (2, 0, 0)
+    assert places(scene.look(buffer, "map", 17 * SECOND + 1_000_000))["base"] is None
 
 
 def test_an_unknown_fixed_frame_falls_back(buffer):
@@ -121,3 +125,12 @@ def test_a_loop_is_shown_from_one_of_its_frames():
     frames = FrameScene().look(buffer)
     assert frames.structure.loops
     assert sorted(frames.structure.names) == ["a", "b"]
+
+
+def test_a_frame_at_the_farthest_distance_is_unknown(buffer):
+    farthest = 1.5e11
+    put(buffer, "map", "mistake", (0, -farthest, 0), 1)
+    put(buffer, "map", "planet", (0, -np.nextafter(farthest, 0), 0), 1)
+    found = places(FrameScene().look(buffer))
+    assert found["mistake"] is None
+    assert found["planet"] is not None

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays_of
 
-from turtlewire_view.packets import encode_packet
+from turtlewire.web.packets import encode_packet
 
 from .packets import decode_packet
 

@@ -2,29 +2,28 @@
 
 from __future__ import annotations
 
+import posixpath
 import re
 from importlib.resources import files
 from pathlib import Path
 
 PAGE = Path(str(files("turtlewire_view") / "page"))
+KIT = Path(str(files("turtlewire.web") / "kit"))
 IMPORT = re.compile(r"^import\b[^;]*?from\s*\"([^\"]+)\"|\bfrom\"(\./[^\"]+)\"", re.MULTILINE)
 THREE = "vendor/three-0.185.1/"
 
 
 def imported(name: str) -> set[str]:
     """What a module imports, as paths from the page."""
-    names = [a or b for a, b in IMPORT.findall((PAGE / name).read_text("utf-8"))]
+    file = KIT.parent / name if name.startswith("kit/") else PAGE / name
+    names = [a or b for a, b in IMPORT.findall(file.read_text("utf-8"))]
     known = {"three": THREE + "three.module.min.js"}
     return {
         known.get(each)
         or (
             each.replace("three/", THREE, 1)
             if each.startswith("three/addons/")
-            else (PAGE / name)
-            .parent.joinpath(each)
-            .resolve()
-            .relative_to(PAGE.resolve())
-            .as_posix()
+            else posixpath.normpath(posixpath.join(posixpath.dirname(name), each))
         )
         for each in names
     }

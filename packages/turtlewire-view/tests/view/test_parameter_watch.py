@@ -115,12 +115,19 @@ def test_no_lock_is_held_while_an_answer_is_given(source, describer):
     end()
 
 
-def test_a_name_that_no_node_has(source):
-    answers, end = ask(source, "/not a node", "robot")
+@pytest.mark.parametrize(
+    ("name", "fault"),
+    [
+        ("/not a node", "namespace must not contain characters other than"),
+        ("describer", "namespace must be absolute"),
+        ("", "namespace must not be empty"),
+    ],
+)
+def test_a_name_that_no_node_has(source, name, fault):
+    answers, end = ask(source, name, "robot")
     end()
-    assert answers.get(timeout=LIMIT_S).problem.startswith(
-        "'/not a node' is not the name of a node: "
-    )
+    problem = answers.get(timeout=LIMIT_S).problem
+    assert problem.startswith(f"{name!r} is not the name of a node: {fault}")
 
 
 def test_a_changed_parameter_is_followed(source, describer, robot):

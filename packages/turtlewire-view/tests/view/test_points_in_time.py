@@ -45,7 +45,7 @@ def turning_robot(until_s=2.0):
         rotation = (0.0, 0.0, math.sin(half), math.cos(half))
         stamp = START + round(seconds * SECOND)
         buffer.set_transform("map", "lidar", stamp, (seconds, 0.0, 0.0), rotation)
-    buffer.set_transform("lidar", "lens", 0, (0, 0, 0), (0, 0, 0, 1), static=True)
+    buffer.set_static_transform("lidar", "lens", (0, 0, 0), (0, 0, 0, 1))
     return buffer
 
 
@@ -54,8 +54,8 @@ def places(base, content):
     x, y, z, *turn = base.pose(content)
     points = base.arrays(content)["points"].astype(float)
     pose = Buffer()
-    pose.set_transform("a", "b", 0, (x, y, z), turn, static=True)
-    matrix = pose.lookup_transform("a", "b", 0).as_matrix()
+    pose.set_static_transform("a", "b", (x, y, z), turn)
+    matrix = pose.lookup_transform("a", "b", None).as_matrix()
     return points @ matrix[:3, :3].T + matrix[:3, 3]
 
 
@@ -124,7 +124,7 @@ def cloud(*heights):
 def test_the_axis_is_one_of_the_fixed_frame():
     buffer = Buffer()  # the sensor's z is the map's x
     half = math.sqrt(0.5)
-    buffer.set_transform("map", "lidar", 0, (3, 0, 0), (0, half, 0, half), static=True)
+    buffer.set_static_transform("map", "lidar", (3, 0, 0), (0, half, 0, half))
     base = Base(buffer, "map", (0.0, 0.0, 0.0))
     options = {"color": "axis", "axis": "x", "autocompute_axis": False, "axis_min": 3}
     low, high = [255, 0, 255, 255], [255, 0, 0, 255]  # of RViz's rainbow, upside down

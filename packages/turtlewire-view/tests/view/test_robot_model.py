@@ -10,9 +10,10 @@ from hypothesis import strategies as st
 from tests.places import GOLDEN
 
 from turtlewire import msg
-from turtlewire.urdf import load_urdf
+from turtlewire.urdf import Robot
 from turtlewire_view.displays.robot_model import RobotModelDisplay
 from turtlewire_view.meshes import MeshFile, MeshLibrary, mesh_address
+from turtlewire_view.package_folders import PackageFolders
 from turtlewire_view.tools import TOOLS, tool_message
 
 ROBOTS = sorted((GOLDEN / "robots" / "urdf").glob("*.urdf"))
@@ -57,7 +58,7 @@ def test_shapes_hang_on_the_frames_of_their_links(prefix):
     content, status = described(URDF.format(mesh="package://arm/meshes/tip.dae"))
     assert status.level == "ok"
     assert content.frame_id is None
-    assert content.packages == ("arm",)
+    assert content.packages == (("arm", str(prefix / "share/arm")),)
     base, tip = content.header["links"]
     assert (content.header["robot"], base["frame"], tip["frame"]) == ("arm", "base", "tip")
     (box,) = base["visuals"]
@@ -70,6 +71,20 @@ def test_shapes_hang_on_the_frames_of_their_links(prefix):
     }  # fmt: skip
     assert (mesh["size"], mesh["color"]) == ([1, -1, 1], None)
     assert cylinder["size"] == [0.1, 2]
+
+
+def test_a_capsule_is_a_cylinder_with_two_spheres(monkeypatch):
+    monkeypatch.setenv("ROS_DISTRO", "lyrical")
+    shape = '<origin xyz="1 0 0" rpy="0 1.5707963267948966 0"/><geometry>'
+    shape += '<capsule radius="0.5" length="2"/></geometry>'
+    text = f'<robot name="r" version="1.1"><link name="a"><visual>{shape}</visual></link></robot>'
+    (link,) = described(text)[0].header["links"]
+    cylinder, first, second = link["visuals"]
+    assert (cylinder["shape"], cylinder["size"]) == ("cylinder", [0.5, 2])
+    assert [first["shape"], second["shape"]] == ["sphere", "sphere"]
+    assert first["size"] == second["size"] == [0.5]
+    assert first["origin"][:3] == pytest.approx([2, 0, 0])
+    assert second["origin"][:3] == pytest.approx([0, 0, 0])
 
 
 def test_a_prefix_of_frames():
@@ -108,7 +123,7 @@ def test_files_that_are_no_robot(file, why):
 @pytest.mark.parametrize("path", ROBOTS, ids=lambda path: path.stem)
 def test_each_golden_robot_is_drawn(path):
     content, status = described(path.read_text())
-    assert len(content.header["links"]) == len(load_urdf(path).links)
+    assert len(content.header["links"]) == len(Robot.load(path).links)
     assert status.level in {"ok", "warn"}
 
 
@@ -149,7 +164,7 @@ def test_a_description_that_is_none(text, line):
 )
 @pytest.mark.usefixtures("prefix")
 def test_addresses_that_are_refused(uri, why):
-    address = mesh_address(uri)
+    address = mesh_address(uri, PackageFolders())
     assert address.url is None
     assert why in address.problem
     content, status = described(URDF.format(mesh=uri))
@@ -161,7 +176,7 @@ def test_addresses_that_are_refused(uri, why):
 def test_meshes_of_named_packages_are_served(prefix):
     library = MeshLibrary()
     asked = "/mesh/arm/meshes/tip one.stl"
-    address = mesh_address("package://arm/meshes/tip one.stl")
+    address = mesh_address("package://arm/meshes/tip one.stl", PackageFolders())
     assert address.url == "/mesh/arm/meshes/tip%20one.stl"
     assert library.find(asked) == "no robot or marker names a mesh of the package 'arm'"
     assert library.answer("/mesh/arm/meshes/tip one.stl") is None
@@ -171,8 +186,8 @@ def test_meshes_of_named_packages_are_served(prefix):
     assert library.answer(asked) == (b"tip one.stl", "model/stl")
     assert library.answer("/other") is None
     assert library.find("/mesh/arm/meshes/skin.png").media_type == "image/png"
-    assert mesh_address(f"file://{file}").url == address.url
-    assert mesh_address(f"{prefix}/share/secret.stl").url is None
+    assert mesh_address(f"file://{file}", PackageFolders()).url == address.url
+    assert mesh_address(f"{prefix}/share/secret.stl", PackageFolders()).url is None
 
 
 @pytest.mark.parametrize(
@@ -188,10 +203,9 @@ def test_meshes_of_named_packages_are_served(prefix):
         ("/mesh/../../etc/passwd", "is not the name of a package"),
     ],
 )
-@pytest.mark.usefixtures("prefix")
-def test_urls_that_are_refused(path, why):
+def test_urls_that_are_refused(prefix, path, why):
     library = MeshLibrary()
-    library.permit(["arm", ".."])
+    library.permit([("arm", str(prefix / "share/arm")), ("..", str(prefix))])
     answer = library.find(path)
     assert isinstance(answer, str)
     assert why in answer
@@ -200,8 +214,9 @@ def test_urls_that_are_refused(path, why):
 @given(st.text(st.sampled_from("ab./\\%2e:\0 ~"), max_size=20))
 def test_no_path_leads_out_of_a_package(tail):
     library = MeshLibrary()
-    library.permit(["arm"])
-    for address in (mesh_address("package://arm/" + tail + ".stl"), mesh_address(tail)):
+    library.permit([("arm", "/nowhere")])
+    for uri in ("package://arm/" + tail + ".stl", tail):
+        address = mesh_address(uri, PackageFolders())
         assert address.url is None or "/../" not in address.url
     assert isinstance(library.find("/mesh/arm/" + tail + ".stl"), (str, MeshFile))
 

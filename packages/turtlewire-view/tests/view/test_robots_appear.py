@@ -48,6 +48,8 @@ def test_each_robot_is_shown_once_and_one_that_was_removed_stays_away(fake, open
     page = open_view(fake.url)
     other = {**ROBOT, "name": "/second/robot_description"}
     fake.tell({"type": "topics", "topics": [ROBOT]})
+    # The page sends a display when its module is loaded; one that is removed before is never sent.
+    fake.wait_for(lambda c: c["type"] == "add" and c["topic"] == ROBOT["name"])
     page.click("[aria-label='Remove /robot_description']")
     fake.tell({"type": "topics", "topics": [ROBOT, other]})
     fake.wait_for(lambda c: c["type"] == "add" and c["topic"] == other["name"])
@@ -73,11 +75,34 @@ def test_a_robot_that_the_user_has_added_is_not_added_again(fake, open_view):
     wait_for_topics(page, 1)
     page.select_option("#topic", "/robot_description")
     page.click("#add-display")
-    fake.wait_for(lambda c: c["type"] == "add")  # it is sent when its module is loaded
+    fake.wait_for(lambda c: c["type"] == "add")
     fake.tell({"type": "topics", "topics": [ROBOT, SCAN]})
     wait_for_topics(page, 2)
     assert shown(page) == ["/robot_description"]
     assert len(added(fake, kind="robot_model")) == 1
+
+
+def test_a_display_that_is_added_twice_is_there_once(fake, open_view):
+    page = open_view(fake.url)
+    fake.tell({"type": "topics", "topics": [SCAN]})
+    wait_for_topics(page, 1)
+    page.click("#add-display")
+    fake.wait_for(lambda c: c["type"] == "add" and c["topic"] == "/scan")
+    page.click("[aria-label='Hide /scan']")
+    page.click("#add-display")  # shows it again
+    assert shown(page) == ["/scan"]
+    assert page.get_attribute("[aria-label='Hide /scan']", "aria-pressed") == "false"
+    page.select_option("#topic", label="robot from a parameter or file")
+    page.dblclick("#add-display")
+    fake.wait_for(lambda c: c["type"] == "add" and c["kind"] == "robot_model")
+    assert shown(page) == ["/scan", "robot model"]
+    page.locator("#display-list summary").last.click()
+    node = page.get_by_label("Node of the parameter")
+    node.fill("/other")
+    node.press("Enter")
+    page.click("#add-display")
+    assert shown(page) == ["/scan", "robot model", "robot model"]
+    assert len(added(fake, topic="/scan")) == 1
 
 
 @pytest.mark.parametrize("displays", [[], [{"kind": "laser_scan", "topic": "/scan"}]])

@@ -11,8 +11,10 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
+from turtlewire.web.commands import CommandError
 from turtlewire_view.displays import display_types
-from turtlewire_view.page_requests import RequestError, message_of_tool, text_of_view
+from turtlewire_view.page_commands import READER, SaveView
+from turtlewire_view.page_requests import message_of_tool, text_of_view
 from turtlewire_view.rviz_file import (
     RvizFileError,
     SavedDisplay,
@@ -295,23 +297,21 @@ def test_written_data_is_read_again(fixed, names, number, flag):
 
 @given(NONSENSE, NONSENSE, NONSENSE)
 def test_requests_that_make_no_sense_are_refused_or_answered(first, second, third):
-    command = {"displays": first, "show": second, "fixed": third, "position": first, "yaw": second,
-               "tool": "goal", "topic": third}  # fmt: skip
-    for ask in (
-        lambda: text_of_view(command, {}),
-        lambda: message_of_tool(command, "map", (0.0, 0.0, 0.0), 0),
-    ):
-        with contextlib.suppress(RequestError):
-            ask()
+    save = {"type": "save", "displays": first, "show": second, "fixed": third}
+    publish = {"type": "publish", "tool": "goal", "position": first, "yaw": second, "topic": third}
+    with contextlib.suppress(CommandError):
+        text_of_view(READER.read(json.dumps(save)), {})
+    with contextlib.suppress(CommandError):
+        message_of_tool(READER.read(json.dumps(publish)), "map", (0.0, 0.0, 0.0), 0)
 
 
 @given(st.dictionaries(st.sampled_from(["alpha", "color", "keep", "size", "shape"]), NONSENSE))
 def test_any_options_are_saved(options):
     display = {"kind": "odometry", "topic": "/odom", "options": options}
-    text = text_of_view({"displays": [display], "show": {}, "fixed": "map"}, {})
+    text = text_of_view(SaveView("map", [display], {}), {})
     assert read_rviz(text).displays[0].kind == "odometry"
-    with pytest.raises(RequestError, match="must have the texts"):
-        text_of_view({"displays": [{"kind": 1}], "show": {}, "fixed": ""}, {})
+    with pytest.raises(CommandError, match="must have the texts"):
+        text_of_view(SaveView("", [{"kind": 1}], {}), {})
 
 
 def file_with(current):
@@ -352,13 +352,11 @@ def test_cameras_that_are_written_are_read_again(kind, frame, numbers, distance)
     top = kind == "top"
     camera = {"kind": kind, "frame": frame, "focus": [x, y, 0.0 if top else 1.0]}
     camera |= {"distance": distance, "yaw": yaw, "pitch": pitch, "scale": 20.0 if top else None}
-    command = {"fixed": "map", "displays": [], "show": {}, "camera": camera}
-    again = read_rviz(text_of_view(command, {})).camera
+    again = read_rviz(text_of_view(SaveView("map", [], {}, camera), {})).camera
     words = ["kind", "frame", "focus", "scale"] if top else list(camera)
     assert {word: again[word] for word in words} == {word: camera[word] for word in words}
 
 
 @pytest.mark.parametrize("camera", [None, 5, {}, {"kind": "orbit", "frame": 3}, {"kind": "x"}])
 def test_a_camera_that_makes_no_sense_is_not_saved(camera):
-    command = {"fixed": "map", "displays": [], "show": {}, "camera": camera}
-    assert read_rviz(text_of_view(command, {})).camera is None
+    assert read_rviz(text_of_view(SaveView("map", [], {}, camera), {})).camera is None

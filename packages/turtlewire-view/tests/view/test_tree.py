@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from turtlewire import Buffer
-from turtlewire_view.tree import TreeTable, path_between, relation
+from turtlewire_view.tree import TreeTable, missing_frame, path_between, relation
 
 SECOND = 10**9
 IDENTITY = (0.0, 0.0, 0.0, 1.0)
@@ -16,7 +16,7 @@ def buffer():
     buffer = Buffer()
     for step in range(11):
         buffer.set_transform("map", "base", SECOND + step * SECOND // 10, (1, 2, 0), IDENTITY)
-    buffer.set_transform("base", "laser", 0, (0, 0, 1), IDENTITY, static=True, authority="/rsp")
+    buffer.set_static_transform("base", "laser", (0, 0, 1), IDENTITY, sender="/rsp")
     return buffer
 
 
@@ -49,7 +49,7 @@ def test_a_single_sample_has_no_rate():
 
 
 def test_a_relation_has_numbers_and_a_sentence(buffer):
-    found = relation(buffer, "map", "laser", 0)
+    found = relation(buffer, "map", "laser", None)
     assert found["translation"] == [1.0, 2.0, 1.0]
     assert found["matrix"][0] == [1.0, 0.0, 0.0, 1.0]
     assert found["rpy"] == [0.0, 0.0, 0.0]
@@ -60,10 +60,10 @@ def test_a_relation_has_numbers_and_a_sentence(buffer):
 
 def test_a_relation_that_is_not_there_says_why(buffer):
     buffer.set_transform("island", "palm", SECOND, (0, 0, 0), IDENTITY)
-    apart = relation(buffer, "map", "palm", 0)
+    apart = relation(buffer, "map", "palm", None)
     assert "not part of the same tree" in apart["error"]
     assert apart["hint"]
-    unknown = relation(buffer, "map", "lasre", 0)
+    unknown = relation(buffer, "map", "lasre", None)
     assert unknown["error"] == "There is no frame 'lasre'."
     assert "laser" in unknown["hint"]
     early = relation(buffer, "map", "base", SECOND // 2)
@@ -72,10 +72,10 @@ def test_a_relation_that_is_not_there_says_why(buffer):
 
 def test_a_link_that_ended_is_named():
     buffer = Buffer(2 * SECOND)
-    buffer.set_transform("map", "stopped", SECOND, (1, 0, 0), IDENTITY, authority="/old_node")
+    buffer.set_transform("map", "stopped", SECOND, (1, 0, 0), IDENTITY, sender="/old_node")
     for second in range(1, 31):
         buffer.set_transform("map", "base", second * SECOND, (0, 0, 0), IDENTITY)
-    found = relation(buffer, "base", "stopped", 0)
+    found = relation(buffer, "base", "stopped", None)
     assert "extrapolation into the past" in found["error"]
     assert found["hint"] == (
         "The last transform of 'stopped' is 29 s older than the last transform of 'base', of which "
@@ -95,3 +95,14 @@ def test_the_path_leads_over_the_common_ancestor():
     assert path_between(names, parents, "map", "map") == ["map"]
     assert path_between(names, parents, "island", "map") == []
     assert path_between(names, parents, "nobody", "map") == []
+
+
+def test_a_frame_that_does_not_exist_is_hinted_at():
+    names = ["map", "base", *(f"link{k}" for k in range(8))]
+    assert missing_frame("bsae", names) == "There is no frame 'bsae'. Did you mean: base"
+    known = "There is no frame 'odometry'. The frames are " + ", ".join(names)
+    assert missing_frame("odometry", names) == known
+    assert missing_frame("odometry", [*names, "tip"]) == f"{known} and 1 more"
+    assert missing_frame("base", names) == ""
+    assert missing_frame("", names) == ""
+    assert missing_frame("odometry", []) == ""

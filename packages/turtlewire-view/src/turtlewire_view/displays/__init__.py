@@ -9,9 +9,11 @@ module             what it holds
 `path`             Path
 `poses`            PoseStamped, PoseWithCovarianceStamped, PoseArray, Odometry
 `covariance`       the ellipsoid of a covariance
-`shapes`           PolygonStamped, PointStamped, Range
+`shapes`           PolygonStamped, PointStamped, GridCells, Range, CameraInfo
+`twist_or_wrench`  TwistStamped, AccelStamped, WrenchStamped
+`measurement`      Temperature, RelativeHumidity, FluidPressure, Illuminance
 `points`           what point clouds and scans have in common
-`point_cloud`      PointCloud2
+`point_cloud`      PointCloud2 and PointCloud
 `cloud_layout`     its bytes as records
 `coloring`         colours from values
 `laser_scan`       LaserScan
@@ -40,27 +42,45 @@ def display_types() -> dict[str, type[Display]]:
     from turtlewire_view.displays.image import CompressedImageDisplay, ImageDisplay
     from turtlewire_view.displays.laser_scan import LaserScanDisplay
     from turtlewire_view.displays.marker import MarkerDisplay
+    from turtlewire_view.displays.measurement import MeasurementDisplay
     from turtlewire_view.displays.occupancy_grid import OccupancyGridDisplay
     from turtlewire_view.displays.path import PathDisplay
-    from turtlewire_view.displays.point_cloud import PointCloudDisplay
+    from turtlewire_view.displays.point_cloud import OldPointCloudDisplay, PointCloudDisplay
     from turtlewire_view.displays.poses import OdometryDisplay, PoseArrayDisplay, PoseDisplay
     from turtlewire_view.displays.robot_model import RobotModelDisplay
-    from turtlewire_view.displays.shapes import PointDisplay, PolygonDisplay, RangeDisplay
+    from turtlewire_view.displays.shapes import (
+        CameraInfoDisplay,
+        GridCellsDisplay,
+        PointDisplay,
+        PolygonDisplay,
+        RangeDisplay,
+    )
+    from turtlewire_view.displays.twist_or_wrench import TwistOrWrenchDisplay
 
     return {
+        "geometry_msgs/msg/AccelStamped": TwistOrWrenchDisplay,
         "geometry_msgs/msg/PointStamped": PointDisplay,
         "geometry_msgs/msg/PolygonStamped": PolygonDisplay,
         "geometry_msgs/msg/PoseArray": PoseArrayDisplay,
         "geometry_msgs/msg/PoseStamped": PoseDisplay,
         "geometry_msgs/msg/PoseWithCovarianceStamped": PoseDisplay,
+        "geometry_msgs/msg/TwistStamped": TwistOrWrenchDisplay,
+        "geometry_msgs/msg/WrenchStamped": TwistOrWrenchDisplay,
+        "nav_msgs/msg/GridCells": GridCellsDisplay,
         "nav_msgs/msg/OccupancyGrid": OccupancyGridDisplay,
         "nav_msgs/msg/Odometry": OdometryDisplay,
         "nav_msgs/msg/Path": PathDisplay,
+        "sensor_msgs/msg/CameraInfo": CameraInfoDisplay,
         "sensor_msgs/msg/CompressedImage": CompressedImageDisplay,
+        "sensor_msgs/msg/FluidPressure": MeasurementDisplay,
+        "sensor_msgs/msg/Illuminance": MeasurementDisplay,
         "sensor_msgs/msg/Image": ImageDisplay,
         "sensor_msgs/msg/LaserScan": LaserScanDisplay,
+        "sensor_msgs/msg/PointCloud": OldPointCloudDisplay,
         "sensor_msgs/msg/PointCloud2": PointCloudDisplay,
         "sensor_msgs/msg/Range": RangeDisplay,
+        "sensor_msgs/msg/RelativeHumidity": MeasurementDisplay,
+        "sensor_msgs/msg/Temperature": MeasurementDisplay,
         "std_msgs/msg/String": RobotModelDisplay,
         "visualization_msgs/msg/Marker": MarkerDisplay,
         "visualization_msgs/msg/MarkerArray": MarkerDisplay,

@@ -9,32 +9,42 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from turtlewire_view.displays.options import Options
+    from turtlewire_view.displays.options import DisplayOptions
 
 __all__ = ["by_axis", "by_value", "flat"]
 
 
-def by_value(values: NDArray[Any], options: Options) -> NDArray[np.uint8]:
+def by_value(
+    values: NDArray[Any], options: DisplayOptions, bounds: tuple[float, float] | None = None
+) -> NDArray[np.uint8]:
     """Colours of values, as ``(n, 4)``: RViz's rainbow, or from one colour to another.
 
     Options: ``min`` and ``max`` bound the values unless ``autocompute_bounds``; ``rainbow``,
     ``invert_rainbow``; ``min_color`` and ``max_color`` without the rainbow.
+
+    Args:
+        values: Any numbers.
+        options: The user's choices.
+        bounds: Replace the options that bound the values.
     """
-    bounds = None if options.flag("autocompute_bounds") else ("min", "max")
-    place = _place(values, options, bounds)
+    if bounds is None and not options.flag("autocompute_bounds"):
+        bounds = (options.number("min"), options.number("max"))
+    place = _place(values, bounds)
     if not options.flag("rainbow"):
         return _ramp(place, options)
     return _rainbow(place if options.flag("invert_rainbow") else 1.0 - place)
 
 
-def by_axis(places: NDArray[np.float64], options: Options) -> NDArray[np.uint8]:
+def by_axis(places: NDArray[np.float64], options: DisplayOptions) -> NDArray[np.uint8]:
     """Colours of places ``(n, 3)`` by one coordinate, as ``(n, 4)``.
 
     Options: ``axis``; ``axis_min`` and ``axis_max`` bound it unless ``autocompute_axis``.
     """
-    bounds = None if options.flag("autocompute_axis") else ("axis_min", "axis_max")
+    bounds = None
+    if not options.flag("autocompute_axis"):
+        bounds = (options.number("axis_min"), options.number("axis_max"))
     values = places[:, "xyz".index(options.text("axis"))]
-    return _rainbow(1.0 - _place(values, options, bounds))
+    return _rainbow(1.0 - _place(values, bounds))
 
 
 def flat(count: int, color: tuple[int, int, int]) -> NDArray[np.uint8]:
@@ -57,28 +67,25 @@ def _rainbow(place: NDArray[np.float64]) -> NDArray[np.uint8]:
     return _bytes(np.stack([red, green, blue], axis=1))
 
 
-def _ramp(place: NDArray[np.float64], options: Options) -> NDArray[np.uint8]:
+def _ramp(place: NDArray[np.float64], options: DisplayOptions) -> NDArray[np.uint8]:
     low = np.array(options.color("min_color"), dtype=np.float64) / 255
     high = np.array(options.color("max_color"), dtype=np.float64) / 255
     return _bytes(low + (high - low) * place[:, None])
 
 
-def _place(
-    values: NDArray[Any], options: Options, bounds: tuple[str, str] | None
-) -> NDArray[np.float64]:
+def _place(values: NDArray[Any], bounds: tuple[float, float] | None) -> NDArray[np.float64]:
     """Scale values between their bounds to 0..1; values that are not finite become 0.
 
     Args:
         values: Any numbers.
-        options: The user's choices.
-        bounds: The options with the bounds; None for the values' own.
+        bounds: Least and greatest value; None for the values' own.
     """
     numbers = values.astype(np.float64)
     finite = numbers[np.isfinite(numbers)]
     if bounds is None:
         low, high = (finite.min(), finite.max()) if len(finite) else (0.0, 0.0)
     else:
-        low, high = (options.number(name) for name in bounds)
+        low, high = bounds
     if not high > low:
         high = low + 1.0
     with np.errstate(over="ignore", invalid="ignore"):

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from turtlewire.terminal.printable import printable
-from turtlewire_view.displays.options import Options
+from turtlewire_view.displays.options import DisplayOptions
+from turtlewire_view.package_folders import PackageFolders
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -69,7 +70,7 @@ class Content:
         locked: The content follows the live frame instead of staying where it was at its stamp.
         event: The content changes what came before it and replaces nothing: it is sent once, after
             all that came before it and is not gone, and not kept.
-        packages: Packages whose meshes and textures the page will ask for.
+        packages: Names and folders of packages whose meshes and textures the page will ask for.
         placed: Makes the arrays that depend on the fixed frame.
     """
 
@@ -81,7 +82,7 @@ class Content:
     anchor: Vector = (0.0, 0.0, 0.0)
     locked: bool = False
     event: bool = False
-    packages: tuple[str, ...] = ()
+    packages: tuple[tuple[str, str], ...] = ()
     placed: Placed | None = None
 
     @property
@@ -128,9 +129,10 @@ class Display:
             message type there. Messages of both go to :meth:`content`.
         replays: Whether the last message is shown again with other options.
         reads_rows: Whether it takes sequences of plain messages as arrays, without a Python object
-            for each (see :func:`turtlewire.msg.deserialize_rows`).
+            for each (see :func:`turtlewire.msg.deserialize`).
         options: What the user chose.
         budget: How many points may be sent with one message.
+        packages: Where packages with meshes lie.
     """
 
     kind: ClassVar[str]
@@ -144,8 +146,9 @@ class Display:
         *,
         clock: Callable[[], int] = time.monotonic_ns,
     ) -> None:
-        self.options = Options(options or {}, self.kind)
+        self.options = DisplayOptions(options or {}, self.kind)
         self.budget = DEFAULT_BUDGET
+        self.packages = PackageFolders()
         self._clock = clock
         self._warnings: list[str] = []
 
@@ -155,7 +158,7 @@ class Display:
         Raises:
             OptionError: An option is invalid; all options stay unchanged.
         """
-        self.options = Options(options, self.kind)
+        self.options = DisplayOptions(options, self.kind)
 
     @property
     def parameter(self) -> tuple[str, str] | None:
@@ -180,8 +183,8 @@ class Display:
     def _answer(self, make: Callable[[], list[Output]]) -> list[Output]:
         """Return the outputs of ``make`` and the status.
 
-        NumPy is silent meanwhile: displays look for numbers that are not finite, and already the
-        conversion of a signalling NaN would be warned of on the console.
+        NumPy's warnings are off here: displays check for numbers that are not finite, and even the
+        conversion of a signalling NaN would print a warning.
         """
         self._warnings = []
         try:

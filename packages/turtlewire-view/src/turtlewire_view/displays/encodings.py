@@ -12,7 +12,7 @@ from turtlewire_view.displays.content import UnusableMessageError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from turtlewire_view.displays.options import Options
+    from turtlewire_view.displays.options import DisplayOptions
 
 __all__ = ["ENCODINGS", "rgba_of"]
 
@@ -42,7 +42,7 @@ _BAYER = re.compile(r"bayer_(rggb|bggr|gbrg|grbg)(8|16)")
 ENCODINGS = (*_COLORS, *_GREY, *_YUV422, "bayer_*8", "bayer_*16")
 
 
-def rgba_of(message: Any, options: Options, largest: int) -> NDArray[np.uint8]:
+def rgba_of(message: Any, options: DisplayOptions, largest: int) -> NDArray[np.uint8]:
     """Return the picture of an Image message, ``(height, width, 4)``.
 
     It is made coarser so that neither side is longer than ``largest``; a Bayer pattern gives one
@@ -106,7 +106,7 @@ def _colors(message: Any, order: str, step: int) -> NDArray[np.uint8]:
     return rgba
 
 
-def _grey(pixels: NDArray[Any], encoding: str, options: Options) -> NDArray[np.uint8]:
+def _grey(pixels: NDArray[Any], encoding: str, options: DisplayOptions) -> NDArray[np.uint8]:
     if encoding in {"mono8", "8UC1"}:
         levels = pixels.astype(np.uint8)
     elif encoding == "mono16":
@@ -118,7 +118,7 @@ def _grey(pixels: NDArray[Any], encoding: str, options: Options) -> NDArray[np.u
     return rgba
 
 
-def _normalized(values: NDArray[np.float64], options: Options) -> NDArray[np.uint8]:
+def _normalized(values: NDArray[np.float64], options: DisplayOptions) -> NDArray[np.uint8]:
     finite = np.isfinite(values)
     low, high = options.number("min"), options.number("max")
     if options.flag("normalize_range") and finite.any():

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from turtlewire.geometry import quaternions
-from turtlewire.tf.conversions import matrix_from_quaternion, quaternion_from_matrix
+from turtlewire.geometry.conversions import matrix_from_quaternion, quaternion_from_matrix
 
 if TYPE_CHECKING:
     from turtlewire.urdf.model import Inertial, Link, Pose
@@ -41,7 +40,7 @@ def pose_of_origin(pose: Pose) -> list[float] | None:
     """x, y, z, qx, qy, qz, qw of an origin; None if it is not finite."""
     if not all(abs(value) < _LARGEST for value in (*pose.xyz, *pose.rpy)):
         return None
-    return [*pose.xyz, *quaternions.from_rpy(*pose.rpy)]
+    return [*pose.xyz, *pose.quaternion]
 
 
 def _box(inertial: Inertial, origin: list[float]) -> dict[str, Any] | None:

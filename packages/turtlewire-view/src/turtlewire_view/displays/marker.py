@@ -109,7 +109,7 @@ class MarkerDisplay(Display):
             return 0
         try:
             place = (frame_of(marker), stamp_ns_of(marker), bool(marker.frame_locked))
-            shape = marker_shape(marker, max(1, budget), warn)
+            shape = marker_shape(marker, max(1, budget), warn, self.packages)
         except UnusableMessageError as error:
             warn(str(error))
             return 0
@@ -140,7 +140,7 @@ class MarkerDisplay(Display):
             "files": np.concatenate([shape.file for shape in shapes]),
             "uv": np.concatenate([shape.uv for shape in shapes]),
         }
-        packages = tuple(sorted({name for shape in shapes for name in shape.packages}))
+        packages = tuple(sorted({each for shape in shapes for each in shape.packages}))
         header = {"markers": entries}
         return Content(header, arrays, frame_id, stamp_ns, part, locked=locked, packages=packages)
 

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from turtlewire_view.package_folders import PackageFolders
+
 __all__ = ["MARKER_TYPES", "MarkerShape", "marker_shape"]
 
 #: Marker types by number.
@@ -67,7 +69,7 @@ class MarkerShape(NamedTuple):
         points: ``(n, 3)``, relative to the marker's pose.
         colors: ``(n, 4)``, one for each point, or none.
         file: The bytes of an embedded mesh or texture, or none.
-        packages: Packages whose meshes and textures it needs.
+        packages: Names and folders of packages whose meshes and textures it needs.
         uv: ``(n, 2)``, where each point lies in the texture, or none.
     """
 
@@ -75,17 +77,20 @@ class MarkerShape(NamedTuple):
     points: NDArray[np.float32]
     colors: NDArray[np.uint8]
     file: NDArray[np.uint8]
-    packages: tuple[str, ...]
+    packages: tuple[tuple[str, str], ...]
     uv: NDArray[np.float32]
 
 
-def marker_shape(marker: Any, budget: int, warn: Callable[[str], None]) -> MarkerShape:
+def marker_shape(
+    marker: Any, budget: int, warn: Callable[[str], None], folders: PackageFolders
+) -> MarkerShape:
     """Return the shape of a Marker whose action is ADD.
 
     Args:
         marker: The message.
         budget: How many points may be sent.
         warn: Gets what is wrong with it but can be drawn, or is invisible.
+        folders: Where packages with meshes lie.
 
     Raises:
         UnusableMessageError: The marker cannot be drawn.
@@ -101,17 +106,18 @@ def marker_shape(marker: Any, budget: int, warn: Callable[[str], None]) -> Marke
     }
     points, colors = np.empty((0, 3), np.float32), np.empty((0, 4), np.uint8)
     file, uv = np.empty(0, np.uint8), np.empty((0, 2), np.float32)
-    packages: tuple[str, ...] = ()
+    packages: tuple[tuple[str, str], ...] = ()
     if shape in _GROUPS or (shape == "arrow" and len(marker.points)):
         picked, points, colors = _points(marker, shape, budget, warn)
         if shape == "triangle_list":
-            header["texture"], uv, file, packages = marker_texture(marker, picked, warn)
+            texture = marker_texture(marker, picked, warn, folders)
+            header["texture"], uv, file, packages = texture
     elif shape == "text":
         header["text"] = marker.text[:_LONGEST_TEXT]
         if not marker.text.strip():
             warn("the text is empty")
     elif shape == "mesh":
-        file, packages = _mesh(marker, header, warn)
+        file, packages = _mesh(marker, header, warn, folders)
     if not header["color"][3] and not len(colors) and not header.get("embedded_materials"):
         warn("the marker is invisible: color.a is 0")
     return MarkerShape(header, points, colors, file, packages, uv)
@@ -177,8 +183,8 @@ def _picked(shape: str, count: int, group: int, budget: int) -> NDArray[np.intp]
 
 
 def _mesh(
-    marker: Any, header: dict[str, Any], warn: Callable[[str], None]
-) -> tuple[NDArray[np.uint8], tuple[str, ...]]:
+    marker: Any, header: dict[str, Any], warn: Callable[[str], None], folders: PackageFolders
+) -> tuple[NDArray[np.uint8], tuple[tuple[str, str], ...]]:
     header["embedded_materials"] = bool(marker.mesh_use_embedded_materials)
     data = marker.mesh_file.data
     if len(data):
@@ -188,7 +194,7 @@ def _mesh(
         return np.array(data, dtype=np.uint8), ()
     if not marker.mesh_resource:
         raise UnusableMessageError("mesh_resource is empty")
-    address = mesh_address(marker.mesh_resource)
+    address = mesh_address(marker.mesh_resource, folders)
     if address.problem:
         warn(address.problem)
     header["mesh"] = {"name": marker.mesh_resource, **address.header()}

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from turtlewire_view.package_folders import PackageFolders
+
 __all__ = ["MarkerTexture", "marker_texture"]
 
 _EMBEDDED = "embedded://"
@@ -29,20 +31,23 @@ class MarkerTexture(NamedTuple):
             texture.
         uv: ``(n, 2)``, for each point u to the right and v down, of the image's size.
         file: The encoded image, or none.
-        packages: Packages whose images it needs.
+        packages: Names and folders of packages whose images it needs.
     """
 
     header: dict[str, str] | None
     uv: NDArray[np.float32]
     file: NDArray[np.uint8]
-    packages: tuple[str, ...]
+    packages: tuple[tuple[str, str], ...]
 
 
 _NONE = MarkerTexture(None, np.empty((0, 2), np.float32), np.empty(0, np.uint8), ())
 
 
 def marker_texture(
-    marker: Any, picked: NDArray[np.intp], warn: Callable[[str], None]
+    marker: Any,
+    picked: NDArray[np.intp],
+    warn: Callable[[str], None],
+    folders: PackageFolders,
 ) -> MarkerTexture:
     """Return the texture of a TRIANGLE_LIST.
 
@@ -50,6 +55,7 @@ def marker_texture(
         marker: The message.
         picked: Which of its points are drawn.
         warn: Called with the reason if the named texture is missing.
+        folders: Where packages with images lie.
 
     Raises:
         UnusableMessageError: The image is too large.
@@ -73,7 +79,7 @@ def marker_texture(
             raise UnusableMessageError(f"the embedded texture of {len(data)} bytes is too large")
         image = np.array(data, dtype=np.uint8)
         return MarkerTexture({"name": name}, uv.astype(np.float32), image, ())
-    address = mesh_address(name, texture=True)
+    address = mesh_address(name, folders, texture=True)
     if address.problem:
         warn(address.problem)
         return _NONE

@@ -108,7 +108,7 @@ def picked_rows(values: Any, picked: NDArray[np.intp], names: str) -> NDArray[np
     """Some of a sequence of plain messages, ``(n, numbers of each)``.
 
     Args:
-        values: The messages, or all as rows (see :func:`turtlewire.msg.deserialize_rows`).
+        values: The messages, or all as rows (see :func:`turtlewire.msg.deserialize`).
         picked: Which of them.
         names: The letters that are the messages' fields.
     """

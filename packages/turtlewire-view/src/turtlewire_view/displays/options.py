@@ -20,7 +20,7 @@ from turtlewire.terminal.suggestion import did_you_mean
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["Option", "OptionError", "Options", "check_option", "option_table"]
+__all__ = ["DisplayOptions", "Option", "OptionError", "check_option", "option_table"]
 
 _TABLE = Path(__file__).parent.parent / "page" / "js" / "displays" / "options.json"
 _COLOR = re.compile("#[0-9a-fA-F]{6}")
@@ -88,7 +88,7 @@ def option_table(kind: str) -> Mapping[str, Option]:
     return {option.name: option for option in map(_option, _listed(kind))}
 
 
-class Options(Mapping[str, object]):
+class DisplayOptions(Mapping[str, object]):
     """The user's choices, and readers that fall back to the default.
 
     Args:

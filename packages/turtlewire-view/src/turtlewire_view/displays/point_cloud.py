@@ -15,13 +15,13 @@ from turtlewire_view.displays.content import (
     frame_of,
     stamp_ns_of,
 )
-from turtlewire_view.displays.numeric import anchored, rows_within
+from turtlewire_view.displays.numeric import anchored, picked_rows, rows_within, spread
 from turtlewire_view.displays.points import PointsDisplay, moved
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["PointCloudDisplay"]
+__all__ = ["OldPointCloudDisplay", "PointCloudDisplay"]
 
 
 class PointCloudDisplay(PointsDisplay):
@@ -38,8 +38,7 @@ class PointCloudDisplay(PointsDisplay):
 
     def points(self, message: Any, budget: int, part: str, header: dict[str, Any]) -> Content:
         """Return the cloud's points that are finite."""
-        points = picked_points(message, budget, self.warn)
-        count = message.width * message.height
+        points, count = self._picked(message, budget)
         xyz = np.stack([points[name].astype(np.float64) for name in "xyz"], axis=1)
         finite = rows_within(xyz)
         if len(points) and not finite.any():
@@ -56,6 +55,11 @@ class PointCloudDisplay(PointsDisplay):
         arrays: dict[str, NDArray[Any]] = {"points": positions, "rgba": colors}
         frame_id, stamp_ns = frame_of(message), stamp_ns_of(message)
         return Content(header, arrays, frame_id, stamp_ns, part, anchor, placed=placed)
+
+    def _picked(self, message: Any, budget: int) -> tuple[NDArray[np.void], int]:
+        """Return at most ``budget`` points as records, and how many points there are."""
+        count = message.width * message.height
+        return picked_points(message, budget, self.warn), count
 
     def _by_fixed_axis(
         self, matrices: NDArray[np.float64], xyz: NDArray[np.float64]
@@ -84,6 +88,27 @@ class PointCloudDisplay(PointsDisplay):
                 f"fields: {', '.join(names)}"
             )
         return None
+
+
+class OldPointCloudDisplay(PointCloudDisplay):
+    """The points of a ``sensor_msgs/msg/PointCloud``, which PointCloud2 has replaced."""
+
+    def _picked(self, message: Any, budget: int) -> tuple[NDArray[np.void], int]:
+        count = len(message.points)
+        picked = spread(count, budget)
+        columns = dict(zip("xyz", picked_rows(message.points, picked, "xyz").T, strict=True))
+        for channel in message.channels:
+            if len(channel.values) == count and channel.name and channel.name not in columns:
+                columns[channel.name] = np.array(channel.values, np.float32)[picked]
+            else:
+                self.warn(
+                    f"the channel {channel.name!r} is left out: {len(channel.values)} values for "
+                    f"{count} points"
+                )
+        points = np.zeros(len(picked), [(name, "f4") for name in columns])
+        for name, column in columns.items():
+            points[name] = column
+        return points, count
 
 
 def _packed_colors(values: NDArray[Any], *, with_alpha: bool) -> NDArray[np.uint8]:

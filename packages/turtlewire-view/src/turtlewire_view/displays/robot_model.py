@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.urdf import UrdfError, parse_urdf
-from turtlewire.urdf.model import Box, Cylinder, Mesh, Sphere
+from turtlewire.geometry import quaternions
+from turtlewire.urdf import Robot, UrdfError
+from turtlewire.urdf.model import Box, Capsule, Cylinder, Mesh, Pose, Sphere
 from turtlewire_view.displays.content import (
     Content,
     Display,
@@ -20,7 +22,8 @@ from turtlewire_view.meshes import file_of_package, mesh_address
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from turtlewire.urdf.model import Collision, Geometry, Link, Material, Robot, Visual
+    from turtlewire.urdf.model import Collision, Geometry, Link, Material, Visual
+    from turtlewire_view.package_folders import PackageFolders
 
 __all__ = ["RobotModelDisplay", "robot_content"]
 
@@ -56,7 +59,7 @@ class RobotModelDisplay(Display):
         gone: list[Output] = [] if self._origin in {None, origin} else [Removal("")]
         self._origin = origin
         if origin[0] == "file":
-            return [*gone, *self._answer(lambda: [self._robot(_text_of(file))])]
+            return [*gone, *self._answer(lambda: [self._robot_of_file(file)])]
         return gone
 
     def content(self, message: Any) -> list[Output]:
@@ -70,26 +73,31 @@ class RobotModelDisplay(Display):
     def _outputs(self, message: Any) -> list[Output]:
         return [self._robot(message.data)]
 
-    def _robot(self, text: str) -> Content:
-        return robot_content(text, self.options.text("tf_prefix"), self.warn)
+    def _robot(self, text: str, packages: PackageFolders | None = None) -> Content:
+        prefix = self.options.text("tf_prefix")
+        return robot_content(text, prefix, self.warn, packages or self.packages)
+
+    def _robot_of_file(self, file: str) -> Content:
+        """The robot of a path or ``package://`` address that ends with ``.urdf``."""
+        if not file:
+            raise UnusableMessageError("no file is chosen: give the path of a .urdf file")
+        path: str | None = file.removeprefix("file://")
+        if file.startswith("package://"):
+            path = file_of_package(file, self.packages)
+        if path is None or not path.endswith(".urdf"):
+            raise UnusableMessageError(f"'{file}' is not the path of a .urdf file")
+        try:
+            with open(path, encoding="utf-8", errors="replace") as opened:
+                text = opened.read(_LONGEST_DESCRIPTION + 1)
+        except (OSError, ValueError) as error:  # a path with a NUL is a ValueError
+            reason = getattr(error, "strerror", None) or str(error)
+            raise UnusableMessageError(f"'{file}' cannot be read: {reason}") from error
+        return self._robot(text, self.packages.beside(path))
 
 
-def _text_of(file: str) -> str:
-    """The description in a file: a path or ``package://`` address that ends with ``.urdf``."""
-    if not file:
-        raise UnusableMessageError("no file is chosen: give the path of a .urdf file")
-    path = file_of_package(file) if file.startswith("package://") else file.removeprefix("file://")
-    if path is None or not path.endswith(".urdf"):
-        raise UnusableMessageError(f"'{file}' is not the path of a .urdf file")
-    try:
-        with open(path, encoding="utf-8", errors="replace") as opened:
-            return opened.read(_LONGEST_DESCRIPTION + 1)
-    except (OSError, ValueError) as error:  # a path with a NUL is a ValueError
-        reason = getattr(error, "strerror", None) or str(error)
-        raise UnusableMessageError(f"'{file}' cannot be read: {reason}") from error
-
-
-def robot_content(text: str, tf_prefix: str, warn: Callable[[str], None]) -> Content:
+def robot_content(
+    text: str, tf_prefix: str, warn: Callable[[str], None], packages: PackageFolders
+) -> Content:
     """Return the drawing of a URDF.
 
     The header's ``links`` have ``name``, the ``frame`` that each hangs on, and ``visuals`` and
@@ -100,6 +108,7 @@ def robot_content(text: str, tf_prefix: str, warn: Callable[[str], None]) -> Con
         text: The XML.
         tf_prefix: Stands before the links' names.
         warn: Gets what cannot be drawn.
+        packages: Where packages with meshes lie.
 
     Raises:
         UnusableMessageError: urdfdom would refuse the description.
@@ -107,10 +116,10 @@ def robot_content(text: str, tf_prefix: str, warn: Callable[[str], None]) -> Con
     if len(text) > _LONGEST_DESCRIPTION:
         raise UnusableMessageError(f"a description of {len(text)} characters is too long")
     try:
-        robot = parse_urdf(text)
+        robot = Robot.from_xml(text)
     except UrdfError as error:
         raise UnusableMessageError(f"the description is invalid: {error}") from error
-    reader = _Reader(robot, warn)
+    reader = _Reader(robot, warn, packages)
     prefix = tf_prefix.rstrip("/") + "/" if tf_prefix else ""
     links = [
         {
@@ -126,25 +135,38 @@ def robot_content(text: str, tf_prefix: str, warn: Callable[[str], None]) -> Con
     return Content(header, packages=tuple(sorted(reader.packages)))
 
 
+def _drawn(body: Visual | Collision) -> list[tuple[Geometry | None, Pose]]:
+    """Return the shapes that are drawn: a capsule is a cylinder and two spheres."""
+    shape, origin = body.geometry, body.origin
+    if not isinstance(shape, Capsule):
+        return [(shape, origin)]
+    up = quaternions.rotate(origin.quaternion, (0.0, 0.0, shape.length / 2))
+    (x, y, z), (dx, dy, dz) = origin.xyz, up
+    ends = [replace(origin, xyz=(x + s * dx, y + s * dy, z + s * dz)) for s in (1, -1)]
+    ball = Sphere(shape.radius)
+    return [(Cylinder(shape.radius, shape.length), origin), *((ball, end) for end in ends)]
+
+
 class _Reader:
     """Shapes of links as headers."""
 
-    def __init__(self, robot: Robot, warn: Callable[[str], None]) -> None:
+    def __init__(self, robot: Robot, warn: Callable[[str], None], folders: PackageFolders) -> None:
         self._materials = robot.materials
         self._warn = warn
-        self.packages: set[str] = set()
+        self._folders = folders
+        self.packages: set[tuple[str, str]] = set()
 
     def shapes(self, link: Link, bodies: Iterable[Visual | Collision]) -> list[dict[str, Any]]:
         shapes = []
         for body in bodies:
-            shape = self._shape(body.geometry)
-            origin = pose_of_origin(body.origin)
-            if shape is None or origin is None:
-                if body.geometry is not None:
-                    self._warn(f"link '{link.name}': a size or origin is not finite")
-                continue
-            look = self._look(link, getattr(body, "material", None))
-            shapes.append({**shape, **look, "origin": origin})
+            for geometry, pose in _drawn(body):
+                shape, origin = self._shape(geometry), pose_of_origin(pose)
+                if shape is None or origin is None:
+                    if geometry is not None:
+                        self._warn(f"link '{link.name}': a size or origin is not finite")
+                    continue
+                look = self._look(link, getattr(body, "material", None))
+                shapes.append({**shape, **look, "origin": origin})
         return shapes
 
     def _shape(self, geometry: Geometry | None) -> dict[str, Any] | None:
@@ -156,7 +178,7 @@ class _Reader:
         if isinstance(geometry, Cylinder):
             return _sized("cylinder", size=[geometry.radius, geometry.length])
         if isinstance(geometry, Mesh):
-            address = mesh_address(geometry.filename)
+            address = mesh_address(geometry.filename, self._folders)
             self._note(address.problem, address.packages)
             mesh = {"name": geometry.filename, **address.header()}
             return _sized("mesh", size=list(geometry.scale), mesh=mesh)
@@ -173,7 +195,7 @@ class _Reader:
             look["color"] = [round(255 * max(0.0, min(1.0, value))) for value in rgba]
         texture = material.texture or named.texture
         if texture:
-            address = mesh_address(texture, texture=True)
+            address = mesh_address(texture, self._folders, texture=True)
             self._note(address.problem, address.packages)
             if address.url is not None:
                 look["texture"] = address.url
@@ -182,7 +204,7 @@ class _Reader:
             self._warn(f"link '{link.name}': the material '{material.name}' has no colour")
         return look
 
-    def _note(self, problem: str, packages: tuple[str, ...]) -> None:
+    def _note(self, problem: str, packages: tuple[tuple[str, str], ...]) -> None:
         if problem:
             self._warn(problem)
         self.packages.update(packages)

@@ -1,4 +1,4 @@
-"""Polygons, points and ranges."""
+"""Polygons, points, cells, ranges and what cameras see."""
 
 from __future__ import annotations
 
@@ -17,12 +17,18 @@ from turtlewire_view.displays.content import (
     frame_of,
     stamp_ns_of,
 )
-from turtlewire_view.displays.numeric import anchored, points_of, rows_within
+from turtlewire_view.displays.numeric import LARGEST, anchored, points_of, rows_within
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["PointDisplay", "PolygonDisplay", "RangeDisplay"]
+__all__ = [
+    "CameraInfoDisplay",
+    "GridCellsDisplay",
+    "PointDisplay",
+    "PolygonDisplay",
+    "RangeDisplay",
+]
 
 
 class PolygonDisplay(Display):
@@ -67,6 +73,52 @@ class PointDisplay(Display):
         while len(self._parts) > self.options.number("history_length"):
             outputs.append(Removal(self._parts.pop(0)))
         return outputs
+
+
+class GridCellsDisplay(Display):
+    """The cells of a ``nav_msgs/msg/GridCells``: rectangles of one size around points."""
+
+    kind = "grid_cells"
+
+    def _outputs(self, message: Any) -> list[Output]:
+        size = [float(message.cell_width), float(message.cell_height)]
+        if not all(0 < side < LARGEST for side in size):
+            raise UnusableMessageError(f"cells of {size[0]} m by {size[1]} m cannot be drawn")
+        points = points_of(message.cells[: self.budget])
+        finite = rows_within(points)
+        if not finite.all():
+            self.warn(f"{np.count_nonzero(~finite)} of {len(finite)} cells are not finite")
+        if len(points) < len(message.cells):
+            self.warn(f"{len(points)} of {len(message.cells)} cells are drawn")
+        cells, anchor = anchored(points[finite])
+        arrays = {"points": cells}
+        return [
+            Content({"size": size}, arrays, frame_of(message), stamp_ns_of(message), anchor=anchor)
+        ]
+
+
+class CameraInfoDisplay(Display):
+    """What the camera of a ``sensor_msgs/msg/CameraInfo`` sees: a pyramid along z.
+
+    The header has ``corners``: where the image's corners are seen at a depth of 1 m.
+    """
+
+    kind = "camera_info"
+
+    def _outputs(self, message: Any) -> list[Output]:
+        fx, _, cx, _, fy, cy = (float(value) for value in message.k[:6])
+        width, height = int(message.width), int(message.height)
+        if not (fx and fy and width and height):
+            raise UnusableMessageError(
+                "the camera is not calibrated: its size or the focal length in k is 0"
+            )
+        corners = [
+            [(x - cx) / fx, (y - cy) / fy]
+            for x, y in ((0, 0), (width, 0), (width, height), (0, height))
+        ]
+        if not all(abs(value) < LARGEST for corner in corners for value in corner):
+            raise UnusableMessageError("the numbers in k are not finite")
+        return [Content({"corners": corners}, {}, frame_of(message), stamp_ns_of(message))]
 
 
 class RangeDisplay(Display):

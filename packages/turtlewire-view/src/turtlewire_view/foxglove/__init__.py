@@ -7,8 +7,8 @@ of ROS.
 ==================  ===================================================================
 module              what it holds
 ==================  ===================================================================
-`server`            `FoxgloveServer`: the thread that serves all clients
-`options`           `Options`: what it serves, where and to whom
+`server`            `FoxgloveServer`: accepts clients, and refuses foreign pages
+`options`           `BridgeOptions`: what it serves, where and to whom
 `session`           one client: its requests, one method for each
 `publishing`        what one client publishes
 `outbox`            what one client has yet to receive; a slow one loses old messages
@@ -23,7 +23,6 @@ module              what it holds
 `assets`            files of packages
 `simulated_time`    the time of a simulation, from ``/clock``
 `graph_watch`       changes of the graph, for asyncio
-`loop_calls`        calls of other threads on the loop's thread
 `origins`           which web pages may connect
 `protocol`          the frames of the protocol
 `fields`            fields of clients' requests, checked
@@ -34,7 +33,7 @@ module              what it holds
 
 from __future__ import annotations
 
-from turtlewire_view.foxglove.options import Options
+from turtlewire_view.foxglove.options import BridgeOptions
 from turtlewire_view.foxglove.server import FoxgloveServer
 
-__all__ = ["FoxgloveServer", "Options"]
+__all__ = ["BridgeOptions", "FoxgloveServer"]

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from turtlewire_view.foxglove import protocol
 from turtlewire_view.foxglove.caller import Caller
-from turtlewire_view.foxglove.connections import Connections, connections_of, difference
+from turtlewire_view.foxglove.connections import GraphConnections, connections_of, difference
 from turtlewire_view.foxglove.graph_watch import GraphWatch
 from turtlewire_view.foxglove.offers import Offers
 from turtlewire_view.foxglove.parameters import ParameterEvents, Parameters
@@ -15,12 +15,12 @@ from turtlewire_view.foxglove.simulated_time import SimulatedTime
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from turtlewire.web.loop_calls import LoopCalls
     from turtlewire.wire.base import Context, Node
-    from turtlewire_view.foxglove.loop_calls import LoopCalls
-    from turtlewire_view.foxglove.options import Options
+    from turtlewire_view.foxglove.options import BridgeOptions
     from turtlewire_view.foxglove.outbox import Outbox
 
-__all__ = ["Bridge", "Client", "Log"]
+__all__ = ["Bridge", "ConnectedClient", "Log"]
 
 
 class Log(Protocol):
@@ -35,7 +35,7 @@ class Log(Protocol):
         ...
 
 
-class Client(Protocol):
+class ConnectedClient(Protocol):
     """A connected client, as the bridge sees it.
 
     Attributes:
@@ -77,7 +77,7 @@ class Bridge:
         self,
         context: Context,
         node: Node,
-        options: Options,
+        options: BridgeOptions,
         log: Log,
         find_share: Callable[[str], str | None],
         *,
@@ -88,9 +88,9 @@ class Bridge:
         self.options = options
         self.log = log
         self.find_share = find_share
-        self.clients: set[Client] = set()
-        self._everybody: tuple[Client, ...] = ()  # the same, for threads of the wire
-        self._connections = Connections({}, {}, {})
+        self.clients: set[ConnectedClient] = set()
+        self._everybody: tuple[ConnectedClient, ...] = ()  # the same, for threads of the wire
+        self._connections = GraphConnections({}, {}, {})
         self._time = SimulatedTime(node, self._tell_time) if options.use_sim_time else None
         self.offers = Offers(node, options, self.now_ns, log.warning)
         self.watch = GraphWatch(self.graph, calls, self._refresh)
@@ -114,7 +114,7 @@ class Bridge:
         """Return the simulation's time; 0 without one."""
         return 0 if self._time is None else self._time.now_ns
 
-    def add(self, client: Client) -> None:
+    def add(self, client: ConnectedClient) -> None:
         """Send a new client all channels and services, and all later changes."""
         self.clients.add(client)
         self._everybody = tuple(self.clients)
@@ -127,14 +127,14 @@ class Bridge:
         if self.now_ns() and "time" in self.capabilities:
             client.outbox.set_time(protocol.time_data(self.now_ns()))
 
-    def remove(self, client: Client) -> None:
+    def remove(self, client: ConnectedClient) -> None:
         """Stop sending updates to a client."""
         self.clients.discard(client)
         self._everybody = tuple(self.clients)
 
-    def show_connections(self, client: Client) -> None:
+    def show_connections(self, client: ConnectedClient) -> None:
         """Send a client all connections, and all later changes."""
-        update = difference(Connections({}, {}, {}), self._connections)
+        update = difference(GraphConnections({}, {}, {}), self._connections)
         client.outbox.send(protocol.text("connectionGraphUpdate", **update))
 
     def follow_parameters(self) -> None:
@@ -173,7 +173,7 @@ class Bridge:
         for client in self.clients:
             client.outbox.send(frame)
 
-    def _tell_connections(self, now: Connections) -> None:
+    def _tell_connections(self, now: GraphConnections) -> None:
         update = difference(self._connections, now)
         self._connections = now
         if any(update.values()):

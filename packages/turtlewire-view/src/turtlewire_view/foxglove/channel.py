@@ -13,13 +13,13 @@ if TYPE_CHECKING:
     from turtlewire.wire.base import EndpointInfo, MessageInfo, Node, Subscription, TypeId
     from turtlewire_view.foxglove.outbox import Outbox
 
-__all__ = ["Channel"]
+__all__ = ["FoxgloveChannel"]
 
 #: How many messages may wait for the wire's reader thread, which only puts them into queues.
 _DEPTH = 100
 
 
-class Channel:
+class FoxgloveChannel:
     """A topic with one type: its subscriptions on the wire, and the clients that receive from them.
 
     It is on the wire only while a client wants it. Clients share one subscription. A publisher that

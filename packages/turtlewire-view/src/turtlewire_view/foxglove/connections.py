@@ -11,13 +11,13 @@ if TYPE_CHECKING:
 
     from turtlewire.wire.base import EndpointInfo
 
-__all__ = ["Connections", "connections_of", "difference"]
+__all__ = ["GraphConnections", "connections_of", "difference"]
 
 _Nodes = dict[str, list[str]]
 """Topic or service to the full names of nodes, sorted."""
 
 
-class Connections(NamedTuple):
+class GraphConnections(NamedTuple):
     """The connections at one moment."""
 
     published: _Nodes
@@ -25,7 +25,7 @@ class Connections(NamedTuple):
     served: _Nodes
 
 
-def connections_of(endpoints: Iterable[EndpointInfo]) -> Connections:
+def connections_of(endpoints: Iterable[EndpointInfo]) -> GraphConnections:
     """Return the connections that these endpoints make."""
     published: dict[str, set[str]] = {}
     subscribed: dict[str, set[str]] = {}
@@ -39,10 +39,10 @@ def connections_of(endpoints: Iterable[EndpointInfo]) -> Connections:
         elif end.topic.startswith("/"):
             kind = published if end.kind == "publisher" else subscribed
             kind.setdefault(end.topic, set()).add(node)
-    return Connections(*(_sorted(kind) for kind in (published, subscribed, served)))
+    return GraphConnections(*(_sorted(kind) for kind in (published, subscribed, served)))
 
 
-def difference(before: Connections, now: Connections) -> dict[str, Any]:
+def difference(before: GraphConnections, now: GraphConnections) -> dict[str, Any]:
     """Return the fields that changed since `before`."""
     topics_before = before.published.keys() | before.subscribed.keys()
     topics_now = now.published.keys() | now.subscribed.keys()

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from turtlewire.web.loop_calls import LoopCalls
     from turtlewire.wire.base import Graph
-    from turtlewire_view.foxglove.loop_calls import LoopCalls
 
 __all__ = ["GraphWatch"]
 

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from turtlewire.errors import CdrError
 from turtlewire.msg import get_message, serialize
+from turtlewire.msg.json_values import json_value
 from turtlewire.msg.types import (
     FLOATING_POINT_TYPES,
     AbstractGenericString,
@@ -47,7 +48,7 @@ def cdr_from_json(type_name: str, payload: bytes) -> bytes:
 
 def json_from_message(message: Message) -> bytes:
     """Return a message as a JSON object with all of its fields."""
-    return json.dumps(_plain(message), separators=(",", ":"), allow_nan=False).encode()
+    return json.dumps(json_value(message), separators=(",", ":"), allow_nan=False).encode()
 
 
 def _message(type_name: str, values: Any, path: str) -> Message:
@@ -118,27 +119,6 @@ def _integer(typename: str, value: Any, path: str) -> Any:
     if not 0 <= value <= 255:
         raise CdrError(f"{path}: expected a byte, got {value}")
     return bytes((value,))
-
-
-def _plain(value: Any) -> Any:
-    """Return a field's value as JSON has it."""
-    if hasattr(value, "_DEFINITION"):
-        return {
-            field.name: _plain(getattr(value, field.name)) for field in value._DEFINITION.fields
-        }
-    if isinstance(value, float):
-        return value if math.isfinite(value) else _special(value)
-    if isinstance(value, bytes):
-        return value[0]
-    if hasattr(value, "tolist"):  # array.array, and NumPy's
-        value = value.tolist()
-    if isinstance(value, list):
-        return [_plain(item) for item in value]
-    return value
-
-
-def _special(value: float) -> str:
-    return "NaN" if math.isnan(value) else "Infinity" if value > 0 else "-Infinity"
 
 
 def _shown(value: Any) -> str:

@@ -9,7 +9,7 @@ from turtlewire.errors import InterfaceError, WireError
 from turtlewire.msg import type_hash
 from turtlewire.wire import names
 from turtlewire.wire.base import TypeId
-from turtlewire_view.foxglove.channel import Channel
+from turtlewire_view.foxglove.channel import FoxgloveChannel
 from turtlewire_view.foxglove.schemas import schema
 from turtlewire_view.foxglove.services import OfferedService, offered_service
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from turtlewire.wire.base import EndpointInfo, Node
-    from turtlewire_view.foxglove.options import Options
+    from turtlewire_view.foxglove.options import BridgeOptions
 
 __all__ = ["Offers"]
 
@@ -43,7 +43,7 @@ class Offers:
     def __init__(
         self,
         node: Node,
-        options: Options,
+        options: BridgeOptions,
         now_ns: Callable[[], int],
         warn: Callable[[str], None],
     ) -> None:
@@ -56,9 +56,9 @@ class Offers:
         self._has_services = "services" in options.capabilities
         self._numbers = itertools.count(1)
         self._refused: set[tuple[str, str]] = set()
-        self._channels: dict[tuple[str, str], Channel] = {}
+        self._channels: dict[tuple[str, str], FoxgloveChannel] = {}
         self._services: dict[tuple[str, str], OfferedService] = {}
-        self.channels: dict[int, Channel] = {}
+        self.channels: dict[int, FoxgloveChannel] = {}
         self.services: dict[int, OfferedService] = {}
         self.service_names: set[str] = set()
 
@@ -138,7 +138,7 @@ class Offers:
 
     def _make_channel(
         self, topic: str, type_name: str, publishers: list[EndpointInfo]
-    ) -> Channel | None:
+    ) -> FoxgloveChannel | None:
         try:
             definition, known_hash = schema(type_name), type_hash(type_name)
         except InterfaceError as error:
@@ -151,7 +151,9 @@ class Offers:
             self._refuse("topic", (topic, type_name), reason)
             return None
         type_id = TypeId(type_name, known_hash)
-        return Channel(next(self._numbers), topic, type_id, definition, self._node, self._now_ns)
+        return FoxgloveChannel(
+            next(self._numbers), topic, type_id, definition, self._node, self._now_ns
+        )
 
     def _add_services(self, wanted: set[tuple[str, str]]) -> list[Any]:
         new = []

@@ -11,7 +11,7 @@ from turtlewire_view.foxglove.protocol import CAPABILITIES
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["ASSETS", "DEFAULT_PORT", "Options", "Patterns"]
+__all__ = ["ASSETS", "DEFAULT_PORT", "BridgeOptions", "Patterns"]
 
 #: Where Foxglove and Lichtblick look for a server.
 DEFAULT_PORT = 8765
@@ -52,7 +52,7 @@ _ALL = (".*",)
 
 
 @dataclass(frozen=True)
-class Options:
+class BridgeOptions:
     """The settings of a server; names and defaults follow ROS 2's foxglove_bridge.
 
     The exception is `address`, which is 0.0.0.0 there.

@@ -137,6 +137,7 @@ class Outbox:
             self._is_closed = True
             self._frames.clear()
             self._frame_bytes = self._bytes = 0
+            self._time = None
             self._messages.clear()
             self._sizes.clear()
 

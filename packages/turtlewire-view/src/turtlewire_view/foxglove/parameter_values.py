@@ -8,6 +8,7 @@ import math
 from typing import Any
 
 from turtlewire.msg import get_message
+from turtlewire.msg.json_values import json_value
 
 __all__ = ["DOUBLE_TYPES", "from_json", "to_json"]
 
@@ -46,11 +47,7 @@ def to_json(name: str, value: Any) -> dict[str, Any]:
     plain = getattr(value, _FIELDS[value.type])
     if value.type == _BYTES:
         plain = base64.b64encode(b"".join(plain)).decode()
-    elif value.type == _DOUBLE:
-        plain = _finite(plain)
-    elif value.type in _ARRAY_OF.values():
-        plain = [_finite(item) if value.type in DOUBLE_TYPES else item for item in plain]
-    shown["value"] = plain
+    shown["value"] = json_value(plain)
     if value.type in _JSON_TYPES:
         shown["type"] = _JSON_TYPES[value.type]
     return shown
@@ -126,9 +123,3 @@ def _bytes(value: Any) -> list[bytes]:
         return [bytes((byte,)) for byte in base64.b64decode(value, validate=True)]
     except binascii.Error as error:
         raise ValueError(f"a byte array is not valid base64: {error}") from error
-
-
-def _finite(value: float) -> float | str:
-    if math.isfinite(value):
-        return value
-    return "NaN" if math.isnan(value) else "Infinity" if value > 0 else "-Infinity"

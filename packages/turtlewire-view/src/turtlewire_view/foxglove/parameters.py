@@ -16,9 +16,9 @@ from turtlewire_view.foxglove.parameter_values import from_json, to_json
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Iterable
 
+    from turtlewire.web.loop_calls import LoopCalls
     from turtlewire.wire.base import MessageInfo, Node, Subscription
     from turtlewire_view.foxglove.caller import Caller
-    from turtlewire_view.foxglove.loop_calls import LoopCalls
     from turtlewire_view.foxglove.options import Patterns
 
 __all__ = ["ParameterEvents", "Parameters"]

@@ -1,47 +1,40 @@
-"""The thread that serves all clients."""
+"""The server: it accepts clients, and hands each one's frames to a session."""
 
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import errno
-import logging
-import os
-import socket
-import threading
 import time
 from typing import TYPE_CHECKING, Any, cast
 
-from websockets.asyncio.server import serve
-from websockets.exceptions import ConnectionClosed
-
 from turtlewire.terminal.printable import printable
 from turtlewire.web import origin as web_origin
-from turtlewire.web.connections import Connections
+from turtlewire.web.server_thread import ServerThread, listening_socket, until_one_ends
 from turtlewire_view.foxglove import origins
 from turtlewire_view.foxglove.assets import share_folder
 from turtlewire_view.foxglove.bridge import Bridge
-from turtlewire_view.foxglove.loop_calls import LoopCalls
 from turtlewire_view.foxglove.outbox import Outbox
 from turtlewire_view.foxglove.protocol import SUBPROTOCOLS
 from turtlewire_view.foxglove.session import FoxgloveSession
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    import socket
+    from collections.abc import Callable, Iterator
 
     from websockets.asyncio.server import ServerConnection
     from websockets.datastructures import Headers
     from websockets.http11 import Request, Response
 
+    from turtlewire.web.loop_calls import LoopCalls
     from turtlewire.wire.base import Context, Node
     from turtlewire_view.foxglove.bridge import Log
-    from turtlewire_view.foxglove.options import Options
+    from turtlewire_view.foxglove.options import BridgeOptions
 
 __all__ = ["FoxgloveServer"]
 
 #: Longest message that a client may send [bytes].
 _LARGEST_MESSAGE = 64 << 20
-#: How long a client may take to answer the closing of its connection [s].
-_CLOSE_TIMEOUT = 0.5
 #: How long a client may be silent [s]; a slow one answers only after all that was sent before.
 _PING_TIMEOUT = 120
 #: Number of frames to send to one client before the next client's turn.
@@ -76,7 +69,7 @@ class FoxgloveServer:
         self,
         context: Context,
         node: Node,
-        options: Options,
+        options: BridgeOptions,
         log: Log,
         find_share: Callable[[str], str | None] = share_folder,
     ) -> None:
@@ -85,62 +78,33 @@ class FoxgloveServer:
         self._bridged = (context, node, options, log, find_share)
         self._session_id = str(time.time_ns())
         self._warned: set[str] = set()
-        self._connections = Connections()
-        self._socket = _listening(options)
-        host, port = self._socket.getsockname()[:2]
+        listener = _listening(options)
+        host, port = listener.getsockname()[:2]
         self.url = f"ws://[{host}]:{port}" if ":" in host else f"ws://{host}:{port}"
-        self._started = threading.Event()
-        self._failure: BaseException | None = None
-        self._calls: LoopCalls | None = None
-        self._thread = threading.Thread(target=self._run, name="foxglove", daemon=True)
-        self._thread.start()
-        self._started.wait()
-        if self._failure is not None:
-            self._thread.join()
-            raise self._failure
+        self._thread = ServerThread(
+            listener,
+            self._handle,
+            self._answer,
+            name="turtlewire_view.foxglove",
+            within=self._bridging,
+            subprotocols=cast("Any", SUBPROTOCOLS),
+            select_subprotocol=_subprotocol,
+            ping_timeout=_PING_TIMEOUT,
+            max_size=_LARGEST_MESSAGE,
+        )
 
     def close(self) -> None:
         """Close all connections and leave the wire, within a second or two. Idempotent."""
-        if self._calls is not None:
-            self._calls.soon(self._stopping.set)
-        self._thread.join()
+        self._thread.close()
 
-    def _run(self) -> None:
+    @contextlib.contextmanager
+    def _bridging(self, calls: LoopCalls) -> Iterator[None]:
+        self._soon = calls.soon
+        self._bridge = Bridge(*self._bridged, calls=calls)
         try:
-            asyncio.run(self._serve())
-        except BaseException as error:  # noqa: BLE001 - the constructor raises it
-            self._failure = error
-            if self._started.is_set():  # the constructor no longer waits
-                self._log.warning(f"the server has ended: {error!r}")
+            yield
         finally:
-            self._socket.close()
-            self._started.set()
-
-    async def _serve(self) -> None:
-        self._stopping = asyncio.Event()
-        calls = LoopCalls()
-        bridge = Bridge(*self._bridged, calls=calls)
-        try:
-            server = await serve(
-                lambda connection: self._handle(connection, bridge, calls),
-                sock=self._socket,
-                subprotocols=cast("Any", SUBPROTOCOLS),
-                select_subprotocol=cast("Any", _subprotocol),
-                process_request=self._answer,
-                create_connection=self._connections.connection_type(),
-                compression=None,  # costs more than it saves on a machine's own loopback
-                close_timeout=_CLOSE_TIMEOUT,
-                ping_timeout=_PING_TIMEOUT,
-                max_size=_LARGEST_MESSAGE,
-                logger=_quiet_logger(),
-            )
-            self._calls = calls
-            self._started.set()
-            await self._stopping.wait()
-            await self._connections.close(server, 2 * _CLOSE_TIMEOUT)
-        finally:
-            calls.close()
-            bridge.close()
+            self._bridge.close()
 
     def _answer(self, connection: ServerConnection, request: Request) -> Response | None:
         """Refuse foreign pages and other protocols; None lets the WebSocket begin."""
@@ -183,40 +147,35 @@ class FoxgloveServer:
             self._warned.add(key)
             self._log.warning(printable(f"refused a connection: {reason}; {way}"))
 
-    async def _handle(self, connection: ServerConnection, bridge: Bridge, calls: LoopCalls) -> None:
+    async def _handle(self, connection: ServerConnection) -> None:
         """Serve one client until either side ends it."""
         host, port = connection.remote_address[:2]
         name = f"{host}:{port}"
         wake = asyncio.Event()
+        soon = self._soon
         session: FoxgloveSession | None = None
 
         def tell_loss(subscription_id: int) -> None:
             if session is not None:
-                calls.soon(session.tell_loss, subscription_id)
+                soon(session.tell_loss, subscription_id)
 
         outbox = Outbox(
             self._options.send_buffer_limit,
-            lambda: calls.soon(wake.set),
+            lambda: soon(wake.set),
             tell_loss,
-            lambda: calls.soon(connection.transport.abort),
+            lambda: soon(connection.transport.abort),
         )
-        session = FoxgloveSession(bridge, outbox, name, self._session_id)
+        session = FoxgloveSession(self._bridge, outbox, name, self._session_id)
         self._log.info(f"client {name} connected ({connection.subprotocol})")
-        tasks = [
-            asyncio.create_task(_send(connection, session, wake)),
-            asyncio.create_task(_receive(connection, session)),
-        ]
         try:
-            await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+            error = await until_one_ends(
+                _send(connection, session, wake), _receive(connection, session)
+            )
         finally:
             session.close()
-            for task in tasks:
-                task.cancel()
-            results = await asyncio.gather(*tasks, return_exceptions=True)
         self._log.info(f"client {name} disconnected")
-        for result in results:
-            if isinstance(result, Exception) and not isinstance(result, ConnectionClosed):
-                self._log.warning(f"client {name}: {result!r}")
+        if error is not None:
+            self._log.warning(f"client {name}: {error!r}")
 
 
 async def _send(
@@ -250,10 +209,10 @@ def _subprotocol(_connection: ServerConnection, offered: list[str]) -> str | Non
     return next((name for name in offered if name in SUBPROTOCOLS), None)
 
 
-def _listening(options: Options) -> socket.socket:
+def _listening(options: BridgeOptions) -> socket.socket:
     """Return a socket that listens, or an error with a sentence for the user."""
     try:
-        return _listen(options.address, options.port)
+        return listening_socket(options.address, options.port)
     except OSError as error:
         if error.errno == errno.EADDRINUSE:
             place = f"port {options.port} of {options.address}"
@@ -262,30 +221,3 @@ def _listening(options: Options) -> socket.socket:
             place = f"{printable(options.address)}, port {options.port}"
             text = f"cannot listen on {place}: {error.strerror}"
         raise OSError(text) from error
-
-
-def _listen(address: str, port: int) -> socket.socket:
-    family, kind, protocol, _, place = socket.getaddrinfo(
-        address, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
-    )[0]
-    listener = socket.socket(family, kind, protocol)
-    try:
-        if os.name == "posix":  # on Windows the option would let two servers share a port
-            listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        listener.bind(place)
-        listener.listen()
-    except BaseException:
-        listener.close()
-        raise
-    return listener
-
-
-def _quiet_logger() -> logging.Logger:
-    """Return the library's log: reports of clients that do not speak HTTP are left out."""
-    logger = logging.getLogger("turtlewire_view.foxglove")
-    logger.addFilter(_is_ours)
-    return logger
-
-
-def _is_ours(record: logging.LogRecord) -> bool:
-    return record.msg != "opening handshake failed"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING, Any
 
+from turtlewire.distro import current_distro
 from turtlewire.errors import WireError
 from turtlewire_view.foxglove import protocol
 from turtlewire_view.foxglove.assets import AssetError, read_asset
@@ -157,7 +158,7 @@ class FoxgloveSession:
                 name="turtlewire",
                 capabilities=self._capabilities,
                 supportedEncodings=list(protocol.ENCODINGS) if takes_messages else None,
-                metadata={"ROS_DISTRO": "jazzy"},
+                metadata={"ROS_DISTRO": str(current_distro())},
                 sessionId=session_id,
             )
         )

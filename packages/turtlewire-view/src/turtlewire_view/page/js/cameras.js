@@ -101,8 +101,9 @@ export class Cameras {
   }
 
   /**
-   * How it is looked now, as a view is saved: `kind`, `frame` that is followed or "", `focus` in
-   * it or in the fixed frame [m], `distance` [m], `yaw` and `pitch` [rad], `scale` [pixels/m].
+   * The current view, in the form in which it is saved: `kind`, `frame` that is followed or "",
+   * `focus` in it or in the fixed frame [m], `distance` [m], `yaw` and `pitch` [rad], `scale`
+   * [pixels/m].
    */
   saved(origin) {
     const { target } = this.#controls[this.kind];

@@ -1,6 +1,8 @@
 // The list of displays with their options, and the topics that can be added.
 
-import { byId, make, naturalOrder, offer, setLine, setText } from "./dom.js";
+import { byId, setText } from "../kit/dom.js";
+import { byName } from "../kit/names.js";
+import { make, offer, setLine } from "./dom.js";
 import { ItemList } from "./item_list.js";
 import { optionControl } from "./option_controls.js";
 
@@ -25,7 +27,7 @@ export class DisplaysPanel {
 
   /** The server's topics, each with the kind of display that shows it, or null. */
   showTopics(topics) {
-    this.#topics = [...topics].sort((a, b) => naturalOrder(a.name, b.name));
+    this.#topics = [...topics].sort((a, b) => byName(a.name, b.name));
     const shown = this.#topics.filter(({ kind }) => kind);
     const options = shown.map(({ name, kind }) => [name, `${name} (${kindInWords(kind)})`]);
     const first = options.length ? options : [["", "No topic to draw"]];
@@ -53,8 +55,18 @@ export class DisplaysPanel {
 
   #add() {
     const topic = this.#topics.find(({ name }) => name === byId("topic").value);
-    if (topic?.kind) this.#displays.add({ kind: topic.kind, topic: topic.name });
-    else if (byId("topic").value === ROBOT_OPTION[0]) this.#displays.add(ROBOT);
+    if (topic?.kind) this.#addOnce({ kind: topic.kind, topic: topic.name });
+    else if (byId("topic").value === ROBOT_OPTION[0]) this.#addOnce(ROBOT);
+  }
+
+  /** Add a display, or point at the one that shows the same already. */
+  #addOnce(wanted) {
+    const there = this.#displays.list.find((each) => isSame(each, wanted));
+    if (!there) return void this.#displays.add(wanted);
+    if (!there.visible) this.#displays.setVisible(there.id, true);
+    const { item } = this.#items.get(there.id);
+    item.scrollIntoView({ block: "nearest" });
+    item.querySelector(".eye").focus();
   }
 
   #showEntry(entry) {
@@ -136,6 +148,16 @@ export class DisplaysPanel {
 
 function allowAdding() {
   byId("add-display").disabled = byId("topic").value === "";
+}
+
+/** A robot without a topic is another one when it comes from another parameter, or a file. */
+function isSame({ kind, topic, options, schema }, wanted) {
+  if (kind !== wanted.kind || topic !== wanted.topic) return false;
+  if (topic) return true;
+  const isMoved = schema.some(({ name, value }) => {
+    return (name === "node" || name === "parameter") && options[name] !== value;
+  });
+  return options.source === wanted.options.source && !isMoved;
 }
 
 /** "point_cloud" as "point cloud". */

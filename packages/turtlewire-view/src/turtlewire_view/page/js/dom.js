@@ -1,14 +1,6 @@
-// Small helpers for the page's elements.
+// More helpers for the page's elements.
 
-export const byId = (id) => document.getElementById(id);
-
-/** Natural order: link2 before link10. */
-export const naturalOrder = new Intl.Collator("en", { numeric: true }).compare;
-
-/** Set a text only when it is another one: no needless layout. */
-export function setText(element, text) {
-  if (element.textContent !== text) element.textContent = text;
-}
+import { setText } from "../kit/dom.js";
 
 /** The first sentence as a line, which opens to show the rest of a longer text. */
 export function setLine(element, text) {

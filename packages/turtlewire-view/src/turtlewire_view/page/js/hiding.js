@@ -1,6 +1,6 @@
 // Which frames the user does not want to see: by a regular expression, or one by one.
 
-import { byId, setText } from "./dom.js";
+import { byId, setText } from "../kit/dom.js";
 
 export class Hiding {
   #pattern = null;

@@ -1,6 +1,7 @@
 // Check boxes for the named things of a display: namespaces of markers, links of a robot.
 
-import { make, naturalOrder } from "./dom.js";
+import { byName } from "../kit/names.js";
+import { make } from "./dom.js";
 
 export class ItemList {
   element = make("div", { className: "items" });
@@ -22,7 +23,7 @@ export class ItemList {
 
   /** One line for each name, and one for all. */
   show(names) {
-    const sorted = [...names].sort(naturalOrder);
+    const sorted = [...names].sort(byName);
     const key = JSON.stringify(sorted);
     if (key === this.#names) return;
     this.#names = key;

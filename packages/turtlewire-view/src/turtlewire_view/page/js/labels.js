@@ -9,7 +9,7 @@ const MOST = 50;
 const CHOOSE_MS = 250;
 const RANKS = { selected: -4, hovered: -3, target: -2, root: -1, path: 0 };
 const ALWAYS = new Set(["selected", "hovered"]); // on another side where there is no room
-const STAYING = 0.8; // who has a name keeps it rather than one that is a little nearer
+const STAYING = 0.8; // a frame keeps its label unless another one is clearly nearer
 /** Sides of its origin where a name may stand, by preference: [to the right, below]. */
 const SIDES = [[true, true], [false, true], [true, false], [false, false]];
 const [BESIDE, BELOW] = [4, 12]; // [CSS pixels] from the origin to the text's edge and middle

@@ -1,10 +1,11 @@
 // The buttons on the picture: cameras, and what is drawn.
 
-import { byId, setText } from "./dom.js";
+import { byId, setText } from "../kit/dom.js";
+import { download } from "../kit/download.js";
 
 /**
  * Wire the buttons to the stage; `selected()` is the selected frame's name. Returns `show()`, which
- * makes the buttons tell the truth, and `keys`: key to action.
+ * updates the buttons to the current state, and `keys`: key to action.
  */
 export function listenForLooks(stage, selected) {
   const { cameras, view } = stage;
@@ -16,7 +17,7 @@ export function listenForLooks(stage, selected) {
   byId("fit").onclick = () => stage.fit();
   listenForSwitches(stage);
   byId("size").oninput = ({ target }) => stage.setSize(10 ** Number(target.value));
-  byId("picture").onclick = async () => save(await view.picture(), "png");
+  byId("picture").onclick = async () => download(await view.picture(), "view", "png");
   return {
     keys: { o: () => choose("orbit"), t: () => choose("top"), f: follow, Home: () => stage.fit() },
     show: () => {
@@ -43,15 +44,6 @@ function listenForSwitches(stage) {
       stage.change();
     };
   }
-}
-
-/** Hand a file to the user. */
-export function save(blob, suffix) {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(blob);
-  link.download = `view-${new Date().toISOString().slice(0, 19).replaceAll(":", "-")}.${suffix}`;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
 
 function setPressed(button, on) {

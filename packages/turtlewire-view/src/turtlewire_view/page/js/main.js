@@ -1,13 +1,16 @@
 // Wiring: packets feed the frames, the picture and the panels; the user's choices go to the server.
 
+import { Connection } from "../kit/connection.js";
+import { byId, setText } from "../kit/dom.js";
+import { switchLetterKeys } from "../kit/letter_keys.js";
+import { byName } from "../kit/names.js";
 import { Budget } from "./budget.js";
-import { Connection } from "./connection.js";
 import { Displays } from "./displays.js";
 import { DisplaysPanel } from "./displays_panel.js";
-import { byId, naturalOrder, offer, setText } from "./dom.js";
+import { offer } from "./dom.js";
 import { Frames } from "./frames.js";
 import { Hiding } from "./hiding.js";
-import { switchLetterKeys } from "./letter_keys.js";
+import { JointsPanel } from "./joints_panel.js";
 import { listenForLooks } from "./looks.js";
 import { closeFirst } from "./menu.js";
 import { RelationPanel } from "./relation_panel.js";
@@ -16,7 +19,7 @@ import { Stage } from "./stage.js";
 import { TimeBar } from "./time_bar.js";
 import { Tools } from "./tools.js";
 import { TreeView } from "./tree_view.js";
-import { View } from "./scene.js";
+import { graphicsLoaded, View } from "./scene.js";
 import { applySwitches, listenForFiles, takeSaved } from "./view_file.js";
 
 const NOTICE_MS = 6000;
@@ -27,12 +30,14 @@ const PRESSED = "button, summary, input";
 let looks = null;
 let chosenFixed = "";
 let hasView = false;
+let lastLoad = 0; // counts the loaded views
 let loadedDocument = null; // names the loaded file to the server
 let noticeTimer = null;
 let standing = { text: "", level: "ok" }; // the line that does not pass
 const frames = new Frames();
 const send = (command) => connection.send(command);
 const hiding = new Hiding(applyHiding);
+await graphicsLoaded();
 const stage = makeStage();
 if (stage) looks = listenForLooks(stage, () => relation.source);
 const relation = new RelationPanel(frames, takeChoice);
@@ -46,17 +51,20 @@ const displays = new Displays(stage?.view ?? null, frames, send, () => displaysP
 displays.onGrowth = () => stage?.takeDisplay();
 const displaysPanel = new DisplaysPanel(displays);
 const robots = new Robots(displays);
+const joints = new JointsPanel((positions) => send({ type: "move", positions }));
 const time = new TimeBar(send);
 const tools = stage && new Tools(stage, frames, send, (text, passes = false) => {
   notice(text, "ok", passes);
 });
 const budget = new Budget(stage?.view.isSoftware ?? true, send);
 
-const TAKERS = {
+const connection = new Connection(takeState, {
   hello: takeHello,
   names: takeNames,
   frames: takePoses,
   tree: takeTree,
+  joints: (packet) => joints.describe(packet.joints),
+  positions: (packet) => joints.show(packet.of),
   relation: (packet) => relation.show(packet),
   topics: takeTopics,
   display: (packet) => displays.take(packet),
@@ -71,10 +79,6 @@ const TAKERS = {
     else notice(`Published on ${topic}, but no node subscribes to it`, "warn");
   },
   error: ({ text }) => notice(text, "error"),
-};
-const connection = new Connection({
-  onState: takeState,
-  onPacket: (packet) => TAKERS[packet.type]?.(packet),
 });
 
 /** Everything that is drawn, or null when this browser cannot. */
@@ -115,7 +119,7 @@ function takeNames(packet) {
   frames.takeNames(packet);
   chosenFixed = packet.chosen ?? chosenFixed;
   hiding.apply(frames);
-  const others = [...frames.names].sort(naturalOrder).map((name) => [name, name]);
+  const others = [...frames.names].sort(byName).map((name) => [name, name]);
   const automatic = frames.roots[0] ? `automatic (${frames.roots[0]})` : "automatic";
   offer(byId("fixed"), [["", automatic], ...others], chosenFixed);
   tree.rebuild();
@@ -131,7 +135,7 @@ function takePoses(packet) {
   stage?.takePoses();
 }
 
-/** In a bag nothing is old or late; while live time stands still, ages do, too. */
+/** A bag has no ages and delays; while a live view is paused, ages do not grow. */
 function takeTree({ rows }) {
   if (time.isBag) tree.showReadings(rows.map((row) => ({ ...row, age: null, delay: null })));
   else if (!time.isPaused || !tree.hasReadings) tree.showReadings(rows);
@@ -156,14 +160,19 @@ function takeStatus(packet) {
 async function takeView(packet) {
   if (packet.first && hasView) return; // a new connection; the user may have changed much
   hasView = true;
+  const load = (lastLoad += 1);
   robots.isOn = false; // the file says what is shown
   loadedDocument = packet.document ?? null;
-  notice(packet.text, "warn"); // without a text it ends what was said of the file before
+  notice("", "ok"); // ends what was said of the file before
+  showUnread(packet.text);
   applySwitches(packet.show);
   if (packet.fixed) chooseFixed(packet.fixed);
   if (packet.camera) stage?.cameras.restore(packet.camera, frames.origin);
   for (const { id } of displays.list) displays.remove(id);
-  for (const display of packet.displays ?? []) await displays.add(display);
+  for (const display of packet.displays ?? []) {
+    await displays.add(display);
+    if (load !== lastLoad) return; // another view came meanwhile
+  }
 }
 
 function select(name, event) {
@@ -198,7 +207,7 @@ function applyHiding() {
   stage?.change();
 }
 
-/** Say a line; what does not pass stands again when one that passes has ended. */
+/** Show a notice; when one that passes has ended, the last one that stays is shown again. */
 function notice(text, level, passes = true) {
   if (!passes) standing = { text, level };
   const said = passes && text ? { text, level } : standing;
@@ -210,6 +219,12 @@ function notice(text, level, passes = true) {
   if (said !== standing) noticeTimer = setTimeout(() => notice("", "ok"), NOTICE_MS);
 }
 
+/** What the page lacks of a loaded file stays until the user dismisses it or loads another. */
+function showUnread(text) {
+  byId("unread").hidden = !text;
+  setText(byId("unread").querySelector("span"), text);
+}
+
 function chooseFixed(name) {
   chosenFixed = name;
   byId("fixed").value = name;
@@ -217,6 +232,7 @@ function chooseFixed(name) {
 }
 
 closeFirst(byId("looks"));
+byId("unread").querySelector("button").onclick = () => showUnread("");
 const mayAct = switchLetterKeys(byId("letter-keys"));
 byId("fixed").onchange = ({ target }) => chooseFixed(target.value);
 byId("use-fixed").onclick = () => chooseFixed(relation.source);

@@ -1,6 +1,8 @@
 // Where one frame is as another sees it: the sentence, the numbers, or why there is no answer.
 
-import { byId, make, naturalOrder, offer, setFacts, setLine, setText } from "./dom.js";
+import { byId, setText } from "../kit/dom.js";
+import { byName } from "../kit/names.js";
+import { make, offer, setFacts, setLine } from "./dom.js";
 import { ageInWords, delayInWords, fixed, isNumber, numbersInWords, rateInWords } from "./words.js";
 
 const FIXED = ""; // the target that is always the fixed frame
@@ -50,7 +52,7 @@ export class RelationPanel {
 
   /** Other names. */
   rebuild() {
-    const names = [...this.#frames.names].sort(naturalOrder).map((name) => [name, name]);
+    const names = [...this.#frames.names].sort(byName).map((name) => [name, name]);
     const { fixed } = this.#frames;
     offer(byId("relation-source"), [["", "…"], ...this.#withGone(this.#source, names)],
       this.#source);

@@ -136,6 +136,20 @@ export class View {
   }
 }
 
+/**
+ * Resolves when the browser has loaded its graphics driver. The page's first context would wait for
+ * that, and block the page: for a second where the processor draws.
+ */
+export function graphicsLoaded() {
+  return new Promise((resolve) => {
+    const worker = new Worker(new URL("./warm_up.js", import.meta.url));
+    worker.onmessage = worker.onerror = () => { // an error: this browser draws on the page only
+      worker.terminate();
+      resolve();
+    };
+  });
+}
+
 /** A context without smoothed edges; to make a second one takes a processor a tenth of a second. */
 function plainContext(canvas) {
   const options = { ...POWER, alpha: false, antialias: false, stencil: false };

@@ -1,6 +1,6 @@
 // Pause, go back in time, and for a bag play at any speed.
 
-import { byId, setText } from "./dom.js";
+import { byId, setText } from "../kit/dom.js";
 import { timeInWords } from "./words.js";
 
 const NOW_SECONDS = 0.25; // nearer to the newest is now

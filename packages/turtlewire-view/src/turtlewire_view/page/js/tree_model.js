@@ -1,6 +1,6 @@
 // Which rows the tree of frames has: order, search, what is folded.
 
-import { naturalOrder } from "./dom.js";
+import { byName } from "../kit/names.js";
 
 export class TreeModel {
   /** Name to the server's row: publisher, rate, age, delay, static. */
@@ -20,7 +20,7 @@ export class TreeModel {
     const { names, parents, trees, fixed } = this.#frames;
     const main = trees[this.#frames.index(fixed)];
     const order = names.map((_, k) => k);
-    order.sort((a, b) => naturalOrder(names[a], names[b]));
+    order.sort((a, b) => byName(names[a], names[b]));
     order.sort((a, b) => (trees[b] === main) - (trees[a] === main));
     this.#order = order;
     this.#children = new Map();

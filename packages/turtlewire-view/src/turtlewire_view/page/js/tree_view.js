@@ -1,6 +1,7 @@
 // The tree of frames as rows; only those in sight are elements.
 
-import { byId, make, setText } from "./dom.js";
+import { byId, setText } from "../kit/dom.js";
+import { make } from "./dom.js";
 import { TreeModel } from "./tree_model.js";
 import { kindOf, readingInWords } from "./words.js";
 

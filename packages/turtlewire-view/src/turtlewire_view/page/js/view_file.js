@@ -1,7 +1,7 @@
 // Views as .rviz files: saved by the browser, chosen by the user; the server reads and writes them.
 
-import { byId } from "./dom.js";
-import { save } from "./looks.js";
+import { byId } from "../kit/dom.js";
+import { download } from "../kit/download.js";
 
 const SWITCHES = ["names", "axes", "arrows", "grid"];
 const LARGEST_FILE = 60_000; // bytes of a command that the server takes
@@ -30,7 +30,7 @@ export function listenForFiles(view, send, say) {
 
 /** The server has written the file. */
 export function takeSaved({ text }) {
-  save(new Blob([text], { type: "application/yaml" }), "rviz");
+  download(new Blob([text], { type: "application/yaml" }), "view", "rviz");
 }
 
 /** Set the switches of what is drawn. */

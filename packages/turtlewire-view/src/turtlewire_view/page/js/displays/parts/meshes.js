@@ -33,7 +33,7 @@ const PARSERS = {
     const loaded = /<COLLADA[\s>]/.test(text) && new ColladaLoader(manager).parse(text, folder);
     if (!loaded) throw new Error("this is not COLLADA");
     loaded.scene.rotation.set(0, 0, 0); // RViz takes the numbers as they are, whatever is "up"
-    return { object: loaded.scene, isOwn: true };
+    return { object: loaded.scene, isOwn: /<instance_material[\s>]/.test(text) };
   },
   glb: async (bytes, folder) => {
     const { GLTFLoader } = await import("three/addons/loaders/GLTFLoader.js");
