@@ -13,6 +13,7 @@ from turtlewire_colcon.cmake.evaluate import evaluate_package
 from turtlewire_colcon.cmake.syntax import CMakeError, parse_commands
 from turtlewire_colcon.cmake.tool import main as tool
 from turtlewire_colcon.package_lookup import PackageLookup
+from turtlewire_colcon.plan_install import PlanInstaller
 
 MANIFEST = "<package><name>robot</name><version>1.2.3</version><depend>std_msgs</depend></package>"
 HEAD = "cmake_minimum_required(VERSION 3.8)\nproject(robot)\nfind_package(ament_cmake REQUIRED)\n"
@@ -76,6 +77,11 @@ def value(evaluate, body: str) -> str:
         ("set(X a b)\nlist(TRANSFORM X PREPEND msg/)\nlist(TRANSFORM X APPEND .msg)",
          "msg/a.msg;msg/b.msg"),
         ("set(l a b c d)\nlist(SUBLIST l 1 2 X)", "b;c"),
+        ("set(l a b c d)\nlist(SUBLIST l 1 0 X)", ""),
+        ("set(l a b c d)\nlist(SUBLIST l 3 -1 X)", "d"),
+        ("set(l a b c d)\nlist(SUBLIST l 3 2 X)", "d"),
+        ("set(X a b c)\nlist(INSERT X 0 x)\nlist(INSERT X 4 y)\nlist(INSERT X -1 z)",
+         "x;a;b;c;z;y"),
         ('string(TOUPPER "abc" X)', "ABC"),
         ('string(REPLACE "a" "b" X "banana")', "bbnbnb"),
         ('string(REGEX REPLACE "([a-z]+)-([0-9]+)" "\\\\2:\\\\1" X "ab-12")', "12:ab"),
@@ -83,8 +89,19 @@ def value(evaluate, body: str) -> str:
         ("string(CONCAT X a b c)", "abc"),
         ("set(X a)\nstring(APPEND X b)", "ab"),
         ('math(EXPR X "2 * (3 + 4) - 1")', "13"),
+        ('math(EXPR X "7 / 2")', "3"), ('math(EXPR X "-7 / 2")', "-3"),
+        ('math(EXPR X "7 / -2")', "-3"), ('math(EXPR X "-6 / 3")', "-2"),
+        ('math(EXPR X "-7 % 2")', "-1"), ('math(EXPR X "7 % -2")', "1"),
+        ('math(EXPR X "+3 + ~1")', "1"), ('math(EXPR X "1 << 3 | 9 >> 1")', "12"),
+        ('math(EXPR X "6 & 3 ^ 7")', "5"), ('math(EXPR X "08 + 0 + 0x10 + 100")', "124"),
         ('foreach(i 1 2 3)\n  set(X "${X}${i}")\nendforeach()', "123"),
         ('foreach(i RANGE 3)\n  set(X "${X}${i}")\nendforeach()', "0123"),
+        ('foreach(i RANGE 0)\n  set(X "${X}${i}")\nendforeach()', "0"),
+        ('foreach(i RANGE -1)\n  set(X "${X}${i};")\nendforeach()', "0;-1;"),
+        ('foreach(i RANGE 1 6 4)\n  set(X "${X}${i}")\nendforeach()', "15"),
+        ('foreach(i RANGE 2 5 3)\n  set(X "${X}${i}")\nendforeach()', "25"),
+        ('foreach(i RANGE 3 1)\n  set(X "${X}${i}")\nendforeach()', "321"),
+        ('foreach(i RANGE 6 1 -4)\n  set(X "${X}${i}")\nendforeach()', "62"),
         ('set(l a b)\nforeach(i IN LISTS l ITEMS c)\n  set(X "${X}${i}")\nendforeach()', "abc"),
         (("foreach(i a b c)\n  if(i STREQUAL b)\n    continue()\n  endif()\n"
          '  set(X "${X}${i}")\nendforeach()'), "ac"),
@@ -102,7 +119,9 @@ def value(evaluate, body: str) -> str:
          "set(X ${ARG_FLAG} ${ARG_ONE} ${ARG_MANY} ${ARG_UNPARSED_ARGUMENTS})"), "TRUE;1;2;3;rest"),
         ("get_filename_component(X /a/b.c.d NAME_WE)", "b"),
         ("get_filename_component(X /a/b.c.d DIRECTORY)", "/a"),
-        ('string(SUBSTRING "abcdef" 1 3 X)', "bcd"),
+        ('string(SUBSTRING "abcdef" 1 3 X)', "bcd"), ('string(SUBSTRING "abc" 1 0 X)', ""),
+        ('string(SUBSTRING "abc" 1 -1 X)', "bc"), ('string(SUBSTRING "abc" 3 -1 X)', ""),
+        ('string(SUBSTRING "abc" 2 5 X)', "c"),
         ("return()\nset(X 1)", "not set"),
         ("set(X a b c)\nlist(REMOVE_AT X 0 -1)", "b"),
         ('set(X "a \\"b c\\" d")\nseparate_arguments(X)', "a;b c;d"),
@@ -127,6 +146,10 @@ def test_values(evaluate, body, expected):
         ('PROJECT_NAME MATCHES "^rob"', True), ("PROJECT_NAME MATCHES cat", False),
         ("PROJECT_VERSION VERSION_LESS 1.10", True), ("1.2 VERSION_EQUAL 1.2.0", True),
         ("PROJECT_VERSION VERSION_GREATER_EQUAL 2", False),
+        ("2a.1 VERSION_EQUAL 2", True), ("1.2-rc3 VERSION_EQUAL 1.2", True),
+        ("1 VERSION_LESS 1.0.1", True), ("v1 VERSION_LESS 1", True), ("v1 VERSION_EQUAL 0", True),
+        ("3 LESS 3", False), ("3 LESS_EQUAL 3", True), ("3 GREATER_EQUAL 3", True),
+        ("3 GREATER 3", False), ("b STRLESS b", False), ("b STRGREATER_EQUAL b", True),
         ("3 LESS 10", True), ("3 EQUAL 3.0", True), ("3 GREATER x", False),
         ("b IN_LIST letters", True), ("z IN_LIST letters", False),
         ('EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/package.xml"', True), ("EXISTS nothing", False),
@@ -143,6 +166,22 @@ def test_conditions(evaluate, condition, holds):
         f"if({condition})\n  set(X 1)\nelse()\n  set(X 0)\nendif()"
     )
     assert value(evaluate, body) == str(int(holds))
+
+
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
+        ('if(aXb MATCHES "(a)(q)?X(b)")\nendif()', "aXb|a||b|3"),
+        ('if(aXb MATCHES "(a)X(q)?b")\nendif()', "aXb|a|||1"),
+        ('if(ab MATCHES "(a)(b)")\nendif()\nif(zz MATCHES "z")\nendif()', "z||||0"),
+        ('if(ab MATCHES "(a)(b)")\nendif()\nif(zz MATCHES "y")\nendif()', "||||0"),
+        ('string(REGEX MATCH "a(.)" Y "ab")', "ab|b|||1"),
+        ('string(REGEX MATCH "a(.)" Y "ab")\nstring(REGEX MATCH "q" Y "ab")', "||||0"),
+    ],
+)
+def test_the_groups_of_the_last_match(evaluate, body, expected):
+    parts = "|".join(f"${{CMAKE_MATCH_{part}}}" for part in (0, 1, 2, 3, "COUNT"))
+    assert value(evaluate, f'{body}\nset(X "{parts}")') == expected
 
 
 def test_elseif(evaluate):
@@ -165,7 +204,15 @@ def test_elseif(evaluate):
         ("list(GET l 5 X)", 4, "wrong arguments: list(GET l 5 X)"),
         ("if(ON AND)\nendif()", 4, "a condition ends too early"),
         ("if(ON ON)\nendif()", 4, "unexpected 'ON' in a condition"),
+        ('if(a MATCHES "(")\nendif()', 4, "'(' is not a regular expression"),
+        ("foreach(i RANGE)\nendforeach()", 4, "foreach(RANGE) takes a last number"),
+        ("foreach(i RANGE 1 2 1 1)\nendforeach()", 4, "foreach(RANGE) takes a last number"),
+        ("foreach(i RANGE a)\nendforeach()", 4, "foreach(RANGE) takes whole numbers"),
+        ("foreach(i RANGE 3 1 1)\nendforeach()", 4, "steps of 1 lead from 3 not to 1"),
+        ("foreach(i RANGE 1 3 -1)\nendforeach()", 4, "steps of -1 lead from 1 not to 3"),
         ('math(EXPR X "1 / 0")', 4, "cannot calculate '1 / 0'"),
+        ('math(EXPR X "1 % 0")', 4, "cannot calculate '1 % 0'"),
+        ('math(EXPR X "1 << -1")', 4, "cannot calculate '1 << -1'"),
         ("math(EXPR X \"__import__('os')\")", 4, "cannot calculate"),
         ("function(f a)\nendfunction()\nf()", 6, "f() takes 1 arguments (a), got 0"),
         ("function(f)\n  f()\nendfunction()\nf()", 5, "f() calls itself without end"),
@@ -279,13 +326,23 @@ def test_a_missing_package_is_an_error_where_it_is_needed(evaluate):
     assert plan.missing == []
 
 
+def test_the_source_of_a_well_known_package_is_named(evaluate):
+    plan, _ = evaluate("find_package(nav2_msgs REQUIRED)\nfind_package(vision_msgs REQUIRED)")
+    (line,) = plan.missing
+    assert ": there is no package 'nav2_msgs'; nav2_msgs does not come with turtlewire." in line
+    assert "git clone -b jazzy https://github.com/ros-navigation/navigation2" in line
+    body = "rosidl_generate_interfaces(robot msg/A.msg DEPENDENCIES px4_msgs)"
+    plan, _ = evaluate(body, **{"msg/A.msg": "int8 a\n"})
+    assert "git clone -b main https://github.com/PX4/px4_msgs" in plan.missing[0]
+
+
 def test_the_nearest_package_is_named(tmp_path):
     markers = tmp_path / "share/ament_index/resource_index/packages"
     markers.mkdir(parents=True)
     (markers / "walker_msgs").touch()
     lookup = PackageLookup({"AMENT_PREFIX_PATH": f"{tmp_path}{os.pathsep}{tmp_path}/none"})
-    assert lookup.suggestion("walke_mgs").startswith(" (Did you mean: walker_msgs")
-    assert lookup.suggestion("x") == ""
+    assert lookup.advice("walke_mgs").startswith(" (Did you mean: walker_msgs")
+    assert lookup.advice("x").startswith("; add it")
 
 
 @pytest.mark.parametrize(
@@ -300,25 +357,88 @@ def test_the_nearest_package_is_named(tmp_path):
         "externalproject_add(walker URL x)",
     ],
 )  # fmt: skip
-def test_compiled_target_is_rejected_by_name(evaluate, body):
+def test_a_compiled_target_is_left_out_by_name(evaluate, body):
     plan, _ = evaluate(body)
-    name = body.partition("(")[0]
-    (line,) = plan.refused
+    errors, (line,) = plan.verdict()
+    assert errors == []
     assert line.endswith(
-        f"CMakeLists.txt:4: {name}(walker) compiles C++, which turtlewire does not"
+        "CMakeLists.txt:4: turtlewire compiles no C++, so walker is left out; the rest of the "
+        "package is installed"
     )
-    assert plan.verdict() == ([line], [])
 
 
-def test_the_python_of_a_package_with_cpp_is_installed(evaluate):
+def test_many_compiled_targets_are_one_line(evaluate):
+    targets = "\n".join(f"add_executable(t{number} a.cpp)" for number in range(6))
+    _, (line,) = evaluate(targets)[0].verdict()
+    assert "so t0, t1, t2, t3 and 2 more are left out" in line
+
+
+def test_the_executable_of_a_component_is_left_out_with_its_library(evaluate):
+    plan, _ = evaluate('rclcpp_components_register_node(lib PLUGIN "a::B" EXECUTABLE talker)')
+    assert [target.name for target in plan.compiled] == ["lib", "talker"]
+
+
+def test_faults_beside_cpp_are_warnings(evaluate):
     plan, _ = evaluate(
         "add_executable(walker a.cpp)\ncompile_shaders(a b)\n"
         "find_package(unknown_cpp_library REQUIRED)\n"
+        'message(FATAL_ERROR "needs CUDA")\n'
         "install(PROGRAMS a.py DESTINATION lib/${PROJECT_NAME})"
     )
     errors, warnings = plan.verdict()
     assert errors == []
-    assert [line.split("CMakeLists.txt:")[1].split(":")[0] for line in warnings] == ["4", "6", "5"]
+    lines = [line.split("CMakeLists.txt:")[1].split(":")[0] for line in warnings]
+    assert lines == ["4", "7", "6", "5"]
+    assert [install.kind for install in plan.installs] == ["PROGRAMS"]
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "rosidl_generate_interfaces(robot msg/None.msg)",
+        "ament_python_install_package(nowhere)",
+        "catkin_package()",
+        "ament_python_install_package()",
+    ],
+)
+def test_faults_in_the_python_part_stay_errors_beside_cpp(evaluate, body):
+    with pytest.raises(CMakeError, match=body.partition("(")[0]):
+        evaluate(f"add_executable(walker a.cpp)\n{body}")
+
+
+def test_the_standards_that_packages_ask_for_are_there(evaluate):
+    # The lines are nav2_package()'s, with which every package of Nav2 begins.
+    body = (
+        'if(NOT "cxx_std_17" IN_LIST CMAKE_CXX_COMPILE_FEATURES)\n'
+        '  message(FATAL_ERROR "cxx_std_17 could not be found.")\nendif()\n'
+        "if(CMAKE_CXX_COMPILER_ID MATCHES GNU)\n  set(X gnu)\nendif()"
+    )
+    assert value(evaluate, body) == "gnu"
+
+
+def test_files_of_the_build_folder_are_missing_beside_cpp(evaluate, tmp_path):
+    body = (
+        "add_library(walker SHARED a.cpp)\ngenerate_export_header(walker)\n"
+        "install(FILES ${CMAKE_CURRENT_BINARY_DIR}/walker_export.h DESTINATION include)\n"
+        "install(FILES package.xml DESTINATION share/doc)"
+    )
+    plan, run = evaluate(body)[0], None
+    assert plan.verdict()[0] == []
+    prefix = tmp_path / "prefix"
+    installer = PlanInstaller(plan, run, tmp_path / "robot", prefix, prefix / "lib/py")
+    installer.install()
+    (line,) = installer.warnings
+    assert "install(FILES): there is no" in line
+    assert line.endswith("walker_export.h")
+    assert (prefix / "share/doc/package.xml").is_file()
+    index = prefix / "share/ament_index/resource_index/turtlewire_compiled_targets/robot"
+    assert index.read_text() == "walker"
+
+
+def test_a_file_that_has_to_exist(evaluate):
+    evaluate('assert_file_exists(package.xml "no manifest")\nstamp(package.xml)')
+    with pytest.raises(CMakeError, match="no mesh"):
+        evaluate('assert_file_exists(mesh.stl "no mesh")')
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,7 @@
 """``colcon build`` and ``colcon test`` of ament_cmake packages, as typed, in a shell.
 
-No CMake, no compiler, then Python and ros2 know them. The packages in ``ament_ws`` are small ones
-of our own, each in the clothes of one that many people use.
+The builds use neither CMake nor a compiler; afterwards Python and ros2 find the packages. Each
+package in ``ament_ws`` has the structure of a widely used one.
 """
 
 from __future__ import annotations
@@ -77,8 +77,8 @@ print(Sphere(radius=2.0), AddSphere.Request().sphere.radius, Roll.Result().where
 from more_interfaces.msg import Pair; print(Pair().spheres[1] == Sphere())'
 ros2 interface show my_interfaces/msg/Sphere
 ros2 pkg prefix more_interfaces
-ros2 topic pub -w 1 /sphere my_interfaces/msg/Sphere '{center: {x: 1.0}, radius: 5}' > said.txt &
-ros2 topic echo --once /sphere my_interfaces/msg/Sphere
+ros2 topic pub -w 1 /sphere my_interfaces/msg/Sphere '{center: {x: 1.0}, radius: 5}' &> said.txt &
+ros2 topic echo --once /sphere my_interfaces/msg/Sphere 2> hints.txt
 kill $!
 wait 2>/dev/null
 colcon build --packages-select more_interfaces > build.log 2>&1 || { cat build.log; exit 1; }
@@ -245,7 +245,12 @@ def built(tmp_path_factory):
     """The good packages, built, and the output of the build as `built_output`."""
     folder = tmp_path_factory.mktemp("ament_ws")
     shutil.copytree(PACKAGES_HERE / "good", folder / "src")
-    script = "source {prefix}/setup.bash; colcon build --cmake-args -DROBOT=2.5"
+    # Of the tutorial's three commands, the third one sources the result.
+    script = """
+source {prefix}/setup.bash
+rosdep install -i --from-path src --rosdistro jazzy -y &&
+colcon build --cmake-args -DROBOT=2.5
+"""
     done = run_in(folder, script)
     assert done.returncode == 0, done.stdout + done.stderr
     (folder / "output.txt").write_text(done.stdout + done.stderr)
@@ -254,15 +259,64 @@ def built(tmp_path_factory):
 
 def test_a_target_of_cpp_is_told_and_the_python_beside_it_is_installed(built):
     output = (built / "output.txt").read_text()
-    assert "Summary: 11 packages finished" in output
+    assert "Summary: 13 packages finished" in output
     file = built / "src/updater/CMakeLists.txt"
     assert (
-        f"updater: {file}:21: add_executable(example) compiles C++, which turtlewire does not; its "
-        "Python and data are installed without it\n"
+        f"WARNING:colcon:updater: {file}:21: turtlewire compiles no C++, so example is left out; "
+        "the rest of the package is installed\n"
     ) in output
     assert shell(built, "ros2 run updater example.py") == ["motor"]
     headers = built / "install/updater/include/updater/updater"
     assert [path.name for path in headers.iterdir()] == ["updater.hpp"]
+
+
+def test_a_package_of_cpp_is_installed_without_its_programs(built):
+    output = (built / "output.txt").read_text()
+    file = built / "src/walker_cpp/CMakeLists.txt"
+    lines = [line for line in output.splitlines() if "WARNING:colcon:walker_cpp:" in line]
+    assert [line.partition(f"{file}:")[2] for line in lines] == [
+        (
+            "14: turtlewire compiles no C++, so walker_component, walk are left out; the rest of "
+            "the package is installed"
+        ),
+        "11: gait_planner has no libraries",
+        (
+            "6: there is no package 'gait_planner'; add it to the workspace, source a workspace "
+            "that has it, or install it"
+        ),
+        (f"20: install(FILES): there is no {built}/build/walker_cpp/walker_component_export.h"),
+    ]
+    hint = "walk is a C++ program, which turtlewire does not compile. Run it on a computer with"
+    script = """
+ros2 pkg prefix walker_cpp
+ros2 run walker_cpp walk 2>&1
+ros2 launch walker_cpp walk.launch.py 2>&1 | grep -o 'walk is a C++ program.* with '
+"""
+    prefix, *said = shell(built, script)
+    assert prefix == f"{built}/install/walker_cpp"
+    assert said[0] == "No executable found"
+    assert said[1].startswith(hint)
+    assert said[2].startswith(hint)
+
+
+def test_rosdep_resolves_build_tools_cpp_and_python(built):
+    script = """
+cat > src/updater/package.xml <<END
+<package format="3"><name>updater</name><version>0.0.0</version><description>d</description>
+<maintainer email="a@b.cc">a</maintainer><license>MIT</license>
+<depend>ament_cmake_ros</depend><depend>rclcpp</depend><depend>rclcpp_components</depend>
+<depend>eigen</depend><depend>python3-a-key-of-nobody</depend><depend>python3-serial</depend>
+</package>
+END
+rosdep install -i --from-path src/updater -y --simulate 2>&1; echo $?
+sed -i s/python3-a-key-of-nobody/python3-scipy/ src/updater/package.xml
+rosdep install -i --from-path src/updater -y --simulate 2>&1
+"""
+    lines = shell(built, script)
+    unknown = "updater: Cannot locate rosdep definition for [python3-a-key-of-nobody]"
+    assert [line for line in lines if "Cannot locate" in line] == [unknown]
+    assert any(line.endswith("install -U pyserial") for line in lines)
+    assert not [line for line in lines if "sudo" in line]
 
 
 def test_scripts_modules_and_launch_files(built):
@@ -397,6 +451,19 @@ colcon test-result --verbose
     assert results[-1] == "Summary: 6 tests, 0 errors, 1 failure, 0 skipped"
 
 
+def test_a_package_with_dashes_in_setup_cfg_runs_and_tests_its_launch(built):
+    script = """
+ros2 launch gripper_py grip.launch.yaml 2>&1 | grep -o 'gripped'
+colcon test --packages-select gripper_py > test.log 2>&1; echo $?
+colcon test-result --test-result-base build/gripper_py
+"""
+    assert shell(built, script) == [
+        "gripped",
+        "0",
+        "Summary: 1 test, 0 errors, 0 failures, 0 skipped",
+    ]
+
+
 def test_links_to_the_sources_and_back_to_copies(built):
     script = """
 colcon build --packages-select macro_tool --symlink-install > link.log 2>&1 || cat link.log
@@ -415,7 +482,6 @@ def test_each_fault_is_one_line_that_names_file_and_line(tmp_path):
     done = run_in(tmp_path, script)
     assert done.returncode == 1
     for name, text in {
-        "compiles": ":4: add_executable(talker) compiles C++, which turtlewire does not",
         "fatal": ":4: not on Linux",
         "misses": ":4: there is no package 'nobody_has_this_msgs'; add it to the workspace, ",
         "no_file": ":4: install(FILES): there is no ",

@@ -1,7 +1,8 @@
 // The checks of a lesson: one line for each, with what was seen and what helps.
 
+import { byId } from "../kit/dom.js";
+
 const TRIES_BEFORE_SOLUTION = 2;
-const byId = (id) => document.getElementById(id);
 
 export class Grading {
   #failures = 0;

@@ -1,10 +1,11 @@
 // The page: a lesson's text and files on one side, what they do on the other.
 
+import { byId } from "../kit/dom.js";
 import { listenForDriving } from "../turtlesim/controls.js";
 import { Editors } from "./editors.js";
 import { fetchFile, filesForWorker, isFromFolder } from "./files.js";
 import { Grading } from "./grading.js";
-import { fetchAll, prepareOffline, showStage } from "./loader.js";
+import { fetchAll, showStage } from "./loader.js";
 import { Runtime } from "./runtime.js";
 import { store } from "./store.js";
 import { Watch } from "./watch.js";
@@ -25,7 +26,6 @@ const BROKEN = [
   [/(?:)/, "Your code crashed Python, which has restarted.", "Click Run."],
 ];
 const NARROW = matchMedia("(max-width: 760px)"); // as in style.css
-const byId = (id) => document.getElementById(id);
 
 const status = (state, text) => {
   byId("status").dataset.state = state;
@@ -81,7 +81,7 @@ class Page {
     return {
       onLog: (line) => this.#watch.log(line),
       onResult: (result) => this.#takeResult(result),
-      onRestarted: () => this.#running || status("stopped", "stopped"),
+      onRestarted: () => this.#running || status("lost", "stopped"),
       onLost: showLost,
     };
   }
@@ -89,7 +89,8 @@ class Page {
   /** Show the lesson that the address names, without running it. */
   show() {
     this.#lesson = this.#lessons.find(({ id }) => `#${id}` === location.hash) ?? this.#lessons[0];
-    byId("text").innerHTML = this.#lesson.text; // ours, from the build
+    const text = byId("text");
+    if (text.innerHTML !== this.#lesson.text) text.innerHTML = this.#lesson.text; // our own HTML
     document.title = `${this.#lesson.title} – TF2 in a tab`;
     this.#editors.open(store.filesOf(this.#lesson));
     this.#grading.clear();
@@ -125,6 +126,7 @@ class Page {
     if (!this.#failed(answer)) {
       this.#running = true;
       status("live", "running");
+      if (this.#watch.isReportDue) this.#examine(); // it was asked of the run before
       this.#step(run).catch((error) => this.#failed({ mistake: faultOfOurs(error) }));
     }
   }
@@ -153,7 +155,7 @@ class Page {
   #failed({ mistake, stopped, broken, restarted }) {
     if (!mistake && !stopped && !broken) return false;
     const shown = { file: "", line: 0, hint: "", ...mistake, ...reasonOf({ stopped, broken }) };
-    status("stopped", restarted ? "restarting Python …" : "stopped");
+    status("lost", restarted ? "restarting Python …" : "stopped");
     this.#editors.mark(shown);
     const where = shown.line ? `${shown.file}, line ${shown.line}: ` : "";
     const box = byId("mistake");
@@ -247,7 +249,6 @@ async function loadFiles(manifest) {
 async function main() {
   const isLoading = performance.now();
   showStage("prepare", "preparing …");
-  await prepareOffline();
   const [lessons, manifest] = await Promise.all(
     ["lessons.json", "manifest.json"].map(async (path) => (await fetchFile(path)).json()),
   );
@@ -278,7 +279,7 @@ function showLost(error) {
   byId("loading-bar").hidden = byId("stages").hidden = true;
   byId("loading-text").textContent =
     `The lesson could not be loaded: ${error.message}. Check the network and load the page again.`;
-  status("stopped", "not loaded");
+  status("lost", "not loaded");
 }
 
 main().catch((error) => {

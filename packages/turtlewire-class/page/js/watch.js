@@ -1,9 +1,10 @@
 // Beside the field: the TF tree, echoes, the log, the doctor, and faults to practise on.
 
+import { byId } from "../kit/dom.js";
 import { FramesPanel } from "../turtlesim/frames_panel.js";
 
 const MOST_LINES = 300;
-const byId = (id) => document.getElementById(id);
+const LISTENING = "Listening for three seconds …";
 
 export class Watch {
   #frames = new FramesPanel((chosen) => (this.#chosen = chosen ?? {}));
@@ -17,12 +18,14 @@ export class Watch {
   #hidden = null;
   #onFaults;
   #isLogDue = false;
+  #isReportDue = false;
 
   /** `examine()` asks for the doctor's report; `onFaults()` after a fault was switched. */
   constructor(examine, onFaults) {
     this.#onFaults = onFaults;
     byId("examine").onclick = () => {
-      byId("doctor").textContent = "Listening for three seconds …";
+      this.#isReportDue = true;
+      byId("doctor").textContent = LISTENING;
       examine();
     };
     byId("axes").onclick = ({ currentTarget }) => {
@@ -40,6 +43,7 @@ export class Watch {
     this.#firstTopic = topic || "/turtle1/pose";
     this.#offered = faults;
     this.#hidden = null;
+    this.#isReportDue = false;
     byId("guess").textContent = "";
     byId("faults-card").hidden = !faults.length;
     byId("faults").replaceChildren(...faults.map(({ name, label }) => {
@@ -89,16 +93,25 @@ export class Watch {
     return { ...this.#chosen, topic: byId("topic").value };
   }
 
+  /** True from a press of "Examine" until the report arrives, across restarts. */
+  get isReportDue() {
+    return this.#isReportDue;
+  }
+
   clear() {
     this.#lines = [];
     this.#first = { ...this.#lesson };
-    for (const id of ["log", "topic-echo", "tf-echo", "doctor"]) byId(id).textContent = "";
+    for (const id of ["log", "topic-echo", "tf-echo"]) byId(id).textContent = "";
+    byId("doctor").textContent = this.#isReportDue ? LISTENING : "";
   }
 
   show(message) {
     if (message.type === "tf") this.#showFrames(message);
     else if (message.type === "echo") this.#echo(message);
-    else if (message.type === "doctor") byId("doctor").textContent = message.text;
+    else if (message.type === "doctor") {
+      this.#isReportDue = false;
+      byId("doctor").textContent = message.text;
+    }
   }
 
   /** The lesson's two frames are chosen as soon as they are there; then the choice is free. */

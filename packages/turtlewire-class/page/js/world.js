@@ -1,13 +1,14 @@
 // The field, drawn with turtlesim's own modules, and how much simulated time is due.
 
+import { byId } from "../kit/dom.js";
+import { decodePacket } from "../kit/packets.js";
 import { Field } from "../turtlesim/field.js";
-import { decodeFrame, Playback } from "../turtlesim/frames.js";
+import { frameOf, Playback } from "../turtlesim/frames.js";
 import { fieldInWords } from "../turtlesim/words.js";
 
 const TICK_MS = 16;
 const MOST_TICKS = 12; // more than this behind, and simulated time falls back instead
 const DESCRIPTION_MS = 2000;
-const byId = (id) => document.getElementById(id);
 
 export class World {
   #field = new Field(byId("ground"), byId("turtles"));
@@ -50,7 +51,7 @@ export class World {
 
   /** Take the bytes of a step. */
   take(bytes) {
-    const frame = decodeFrame(bytes);
+    const frame = frameOf(decodePacket(bytes));
     this.#field.addStrokes(frame.strokes, frame.restart);
     frame.axes = this.axes;
     this.#playback.push(frame);

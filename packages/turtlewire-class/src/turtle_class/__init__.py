@@ -3,7 +3,6 @@
 =================  ================================================================
 module             what it holds
 =================  ================================================================
-`errors`           what keeps a command from running
 `catalogue`        the exercises: the lessons of the browser tab, and more
 `child`            the checks of one exercise of one student, in a process of their own
 `student`          the student's programs, in another one
@@ -23,3 +22,9 @@ module             what it holds
 `commands`         the verbs that write reports and hand out files
 =================  ================================================================
 """
+
+__all__ = ["ClassError"]
+
+
+class ClassError(Exception):
+    """What keeps a command from running; the text says what was asked, exists and helps."""

@@ -2,7 +2,7 @@
 
 The grader's end is the hub: every message of the other process passes the hub's bus, with its
 faults, and comes back to the subscriptions in that process. Each end mirrors the nodes and
-endpoints of the other. What the ends tell each other are JSON objects, the news.
+endpoints of the other. The ends exchange updates as JSON objects (`News`).
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import base64
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.wire.base import MessageInfo, NodeInfo, TypeId
-from turtlewire.wire.local.endpoint import EndpointSpec
+from turtlewire.wire.local.endpoint import LocalEndpointSpec
 from turtlewire.wire.local.node_state import LocalNodeState
 from turtlewire.wire.local.publisher import LocalPublisher
 from turtlewire.wire.local.subscription import LocalSubscription
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 __all__ = ["FarEnd", "Hub", "News"]
 
 News = dict[str, Any]
-"""What an end has to tell: ``nodes``, ``opened`` and ``closed`` endpoints, and ``messages``."""
+"""An update from one end: ``nodes``, ``opened`` and ``closed`` endpoints, and ``messages``."""
 
 
 class _End:
@@ -124,7 +124,7 @@ class _End:
         self._bus.nodes[:] = [other for other in self._bus.nodes if other is not info]
 
     def _mirror(
-        self, kind: str, gid: str, core: LocalNodeState, spec: EndpointSpec
+        self, kind: str, gid: str, core: LocalNodeState, spec: LocalEndpointSpec
     ) -> LocalEndpoint:
         if kind == "publisher":
             return LocalPublisher(core, spec)
@@ -186,7 +186,7 @@ class _MirroredSubscription(LocalSubscription):
     """Passes each message on instead of keeping it."""
 
     def __init__(
-        self, node: LocalNodeState, spec: EndpointSpec, heard: Callable[[Message], None]
+        self, node: LocalNodeState, spec: LocalEndpointSpec, heard: Callable[[Message], None]
     ) -> None:
         self._heard = heard
         super().__init__(node, spec)
@@ -212,7 +212,7 @@ def _described(endpoint: LocalEndpoint) -> dict[str, Any]:
     }
 
 
-def _spec_of(described: dict[str, Any]) -> EndpointSpec:
+def _spec_of(described: dict[str, Any]) -> LocalEndpointSpec:
     history, depth, reliability, durability, deadline, lifespan, liveliness, lease, bare = (
         described["qos"]
     )
@@ -228,6 +228,6 @@ def _spec_of(described: dict[str, Any]) -> EndpointSpec:
         bool(bare),
     )
     name, type_hash = map(str, described["type"])
-    return EndpointSpec(
+    return LocalEndpointSpec(
         str(described["name"]), str(described["dds_topic"]), TypeId(name, type_hash), qos
     )

@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import turtle_lesson
-from turtle_class.errors import ClassError
+from turtle_class import ClassError
 from turtlewire.terminal.suggestion import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["LAUNCH_FILE", "Exercise", "chosen", "exercises"]
+__all__ = ["LAUNCH_FILE", "ExerciseFolder", "chosen", "exercises"]
 
 _FOLDERS = (
     Path(turtle_lesson.__file__).resolve().parent / "lessons",
@@ -27,7 +27,7 @@ LAUNCH_FILE = "exercise.launch.py"
 _BROWSER = re.compile(r'<(\w+) class="browser">.*?</\1>', re.DOTALL)
 
 
-class Exercise(NamedTuple):
+class ExerciseFolder(NamedTuple):
     """An exercise.
 
     Attributes:
@@ -93,20 +93,13 @@ turtlewire class check .. -e {self.name}
 ```
 """
 
-    def starter(self) -> dict[str, str]:
-        """Return the files as students find them, by name."""
-        return {
-            file: (self.folder / "starter" / file).read_text(encoding="utf-8")
-            for file in self.files
-        }
 
-
-def exercises() -> list[Exercise]:
+def exercises() -> list[ExerciseFolder]:
     """Return all exercises, in the order of teaching."""
     return [exercise for folder in _FOLDERS for exercise in _of(folder)]
 
 
-def chosen(names: Sequence[str]) -> list[Exercise]:
+def chosen(names: Sequence[str]) -> list[ExerciseFolder]:
     """Return the exercises with these names, or all exercises without names.
 
     Raises:
@@ -122,13 +115,13 @@ def chosen(names: Sequence[str]) -> list[Exercise]:
     return [known[name] for name in names] if names else list(known.values())
 
 
-def _of(folder: Path) -> list[Exercise]:
+def _of(folder: Path) -> list[ExerciseFolder]:
     order = json.loads((folder / "order.json").read_text(encoding="utf-8"))
     return [_read(folder / name) for name in order]
 
 
-def _read(folder: Path) -> Exercise:
+def _read(folder: Path) -> ExerciseFolder:
     facts = json.loads((folder / "lesson.json").read_text(encoding="utf-8"))
-    return Exercise(
+    return ExerciseFolder(
         folder.name, facts["title"], tuple(facts["files"]), folder, facts["target"], facts["source"]
     )

@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from turtle_class.errors import ClassError
+from turtle_class import ClassError
 from turtlewire.terminal.file_arguments import reporting_errors
 from turtlewire.terminal.parser import seconds
 from turtlewire.web.options import add_page_options
@@ -25,7 +25,7 @@ _EXPECTED = (ClassError, OSError)
 def add_class_command(commands: Any) -> None:
     """Add ``class`` to the command's words."""
     summary = "Show the turtles of many students on one page; grade their exercises"
-    parser = commands.add_parser("class", help=summary, description=summary, allow_abbrev=False)
+    parser = commands.add_parser("class", help=summary, description=summary)
     parser.set_defaults(run=reporting_errors("class", _show, _EXPECTED), parser=parser)
     who = parser.add_mutually_exclusive_group()
     who.add_argument(
@@ -49,7 +49,7 @@ def add_class_command(commands: Any) -> None:
 
 
 def _verb(verbs: Any, name: str, summary: str, run: Callable[..., int | None]) -> Any:
-    parser = verbs.add_parser(name, help=summary, description=summary, allow_abbrev=False)
+    parser = verbs.add_parser(name, help=summary, description=summary)
     parser.set_defaults(run=reporting_errors("class", run, _EXPECTED), parser=parser)
     return parser
 

@@ -10,20 +10,21 @@ import threading
 import time
 from typing import TYPE_CHECKING
 
+from turtle_class import ClassError
 from turtle_class.catalogue import LAUNCH_FILE, chosen, exercises
-from turtle_class.errors import ClassError
 from turtle_class.grading import grade_all, students_in
 from turtle_class.junit import as_junit
 from turtle_class.launch_file import launch_text
 from turtle_class.pages import overview, student_page
 from turtle_class.runner import Limits
+from turtle_lesson.lesson import load_lesson
 from turtlewire.terminal.printable import printable
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
     from pathlib import Path
 
-    from turtle_class.grading import Report
+    from turtle_class.grading import GradeReport
 
 __all__ = ["check", "grade", "list_exercises", "show", "start"]
 
@@ -55,7 +56,7 @@ def start(folder: Path, names: Sequence[str]) -> None:
         for name, text in {
             "README.md": exercise.plain_text(),
             LAUNCH_FILE: launch_text(exercise),
-            **exercise.starter(),
+            **load_lesson(exercise.folder).starter(),
         }.items()
     }
     there = [path for path in wanted if path.exists()]
@@ -90,7 +91,7 @@ def check(folder: Path, names: Sequence[str], limit_s: float, junit: Path | None
     return 0 if report.passed == len(report.outcomes) else 1
 
 
-def _lines(report: Report) -> Iterator[str]:
+def _lines(report: GradeReport) -> Iterator[str]:
     for outcome in report.outcomes:
         state = "solved" if outcome.passed else f"{outcome.points} of {len(outcome.results)} checks"
         yield f"{outcome.exercise.name}: {state}"

@@ -9,7 +9,7 @@ import threading
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import TYPE_CHECKING, NamedTuple
 
-from turtle_class.errors import ClassError
+from turtle_class import ClassError
 from turtle_class.runner import CheckResult, Outcome, Runner
 from turtle_class.seclusion import hidden
 from turtlewire.terminal.printable import printable
@@ -19,16 +19,16 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from pathlib import Path
 
-    from turtle_class.catalogue import Exercise
+    from turtle_class.catalogue import ExerciseFolder
     from turtle_class.runner import Limits
 
-__all__ = ["Report", "grade_all", "students_in"]
+__all__ = ["GradeReport", "grade_all", "students_in"]
 
 #: Domains of the children, from here downwards; the usual ones begin at 0.
 _LAST_DOMAIN = 101
 
 
-class Report(NamedTuple):
+class GradeReport(NamedTuple):
     """What a student has reached.
 
     Attributes:
@@ -68,12 +68,12 @@ def students_in(folder: Path) -> list[Path]:
 
 def grade_all(
     students: Sequence[Path],
-    exercises: Sequence[Exercise],
+    exercises: Sequence[ExerciseFolder],
     limits: Limits | None = None,
     tell: Callable[[str], object] = lambda _: None,
     *,
     jobs: int | None = None,
-) -> list[Report]:
+) -> list[GradeReport]:
     """Grade, each exercise of each student in processes of its own.
 
     On Linux, other processes of this user cannot read this one's memory meanwhile.
@@ -94,7 +94,7 @@ def grade_all(
     for number in range(jobs):
         domains.put(_LAST_DOMAIN - number % (_LAST_DOMAIN + 1))
 
-    def run(student: Path, exercise: Exercise) -> Outcome:
+    def run(student: Path, exercise: ExerciseFolder) -> Outcome:
         domain = domains.get()
         try:
             return runner.run(exercise, student / exercise.name, domain)
@@ -126,7 +126,7 @@ def grade_all(
         raise KeyboardInterrupt
     slugs = _slugs(students)
     return [
-        Report(
+        GradeReport(
             printable(student.name),
             slugs[student],
             tuple(work[student, exercise.name].result() for exercise in exercises),
@@ -135,7 +135,7 @@ def grade_all(
     ]
 
 
-def _ungraded(exercise: Exercise, error: Exception) -> Outcome:
+def _ungraded(exercise: ExerciseFolder, error: Exception) -> Outcome:
     """Return the outcome of an exercise whose grading failed."""
     text, hint = f"It could not be graded: {error!r}", "Grade it alone, and report the error."
     result = CheckResult("It can be graded", "failed", text, hint)

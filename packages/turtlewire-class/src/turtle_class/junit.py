@@ -8,13 +8,13 @@ from xml.etree import ElementTree as ET
 from turtlewire.terminal.printable import printable, printable_lines
 
 if TYPE_CHECKING:
-    from turtle_class.grading import Report
+    from turtle_class.grading import GradeReport
     from turtle_class.runner import CheckResult, Outcome
 
 __all__ = ["as_junit"]
 
 
-def as_junit(report: Report) -> str:
+def as_junit(report: GradeReport) -> str:
     """Return a student's results: a suite for each exercise, a case for each check."""
     suites = [_suite(report, outcome) for outcome in report.outcomes]
     root = ET.Element("testsuites", {"name": report.student, **_totals(suites)})
@@ -28,7 +28,7 @@ def _totals(suites: list[ET.Element]) -> dict[str, str]:
     return {name: str(sum(int(suite.get(name, 0)) for suite in suites)) for name in counted}
 
 
-def _suite(report: Report, outcome: Outcome) -> ET.Element:
+def _suite(report: GradeReport, outcome: Outcome) -> ET.Element:
     states = [result.state for result in outcome.results]
     suite = ET.Element(
         "testsuite",

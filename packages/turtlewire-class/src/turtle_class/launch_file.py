@@ -11,7 +11,7 @@ from turtle_lesson.lesson import load_lesson
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from turtle_class.catalogue import Exercise
+    from turtle_class.catalogue import ExerciseFolder
     from turtle_lesson.lesson import Lesson, Program
 
 __all__ = ["launch_text"]
@@ -46,7 +46,7 @@ def generate_launch_description():
 '''
 
 
-def launch_text(exercise: Exercise) -> str:
+def launch_text(exercise: ExerciseFolder) -> str:
     """Return a launch file that starts turtlesim, its turtles, and the programs of an exercise.
 
     The files of the student are run by Python from the launch file's own folder.

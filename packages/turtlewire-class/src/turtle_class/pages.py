@@ -5,7 +5,9 @@ Everything that students wrote is escaped: folder names, files, error texts, wha
 
 from __future__ import annotations
 
+import functools
 import html
+from importlib.resources import files
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
@@ -14,56 +16,52 @@ from turtlewire.terminal.printable import printable, printable_lines
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from turtle_class.grading import Report
+    from turtle_class.grading import GradeReport
     from turtle_class.runner import CheckResult, Outcome
 
 __all__ = ["overview", "student_page"]
 
 _STYLE = """
-:root { color-scheme: light dark; --text: #1a2030; --back: #fff; --soft: #5b6475; --line: #d5dae3;
-  --card: #f5f7fa; --good: #0b6b3a; --bad: #b3261e; --hint: #fff4d6; }
-@media (prefers-color-scheme: dark) { :root { --text: #e6e9ef; --back: #14171d; --soft: #a0a9b8;
-  --line: #343b47; --card: #1d222b; --good: #6fd39b; --bad: #ff8a80; --hint: #3a3217; } }
-body { font: 100%/1.5 system-ui, sans-serif; color: var(--text); background: var(--back);
-  max-width: 75rem; margin: 0 auto; padding: 1rem; }
+:root { --hint: #fff4d6; } @media (prefers-color-scheme: dark) { :root { --hint: #3a3217; } }
+body { max-width: 75rem; margin: 0 auto; padding: 1rem; }
 a { color: inherit; } h1 { margin: 0.3rem 0; } h2 { margin: 0 0 0.3rem; font-size: 1.15rem; }
-.soft { color: var(--soft); } .good { color: var(--good); } .bad { color: var(--bad); }
+.quiet { color: var(--quiet); } .good { color: var(--good); } .bad { color: var(--bad); }
 .wide { overflow-x: auto; } table { border-collapse: collapse; }
 th, td { padding: 0.35rem 0.7rem; border-bottom: 1px solid var(--line); text-align: center; }
-th:first-child { text-align: left; position: sticky; left: 0; background: var(--back); }
+th:first-child { text-align: left; position: sticky; left: 0; background: var(--paper); }
 tbody th { font-weight: 500; } td { white-space: nowrap; } thead th { vertical-align: bottom; }
 section { background: var(--card); border: 1px solid var(--line); border-radius: 0.6rem;
   padding: 0.9rem 1.1rem; margin: 1rem 0; }
 ul.checks { list-style: none; padding: 0; margin: 0.4rem 0; } ul.checks li { margin: 0.25rem 0; }
 .hint { background: var(--hint); border-radius: 0.4rem; padding: 0.5rem 0.8rem; margin: 0.4rem 0; }
-pre { overflow-x: auto; background: var(--back); border: 1px solid var(--line); padding: 0.6rem;
+pre { overflow-x: auto; background: var(--paper); border: 1px solid var(--line); padding: 0.6rem;
   border-radius: 0.4rem; font-size: 0.85rem; } mark { background: var(--hint); color: inherit; }
 details summary { cursor: pointer; }
 @media print { section { break-inside: avoid; } }
 """
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'"
-_SIGNS = {"passed": ("good", "✓"), "failed": ("bad", "✗"), "skipped": ("soft", "○")}
+_SIGNS = {"passed": ("good", "✓"), "failed": ("bad", "✗"), "skipped": ("quiet", "○")}
 _LINES_AROUND = 2
 
 
-def overview(reports: Sequence[Report], title: str, when: str) -> str:
+def overview(reports: Sequence[GradeReport], title: str, when: str) -> str:
     """Return the table of all students; ``title`` and ``when`` stand above it."""
     exercises = [outcome.exercise for outcome in reports[0].outcomes]
     head = "".join(f"<th scope=col>{_text(each.title)}</th>" for each in exercises)
     rows = "".join(_row(report) for report in reports)
     solved = _line_of_totals(reports)
     body = (
-        f"<h1>{_text(title)}</h1><p class=soft>{len(reports)} students, {len(exercises)} "
+        f"<h1>{_text(title)}</h1><p class=quiet>{len(reports)} students, {len(exercises)} "
         f"exercises, graded {_text(when)}. Click a student's name for results and hints.</p><div "
         "class=wide><table><thead><tr><th scope=col>Student</th>"
         f"<th scope=col>Solved</th>{head}</tr></thead><tbody>{rows}</tbody>"
         f"<tfoot>{solved}</tfoot></table></div>"
-        "<p class=soft>✓ solved · 2/4 checks passed · ○ not handed in</p>"
+        "<p class=quiet>✓ solved · 2/4 checks passed · ○ not handed in</p>"
     )
     return _page(title, body)
 
 
-def _row(report: Report) -> str:
+def _row(report: GradeReport) -> str:
     cells = "".join(f"<td>{_cell(outcome)}</td>" for outcome in report.outcomes)
     return (
         f'<tr><th scope=row><a href="{quote(report.slug)}.html">{_text(report.student)}</a></th>'
@@ -75,25 +73,25 @@ def _cell(outcome: Outcome) -> str:
     if outcome.passed:
         return "<span class=good>✓</span>"
     if not outcome.handed_in:
-        return "<span class=soft>○</span>"
+        return "<span class=quiet>○</span>"
     return f"<span class=bad>{outcome.points}/{len(outcome.results)}</span>"
 
 
-def _line_of_totals(reports: Sequence[Report]) -> str:
+def _line_of_totals(reports: Sequence[GradeReport]) -> str:
     columns = zip(*(report.outcomes for report in reports), strict=True)
     cells = "".join(
-        f"<td class=soft>{sum(outcome.passed for outcome in column)}</td>" for column in columns
+        f"<td class=quiet>{sum(outcome.passed for outcome in column)}</td>" for column in columns
     )
-    return f"<tr><th scope=row class=soft>Solved by</th><td></td>{cells}</tr>"
+    return f"<tr><th scope=row class=quiet>Solved by</th><td></td>{cells}</tr>"
 
 
-def student_page(report: Report, when: str) -> str:
+def student_page(report: GradeReport, when: str) -> str:
     """Return a student's page: results and advice."""
     parts = "".join(_exercise(outcome) for outcome in report.outcomes)
     body = (
         f'<p><a href="index.html">All students</a></p><h1>{_text(report.student)}</h1>'
         f"<p>{report.passed} of {len(report.outcomes)} exercises solved "
-        f"<span class=soft>· graded {_text(when)}</span></p>{parts}"
+        f"<span class=quiet>· graded {_text(when)}</span></p>{parts}"
     )
     return _page(report.student, body)
 
@@ -114,7 +112,7 @@ def _check(result: CheckResult, outcome: Outcome) -> str:
     if result.state == "passed":
         return line
     if result.state == "skipped":
-        return f"{line} <span class=soft>{_text(result.text)} {_text(result.hint)}</span>"
+        return f"{line} <span class=quiet>{_text(result.text)} {_text(result.hint)}</span>"
     hint = f"<div class=hint>{_text(result.hint)}</div>" if result.hint else ""
     return f"{line}<div>{_text(result.text)}</div>{hint}{_excerpt(result, outcome)}"
 
@@ -129,7 +127,7 @@ def _excerpt(result: CheckResult, outcome: Outcome) -> str:
     for number in range(first, min(len(lines), result.line + _LINES_AROUND) + 1):
         text = html.escape(f"{number:4}  {printable_lines(lines[number - 1])}")
         shown.append(f"<mark>{text}</mark>" if number == result.line else text)
-    return f"<p class=soft>{_text(result.file)}</p><pre>{chr(10).join(shown)}</pre>"
+    return f"<p class=quiet>{_text(result.file)}</p><pre>{chr(10).join(shown)}</pre>"
 
 
 def _text(text: str) -> str:
@@ -141,5 +139,11 @@ def _page(title: str, body: str) -> str:
         "<!doctype html><html lang=en><head><meta charset=utf-8>"
         f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">'
         '<meta name=viewport content="width=device-width, initial-scale=1">'
-        f"<title>{_text(title)}</title><style>{_STYLE}</style></head><body>{body}</body></html>\n"
+        f"<title>{_text(title)}</title><style>{_kit()}{_STYLE}</style></head><body>{body}</body></html>\n"
     )
+
+
+@functools.cache
+def _kit() -> str:
+    """Return the style of all pages: a report is one file."""
+    return (files("turtlewire.web") / "kit" / "kit.css").read_text(encoding="utf-8")

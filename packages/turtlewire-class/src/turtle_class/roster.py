@@ -6,7 +6,7 @@ import csv
 import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from turtle_class.errors import ClassError
+from turtle_class import ClassError
 from turtlewire.terminal.printable import printable
 from turtlewire.wire.environment import MAX_DOMAIN_ID
 

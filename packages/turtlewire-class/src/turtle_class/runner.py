@@ -19,7 +19,7 @@ from typing import IO, TYPE_CHECKING, NamedTuple
 from turtle_class import supervise
 
 if TYPE_CHECKING:
-    from turtle_class.catalogue import Exercise
+    from turtle_class.catalogue import ExerciseFolder
 
 __all__ = ["CheckResult", "Limits", "Outcome", "Runner"]
 
@@ -77,7 +77,7 @@ class Outcome(NamedTuple):
         files: What was handed in, by name.
     """
 
-    exercise: Exercise
+    exercise: ExerciseFolder
     handed_in: bool
     results: tuple[CheckResult, ...]
     log: str
@@ -108,7 +108,7 @@ class Runner:
         self._children: set[subprocess.Popen[bytes]] = set()
         self._stopped = False
 
-    def run(self, exercise: Exercise, folder: Path, domain: int) -> Outcome:
+    def run(self, exercise: ExerciseFolder, folder: Path, domain: int) -> Outcome:
         """Grade what a student handed in.
 
         Args:
@@ -140,7 +140,7 @@ class Runner:
             for child in self._children:
                 _close(child.stdin)
 
-    def _run(self, exercise: Exercise, place: Path, domain: int) -> tuple[int, str, str]:
+    def _run(self, exercise: ExerciseFolder, place: Path, domain: int) -> tuple[int, str, str]:
         """Run the child; its exit status, its results and what the program printed."""
         limits = self._limits
         command = [
@@ -190,7 +190,7 @@ def _read(folder: Path, file: str) -> str:
         facts = path.lstat()
         if not stat.S_ISREG(facts.st_mode) or folder.is_symlink():
             raise _UnreadableError(
-                f"{file} is not a regular file.", "Hand in the file itself, no link."
+                f"{file} is not a regular file.", "Hand in the file itself, not a link to it."
             )
         if facts.st_size > _LARGEST_FILE:
             raise _UnreadableError(

@@ -1,7 +1,8 @@
 """Keeps a student's process away from the grader's memory, files and descriptors, on Linux.
 
-A process may look into others of the same user, unless those hide or the user is root. The graders
-hide, and the student's process gives up root's rights.
+A process can read the memory of the same user's other processes, except those that are not
+"dumpable"; a process with root's capabilities can read all. The graders make themselves not
+dumpable, and the student's process gives up its capabilities.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ _CAPABILITY_VERSION_3 = 0x20080522
 
 
 def hide() -> None:
-    """Close this process's memory, descriptors and environment to other processes, for good."""
+    """Close this process's memory, descriptors and environment to other processes permanently."""
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(_SET_DUMPABLE, 0, 0, 0, 0)
 
@@ -43,7 +44,7 @@ def hidden() -> Iterator[None]:
 
 
 def give_up_rights() -> None:
-    """Give up the capabilities of root, which open what others hide; for this process, for good.
+    """Drop the capabilities of root permanently: with them, no other process would be closed.
 
     Raises:
         OSError: The system refuses it.

@@ -50,7 +50,7 @@ class ClassPage:
     ) -> None:
         _allow_many_files()
         self._closing = threading.Event()
-        self._text = json.dumps({"seats": []})
+        self._text = json.dumps({"type": "seats", "seats": []})
         self._number = 0
         with contextlib.ExitStack() as stack:
             self._watches: list[DomainWatch] = []
@@ -97,7 +97,7 @@ class ClassPage:
             fresh = count % _FRESH_EACH == 0
             count += 1
             seats = [watch.picture(fresh=fresh) for watch in self._watches]
-            self._text = json.dumps({"seats": seats}, separators=(",", ":"))
+            self._text = json.dumps({"type": "seats", "seats": seats}, separators=(",", ":"))
             self._number += 1
             self._server.notify()
 
@@ -135,7 +135,7 @@ class _Session:
         return [text]
 
     def receive(self, message: str | bytes) -> None:
-        """The page has nothing to say."""
+        """Ignore the message: this page sends no commands."""
 
     def closed(self) -> None:
         """Nothing is kept for a browser."""

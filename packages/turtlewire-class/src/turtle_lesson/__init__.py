@@ -6,6 +6,7 @@ It runs in a Web Worker (Pyodide), and the same under CPython, where its tests a
 module       what it holds
 ===========  =================================================================
 `lesson`     a lesson: its files, the programs that are started, its checks
+`solution`   its solved files, made from the first ones by a diff
 `files`      the student's files as modules
 `mistakes`   errors of the student's code: file, line, text and hint
 `exercise`   a simulation in which the programs of a lesson run

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from turtle_lesson.lesson import Lesson, Program
     from turtlesim.testing.stage import Stage
 
-__all__ = ["Exercise", "NotYet", "Place", "exercise_of", "programs_here", "start_program"]
+__all__ = ["Exercise", "FramePlace", "NotYet", "exercise_of", "programs_here", "start_program"]
 
 #: Simulated time at the start [s]: what is asked about the past of a moment ago has an answer.
 _BEGIN = 100.0
@@ -41,7 +41,7 @@ class NotYet(Exception):
         self.hint = hint
 
 
-class Place(NamedTuple):
+class FramePlace(NamedTuple):
     """Where a frame is: metres ahead and to the left, and radians to the left."""
 
     x: float
@@ -69,7 +69,7 @@ class Exercise:
         """Call a function twice in a simulated second."""
         self._observer.create_timer(0.5, call)
 
-    def place(self, target: str, source: str, hint: str = "") -> Place:
+    def place(self, target: str, source: str, hint: str = "") -> FramePlace:
         """Return the pose of ``source`` in ``target`` at the latest known time.
 
         Raises:
@@ -83,7 +83,7 @@ class Exercise:
             ) from error
         rotation = found.rotation
         _, _, yaw = euler_from_quaternion((rotation.x, rotation.y, rotation.z, rotation.w))
-        return Place(found.translation.x, found.translation.y, yaw)
+        return FramePlace(found.translation.x, found.translation.y, yaw)
 
     def stamp(self, target: str, source: str) -> float:
         """Return the newest time at which the two are known [s].

@@ -16,10 +16,10 @@ if TYPE_CHECKING:
     from turtle_lesson.lesson import Lesson, Program
     from turtlesim.testing import Simulation
 
-__all__ = ["Result", "check_name", "grade", "grade_as_json"]
+__all__ = ["LessonResult", "check_name", "grade", "grade_as_json"]
 
 
-class Result(NamedTuple):
+class LessonResult(NamedTuple):
     """What a check found.
 
     Attributes:
@@ -51,7 +51,7 @@ def grade(
     programs: Callable[
         [Simulation, Mapping[str, str]], AbstractContextManager[Callable[[Program], None]]
     ] = programs_here,
-) -> Iterator[Result]:
+) -> Iterator[LessonResult]:
     """Run the checks in their order; ends after the first that is not passed.
 
     Later checks build on earlier ones, and one thing to fix at a time is enough.
@@ -89,15 +89,15 @@ def _run(
     opened: Callable[[], AbstractContextManager[Exercise]],
     files: Mapping[str, str],
     alive: Callable[[], object],
-) -> Result:
+) -> LessonResult:
     name = check_name(check)
     try:
         with opened() as exercise:
             exercise.call_regularly(alive)
             check(exercise)
     except NotYet as seen:
-        return Result(name, False, str(seen), seen.hint)
+        return LessonResult(name, False, str(seen), seen.hint)
     except BaseException as error:  # noqa: BLE001 - students raise anything
         mistake = mistake_of(error, files)
-        return Result(name, False, mistake.text, mistake.hint, mistake.file, mistake.line)
-    return Result(name, True)
+        return LessonResult(name, False, mistake.text, mistake.hint, mistake.file, mistake.line)
+    return LessonResult(name, True)

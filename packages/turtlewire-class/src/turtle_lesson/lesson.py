@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import json
 from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from turtle_lesson.solution import solved
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
-    from pathlib import Path
 
-__all__ = ["Lesson", "Program", "Turtle", "load_lesson"]
+__all__ = ["Lesson", "LessonTurtle", "Program", "load_lesson"]
+
+#: The tutorial's programs, with which several lessons start.
+_TUTORIAL = Path(__file__).parent / "lessons" / "tutorial"
 
 
 class Program(NamedTuple):
@@ -30,7 +35,7 @@ class Program(NamedTuple):
     parameters: Mapping[str, Any] = MappingProxyType({})
 
 
-class Turtle(NamedTuple):
+class LessonTurtle(NamedTuple):
     """A turtle besides turtle1: its name and place [m, rad]."""
 
     name: str
@@ -51,13 +56,24 @@ class Lesson(NamedTuple):
 
     files: tuple[str, ...]
     programs: tuple[Program, ...]
-    turtles: tuple[Turtle, ...]
+    turtles: tuple[LessonTurtle, ...]
     folder: Path
 
-    def sources(self, kind: str) -> dict[str, str]:
-        """Return the files of `starter` or `solution`, by name."""
-        folder = self.folder / kind
-        return {file: (folder / file).read_text(encoding="utf-8") for file in self.files}
+    def starter(self) -> dict[str, str]:
+        """Return the files that the student starts with, by name.
+
+        A file that the lesson does not bring is the tutorial's, as it is printed there.
+        """
+        own = self.folder / "starter"
+        return {
+            file: ((own if (own / file).exists() else _TUTORIAL) / file).read_text(encoding="utf-8")
+            for file in self.files
+        }
+
+    def solution(self) -> dict[str, str]:
+        """Return the solved files, by name."""
+        diff = (self.folder / "solution.diff").read_text(encoding="utf-8")
+        return solved(self.starter(), diff)
 
     def checks(self) -> list[Callable[[Any], None]]:
         """The functions of ``checks.py`` whose names begin with ``check_``, in their order."""
@@ -76,5 +92,5 @@ def load_lesson(folder: Path) -> Lesson:
         Program(**{**program, "arguments": tuple(program.get("arguments", ()))})
         for program in data["programs"]
     ]
-    turtles = [Turtle(**turtle) for turtle in data.get("turtles", ())]
+    turtles = [LessonTurtle(**turtle) for turtle in data.get("turtles", ())]
     return Lesson(tuple(data["files"]), tuple(programs), tuple(turtles), folder)

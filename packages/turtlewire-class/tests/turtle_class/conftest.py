@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from turtle_class.catalogue import chosen
+from turtle_lesson.lesson import load_lesson
 
 FILE = "fixed_frame_tf2_broadcaster.py"
 CALLBACK = "    def broadcast_timer_callback(self):\n"
@@ -25,7 +26,14 @@ SILLY = {
 
 def solution():
     (exercise,) = chosen(["fixed_carrot"])
-    return (exercise.folder / "solution" / FILE).read_text(encoding="utf-8")
+    return load_lesson(exercise.folder).solution()[FILE]
+
+
+def solve(exercise, folder):
+    """Write the solution of an exercise into a folder."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, text in load_lesson(exercise.folder).solution().items():
+        (folder / name).write_text(text, encoding="utf-8")
 
 
 @pytest.fixture

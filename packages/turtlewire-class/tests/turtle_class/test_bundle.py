@@ -9,14 +9,14 @@ import sys
 import zipfile
 
 import pytest
-from tests.places import ROOT, SCRIPTS
+from tests.places import ROOT, TOOLS
 
 WHEELHOUSE = ROOT / "build/wheelhouse" / f"{sys.version_info.major}.{sys.version_info.minor}"
 UP = "ip link set lo up"
 
 
 def bundle(output, wheels):
-    command = [sys.executable, str(SCRIPTS / "bundle.py"), "--output", str(output)]
+    command = [sys.executable, str(TOOLS / "bundle.py"), "--output", str(output)]
     return subprocess.run(
         [*command, "--wheels", str(wheels)], capture_output=True, text=True, check=False
     )

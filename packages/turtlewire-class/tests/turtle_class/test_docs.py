@@ -14,6 +14,8 @@ from tests.places import EXAMPLES, HOW_TO
 from turtle_class.catalogue import exercises
 from turtle_class.roster import read_roster
 
+from .conftest import solve
+
 PAGE = (HOW_TO / "classroom.md").read_text(encoding="utf-8")
 PROGRAM = "import sys; from turtlewire.cli.main import main; sys.exit(main())"
 
@@ -28,7 +30,7 @@ def test_the_page_does_what_it_says(run, tmp_path, monkeypatch):
     (tmp_path / "roster.csv").write_text(blocks("text")[0], encoding="utf-8")
     assert [seat.name for seat in read_roster(tmp_path / "roster.csv")] == ["Ana", "Björn"]
     solved = exercises()[0]
-    shutil.copytree(solved.folder / "solution", tmp_path / "submissions/ana" / solved.name)
+    solve(solved, tmp_path / "submissions/ana" / solved.name)
     lines = [line for block in blocks("sh") for line in block.splitlines()]
     assert len(lines) == 9
     for line in lines:

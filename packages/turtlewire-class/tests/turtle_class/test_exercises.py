@@ -6,8 +6,8 @@ import re
 
 import pytest
 
+from turtle_class import ClassError
 from turtle_class.catalogue import chosen, exercises
-from turtle_class.errors import ClassError
 from turtle_lesson.grading import grade
 from turtle_lesson.lesson import load_lesson
 from turtlewire.cli.main import main
@@ -20,10 +20,10 @@ OWN = [each for each in exercises() if each.folder.parent.name == "exercises"]
 @pytest.mark.parametrize("exercise", OWN, ids=lambda exercise: exercise.name)
 def test_the_solution_passes_and_the_first_files_do_not(exercise):
     lesson = load_lesson(exercise.folder)
-    results = list(grade(lesson, lesson.sources("solution")))
+    results = list(grade(lesson, lesson.solution()))
     assert len(results) >= 3
     assert all(result.passed for result in results), results
-    last = list(grade(lesson, lesson.sources("starter")))[-1]
+    last = list(grade(lesson, lesson.starter()))[-1]
     assert not last.passed
     assert last.text
     assert last.hint

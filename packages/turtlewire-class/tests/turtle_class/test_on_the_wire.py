@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import shutil
 import signal
 import sys
 import threading
@@ -18,6 +17,8 @@ from turtlewire.tf.listener import TransformListener
 from turtlewire.wire import open_context
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import QoS
+
+from .conftest import solve
 
 ROS2 = Path(sys.executable).parent / "ros2"
 POSE = "turtlesim/msg/Pose"
@@ -89,7 +90,7 @@ def wire():
 @pytest.mark.parametrize("name", LINKS)
 def test_the_solution_runs_by_ros2_launch(name, run, wire, tmp_path):
     commands.start(tmp_path, [name])
-    shutil.copytree(chosen([name])[0].folder / "solution", tmp_path / name, dirs_exist_ok=True)
+    solve(chosen([name])[0], tmp_path / name)
     environment = {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0"}
     launch = run(ROS2, "launch", tmp_path / name / "exercise.launch.py", environment=environment)
     wire.wait_for(lambda: len(wire.poses) == 1 + (name in HAS_TWO))

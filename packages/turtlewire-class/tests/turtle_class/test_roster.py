@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from turtle_class.errors import ClassError
+from turtle_class import ClassError
 from turtle_class.roster import Seat, read_roster, seats_of_domains
 
 

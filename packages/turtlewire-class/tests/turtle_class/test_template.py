@@ -15,6 +15,8 @@ from tests.places import EXAMPLES
 from turtle_class.catalogue import exercises
 from turtlewire.cli.main import main
 
+from .conftest import solve
+
 TEMPLATE = EXAMPLES / "classroom_template"
 WORKFLOW = yaml.safe_load((TEMPLATE / ".github/workflows/classroom.yml").read_text("utf-8"))
 STEPS = WORKFLOW["jobs"]["grade"]["steps"]
@@ -29,7 +31,7 @@ def repository(tmp_path):
     shutil.copytree(TEMPLATE, folder)
     assert main(["class", "start", str(folder)]) == 0
     (static,) = [exercise for exercise in exercises() if exercise.name == "static"]
-    shutil.copytree(static.folder / "solution", folder / "static", dirs_exist_ok=True)
+    solve(static, folder / "static")
     commands = folder / ".venv" / "bin"  # what `./install` makes; tests/classroom/test_bundle.py
     commands.mkdir(parents=True)
     program = "import sys; from turtlewire.cli.main import main; sys.exit(main())"

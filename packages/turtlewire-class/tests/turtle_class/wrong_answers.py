@@ -16,7 +16,7 @@ class WrongAnswer(NamedTuple):
     def files(self, lesson):
         """The files that a student with this mistake hands in."""
         (name,) = lesson.files
-        text = lesson.sources("solution")[name]
+        text = lesson.solution()[name]
         for right, wrong in self.changes:
             assert right in text, (self.exercise, self.name, right)
             text = text.replace(right, wrong)

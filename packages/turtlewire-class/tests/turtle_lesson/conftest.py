@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 import pytest
-from tests.places import SCRIPTS
+from tests.places import TOOLS
 from tests.static_host import LONG_MS, Host
 
 
@@ -14,7 +14,7 @@ from tests.static_host import LONG_MS, Host
 def built(tmp_path_factory):
     """The lesson as `scripts/lesson` builds it."""
     folder = tmp_path_factory.mktemp("site") / "lesson"
-    script = SCRIPTS / "lesson.py"
+    script = TOOLS / "lesson.py"
     done = subprocess.run(
         [sys.executable, str(script), "--output", str(folder)],
         capture_output=True,

@@ -55,7 +55,7 @@ def test_a_lesson_that_cannot_be_loaded_says_so_above_everything(browser, host):
     page = context.new_page()
     page.route("**/python_stdlib.zip", lambda route: route.fulfill(status=404))
     page.goto(host.url)
-    page.wait_for_selector("#status[data-state=stopped]")
+    page.wait_for_selector("#status[data-state=lost]")
     text = page.locator("#loading-text")
     assert "could not be loaded" in text.inner_text()
     assert text.bounding_box()["y"] < 300

@@ -20,10 +20,10 @@ VERBATIM = ROOT / "tests" / "tutorial" / "verbatim" / "learning_tf2_py" / "learn
 @pytest.mark.parametrize("name", ORDER)
 def test_the_solution_passes_and_the_first_files_do_not(name):
     lesson = load_lesson(LESSONS / name)
-    results = list(grade(lesson, lesson.sources("solution")))
+    results = list(grade(lesson, lesson.solution()))
     assert len(results) >= 3
     assert all(result.passed for result in results), results
-    last = list(grade(lesson, lesson.sources("starter")))[-1]
+    last = list(grade(lesson, lesson.starter()))[-1]
     assert not last.passed
     assert last.text
     assert last.hint
@@ -46,14 +46,12 @@ def test_every_lesson_has_three_typical_mistakes():
 def test_the_lessons_begin_with_the_files_of_the_document(file):
     printed = (VERBATIM / file).read_text(encoding="utf-8")
     for name in ORDER:
-        starter = LESSONS / name / "starter" / file
-        if starter.exists():
-            assert starter.read_text(encoding="utf-8") == printed
+        assert load_lesson(LESSONS / name).starter().get(file, printed) == printed
 
 
 def test_an_error_of_the_file_is_a_result_with_its_line():
     lesson = load_lesson(LESSONS / "listener")
-    files = lesson.sources("solution")
+    files = lesson.solution()
     broken = files["turtle_tf2_listener.py"].replace("msg = Twist()", "msg = Twist(")
     files["turtle_tf2_listener.py"] = broken
     (result,) = grade(lesson, files)
@@ -65,5 +63,5 @@ def test_an_error_of_the_file_is_a_result_with_its_line():
 def test_it_gives_signs_of_life():
     lesson = load_lesson(LESSONS / "static")
     signs = []
-    list(grade(lesson, lesson.sources("solution"), lambda: signs.append(1)))
+    list(grade(lesson, lesson.solution(), lambda: signs.append(1)))
     assert len(signs) >= 10  # six simulated seconds of the last check, twice a second

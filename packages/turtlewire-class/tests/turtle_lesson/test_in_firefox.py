@@ -32,7 +32,7 @@ def test_the_lessons_are_solved(firefox, kind, host, built):
     firefox.wait_for("document.body?.dataset.loadedMs !== undefined")
     assert firefox.evaluate("crossOriginIsolated") == (kind == "served")
     for name in ORDER if kind == "served" else ORDER[:1]:
-        files = load_lesson(LESSONS / name).sources("solution")
+        files = load_lesson(LESSONS / name).solution()
         firefox.evaluate(f"({HAND_IN})({json.dumps([name, files])})")
         results = firefox.evaluate(CHECK)
         assert len(results) >= 3

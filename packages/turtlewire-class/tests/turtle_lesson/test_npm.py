@@ -8,7 +8,7 @@ import importlib
 from pathlib import Path
 
 import pytest
-from tests.places import SCRIPTS
+from tests.places import TOOLS
 
 NAME, VERSION, FILE = "@codemirror/view", "6.1.0", "codemirror-view-6.1.0.tgz"
 
@@ -21,7 +21,7 @@ class TestFetched:
     @pytest.fixture
     def npm(self, monkeypatch, tmp_path):
         """The module, with an npm that writes what it is told to, and a cache of this test."""
-        monkeypatch.syspath_prepend(SCRIPTS)
+        monkeypatch.syspath_prepend(TOOLS)
         module = importlib.import_module("lesson_npm")
         self.content, self.commands, self.programs = b"archive", [], {"npm"}
         monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
@@ -80,7 +80,7 @@ class TestFetched:
 
 
 def test_a_program_that_fails_is_shown(monkeypatch, tmp_path):
-    monkeypatch.syspath_prepend(SCRIPTS)
+    monkeypatch.syspath_prepend(TOOLS)
     module = importlib.import_module("lesson_npm")
     with pytest.raises(module.BuildError, match=r"(?s)`sh -c .*` failed:\nwhy"):
         module._run(["sh", "-c", "echo why; exit 1"], tmp_path)

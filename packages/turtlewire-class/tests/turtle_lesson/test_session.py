@@ -22,9 +22,9 @@ def open_session():
     """Opens sessions of a lesson with changes of its first file: pairs of texts."""
     sessions = []
 
-    def open_session(name, *changes, kind="starter", faults=()):
+    def open_session(name, *changes, solved=False, faults=()):
         lesson = load_lesson(LESSONS / name)
-        files = lesson.sources(kind)
+        files = lesson.solution() if solved else lesson.starter()
         for old, new in changes:
             assert old in files[lesson.files[0]]
             files[lesson.files[0]] = files[lesson.files[0]].replace(old, new)
@@ -45,9 +45,11 @@ def texts_of(session, seconds, wishes=WISHES):
 
 
 def poses_of(frame):
-    """Turtles' x and y in the bytes for the page."""
-    count = struct.unpack_from("<5I", frame)[2]
-    return [struct.unpack_from("<5f", frame, 20 + 20 * k)[:2] for k in range(count)]
+    """Turtles' x and y in the packet for the page, whose first array is their poses."""
+    (length,) = struct.unpack_from("<I", frame)
+    kind, (size,) = json.loads(frame[4 : 4 + length])["arrays"]["poses"]
+    assert kind == "f4"
+    return [struct.unpack_from("<2f", frame, 4 + length + 20 * k) for k in range(size // 5)]
 
 
 def test_the_page_sees_turtles_frames_and_messages(open_session):
@@ -147,7 +149,7 @@ def test_an_interrupt_says_what_an_endless_loop_needs(open_session):
 
 def test_the_classroom_takes_and_gives_texts():
     lesson = load_lesson(LESSONS / "static")
-    files = json.dumps(lesson.sources("solution"))
+    files = json.dumps(lesson.solution())
     session = classroom.open_session("static", files, "[]")
     session.step(20, "{}")
     session.close()
@@ -171,7 +173,7 @@ from turtle_lesson.session import LessonSession
 import turtlewire.tf.buffer
 from turtlewire.wire.environment import middleware_name
 lesson = load_lesson(Path({lesson!r}))
-session = LessonSession(lesson, lesson.sources("starter"))
+session = LessonSession(lesson, lesson.starter())
 assert session.mistake is None, session.mistake
 for _ in range(50):
     texts = session.step(12, json.dumps(

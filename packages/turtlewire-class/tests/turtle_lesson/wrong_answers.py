@@ -15,7 +15,7 @@ class WrongAnswer(NamedTuple):
 
     def files(self, lesson):
         """The files that a student with this mistake hands in."""
-        files = lesson.sources("solution")
+        files = lesson.solution()
         for right, wrong in self.changes:
             assert right in files[lesson.files[0]], (self.lesson, self.name, right)
             files[lesson.files[0]] = files[lesson.files[0]].replace(right, wrong)

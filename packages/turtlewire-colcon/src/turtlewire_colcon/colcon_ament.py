@@ -3,7 +3,7 @@
 colcon-ros hands every ``ament_cmake`` package to CMake, which needs ament_cmake. Most such packages
 of Python users hold Python, launch files, robot descriptions and interfaces. They get a type here
 whose tasks read their CMakeLists.txt with `turtlewire_colcon.cmake`. Targets that compile C++ are
-refused; the Python part of such a package is installed all the same. Where a real ament_cmake is
+left out with a warning; the rest of such a package is installed. Where a real ament_cmake is
 installed, packages with C++ stay with colcon-ros.
 """
 
@@ -155,14 +155,18 @@ class AmentPackageBuild(TaskExtensionPoint):
             colcon_logger.error(f"{name}: {line}")
         if errors:
             return 1
-        for command, folder in build_commands(plan, build, modules):
-            done = await run(self.context, command, cwd=folder, env=environment)
-            if done.returncode:
+        for command in build_commands(plan, build, modules):
+            done = await run(self.context, command.words, cwd=command.folder, env=environment)
+            if done.returncode and command.may_fail:
+                colcon_logger.warning(f"{name}: {' '.join(command.words)} failed")
+            elif done.returncode:
                 return int(done.returncode)
         installer = PlanInstaller(
             plan, interpreter, source, prefix, modules, symlink=bool(args.symlink_install)
         )
         hooks = installer.install()
+        for line in installer.warnings:
+            colcon_logger.warning(f"{name}: {line}")
         _write_tests(plan, build)
         _create_environment(self.context, hooks)
         return 0

@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from turtlewire.package_sources import source_hint
 from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire_ros.prefix import MARKERS, editable_source, own_prefix
 
@@ -60,12 +61,17 @@ class PackageLookup:
         """
         return _BUILD_ONLY.fullmatch(name) is not None or self.is_installed(name)
 
-    def suggestion(self, name: str) -> str:
-        """Return similar names of installed packages in parentheses, or an empty string."""
+    def advice(self, name: str) -> str:
+        """Say what to do about a package that is missing, and which similar ones are installed."""
+        if hint := source_hint(name):
+            return f"; {hint}"
         folders = [os.path.join(prefix, MARKERS) for prefix in self._prefixes]
         known = {each for folder in folders if os.path.isdir(folder) for each in os.listdir(folder)}
         near = did_you_mean(name, sorted(known))
-        return f" ({near})" if near else ""
+        return (
+            f"{f' ({near})' if near else ''}; add it to the workspace, source a workspace that has "
+            "it, or install it"
+        )
 
     def config(self, name: str) -> Path | None:
         """Return the file with the CMake extras of a package that turtlewire has built, or None."""

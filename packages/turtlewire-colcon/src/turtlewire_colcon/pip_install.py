@@ -7,7 +7,6 @@ workspace can be named.
 
 from __future__ import annotations
 
-import argparse
 import importlib.util
 import subprocess
 import sys
@@ -15,6 +14,7 @@ import tempfile
 from pathlib import Path
 
 from turtlewire.program import program
+from turtlewire.terminal.parser import SuggestingParser
 from turtlewire_colcon.wheel import WheelError, build_package_wheels
 
 _OPTIONS = ["--no-deps", "--force-reinstall"]
@@ -22,7 +22,7 @@ _OPTIONS = ["--no-deps", "--force-reinstall"]
 
 def main(argv: list[str] | None = None) -> int:
     """Run the command line; returns the exit status."""
-    parser = argparse.ArgumentParser(
+    parser = SuggestingParser(
         prog="python -m turtlewire_colcon.pip_install",
         description="Installs ament_cmake packages of Python, data and interfaces into this "
         "Python's environment. Each is built after those of them that it needs, and all are "

@@ -8,7 +8,7 @@ import sys
 from configparser import ConfigParser
 from pathlib import Path
 from shutil import copyfile, copymode
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from rosidl_adapter.idl import interface_to_idl
 from rosidl_adapter.parser import InvalidSpecification, InvalidValue
@@ -16,15 +16,16 @@ from turtlewire.msg.idl import idl_to_text
 from turtlewire_colcon.cmake.basics import configured
 from turtlewire_colcon.cmake.syntax import CMakeError
 from turtlewire_colcon.package_lookup import CONFIG_MARK
+from turtlewire_ros.prefix import COMPILED_TARGETS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from turtlewire_colcon.cmake.interpreter import Interpreter
     from turtlewire_colcon.cmake.plan import FileRule, Install, Plan, PythonPackage
-    from turtlewire_colcon.cmake.syntax import Place
+    from turtlewire_colcon.cmake.syntax import SourcePosition
 
-__all__ = ["PlanInstaller", "build_commands", "entry_points"]
+__all__ = ["BuildCommand", "PlanInstaller", "build_commands", "entry_points"]
 
 _IGNORED = ("__pycache__", ".pyc")
 _SCRIPT = "#!{python}\nimport sys\n\nfrom {module} import {function}\n\nsys.exit({call}())\n"
@@ -51,8 +52,22 @@ unset AMENT_CURRENT_PREFIX _turtlewire_value
 """
 
 
-def build_commands(plan: Plan, build: Path, modules: Path) -> Iterator[tuple[list[str], str]]:
-    """Yield the commands to run before the installation, each with its folder.
+class BuildCommand(NamedTuple):
+    """A command that runs before the installation.
+
+    Attributes:
+        words: The command.
+        folder: Where it runs.
+        may_fail: True for a step of a package with C++: it may need what is not compiled.
+    """
+
+    words: list[str]
+    folder: str
+    may_fail: bool = False
+
+
+def build_commands(plan: Plan, build: Path, modules: Path) -> Iterator[BuildCommand]:
+    """Yield the commands to run before the installation.
 
     They generate interfaces, whose definitions are put into ``build``, and run the plan's steps.
 
@@ -76,10 +91,10 @@ def build_commands(plan: Plan, build: Path, modules: Path) -> Iterator[tuple[lis
             _replace_by_copy(source, folder / relative)
         output = modules if installed else build / "rosidl_generator_py"
         command = [sys.executable, "-m", "turtlewire_ros.generate_interfaces", str(folder)]
-        yield [*command, "--output", str(output), "--package", plan.name], str(build)
+        yield BuildCommand([*command, "--output", str(output), "--package", plan.name], str(build))
     for step in plan.steps:
         Path(step.folder).mkdir(parents=True, exist_ok=True)
-        yield list(step.words), step.folder
+        yield BuildCommand(list(step.words), step.folder, may_fail=bool(plan.compiled))
 
 
 def entry_points(setup_cfg: Path | None) -> dict[str, dict[str, str]]:
@@ -99,6 +114,9 @@ def entry_points(setup_cfg: Path | None) -> dict[str, dict[str, str]]:
 
 class PlanInstaller:
     """Installs a plan below a prefix.
+
+    Attributes:
+        warnings: One line for each file of a package with C++ that is missing after `install`.
 
     Args:
         plan: What is installed.
@@ -121,6 +139,7 @@ class PlanInstaller:
         symlink: bool = False,
         python: str = sys.executable,
     ) -> None:
+        self.warnings: list[str] = []
         self._plan = plan
         self._run = run
         self._source = source
@@ -137,7 +156,7 @@ class PlanInstaller:
             The package's hooks of the environment, relative to the prefix.
 
         Raises:
-            CMakeError: A file that a command names is missing.
+            CMakeError: A file that a command names is missing, in a package without C++.
             OSError: A file cannot be written.
         """
         for package in self._plan.python_packages:
@@ -160,6 +179,13 @@ class PlanInstaller:
             self._run.run_text(text, place)
         return hooks
 
+    def _miss(self, install: Install, path: Path) -> None:
+        fault = CMakeError(install.place, f"install({install.kind}): there is no {path}")
+        if not self._plan.compiled:
+            raise fault
+        # Headers and libraries of the build folder come from the targets that are left out.
+        self.warnings.append(str(fault))
+
     def _install(self, install: Install) -> None:
         target = self._prefix / install.destination
         for name in install.sources:
@@ -167,7 +193,8 @@ class PlanInstaller:
             if not path.exists():
                 if install.optional:
                     continue
-                raise CMakeError(install.place, f"install({install.kind}): there is no {path}")
+                self._miss(install, path)
+                continue
             if install.kind == "DIRECTORY":
                 inner = target if name.endswith("/") else target / path.name
                 self._install_directory(path, inner, install, "")
@@ -248,6 +275,8 @@ class PlanInstaller:
         )
         entries = [("packages", self._plan.name, "")]
         entries += [("rosidl_interfaces", self._plan.name, "\n".join(listed))] if listed else []
+        compiled = sorted({target.name for target in self._plan.compiled})
+        entries += [(COMPILED_TARGETS, self._plan.name, "\n".join(compiled))] if compiled else []
         for kind, package, content in (*entries, *self._plan.resources):
             (index / kind).mkdir(parents=True, exist_ok=True)
             (index / kind / package).write_text(content, encoding="utf-8")
@@ -285,7 +314,7 @@ class PlanInstaller:
                 wrappers.append(path.relative_to(self._prefix).as_posix())
         return wrappers
 
-    def _put_translation(self, relative: str, path: Path, place: Place) -> None:
+    def _put_translation(self, relative: str, path: Path, place: SourcePosition) -> None:
         """Install what an .idl file means as .msg, .srv or .action, or what one of those is in IDL.
 
         All tools here read the former, and some programs the latter.

@@ -125,16 +125,27 @@ def _install(
     for line in warnings:
         warn(line)
     modules = prefix / _MODULES
-    for command, folder in build_commands(plan, build, modules):
+    for command in build_commands(plan, build, modules):
         # Our own module, or what the package itself runs.
         done = subprocess.run(  # noqa: S603
-            command, cwd=folder, env=environment, check=False, capture_output=True, text=True
+            command.words,
+            cwd=command.folder,
+            env=environment,
+            check=False,
+            capture_output=True,
+            text=True,
         )
+        text = done.stderr.strip() or f"{' '.join(command.words)} failed"
+        if done.returncode and not command.may_fail:
+            raise WheelError(text)
         if done.returncode:
-            raise WheelError(done.stderr.strip() or f"{' '.join(command)} failed")
-    PlanInstaller(
+            warn(text)
+    installer = PlanInstaller(
         plan, interpreter, source, prefix, modules, python="/usr/bin/env python3"
-    ).install()
+    )
+    installer.install()
+    for line in installer.warnings:
+        warn(line)
     # Without it colcon takes a venv in a workspace for sources.
     (prefix / "share" / plan.name / "COLCON_IGNORE").touch()
     return plan

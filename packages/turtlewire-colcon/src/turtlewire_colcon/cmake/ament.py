@@ -11,20 +11,25 @@ from turtlewire_colcon.cmake.installing import destination
 from turtlewire_colcon.cmake.plan import (
     Install,
     Interfaces,
+    PlannedTest,
     PythonModule,
     PythonPackage,
     Resource,
-    TestRun,
 )
 from turtlewire_colcon.cmake.syntax import CMakeError
 
 if TYPE_CHECKING:
-    from turtlewire_colcon.cmake.interpreter import Call, Handler, Interpreter
+    from turtlewire_colcon.cmake.interpreter import ExpandedCommand, Handler, Interpreter
 
-__all__ = ["AMENT"]
+__all__ = ["AMENT", "OWN_PARTS"]
 
 _KINDS = ("msg", "srv", "action")
 _FIND_KEYWORDS = ("COMPONENTS", "OPTIONAL_COMPONENTS", "HINTS", "PATHS", "NAMES", "REQUIRED")
+#: Commands whose faults are errors also beside C++: they add what is installed without it.
+OWN_PARTS = (
+    "ament_package", "ament_auto_package", "ament_python_install_package",
+    "ament_python_install_module", "rosidl_generate_interfaces",
+)  # fmt: skip
 _WITHOUT_EFFECT = (
     "ament_export_dependencies", "ament_export_include_directories", "ament_export_libraries",
     "ament_export_interfaces", "ament_export_targets", "ament_export_definitions",
@@ -32,7 +37,7 @@ _WITHOUT_EFFECT = (
     "rosidl_export_typesupport_libraries", "rosidl_export_typesupport_targets",
     "rosidl_default_generators", "ament_add_gtest", "ament_add_gmock",
     "ament_add_ros_isolated_gtest", "ament_add_ros_isolated_gmock",
-    "ament_auto_find_test_dependencies", "ament_add_default_options",
+    "ament_auto_find_test_dependencies", "ament_add_default_options", "stamp",
 )  # fmt: skip
 _TEST_OPTIONS = ("SKIP_TEST", "GENERATE_RESULT_FOR_RETURN_CODE_ZERO")
 _TEST_VALUES = ("TIMEOUT", "WORKING_DIRECTORY", "TARGET", "PYTHON_EXECUTABLE", "RUNNER", "WERROR",
@@ -43,7 +48,7 @@ _TIMEOUT = 60.0
 _CMAKE_TIMEOUT = 1500.0
 
 
-def _find_package(run: Interpreter, call: Call) -> None:
+def _find_package(run: Interpreter, call: ExpandedCommand) -> None:
     name = call.words[0]
     known = run.packages.is_known(name)
     run.variables[f"{name}_FOUND"] = "1" if known else "0"
@@ -53,18 +58,17 @@ def _find_package(run: Interpreter, call: Call) -> None:
         run.run_file(config)
     if not known and "REQUIRED" in call.words and not run.testing:
         run.plan.missing.append(
-            f"{call.place}: there is no package '{name}'{run.packages.suggestion(name)}; add it "
-            "to the workspace, source a workspace that has it, or install it"
+            f"{call.place}: there is no package '{name}'{run.packages.advice(name)}"
         )
 
 
-def _find_build_dependencies(run: Interpreter, _call: Call) -> None:
+def _find_build_dependencies(run: Interpreter, _call: ExpandedCommand) -> None:
     for name in run.variables.get("AMENT_BUILD_DEPENDENCIES", "").split(";"):
         if name:
             run.variables[f"{name}_FOUND"] = "1" if run.packages.is_known(name) else "0"
 
 
-def _package(run: Interpreter, call: Call) -> None:
+def _package(run: Interpreter, call: ExpandedCommand) -> None:
     project, name = run.variables.get("PROJECT_NAME", ""), run.variables["AMENT_PACKAGE_NAME"]
     if project != name:
         raise CMakeError(
@@ -88,7 +92,13 @@ def _package(run: Interpreter, call: Call) -> None:
         run.plan.installs.append(Install("DIRECTORY", sources, share, call.place))
 
 
-def _python_package(run: Interpreter, call: Call) -> None:
+def _assert_file_exists(run: Interpreter, call: ExpandedCommand) -> None:
+    path, *text = call.words
+    if not os.path.exists(run.source_path(path)):
+        raise CMakeError(call.place, "".join(text) or f"there is no file {path}")
+
+
+def _python_package(run: Interpreter, call: ExpandedCommand) -> None:
     parsed = parse_keywords(
         call.words[1:],
         options=("SKIP_COMPILE",),
@@ -117,7 +127,7 @@ def _python_package(run: Interpreter, call: Call) -> None:
     )
 
 
-def _python_module(run: Interpreter, call: Call) -> None:
+def _python_module(run: Interpreter, call: ExpandedCommand) -> None:
     parsed = parse_keywords(call.words, options=("SKIP_COMPILE",), values=("DESTINATION_SUFFIX",))
     path = Path(run.source_path(parsed.rest[0]))
     if not path.is_file():
@@ -127,11 +137,11 @@ def _python_module(run: Interpreter, call: Call) -> None:
     )
 
 
-def _python_install_dir(run: Interpreter, call: Call) -> None:
+def _python_install_dir(run: Interpreter, call: ExpandedCommand) -> None:
     run.variables[call.words[0]] = run.variables["PYTHON_INSTALL_DIR"]
 
 
-def _register_resource(run: Interpreter, call: Call) -> None:
+def _register_resource(run: Interpreter, call: ExpandedCommand) -> None:
     parsed = parse_keywords(
         call.words,
         options=("SKIP_INSTALL",),
@@ -147,7 +157,7 @@ def _register_resource(run: Interpreter, call: Call) -> None:
     run.plan.resources.append(Resource(parsed.rest[0], package, content))
 
 
-def _export_plugins(run: Interpreter, call: Call) -> None:
+def _export_plugins(run: Interpreter, call: ExpandedCommand) -> None:
     """Install and register a description of plugins, as rqt's, which may be in Python."""
     category, relative = call.words[:2]
     package = run.variables["PROJECT_NAME"]
@@ -162,7 +172,7 @@ def _export_plugins(run: Interpreter, call: Call) -> None:
     run.plan.resources.append(Resource(kind, package, content))
 
 
-def _environment_hooks(run: Interpreter, call: Call) -> None:
+def _environment_hooks(run: Interpreter, call: ExpandedCommand) -> None:
     # Empty words are hooks that ament's variables name, which are for C++ libraries.
     for word in filter(None, call.words):
         path = Path(run.source_path(word))
@@ -171,7 +181,7 @@ def _environment_hooks(run: Interpreter, call: Call) -> None:
         run.plan.hooks.append(path)
 
 
-def _generate_interfaces(run: Interpreter, call: Call) -> None:
+def _generate_interfaces(run: Interpreter, call: ExpandedCommand) -> None:
     parsed = parse_keywords(
         call.words[1:],
         options=("ADD_LINTER_TESTS", "SKIP_INSTALL", "SKIP_GROUP_MEMBERSHIP_CHECK"),
@@ -182,6 +192,7 @@ def _generate_interfaces(run: Interpreter, call: Call) -> None:
         if not run.packages.is_installed(name) and not run.testing:
             run.plan.missing.append(
                 f"{call.place}: there is no package '{name}', on which the interfaces depend"
+                f"{run.packages.advice(name)}"
             )
     files = tuple(_definition(run, word, call) for word in parsed.rest)
     if not files:
@@ -192,7 +203,7 @@ def _generate_interfaces(run: Interpreter, call: Call) -> None:
     run.plan.interfaces.append(Interfaces(package, files, not skipped, call.place))
 
 
-def _definition(run: Interpreter, word: str, call: Call) -> tuple[str, Path]:
+def _definition(run: Interpreter, word: str, call: ExpandedCommand) -> tuple[str, Path]:
     """Return a definition's path in the package, and on disk; ``<folder>:msg/A.msg`` names both."""
     base, colon, relative = word.rpartition(":")
     if colon and len(base) > 1:  # not the drive of C:/a
@@ -212,12 +223,12 @@ def _definition(run: Interpreter, word: str, call: Call) -> tuple[str, Path]:
     return f"{kind}/{name}", path
 
 
-def _add_pytest_test(run: Interpreter, call: Call) -> None:
+def _add_pytest_test(run: Interpreter, call: ExpandedCommand) -> None:
     name, word, *_ = call.words
     _add_test(run, call, "pytest", name, (_test_path(run, call, word),))
 
 
-def _add_launch_test(run: Interpreter, call: Call) -> None:
+def _add_launch_test(run: Interpreter, call: ExpandedCommand) -> None:
     path = _test_path(run, call, call.words[0])
     parsed = _test_arguments(call)
     stem = os.path.relpath(path, run.variables["CMAKE_CURRENT_SOURCE_DIR"]).replace("/", "_")
@@ -225,14 +236,14 @@ def _add_launch_test(run: Interpreter, call: Call) -> None:
     _add_test(run, call, "launch", name, (path, *parsed.lists.get("ARGS", [])))
 
 
-def _test_path(run: Interpreter, call: Call, word: str) -> str:
+def _test_path(run: Interpreter, call: ExpandedCommand, word: str) -> str:
     path = run.source_path(word)
     if not os.path.exists(path):
         raise CMakeError(call.place, f"{call.name}(): there is no file {path}")
     return path
 
 
-def _add_command_test(run: Interpreter, call: Call) -> None:
+def _add_command_test(run: Interpreter, call: ExpandedCommand) -> None:
     parsed = parse_keywords(call.words, values=("NAME",), lists=_TEST_LISTS)
     name = parsed.values.get("NAME") or parsed.rest[0]
     command = tuple(parse_keywords(call.words, _TEST_OPTIONS, _TEST_VALUES, _TEST_LISTS)
@@ -241,7 +252,9 @@ def _add_command_test(run: Interpreter, call: Call) -> None:
         _add_test(run, call, "command", name, command)
 
 
-def _add_test(run: Interpreter, call: Call, kind: str, name: str, words: tuple[str, ...]) -> None:
+def _add_test(
+    run: Interpreter, call: ExpandedCommand, kind: str, name: str, words: tuple[str, ...]
+) -> None:
     parsed = _test_arguments(call)
     if "SKIP_TEST" in parsed.options:
         return
@@ -256,15 +269,15 @@ def _add_test(run: Interpreter, call: Call, kind: str, name: str, words: tuple[s
     runner = parsed.values.get("RUNNER", "")
     isolated = runner.endswith("run_test_isolated.py") or "_ros_isolated_" in call.name
     run.plan.tests.append(
-        TestRun(name, kind, words, environment, run.source_path(folder), timeout, isolated)
+        PlannedTest(name, kind, words, environment, run.source_path(folder), timeout, isolated)
     )
 
 
-def _test_arguments(call: Call) -> Parsed:
+def _test_arguments(call: ExpandedCommand) -> Parsed:
     return parse_keywords(call.words[1:], _TEST_OPTIONS, _TEST_VALUES, _TEST_LISTS)
 
 
-def _nothing(_run: Interpreter, _call: Call) -> None:
+def _nothing(_run: Interpreter, _call: ExpandedCommand) -> None:
     """Do nothing: the command only matters for linking against the package."""
 
 
@@ -272,6 +285,7 @@ AMENT: dict[str, Handler] = {
     **dict.fromkeys(_WITHOUT_EFFECT, _nothing),
     "find_package": _find_package,
     "ament_auto_find_build_dependencies": _find_build_dependencies,
+    "assert_file_exists": _assert_file_exists,
     "ament_package": _package,
     "ament_auto_package": _package,
     "ament_python_install_package": _python_package,

@@ -9,17 +9,19 @@ import shlex
 from typing import TYPE_CHECKING
 
 from turtlewire_colcon.cmake.arguments import parse_keywords
-from turtlewire_colcon.cmake.conditions import Condition
-from turtlewire_colcon.cmake.syntax import Argument, CMakeError
+from turtlewire_colcon.cmake.conditions import CMakeCondition, note_match
+from turtlewire_colcon.cmake.syntax import CMakeArgument, CMakeError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from turtlewire_colcon.cmake.interpreter import Call, Handler, Interpreter
+    from turtlewire_colcon.cmake.interpreter import ExpandedCommand, Handler, Interpreter
 
 __all__ = ["BASICS", "configured"]
 
 _WARNINGS = ("WARNING", "AUTHOR_WARNING", "DEPRECATION", "SEND_ERROR")
+#: ``007`` is 7 in CMake, and a mistake in Python.
+_LEADING_ZEROS = re.compile(r"\b0+(?=\d)")
 _REFERENCE = re.compile(r"@(\w+)@|\$\{(\w+)\}")
 
 
@@ -34,7 +36,7 @@ def configured(run: Interpreter, text: str, *, at_only: bool = False) -> str:
     return _REFERENCE.sub(value, text)
 
 
-def _set(run: Interpreter, call: Call) -> None:
+def _set(run: Interpreter, call: ExpandedCommand) -> None:
     if not call.words:
         raise CMakeError(call.place, "set() needs a variable")
     name, *words = call.words
@@ -52,31 +54,31 @@ def _set(run: Interpreter, call: Call) -> None:
         run.variables.pop(name, None)
 
 
-def _unset(run: Interpreter, call: Call) -> None:
+def _unset(run: Interpreter, call: ExpandedCommand) -> None:
     if "PARENT_SCOPE" in call.words:
         run.set_outside(call.words[0], None)
     else:
         run.variables.pop(call.words[0] if call.words else "", None)
 
 
-def _option(run: Interpreter, call: Call) -> None:
+def _option(run: Interpreter, call: ExpandedCommand) -> None:
     if not call.words:
         raise CMakeError(call.place, "option() needs a variable")
     value = call.words[2] if len(call.words) > 2 else "OFF"
     run.variables.setdefault(call.words[0], value)
 
 
-def _dependent_option(run: Interpreter, call: Call) -> None:
+def _dependent_option(run: Interpreter, call: ExpandedCommand) -> None:
     """An option that another value replaces unless all conditions hold."""
     name, _, value, depends, forced = call.words
-    conditions = [[Argument(word) for word in each.split()] for each in depends.split(";")]
-    if all(Condition(words, run, call.place).holds() for words in conditions if words):
+    conditions = [[CMakeArgument(word) for word in each.split()] for each in depends.split(";")]
+    if all(CMakeCondition(words, run, call.place).holds() for words in conditions if words):
         run.variables.setdefault(name, value)
     else:
         run.variables[name] = forced
 
 
-def _message(run: Interpreter, call: Call) -> None:
+def _message(run: Interpreter, call: ExpandedCommand) -> None:
     mode = call.words[0] if call.words else ""
     text = "".join(call.words[1:])
     if mode == "FATAL_ERROR":
@@ -85,7 +87,7 @@ def _message(run: Interpreter, call: Call) -> None:
         run.plan.warnings.append(f"{call.place}: {text}")
 
 
-def _list(run: Interpreter, call: Call) -> None:
+def _list(run: Interpreter, call: ExpandedCommand) -> None:
     if len(call.words) < 2:
         raise CMakeError(call.place, "list() needs what to do, and a list")
     action, name, *words = call.words
@@ -110,7 +112,7 @@ def _output(words: list[str], name: str) -> str:
     return words[words.index("OUTPUT_VARIABLE") + 1] if "OUTPUT_VARIABLE" in words else name
 
 
-def _transformed(items: list[str], words: list[str], call: Call) -> list[str]:
+def _transformed(items: list[str], words: list[str], call: ExpandedCommand) -> list[str]:
     action, *rest = words
     simple: dict[str, Callable[[str], str]] = {
         "TOUPPER": str.upper,
@@ -151,7 +153,7 @@ _QUESTIONS: dict[str, Callable[[list[str], list[str]], str]] = {
 }
 
 
-def _string(run: Interpreter, call: Call) -> None:
+def _string(run: Interpreter, call: ExpandedCommand) -> None:
     action, *words = call.words or [""]
     action = f"{action} {words.pop(0)}" if action == "REGEX" and words else action
     if action in ("APPEND", "PREPEND") and words:
@@ -159,6 +161,10 @@ def _string(run: Interpreter, call: Call) -> None:
         run.variables[words[0]] = before + text if action == "APPEND" else text + before
     elif action == "CONFIGURE" and len(words) >= 2:
         run.variables[words[1]] = configured(run, words[0], at_only="@ONLY" in words)
+    elif action == "REGEX MATCH" and len(words) >= 3:
+        match = re.search(words[0], "".join(words[2:]))
+        note_match(run.variables, match)
+        run.variables[words[1]] = match[0] if match else ""
     elif action in _STRINGS and len(words) >= _STRINGS[action][0]:
         _, output, function = _STRINGS[action]
         name = words.pop(output)
@@ -182,9 +188,6 @@ _STRINGS: dict[str, tuple[int, int, Callable[[list[str]], str]]] = {
     "REPLACE": (4, 2, lambda words: "".join(words[2:]).replace(words[0], words[1])),
     "FIND": (3, 2, lambda words: str(words[0].find(words[1]))),
     "REGEX REPLACE": (4, 2, lambda words: re.sub(words[0], words[1], "".join(words[2:]))),
-    "REGEX MATCH": (
-        3, 1, lambda words: match[0] if (match := re.search(words[0], words[1])) else "",
-    ),
     "REGEX MATCHALL": (
         3, 1, lambda words: ";".join(match[0] for match in re.finditer(words[0], words[1])),
     ),
@@ -193,40 +196,61 @@ _STRINGS: dict[str, tuple[int, int, Callable[[list[str]], str]]] = {
 }  # fmt: skip
 
 
-def _separate_arguments(run: Interpreter, call: Call) -> None:
+def _separate_arguments(run: Interpreter, call: ExpandedCommand) -> None:
     name, *words = call.words
     text = words[-1] if words else run.variables.get(name, "")
     run.variables[name] = ";".join(shlex.split(text))
 
 
-def _math(run: Interpreter, call: Call) -> None:
+def _math(run: Interpreter, call: ExpandedCommand) -> None:
     name, expression = call.words[1:3]
     try:
-        run.variables[name] = str(_calculated(ast.parse(expression.strip(), mode="eval").body))
-    except (ArithmeticError, SyntaxError, KeyError) as error:
+        tree = ast.parse(_LEADING_ZEROS.sub("", expression.strip()), mode="eval")
+        run.variables[name] = str(_calculated(tree.body))
+    except (ArithmeticError, SyntaxError, KeyError, ValueError) as error:
         raise CMakeError(call.place, f"cannot calculate {expression!r}: {error}") from None
 
 
 def _calculated(node: ast.expr) -> int:
     if isinstance(node, ast.Constant) and isinstance(node.value, int):
         return node.value
-    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
-        return -_calculated(node.operand)
+    if isinstance(node, ast.UnaryOp):
+        return _SIGNS[type(node.op)](_calculated(node.operand))
     if isinstance(node, ast.BinOp):
         return _OPERATORS[type(node.op)](_calculated(node.left), _calculated(node.right))
     raise KeyError(type(node).__name__)
 
 
+def _quotient(dividend: int, divisor: int) -> int:
+    """Divide as C does: towards 0."""
+    quotient = abs(dividend) // abs(divisor)
+    return quotient if (dividend < 0) == (divisor < 0) else -quotient
+
+
+def _remainder(dividend: int, divisor: int) -> int:
+    return dividend - divisor * _quotient(dividend, divisor)
+
+
+_SIGNS: dict[type[ast.unaryop], Callable[[int], int]] = {
+    ast.UAdd: operator.pos,
+    ast.USub: operator.neg,
+    ast.Invert: operator.invert,
+}
 _OPERATORS: dict[type[ast.operator], Callable[[int, int], int]] = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,
     ast.Mult: operator.mul,
-    ast.Div: operator.floordiv,
-    ast.Mod: operator.mod,
+    ast.Div: _quotient,
+    ast.Mod: _remainder,
+    ast.BitAnd: operator.and_,
+    ast.BitOr: operator.or_,
+    ast.BitXor: operator.xor,
+    ast.LShift: operator.lshift,
+    ast.RShift: operator.rshift,
 }
 
 
-def _parse_arguments(run: Interpreter, call: Call) -> None:
+def _parse_arguments(run: Interpreter, call: ExpandedCommand) -> None:
     words = call.words
     if words[:1] == ["PARSE_ARGV"]:
         start = int(words[1])
@@ -251,7 +275,7 @@ def _parse_arguments(run: Interpreter, call: Call) -> None:
     run.variables[f"{prefix}_UNPARSED_ARGUMENTS"] = ";".join(parsed.rest)
 
 
-def _project(run: Interpreter, call: Call) -> None:
+def _project(run: Interpreter, call: ExpandedCommand) -> None:
     if not call.words:
         raise CMakeError(call.place, "project() needs a name")
     name = call.words[0]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from turtlewire_colcon.cmake.syntax import CMakeError, Command
+from turtlewire_colcon.cmake.syntax import CMakeCommand, CMakeError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -25,7 +25,7 @@ _BRANCHES = ("elseif", "else")
 class Branch(NamedTuple):
     """A command that opens a block (or ``elseif``, ``else``), and what follows it."""
 
-    head: Command
+    head: CMakeCommand
     body: tuple[Node, ...]
 
 
@@ -35,10 +35,10 @@ class Block(NamedTuple):
     branches: tuple[Branch, ...]
 
 
-Node = Command | Block
+Node = CMakeCommand | Block
 
 
-def build_tree(commands: Sequence[Command]) -> tuple[Node, ...]:
+def build_tree(commands: Sequence[CMakeCommand]) -> tuple[Node, ...]:
     """Return the tree of the commands of a file.
 
     Raises:
@@ -51,7 +51,7 @@ def build_tree(commands: Sequence[Command]) -> tuple[Node, ...]:
     return nodes
 
 
-def _nodes(commands: Sequence[Command], at: int) -> tuple[tuple[Node, ...], int]:
+def _nodes(commands: Sequence[CMakeCommand], at: int) -> tuple[tuple[Node, ...], int]:
     """Nodes up to the end of the commands, or up to a command that belongs to the outer block."""
     nodes: list[Node] = []
     while at < len(commands):
@@ -67,7 +67,7 @@ def _nodes(commands: Sequence[Command], at: int) -> tuple[tuple[Node, ...], int]
     return tuple(nodes), at
 
 
-def _block(commands: Sequence[Command], at: int) -> tuple[Block, int]:
+def _block(commands: Sequence[CMakeCommand], at: int) -> tuple[Block, int]:
     opening = commands[at]
     branches: list[Branch] = []
     while True:

@@ -7,15 +7,15 @@ import os
 import re
 from typing import TYPE_CHECKING, Any, Protocol
 
-from turtlewire_colcon.cmake.syntax import Argument, CMakeError
+from turtlewire_colcon.cmake.syntax import CMakeArgument, CMakeError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     from turtlewire_colcon.cmake.plan import Plan
-    from turtlewire_colcon.cmake.syntax import Place
+    from turtlewire_colcon.cmake.syntax import SourcePosition
 
-__all__ = ["Condition", "Surroundings", "is_false", "is_true"]
+__all__ = ["CMakeCondition", "Surroundings", "is_false", "is_true", "note_match"]
 
 _TRUE = frozenset({"1", "ON", "YES", "TRUE", "Y"})
 _FALSE = frozenset({"", "0", "OFF", "NO", "FALSE", "N", "IGNORE", "NOTFOUND"})
@@ -60,7 +60,7 @@ class Surroundings(Protocol):
         """Return a path, relative to the folder of the CMakeLists.txt."""
 
 
-class Condition:
+class CMakeCondition:
     """Evaluates one condition; ``NOT`` binds closer than ``AND``, and that closer than ``OR``.
 
     Args:
@@ -69,7 +69,9 @@ class Condition:
         place: Of the command, for errors.
     """
 
-    def __init__(self, words: Sequence[Argument], interpreter: Surroundings, place: Place) -> None:
+    def __init__(
+        self, words: Sequence[CMakeArgument], interpreter: Surroundings, place: SourcePosition
+    ) -> None:
         self._words = words
         self._run = interpreter
         self._place = place
@@ -121,7 +123,7 @@ class Condition:
             return self._check(word.text, following.text)
         return self._truth(word)
 
-    def _truth(self, word: Argument) -> bool:
+    def _truth(self, word: CMakeArgument) -> bool:
         if is_true(word.text):
             return True
         if word.kind != "plain" or is_false(word.text):
@@ -146,7 +148,7 @@ class Condition:
             return bool(text) and tests[test](path)
         return test == "IS_ABSOLUTE" and os.path.isabs(text)
 
-    def _compare(self, left: Argument, test: str, right: Argument) -> bool:
+    def _compare(self, left: CMakeArgument, test: str, right: CMakeArgument) -> bool:
         a, b = self._value(left), self._value(right)
         if test == "MATCHES":
             return self._matches(a, right.text)
@@ -161,20 +163,22 @@ class Condition:
         return _is_number(a) and _is_number(b) and _ORDER[test](float(a), float(b))
 
     def _matches(self, text: str, pattern: str) -> bool:
-        match = re.search(pattern, text)
-        if match is not None:
-            groups = (match[0], *match.groups(""))
-            for number, group in enumerate(groups[:10]):
-                self._run.variables[f"CMAKE_MATCH_{number}"] = group
+        try:
+            match = re.search(pattern, text)
+        except re.error as error:
+            raise CMakeError(
+                self._place, f"{pattern!r} is not a regular expression: {error}"
+            ) from None
+        note_match(self._run.variables, match)
         return match is not None
 
-    def _value(self, word: Argument) -> str:
+    def _value(self, word: CMakeArgument) -> str:
         return self._run.variables.get(word.text, word.text) if word.kind == "plain" else word.text
 
-    def _peek(self) -> Argument | None:
+    def _peek(self) -> CMakeArgument | None:
         return self._words[self._at] if self._at < len(self._words) else None
 
-    def _next(self) -> Argument:
+    def _next(self) -> CMakeArgument:
         word = self._peek()
         if word is None:
             raise CMakeError(self._place, "a condition ends too early")
@@ -182,7 +186,7 @@ class Condition:
         return word
 
     def _take(self, keyword: str) -> bool:
-        if self._peek() == Argument(keyword):
+        if self._peek() == CMakeArgument(keyword):
             self._at += 1
             return True
         return False
@@ -196,8 +200,17 @@ def _is_number(text: str) -> bool:
     return True
 
 
+def note_match(variables: dict[str, str], match: re.Match[str] | None) -> None:
+    """Set the variables that have the last match and its groups; without a match, all are empty."""
+    groups = (match[0], *match.groups("")) if match else ()
+    for number in range(10):
+        variables[f"CMAKE_MATCH_{number}"] = groups[number] if number < len(groups) else ""
+    variables["CMAKE_MATCH_COUNT"] = str((match and match.lastindex) or 0)
+
+
 def _version(text: str) -> tuple[int, ...]:
-    numbers = [int(part) for part in re.findall(r"\d+", text)]
+    start = re.match(r"\d+(?:\.\d+)*", text)  # what follows does not count
+    numbers = [int(part) for part in start[0].split(".")] if start else []
     while numbers and numbers[-1] == 0:
         numbers.pop()
     return tuple(numbers)

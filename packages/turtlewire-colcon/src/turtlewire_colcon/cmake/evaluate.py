@@ -7,7 +7,7 @@ import re
 import sys
 from typing import TYPE_CHECKING
 
-from turtlewire_colcon.cmake.ament import AMENT
+from turtlewire_colcon.cmake.ament import AMENT, OWN_PARTS
 from turtlewire_colcon.cmake.basics import BASICS
 from turtlewire_colcon.cmake.files import FILES
 from turtlewire_colcon.cmake.installing import INSTALLING
@@ -15,7 +15,7 @@ from turtlewire_colcon.cmake.interpreter import Interpreter
 from turtlewire_colcon.cmake.plan import Plan
 from turtlewire_colcon.cmake.processes import PROCESSES
 from turtlewire_colcon.cmake.syntax import CMakeError
-from turtlewire_colcon.cmake.targets import TARGETS
+from turtlewire_colcon.cmake.targets import ROS_1, TARGETS
 from turtlewire_colcon.cmake.xacro import XACRO
 from turtlewire_colcon.package_lookup import PackageLookup
 from turtlewire_ros.manifest import read_manifest
@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 __all__ = ["evaluate_package"]
 
 _DEFINITION = re.compile(r"-D\s*(\w+)(?::\w+)?=(.*)", re.DOTALL)
+
+_C_STANDARDS = ("90", "99", "11", "17", "23")
+_CXX_STANDARDS = ("98", "11", "14", "17", "20", "23")
 
 
 def evaluate_package(
@@ -51,7 +54,8 @@ def evaluate_package(
         The plan, and the interpreter with the variables as they are at the end.
 
     Raises:
-        CMakeError: The file cannot be evaluated; the text begins with file and line.
+        CMakeError: The file cannot be evaluated; the text begins with file and line. In a package
+            with C++, only faults of commands for its other parts are raised.
         ManifestError: package.xml cannot be read.
         OSError: A file cannot be read or written.
     """
@@ -76,10 +80,13 @@ def evaluate_package(
         variables,
         environment,
         PackageLookup(environment),
+        strict=frozenset((*OWN_PARTS, *ROS_1)),
     )
     build.mkdir(parents=True, exist_ok=True)
     try:
         interpreter.run_file(path)
+        if plan.faults and not plan.compiled:
+            raise plan.faults[0]
     except CMakeError as error:
         troubles = plan.missing + plan.unknown
         raise CMakeError(error.place, error.text, troubles) from error
@@ -101,6 +108,10 @@ def _variables(source: Path, build: Path, prefix: Path) -> dict[str, str]:
         "CMAKE_INSTALL_DATAROOTDIR": "share",
         "AMENT_INDEX_BINARY_DIR": str(build / "ament_cmake_index"),
         "BUILD_TESTING": "ON",
+        # Packages ask for a standard before they add targets; any will do, as none is compiled.
+        "CMAKE_C_COMPILE_FEATURES": ";".join(f"c_std_{year}" for year in _C_STANDARDS),
+        "CMAKE_CXX_COMPILE_FEATURES": ";".join(f"cxx_std_{year}" for year in _CXX_STANDARDS),
+        "CMAKE_CXX_COMPILER_ID": "GNU",
         "BUILD_SHARED_LIBS": "ON",
     }
     for name in ("PYTHON_EXECUTABLE", "Python3_EXECUTABLE", "Python_EXECUTABLE"):

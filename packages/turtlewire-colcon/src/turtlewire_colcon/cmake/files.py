@@ -14,12 +14,12 @@ from turtlewire_colcon.cmake.syntax import CMakeError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from turtlewire_colcon.cmake.interpreter import Call, Handler, Interpreter
+    from turtlewire_colcon.cmake.interpreter import ExpandedCommand, Handler, Interpreter
 
 __all__ = ["FILES"]
 
 
-def _file(run: Interpreter, call: Call) -> None:
+def _file(run: Interpreter, call: ExpandedCommand) -> None:
     action, *words = call.words
     if action in _WRITING:
         _WRITING[action](run, words, call)
@@ -38,13 +38,13 @@ def _file(run: Interpreter, call: Call) -> None:
         raise CMakeError(call.place, f"file({action}) is not known here")
 
 
-def _write(run: Interpreter, words: list[str], call: Call) -> None:
+def _write(run: Interpreter, words: list[str], call: ExpandedCommand) -> None:
     path = _writable(run, words[0], call)
     with path.open("w" if call.words[0] == "WRITE" else "a", encoding="utf-8") as file:
         file.write("".join(words[1:]))
 
 
-def _generate(run: Interpreter, words: list[str], call: Call) -> None:
+def _generate(run: Interpreter, words: list[str], call: ExpandedCommand) -> None:
     parsed = parse_keywords(words, values=("OUTPUT", "CONTENT", "INPUT"))
     path = _writable(run, parsed.values["OUTPUT"], call)
     if "INPUT" in parsed.values:
@@ -53,7 +53,7 @@ def _generate(run: Interpreter, words: list[str], call: Call) -> None:
         path.write_text(parsed.values["CONTENT"], encoding="utf-8")
 
 
-def _make_directory(run: Interpreter, words: list[str], call: Call) -> None:
+def _make_directory(run: Interpreter, words: list[str], call: ExpandedCommand) -> None:
     for word in words:
         _writable(run, word, call).mkdir(exist_ok=True)
 
@@ -87,7 +87,7 @@ def _matches(folder: str, name: str) -> list[Path]:
     return list(root.glob("/".join(parts)))
 
 
-def _writable(run: Interpreter, text: str, call: Call) -> Path:
+def _writable(run: Interpreter, text: str, call: ExpandedCommand) -> Path:
     """Return the path of a file to write; its folder exists afterwards."""
     path = Path(run.binary_path(text))
     folders = (run.variables["CMAKE_BINARY_DIR"], run.variables["CMAKE_INSTALL_PREFIX"])
@@ -97,7 +97,7 @@ def _writable(run: Interpreter, text: str, call: Call) -> Path:
     return path
 
 
-def _copy(run: Interpreter, words: list[str], call: Call) -> None:
+def _copy(run: Interpreter, words: list[str], call: ExpandedCommand) -> None:
     parsed = parse_keywords(words, values=("DESTINATION",))
     target = _writable(run, os.path.join(parsed.values["DESTINATION"], "."), call)
     target.mkdir(exist_ok=True)
@@ -109,7 +109,7 @@ def _copy(run: Interpreter, words: list[str], call: Call) -> None:
             copyfile(source, target / source.name)
 
 
-_WRITING: dict[str, Callable[[Interpreter, list[str], Call], None]] = {
+_WRITING: dict[str, Callable[[Interpreter, list[str], ExpandedCommand], None]] = {
     "WRITE": _write,
     "APPEND": _write,
     "GENERATE": _generate,
@@ -118,7 +118,7 @@ _WRITING: dict[str, Callable[[Interpreter, list[str], Call], None]] = {
 }
 
 
-def _configure_file(run: Interpreter, call: Call) -> None:
+def _configure_file(run: Interpreter, call: ExpandedCommand) -> None:
     source = Path(run.source_path(call.words[0]))
     target = _writable(run, call.words[1], call)
     if target.is_dir():
@@ -132,7 +132,7 @@ def _configure_file(run: Interpreter, call: Call) -> None:
     target.write_text(configured(run, text, at_only="@ONLY" in call.words), encoding="utf-8")
 
 
-def _get_filename_component(run: Interpreter, call: Call) -> None:
+def _get_filename_component(run: Interpreter, call: ExpandedCommand) -> None:
     variable, text, mode = call.words[:3]
     parsed = parse_keywords(call.words[3:], options=("CACHE",), values=("BASE_DIR",))
     base = parsed.values.get("BASE_DIR") or run.variables["CMAKE_CURRENT_SOURCE_DIR"]
@@ -152,7 +152,7 @@ def _get_filename_component(run: Interpreter, call: Call) -> None:
     run.variables[variable] = modes[mode]
 
 
-def _include(run: Interpreter, call: Call) -> None:
+def _include(run: Interpreter, call: ExpandedCommand) -> None:
     name = call.words[0]
     path = run.source_path(name)
     if os.path.isfile(path):
@@ -170,7 +170,7 @@ def _include(run: Interpreter, call: Call) -> None:
         raise CMakeError(call.place, f"include(): there is no {kind} {path}")
 
 
-def _add_subdirectory(run: Interpreter, call: Call) -> None:
+def _add_subdirectory(run: Interpreter, call: ExpandedCommand) -> None:
     folder = run.source_path(call.words[0])
     path = os.path.join(folder, "CMakeLists.txt")
     if not os.path.isfile(path):

@@ -14,7 +14,7 @@ from turtlewire_colcon.cmake.plan import FileRule, Install
 from turtlewire_colcon.cmake.syntax import CMakeError
 
 if TYPE_CHECKING:
-    from turtlewire_colcon.cmake.interpreter import Call, Handler, Interpreter
+    from turtlewire_colcon.cmake.interpreter import ExpandedCommand, Handler, Interpreter
 
 __all__ = ["INSTALLING", "destination"]
 
@@ -34,7 +34,7 @@ _TYPES = {
 }
 
 
-def _install(run: Interpreter, call: Call) -> None:
+def _install(run: Interpreter, call: ExpandedCommand) -> None:
     kind = call.words[0] if call.words else ""
     if kind in _WITHOUT_EFFECT:
         return
@@ -75,7 +75,7 @@ def _install(run: Interpreter, call: Call) -> None:
     )
 
 
-def destination(run: Interpreter, text: str, call: Call) -> str:
+def destination(run: Interpreter, text: str, call: ExpandedCommand) -> str:
     """Return a folder of the prefix, relative to it.
 
     Raises:
@@ -93,7 +93,7 @@ def _source(run: Interpreter, word: str) -> str:
     return run.source_path(word) + ("/" if word.endswith("/") or word in (".", "") else "")
 
 
-def _split_rules(words: list[str], call: Call) -> tuple[list[str], list[FileRule]]:
+def _split_rules(words: list[str], call: ExpandedCommand) -> tuple[list[str], list[FileRule]]:
     """Return the words before the first ``PATTERN`` or ``REGEX``, and these rules."""
     starts = [at for at, word in enumerate(words) if word in ("PATTERN", "REGEX")]
     rules = []

@@ -9,8 +9,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire_colcon.cmake.blocks import Block, Branch, build_tree
-from turtlewire_colcon.cmake.conditions import Condition
-from turtlewire_colcon.cmake.syntax import Argument, CMakeError, Command, Place, parse_commands
+from turtlewire_colcon.cmake.conditions import CMakeCondition
+from turtlewire_colcon.cmake.syntax import (
+    CMakeArgument,
+    CMakeCommand,
+    CMakeError,
+    SourcePosition,
+    parse_commands,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -19,9 +25,9 @@ if TYPE_CHECKING:
     from turtlewire_colcon.cmake.plan import Plan
     from turtlewire_colcon.package_lookup import PackageLookup
 
-    Handler = Callable[["Interpreter", "Call"], None]
+    Handler = Callable[["Interpreter", "ExpandedCommand"], None]
 
-__all__ = ["Call", "Interpreter"]
+__all__ = ["ExpandedCommand", "Interpreter"]
 
 _ESCAPES = {"n": "\n", "t": "\t", "r": "\r", ";": "\\;"}
 _REFERENCE = re.compile(r"\$(ENV|CACHE)?\{")
@@ -30,12 +36,12 @@ _SEPARATOR = re.compile(r"(?<!\\);")
 _DEEPEST = 200
 
 
-class Call(NamedTuple):
+class ExpandedCommand(NamedTuple):
     """A command with expanded arguments."""
 
     name: str
     words: list[str]
-    place: Place
+    place: SourcePosition
 
 
 class _Leave(Exception):
@@ -48,6 +54,14 @@ class _Leave(Exception):
 
 class Interpreter:
     """Runs CMake files, and lets the commands fill a plan.
+
+    Args:
+        commands: The built-in commands.
+        plan: Filled by the commands.
+        variables: The variables at the beginning.
+        environment: What ``$ENV{…}`` reads.
+        packages: Finds the packages that ``find_package`` names.
+        strict: Commands whose faults end the evaluation, also in a package with C++.
 
     Attributes:
         plan: What the commands would install, generate and test.
@@ -64,8 +78,11 @@ class Interpreter:
         variables: dict[str, str],
         environment: Mapping[str, str],
         packages: PackageLookup,
+        *,
+        strict: frozenset[str],
     ) -> None:
         self._commands = commands
+        self._strict = strict
         self._functions: dict[str, Branch] = {}
         self._outer: list[dict[str, str]] = []
         self.plan = plan
@@ -77,15 +94,21 @@ class Interpreter:
     def run_file(self, path: str | Path) -> None:
         """Run the commands of a file.
 
+        What a command at the top level raises is added to the plan's faults, and the next one
+        runs: if the package turns out to have C++, the fault may be the C++ part's.
+
         Raises:
-            CMakeError: The file cannot be evaluated; the text begins with file and line.
+            CMakeError: The file cannot be parsed, or a strict command failed; the text begins with
+                file and line.
             OSError: The file cannot be read.
         """
         text = Path(path).read_text(encoding="utf-8", errors="replace")
         with self._listed(str(path)):
-            self._call_body(build_tree(parse_commands(text, str(path))), "return")
+            for node in build_tree(parse_commands(text, str(path))):
+                if not self._run_top_level(node):
+                    break
 
-    def run_text(self, text: str, place: Place) -> None:
+    def run_text(self, text: str, place: SourcePosition) -> None:
         """Run commands that stand in a string."""
         self._call_body(build_tree(parse_commands(text, place.file)), "return")
 
@@ -119,7 +142,7 @@ class Interpreter:
         finally:
             self.variables = self._outer.pop()
 
-    def expand(self, argument: Argument) -> list[str]:
+    def expand(self, argument: CMakeArgument) -> list[str]:
         """Return the words of an argument: a plain one is split at semicolons."""
         if argument.kind == "bracket":
             return [argument.text]
@@ -152,15 +175,31 @@ class Interpreter:
         names = ("CMAKE_CURRENT_LIST_FILE", "CMAKE_CURRENT_LIST_DIR")
         before = [self.variables.get(name, "") for name in names]
         self.variables.update(zip(names, (path, os.path.dirname(path)), strict=True))
-        yield
-        self.variables.update(zip(names, before, strict=True))
+        try:
+            yield
+        finally:
+            self.variables.update(zip(names, before, strict=True))
 
     def _run(self, nodes: Sequence[Node]) -> None:
         for node in nodes:
-            if isinstance(node, Command):
+            if isinstance(node, CMakeCommand):
                 self._run_command(node)
             else:
                 self._run_block(node)
+
+    def _run_top_level(self, node: Node) -> bool:
+        """Run a statement of a file, and keep its fault; False if it ended the file."""
+        try:
+            self._run((node,))
+        except CMakeError as error:
+            if error.is_final:
+                raise
+            self.plan.faults.append(error)
+        except _Leave as leave:
+            if leave.kind != "return":
+                raise
+            return False
+        return True
 
     def _call_body(self, nodes: Sequence[Node], ended_by: str) -> None:
         try:
@@ -169,11 +208,11 @@ class Interpreter:
             if leave.kind != ended_by:
                 raise
 
-    def _run_command(self, command: Command) -> None:
+    def _run_command(self, command: CMakeCommand) -> None:
         if command.name in ("break", "continue", "return"):
             raise _Leave(command.name)
         words = [word for argument in command.arguments for word in self.expand(argument)]
-        call = Call(command.name, words, command.place)
+        call = ExpandedCommand(command.name, words, command.place)
         if command.name in self._functions:
             self._run_function(call)
         elif command.name in self._commands:
@@ -184,13 +223,18 @@ class Interpreter:
                 "Python, data and interfaces, and does not run CMake"
             )
 
-    def _run_builtin(self, call: Call) -> None:
+    def _run_builtin(self, call: ExpandedCommand) -> None:
         try:
             self._commands[call.name](self, call)
+        except CMakeError as error:
+            error.is_final = error.is_final or call.name in self._strict
+            raise
         except (IndexError, KeyError, ValueError, re.error) as error:
             text = " ".join(call.words)
             raise CMakeError(
-                call.place, f"wrong arguments: {call.name}({text[:80]}) ({error})"
+                call.place,
+                f"wrong arguments: {call.name}({text[:80]}) ({error})",
+                is_final=call.name in self._strict,
             ) from error
 
     def _run_block(self, block: Block) -> None:
@@ -220,13 +264,13 @@ class Interpreter:
                     self.testing -= tests
                 return
 
-    def _holds(self, head: Command) -> bool:
+    def _holds(self, head: CMakeCommand) -> bool:
         words = [
-            Argument(word, argument.kind)
+            CMakeArgument(word, argument.kind)
             for argument in head.arguments
             for word in (self.expand(argument) or [""])
         ]
-        return Condition(words, self, head.place).holds()
+        return CMakeCondition(words, self, head.place).holds()
 
     def _run_foreach(self, branch: Branch) -> None:
         words = [word for argument in branch.head.arguments for word in self.expand(argument)]
@@ -259,7 +303,7 @@ class Interpreter:
             return leave.kind == "continue"
         return True
 
-    def _run_function(self, call: Call) -> None:
+    def _run_function(self, call: ExpandedCommand) -> None:
         if len(self._outer) >= _DEEPEST:
             raise CMakeError(call.place, f"{call.name}() calls itself without end")
         branch = self._functions[call.name]
@@ -294,7 +338,7 @@ def _closing_brace(text: str, at: int) -> int:
     return at
 
 
-def _loop_items(run: Interpreter, items: list[str], place: Place) -> list[str]:
+def _loop_items(run: Interpreter, items: list[str], place: SourcePosition) -> list[str]:
     if items[:1] == ["IN"]:
         found: list[str] = []
         lists = False
@@ -306,19 +350,28 @@ def _loop_items(run: Interpreter, items: list[str], place: Place) -> list[str]:
             else:
                 found.append(word)
         return found
-    if items[:1] == ["RANGE"]:
-        try:
-            numbers = [int(item) for item in items[1:]]
-        except ValueError:
-            raise CMakeError(place, "foreach(RANGE) takes whole numbers") from None
-        start, stop, step = ([0, *numbers, 1] if len(numbers) == 1 else [*numbers, 1])[:3]
-        return [str(number) for number in range(start, stop + 1, step or 1)]
-    return items
+    return _range_items(items[1:], place) if items[:1] == ["RANGE"] else items
+
+
+def _range_items(words: list[str], place: SourcePosition) -> list[str]:
+    """Return the numbers of ``foreach(RANGE)``, the last one included; downwards too."""
+    try:
+        numbers = [int(word) for word in words]
+    except ValueError:
+        raise CMakeError(place, "foreach(RANGE) takes whole numbers") from None
+    if not 1 <= len(numbers) <= 3:
+        raise CMakeError(place, "foreach(RANGE) takes a last number, or a first, a last and a step")
+    start, stop = numbers[:2] if len(numbers) > 1 else (0, numbers[0])
+    direction = -1 if stop < start else 1
+    step = (numbers[2] if len(numbers) == 3 else 0) or direction
+    if step * direction < 0:
+        raise CMakeError(place, f"foreach(RANGE): steps of {step} lead from {start} not to {stop}")
+    return [str(number) for number in range(start, stop + direction, step)]
 
 
 def _with_arguments(node: Node, given: dict[str, str]) -> Node:
     """Return a node of a macro's body, with the macro's arguments written into it."""
-    if isinstance(node, Command):
+    if isinstance(node, CMakeCommand):
         return _command_with(node, given)
     return Block(
         tuple(
@@ -331,8 +384,8 @@ def _with_arguments(node: Node, given: dict[str, str]) -> Node:
     )
 
 
-def _command_with(command: Command, given: dict[str, str]) -> Command:
-    def replace(argument: Argument) -> Argument:
+def _command_with(command: CMakeCommand, given: dict[str, str]) -> CMakeCommand:
+    def replace(argument: CMakeArgument) -> CMakeArgument:
         text = argument.text
         for name, value in given.items():
             text = text.replace(f"${{{name}}}", value)

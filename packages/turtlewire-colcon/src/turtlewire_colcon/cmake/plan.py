@@ -8,19 +8,31 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from turtlewire_colcon.cmake.syntax import Place
+    from turtlewire_colcon.cmake.syntax import CMakeError, SourcePosition
 
 __all__ = [
+    "CompiledTarget",
     "FileRule",
     "Install",
     "Interfaces",
     "Plan",
+    "PlannedTest",
     "PythonModule",
     "PythonPackage",
     "Resource",
     "Step",
-    "TestRun",
 ]
+
+
+#: Names of compiled targets in a warning.
+_NAMED_TARGETS = 4
+
+
+class CompiledTarget(NamedTuple):
+    """A target that would compile C++: its name, and the command that adds it."""
+
+    name: str
+    place: SourcePosition
 
 
 class FileRule(NamedTuple):
@@ -52,7 +64,7 @@ class Install(NamedTuple):
     kind: str
     sources: tuple[str, ...]
     destination: str
-    place: Place
+    place: SourcePosition
     rename: str = ""
     optional: bool = False
     rules: tuple[FileRule, ...] = ()
@@ -78,7 +90,7 @@ class PythonPackage(NamedTuple):
     destination: str
     setup_cfg: Path | None
     scripts: str
-    place: Place
+    place: SourcePosition
 
 
 class PythonModule(NamedTuple):
@@ -86,7 +98,7 @@ class PythonModule(NamedTuple):
 
     file: Path
     suffix: str
-    place: Place
+    place: SourcePosition
 
 
 class Interfaces(NamedTuple):
@@ -102,7 +114,7 @@ class Interfaces(NamedTuple):
     package: str
     files: tuple[tuple[str, Path], ...]
     installed: bool
-    place: Place
+    place: SourcePosition
 
 
 class Resource(NamedTuple):
@@ -118,10 +130,10 @@ class Step(NamedTuple):
 
     words: tuple[str, ...]
     folder: str
-    place: Place
+    place: SourcePosition
 
 
-class TestRun(NamedTuple):
+class PlannedTest(NamedTuple):
     """A test that ``colcon test`` runs.
 
     Attributes:
@@ -150,7 +162,8 @@ class Plan:
     Attributes:
         name: Name of the project.
         version: As in package.xml.
-        refused: One line for each target that would compile C++.
+        compiled: Targets that would compile C++; tests are not among them.
+        faults: Commands that could not be evaluated, perhaps because of the C++ part.
         unknown: One line for each command that is not known.
         missing: One line for each required package that is not there.
         warnings: Messages of the file itself.
@@ -169,42 +182,43 @@ class Plan:
     resources: list[Resource] = field(default_factory=list)
     hooks: list[Path] = field(default_factory=list)
     extras: list[Path] = field(default_factory=list)
-    tests: list[TestRun] = field(default_factory=list)
-    refused: list[str] = field(default_factory=list)
+    tests: list[PlannedTest] = field(default_factory=list)
+    compiled: list[CompiledTarget] = field(default_factory=list)
+    faults: list[CMakeError] = field(default_factory=list)
     unknown: list[str] = field(default_factory=list)
     missing: list[str] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
     targets: set[str] = field(default_factory=set)
     custom_targets: set[str] = field(default_factory=set)
     steps: list[Step] = field(default_factory=list)
-    install_code: list[tuple[str, Place]] = field(default_factory=list)
-
-    def has_python(self) -> bool:
-        """Return True if the package installs Python code, not only data."""
-        return bool(
-            self.python_packages
-            or self.python_modules
-            or self.interfaces
-            or any(install.kind == "PROGRAMS" for install in self.installs)
-        )
+    install_code: list[tuple[str, SourcePosition]] = field(default_factory=list)
 
     def verdict(self) -> tuple[list[str], list[str]]:
-        """Errors, because of which the package is not installed, and warnings.
+        """Return the errors, because of which the package is not installed, and the warnings.
 
-        The Python part of a package with C++ is installed, and what it refuses or misses are
-        warnings: packages and commands that are not known may be for the C++ part.
+        In a package with C++, packages and commands that are missing are warnings: they may be
+        for the C++ part, and everything else can be installed.
         """
-        troubles = self.missing + self.unknown
         twice = {part.package for part in self.interfaces if part.installed}
-        troubles += [
+        errors = [
             f"{package.place}: rosidl_generate_interfaces also generates a Python package "
             f"{package.name}; rename one of them"
             for package in self.python_packages
             if package.name in twice
         ]
-        if not self.refused:
-            return troubles, self.warnings
-        if not self.has_python():
-            return self.refused, self.warnings
-        rest = "its Python and data are installed without it"
-        return [], [*(f"{line}; {rest}" for line in self.refused), *troubles, *self.warnings]
+        troubles = self.missing + self.unknown
+        if not self.compiled:
+            return errors + troubles, self.warnings
+        faults = [str(fault) for fault in self.faults]
+        return errors, [self._left_out(), *faults, *troubles, *self.warnings]
+
+    def _left_out(self) -> str:
+        """Return the line about the C++ targets of the package."""
+        names = list(dict.fromkeys(target.name for target in self.compiled))
+        listed = ", ".join(names[:_NAMED_TARGETS])
+        more = len(names) - _NAMED_TARGETS
+        listed += f" and {more} more" if more > 0 else ""
+        return (
+            f"{self.compiled[0].place}: turtlewire compiles no C++, so {listed} "
+            f"{'is' if len(names) == 1 else 'are'} left out; the rest of the package is installed"
+        )

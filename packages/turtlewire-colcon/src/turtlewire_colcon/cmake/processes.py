@@ -12,7 +12,7 @@ from turtlewire_colcon.cmake.syntax import CMakeError
 from turtlewire_colcon.cmake.tool import tool_command
 
 if TYPE_CHECKING:
-    from turtlewire_colcon.cmake.interpreter import Call, Handler, Interpreter
+    from turtlewire_colcon.cmake.interpreter import ExpandedCommand, Handler, Interpreter
 
 __all__ = ["PROCESSES"]
 
@@ -30,7 +30,7 @@ _OPERATORS = frozenset({">", ">>", "<", "|", "&&", "||", "2>", "2>&1"})
 _LISTS = ("OUTPUT", "DEPENDS", "BYPRODUCTS", "SOURCES", "ARGS")
 
 
-def _execute_process(run: Interpreter, call: Call) -> None:
+def _execute_process(run: Interpreter, call: ExpandedCommand) -> None:
     commands, words = _commands(call.words)
     parsed = parse_keywords(words, _OPTIONS, _VALUES, _LISTS)
     if len(commands) != 1:
@@ -60,7 +60,7 @@ def _execute_process(run: Interpreter, call: Call) -> None:
         raise CMakeError(call.place, f"{' '.join(commands[0])}: {errors.strip() or result}")
 
 
-def _custom_command(run: Interpreter, call: Call) -> None:
+def _custom_command(run: Interpreter, call: ExpandedCommand) -> None:
     commands, words = _commands(call.words)
     parsed = parse_keywords(words, _OPTIONS, _VALUES, _LISTS)
     if "TARGET" in parsed.values and parsed.values["TARGET"] not in run.plan.custom_targets:
@@ -68,7 +68,7 @@ def _custom_command(run: Interpreter, call: Call) -> None:
     _add_steps(run, call, commands, parsed.values.get("WORKING_DIRECTORY", "."))
 
 
-def _custom_target(run: Interpreter, call: Call) -> None:
+def _custom_target(run: Interpreter, call: ExpandedCommand) -> None:
     name, *rest = call.words
     commands, words = _commands(rest)
     # A target may begin with its command, without the keyword.
@@ -79,7 +79,9 @@ def _custom_target(run: Interpreter, call: Call) -> None:
         _add_steps(run, call, commands, parsed.values.get("WORKING_DIRECTORY", "."))
 
 
-def _add_steps(run: Interpreter, call: Call, commands: list[list[str]], folder: str) -> None:
+def _add_steps(
+    run: Interpreter, call: ExpandedCommand, commands: list[list[str]], folder: str
+) -> None:
     for command in commands:
         run.plan.steps.append(
             Step(_shell(tool_command(command)), run.binary_path(folder), call.place)

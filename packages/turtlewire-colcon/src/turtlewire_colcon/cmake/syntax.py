@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["Argument", "CMakeError", "Command", "Place", "parse_commands"]
+__all__ = ["CMakeArgument", "CMakeCommand", "CMakeError", "SourcePosition", "parse_commands"]
 
 _SPACE = re.compile(r"(?:[ \t\r\n]+|#\[(?P<level>=*)\[.*?\](?P=level)\]|#[^\n]*)+", re.DOTALL)
 _NAME = re.compile(r"[A-Za-z_]\w*")
@@ -18,7 +18,7 @@ _QUOTED = re.compile(r'"(?P<text>(?:[^"\\]|\\.)*)"', re.DOTALL)
 _UNQUOTED = re.compile(r'(?:[^\s()#"\\]|\\.|\$\([^()]*\)|(?<=[^\s(])"(?:[^"\\]|\\.)*")+', re.DOTALL)
 
 
-class Place(NamedTuple):
+class SourcePosition(NamedTuple):
     """Where a command stands.
 
     Attributes:
@@ -40,15 +40,24 @@ class CMakeError(Exception):
         place: Where the trouble is.
         text: What it is.
         earlier: Lines about what went wrong before, and is likely the reason.
+        is_final: True if the fault ends the evaluation, also in a package with C++.
     """
 
-    def __init__(self, place: Place, text: str, earlier: Sequence[str] = ()) -> None:
+    def __init__(
+        self,
+        place: SourcePosition,
+        text: str,
+        earlier: Sequence[str] = (),
+        *,
+        is_final: bool = False,
+    ) -> None:
         super().__init__("\n".join([*earlier, f"{place}: {text}"]))
         self.place = place
         self.text = text
+        self.is_final = is_final
 
 
-class Argument(NamedTuple):
+class CMakeArgument(NamedTuple):
     """One argument as written.
 
     Attributes:
@@ -60,7 +69,7 @@ class Argument(NamedTuple):
     kind: str = "plain"
 
 
-class Command(NamedTuple):
+class CMakeCommand(NamedTuple):
     """One command.
 
     Attributes:
@@ -70,11 +79,11 @@ class Command(NamedTuple):
     """
 
     name: str
-    arguments: tuple[Argument, ...]
-    place: Place
+    arguments: tuple[CMakeArgument, ...]
+    place: SourcePosition
 
 
-def parse_commands(text: str, file: str) -> list[Command]:
+def parse_commands(text: str, file: str) -> list[CMakeCommand]:
     """Return the commands of a CMake file.
 
     Args:
@@ -93,7 +102,7 @@ class _Reader:
         self._file = file
         self._at = 0
 
-    def commands(self) -> list[Command]:
+    def commands(self) -> list[CMakeCommand]:
         found = []
         self._skip_space()
         while self._at < len(self._text):
@@ -105,12 +114,12 @@ class _Reader:
             if not self._text.startswith("(", self._at):
                 raise CMakeError(place, f"expected '(' after '{name[0]}'")
             self._at += 1
-            found.append(Command(name[0].lower(), self._arguments(place), place))
+            found.append(CMakeCommand(name[0].lower(), self._arguments(place), place))
             self._skip_space()
         return found
 
-    def _arguments(self, place: Place) -> tuple[Argument, ...]:
-        found: list[Argument] = []
+    def _arguments(self, place: SourcePosition) -> tuple[CMakeArgument, ...]:
+        found: list[CMakeArgument] = []
         depth = 1
         while True:
             self._skip_space()
@@ -122,20 +131,20 @@ class _Reader:
                 depth += 1 if character == "(" else -1
                 if depth == 0:
                     return tuple(found)
-                found.append(Argument(character))
+                found.append(CMakeArgument(character))
             else:
                 found.append(self._argument())
 
-    def _argument(self) -> Argument:
+    def _argument(self) -> CMakeArgument:
         for pattern, kind in ((_BRACKET, "bracket"), (_QUOTED, "quoted")):
             match = self._match(pattern)
             if match is not None:
                 text = match["text"]
-                return Argument(text.replace("\\\n", "") if kind == "quoted" else text, kind)
+                return CMakeArgument(text.replace("\\\n", "") if kind == "quoted" else text, kind)
         match = self._match(_UNQUOTED)
         if match is None:
             raise CMakeError(self._place(), f"cannot read {self._next_word()!r}")
-        return Argument(match[0])
+        return CMakeArgument(match[0])
 
     def _match(self, pattern: re.Pattern[str]) -> re.Match[str] | None:
         match = pattern.match(self._text, self._at)
@@ -146,8 +155,8 @@ class _Reader:
     def _skip_space(self) -> None:
         self._match(_SPACE)
 
-    def _place(self) -> Place:
-        return Place(self._file, self._text.count("\n", 0, self._at) + 1)
+    def _place(self) -> SourcePosition:
+        return SourcePosition(self._file, self._text.count("\n", 0, self._at) + 1)
 
     def _next_word(self) -> str:
         return self._text[self._at :].split(None, 1)[0][:30]

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from turtlewire_colcon.cmake.plan import CompiledTarget
 from turtlewire_colcon.cmake.syntax import CMakeError
 
 if TYPE_CHECKING:
-    from turtlewire_colcon.cmake.interpreter import Call, Handler, Interpreter
+    from turtlewire_colcon.cmake.interpreter import ExpandedCommand, Handler, Interpreter
 
-__all__ = ["TARGETS"]
+__all__ = ["ROS_1", "TARGETS"]
 
 #: Their first argument is the name of what they compile.
 _COMPILING = (
@@ -53,40 +54,43 @@ _WITHOUT_EFFECT = (
     "aux_source_directory", "get_directory_property", "get_cmake_property",
     "rosidl_get_typesupport_target", "qt5_wrap_cpp", "qt5_wrap_ui", "qt5_add_resources",
 )  # fmt: skip
+#: Commands of ROS 1.
+ROS_1 = (
+    "catkin_package", "catkin_python_setup", "catkin_install_python", "catkin_add_nosetests",
+    "catkin_add_gtest", "add_message_files", "add_service_files", "add_action_files",
+    "generate_messages", "add_rostest",
+)  # fmt: skip
 
 
-def _refuse(run: Interpreter, call: Call) -> None:
+def _leave_out(run: Interpreter, call: ExpandedCommand) -> None:
     if not call.words:
         raise CMakeError(call.place, f"{call.name}() needs a name")
     run.plan.targets.add(call.words[0])
     if not run.testing:
-        run.plan.refused.append(
-            f"{call.place}: {call.name}({call.words[0]}) compiles C++, which turtlewire does not"
-        )
+        names = [call.words[0]]
+        if "EXECUTABLE" in call.words[:-1]:  # what rclcpp_components makes of a library
+            names.append(call.words[call.words.index("EXECUTABLE") + 1])
+        run.plan.compiled += [CompiledTarget(name, call.place) for name in names]
 
 
-def _add_library(run: Interpreter, call: Call) -> None:
+def _add_library(run: Interpreter, call: ExpandedCommand) -> None:
     if _NOT_COMPILED & set(call.words[1:2]) or "IMPORTED" in call.words:
         run.plan.targets.add(call.words[0])
     else:
-        _refuse(run, call)
+        _leave_out(run, call)
 
 
-def _nothing(_run: Interpreter, _call: Call) -> None:
+def _nothing(_run: Interpreter, _call: ExpandedCommand) -> None:
     """Do nothing: the command concerns compiled targets only."""
 
 
-def _refuse_catkin(_run: Interpreter, call: Call) -> None:
+def _refuse_catkin(_run: Interpreter, call: ExpandedCommand) -> None:
     raise CMakeError(call.place, f"{call.name}() is of ROS 1, whose packages do not run here")
 
 
 TARGETS: dict[str, Handler] = {
     **dict.fromkeys(_WITHOUT_EFFECT, _nothing),
-    **dict.fromkeys(_COMPILING, _refuse),
+    **dict.fromkeys(_COMPILING, _leave_out),
     "add_library": _add_library,
-    **dict.fromkeys(
-        ("catkin_package", "catkin_python_setup", "catkin_install_python", "catkin_add_nosetests",
-         "catkin_add_gtest", "add_message_files", "add_service_files", "add_action_files",
-         "generate_messages", "add_rostest"), _refuse_catkin,
-    ),
-}  # fmt: skip
+    **dict.fromkeys(ROS_1, _refuse_catkin),
+}

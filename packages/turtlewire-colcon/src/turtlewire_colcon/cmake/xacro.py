@@ -15,26 +15,26 @@ from turtlewire_colcon.cmake.plan import Install, Step
 from turtlewire_colcon.cmake.syntax import CMakeError
 
 if TYPE_CHECKING:
-    from turtlewire_colcon.cmake.interpreter import Call, Handler, Interpreter
+    from turtlewire_colcon.cmake.interpreter import ExpandedCommand, Handler, Interpreter
 
 __all__ = ["XACRO"]
 
 _RUN_XACRO = "import xacro; xacro.main()"
 
 
-def _add_xacro_file(run: Interpreter, call: Call) -> None:
+def _add_xacro_file(run: Interpreter, call: ExpandedCommand) -> None:
     parsed = parse_keywords(call.words, values=("OUTPUT",), lists=("REMAP", "DEPENDS"))
     output = parsed.rest[1] if len(parsed.rest) > 1 else ""
     path = _expand_file(run, call, parsed.rest[0], output, parsed.lists.get("REMAP", []))
     run.variables[parsed.values.get("OUTPUT", "XACRO_OUTPUT_FILE")] = path
 
 
-def _xacro_install(run: Interpreter, call: Call) -> None:
+def _xacro_install(run: Interpreter, call: ExpandedCommand) -> None:
     parsed = parse_keywords(call.words[1:], values=("DESTINATION",))
     _install(run, call, parsed.rest, parsed.values.get("DESTINATION", ""))
 
 
-def _add_files(run: Interpreter, call: Call) -> None:
+def _add_files(run: Interpreter, call: ExpandedCommand) -> None:
     parsed = parse_keywords(
         call.words, ("INSTALL",), ("OUTPUT", "TARGET", "DESTINATION"), ("REMAP", "DEPENDS")
     )
@@ -45,7 +45,9 @@ def _add_files(run: Interpreter, call: Call) -> None:
         _install(run, call, paths, parsed.values.get("DESTINATION", ""))
 
 
-def _expand_file(run: Interpreter, call: Call, name: str, output: str, remap: list[str]) -> str:
+def _expand_file(
+    run: Interpreter, call: ExpandedCommand, name: str, output: str, remap: list[str]
+) -> str:
     """Plan the expansion of a file; returns the path of the result."""
     source = Path(run.source_path(name))
     if not source.is_file():
@@ -78,7 +80,7 @@ def _index_of_sources(run: Interpreter) -> Path:
     return index
 
 
-def _install(run: Interpreter, call: Call, paths: list[str], folder: str) -> None:
+def _install(run: Interpreter, call: ExpandedCommand, paths: list[str], folder: str) -> None:
     target = os.path.normpath(f"share/{run.variables['PROJECT_NAME']}/{folder}")
     run.plan.installs.append(Install("FILES", tuple(paths), target, call.place))
 

@@ -22,7 +22,7 @@ def _quaternion(exercise: Exercise) -> tuple[float, float, float, float]:
     except TransformException as error:
         hint = _NO_UNIT if "camera" not in exercise.frames() else ""
         hint = hint or "Keep child_frame_id = 'camera' and header.frame_id = 'turtle1'."
-        raise NotYet(f"TF does not know where camera is: {error}", hint) from error
+        raise NotYet(f"There is no transform from turtle1 to camera: {error}", hint) from error
     return found.x, found.y, found.z, found.w
 
 

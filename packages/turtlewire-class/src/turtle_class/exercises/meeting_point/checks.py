@@ -72,8 +72,8 @@ def check_stamp(exercise: Exercise) -> None:
     age = exercise.simulation.now - exercise.stamp("turtle1", "meeting_point")
     exercise.expect(
         0.3 < age < 0.8,
-        "turtle1's transforms are half a second old here; the newest one of meeting_point, which "
-        f"follows from them, says that it is {age:.1f} s old.",
+        "In this check, turtle1's transforms arrive half a second late. The newest transform of "
+        f"meeting_point is computed from them, but its stamp is only {age:.1f} s old.",
         "The meeting point is as old as the transform that it is computed from: copy its "
         "header.stamp.",
     )

@@ -1,5 +1,7 @@
 // One student: the field in small, and what is known of the nodes.
 
+import { setText } from "../kit/dom.js";
+
 const FIELD_M = 11.09;
 const TRAIL = 150;
 const COLOURS = ["#ffd54a", "#7cf0c0", "#ff9db0", "#b6c3ff", "#ffffff", "#ffb36b"];
@@ -17,10 +19,6 @@ function ago(seconds) {
   if (seconds < 3) return "active now";
   if (seconds < 90) return `quiet for ${seconds} s`;
   return `quiet for ${Math.round(seconds / 60)} min`;
-}
-
-function setText(target, text) {
-  if (target.textContent !== text) target.textContent = text;
 }
 
 export class Card {

@@ -19,7 +19,7 @@ def check_frame_exists(exercise: Exercise) -> None:
     others = ", ".join(sorted(frames)) or "none"
     exercise.expect(
         "tower" in frames,
-        f"TF knows no frame tower. It knows: {others}.",
+        f"There is no frame tower. Existing frames: {others}.",
         "Set child_frame_id to 'tower'. If the log says that a transform is ignored, its rotation "
         "is not a unit quaternion: without any rotation, w is 1.",
     )

@@ -1,0 +1,18 @@
+"""Converts between image messages and the arrays of OpenCV, in plain NumPy.
+
+OpenCV itself is needed for compressed images, and for Bayer and YUV encodings.
+
+===========  ======================================================
+module       what it holds
+===========  ======================================================
+`core`       `CvBridge`
+`encodings`  pixel types by encoding, and OpenCV's type numbers
+`colors`     converts between color spaces
+===========  ======================================================
+"""
+
+from __future__ import annotations
+
+from cv_bridge.core import CvBridge, CvBridgeError
+
+__all__ = ["CvBridge", "CvBridgeError"]

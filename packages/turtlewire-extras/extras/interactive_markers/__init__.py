@@ -1,0 +1,16 @@
+"""Markers that users move, and menus on them, in a 3D view such as RViz.
+
+===========================  ==================================================
+module                       what it holds
+===========================  ==================================================
+`interactive_marker_server`  `InteractiveMarkerServer`, which serves the markers
+`menu_handler`               `MenuHandler`, a menu of one or more markers
+===========================  ==================================================
+"""
+
+from __future__ import annotations
+
+from interactive_markers.interactive_marker_server import InteractiveMarkerServer
+from interactive_markers.menu_handler import MenuHandler
+
+__all__ = ["InteractiveMarkerServer", "MenuHandler"]
