@@ -8,8 +8,8 @@
 usage="scripts/${0##*/} [-h]${usage:+ $usage}"
 for word in "$@"; do
     if [ "$word" = -h ] || [ "$word" = --help ]; then
-        printf 'usage: %s\n\n%s\n' "$usage" \
-            "$(sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$0")" || exit 1
+        # On a full disk, cat says so in one line; bash 5.3 does in two.
+        cat <<<"usage: $usage"$'\n\n'"$(sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$0")" || exit 1
         exit
     fi
 done

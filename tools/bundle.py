@@ -13,9 +13,9 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))  # also where it is loaded by its path
 
 from distributions import ROOT, distributions, import_path
-from script_options import Parser
+from script_options import ScriptParser
 
-FILES = ROOT / "scripts" / "bundle_files"
+FILES = ROOT / "tools" / "bundle_files"
 NAME = "turtlewire-class"
 
 
@@ -25,7 +25,7 @@ class BundleError(Exception):
 
 def main() -> int:
     """Make the bundle; the exit status."""
-    parser = Parser(prog="scripts/bundle", description=__doc__.splitlines()[0])
+    parser = ScriptParser(prog="scripts/bundle", description=__doc__.splitlines()[0])
     parser.add_argument(
         "--python",
         action="append",

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from demo_domain import other_demo_runs
 from demo_launch import ENDING, VENV, Launch, interrupt
-from demo_options import parse
+from early_options import demo
 
 from turtlewire.errors import WireError
 from turtlewire.program import program
@@ -31,7 +31,7 @@ _SAME_SITUATION_S = 10.0
 
 def main() -> int:
     """Run the demo or the check; the exit status."""
-    arguments = parse()
+    arguments = demo(sys.argv[1:])
     started = float(os.environ.get("TURTLEWIRE_DEMO_STARTED", "").replace(",", ".") or time.time())
     prepare_environment()
     from demo_check import check
@@ -125,7 +125,7 @@ def describe(buffer: Buffer) -> str:
     """Describe which turtle follows which, and at what distance."""
     from turtlewire.errors import TransformException
 
-    missing = [name for name in (LEADER, FOLLOWER) if not buffer.frame_exists(name)]
+    missing = [name for name in (LEADER, FOLLOWER) if name not in buffer]
     if missing:
         return f"waiting for {' and '.join(missing)}"
     try:

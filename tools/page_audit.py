@@ -15,8 +15,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import early_options
 from playwright.sync_api import sync_playwright
-from script_options import Parser
 from served_pages import PAGES, ServedPage
 
 if TYPE_CHECKING:
@@ -123,11 +123,7 @@ def axe_findings(shown: Page) -> list[str]:
 
 def main() -> int:
     """Audit the pages that the command line names, or all; the exit status."""
-    parser = Parser(prog="scripts/page-audit", description=__doc__)
-    parser.add_argument("pages", nargs="*", metavar="PAGE", help=", ".join(PAGES))
-    names = parser.parse_args().pages or list(PAGES)
-    if unknown := [name for name in names if name not in PAGES]:
-        parser.error(f"there is no page {', '.join(unknown)}; there are {', '.join(PAGES)}")
+    names = early_options.page_audit(sys.argv[1:]).pages or list(PAGES)
     if text := missing():
         print(f"scripts/page-audit: {text}", file=sys.stderr)
         return 1

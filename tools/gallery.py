@@ -22,8 +22,9 @@ from picture import CHROMIUM_FLAGS
 from playwright.sync_api import sync_playwright
 from served_pages import LESSON, address_of, program, running
 
+from turtle_lesson.lesson import load_lesson
 from turtlewire import Buffer
-from turtlewire.trajectory import Trajectory, compare, plot_path
+from turtlewire.trajectory import Trajectory, compare, plot
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -82,15 +83,13 @@ def _robot() -> Buffer:
     for tick in range(101):
         stamp, turned = SECOND + tick * SECOND // 20, tick / 200
         pose = (0.02 * tick, 0.01 * tick, 0.0), (0.0, 0.0, math.sin(turned), math.cos(turned))
-        buffer.set_transform("odom", "base_link", stamp, *pose, authority="odometry")
+        buffer.set_transform("odom", "base_link", stamp, *pose, sender="odometry")
         if tick % 10 == 0:
             upright = (0.0, 0.0, 0.0, 1.0)
-            buffer.set_transform("map", "odom", stamp, (1.0, 2.0, 0.0), upright, authority="slam")
+            buffer.set_transform("map", "odom", stamp, (1.0, 2.0, 0.0), upright, sender="slam")
     for child, place in (("camera", (0.3, 0.0, 0.4)), ("laser", (0.2, 0.0, 0.2))):
         turn = (-0.5, 0.5, -0.5, 0.5) if child == "camera" else (0.0, 0.0, 0.0, 1.0)
-        buffer.set_transform(
-            "base_link", child, 0, place, turn, static=True, authority="robot_state_publisher"
-        )
+        buffer.set_static_transform("base_link", child, place, turn, sender="robot_state_publisher")
     return buffer
 
 
@@ -108,7 +107,7 @@ def _compared_runs() -> str:
         noisy = poses.copy()
         noisy[:, :3] += dice.normal(size=(400, 3)).cumsum(axis=0) * size / 4
         runs[name] = compare(truth, Trajectory(stamps, noisy), "se3")
-    return plot_path({name: run.estimate for name, run in runs.items()}, truth).svg
+    return plot({name: run.estimate for name, run in runs.items()}, reference=truth).svg
 
 
 def _on_white(svg: str) -> str:
@@ -121,8 +120,7 @@ def picture_lesson(browser: Browser) -> None:
     """The listener's lesson, some seconds after its start."""
     if not (LESSON / "manifest.json").exists():
         sys.exit("run scripts/lesson first, which builds the lesson for the image")
-    solution = LESSONS / "listener" / "solution"
-    files = {path.name: path.read_text(encoding="utf-8") for path in solution.glob("*.py")}
+    files = load_lesson(LESSONS / "listener").solution()
     with served_pages.static(LESSON, "#listener") as address:
         page = browser.new_page(viewport={"width": 1280, "height": 860})
         kept = json.dumps(json.dumps({"files": {"listener": files}}))

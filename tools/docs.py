@@ -15,15 +15,13 @@ import sys
 import tempfile
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+import early_options
 from docs_links import faults_of
 from lesson import serve
 from lesson_npm import BuildError
-from script_options import Parser
 
-if TYPE_CHECKING:
-    import argparse
+from turtlewire.program import program
 
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build"
@@ -38,7 +36,7 @@ OLDEST_PYTHON = (3, 11)
 
 def main() -> int:
     """Build, and serve if asked to; the exit status."""
-    options = _options()
+    options = early_options.docs(sys.argv[1:])
     started = time.monotonic()
     try:
         install_tools()
@@ -53,34 +51,6 @@ def main() -> int:
         print(f"scripts/docs: {error}", file=sys.stderr)
         return 1
     return 0
-
-
-def _options() -> argparse.Namespace:
-    parser = Parser(prog="scripts/docs", description=__doc__.splitlines()[0])
-    parser.add_argument(
-        "--output",
-        type=Path,
-        default=BUILD / "site",
-        metavar="FOLDER",
-        help="where to build it; an older one there is replaced (default: build/site)",
-    )
-    parser.add_argument("--serve", action="store_true", help="show it on this machine")
-    parser.add_argument("--port", type=int, default=8000, help="of --serve (default: 8000)")
-    parser.add_argument(
-        "--base",
-        default="/",
-        metavar="PATH",
-        help="where the host will have it, for the page of wrong addresses (default: /)",
-    )
-    parser.add_argument(
-        "--language", default="en", help="a language of docs/sphinx/locale (default: en)"
-    )
-    parser.add_argument(
-        "--gettext",
-        action="store_true",
-        help="write the texts for translators into build/gettext instead",
-    )
-    return parser.parse_args()
 
 
 def install_tools() -> None:
@@ -174,8 +144,4 @@ def _checked(command: list[str], environment: dict[str, str]) -> None:
 
 
 if __name__ == "__main__":
-    if {"-h", "--help"}.isdisjoint(sys.argv):  # the help does without turtlewire
-        from turtlewire.program import program
-
-        main = program(main)
-    sys.exit(main())
+    sys.exit(program(main)())

@@ -6,6 +6,7 @@ import os
 import socket
 
 from turtlewire import wire
+from turtlewire.wire import environment
 
 __all__ = ["free_domain", "other_demo_runs", "reserve"]
 
@@ -44,8 +45,8 @@ def free_domain() -> tuple[int, socket.socket] | None:
 
 def other_demo_runs(domain: int) -> bool:
     """Return True if another demo's simulator is in this domain, which must be the set one."""
-    mark = reserve(domain)
-    if mark is not None:
+    # Only DDS takes ports by the domain: a free one saves the discovery.
+    if environment.middleware_name() == "rmw_cyclonedds_cpp" and (mark := reserve(domain)):
         mark.close()
         return False
     context = wire.open_context()

@@ -20,7 +20,7 @@ DEFAULT = Path.home() / "turtlewire-class"
 
 def main() -> int:
     """Install unless it is done, run the demo; the exit status."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], allow_abbrev=False)
     parser.add_argument(
         "--into", type=Path, default=DEFAULT, metavar="FOLDER", help=f"default: {DEFAULT}"
     )

@@ -31,12 +31,15 @@ PREFIX = ROS / "prefix" / "turtlewire_ros"
 COLCON_CODE = COLCON / "src" / "turtlewire_colcon"
 #: Files in which such a string is right, and the reason.
 REASONS = {
+    ENGINE / "src/turtlewire/doctor/fast_dds_findings.py": "does without it elsewhere",
     ENGINE / "src/turtlewire/doctor/network.py": "does without where the file is missing",
+    ENGINE / "src/turtlewire/doctor/shared_memory.py": "finds nothing where they are missing",
     ENGINE / "src/turtlewire/wire/loopback.py": "reads it on Linux only",
     ENGINE / "src/turtlewire/wire/cyclone/ports.py": "does without where the file is missing",
     ENGINE / "src/turtlewire/wire/libddsc.py": "looks for folders, and finds none",
     COLCON_CODE / "cmake/processes.py": "redirected output needs a shell, as under make",
     COLCON_CODE / "plan_install.py": "writes the setup files of each shell",
+    ROS / "ros2cli/ros2doctor/api/network.py": "does without where the file is missing",
     PREFIX / "process_guardian.py": "is started on Linux only",
     CLASS / "src/turtle_class/supervise.py": "its caller asks for Linux",
     COLCON_CODE / "wheel.py": "pip replaces the first line of a script",
@@ -54,7 +57,7 @@ def main() -> int:
     )
     if found:
         print("\n".join(found))
-        print("Guard it by `if sys.platform …`, or give the reason in scripts/platforms.py.")
+        print("Guard it by `if sys.platform …`, or give the reason in tools/platforms.py.")
     return bool(found)
 
 

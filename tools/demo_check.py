@@ -15,6 +15,7 @@ from demo_domain import free_domain
 from demo_launch import Launch
 
 from turtlewire import Buffer, msg, wire
+from turtlewire.distro import KILTED, since
 from turtlewire.errors import TransformException
 from turtlewire.tf.listener import TransformListener
 from turtlewire.wire.base import TypeId
@@ -34,6 +35,9 @@ SHARE_OF_WAY = 0.5
 START_LIMIT_S = 30.0
 SILENCE_LIMIT_S = 3.0
 COMMAND_PERIOD_S = 0.1
+
+#: What turtlesim sends.
+_POSE = "turtlesim_msgs/msg/Pose" if since(KILTED) else "turtlesim/msg/Pose"
 
 
 class CheckError(Exception):
@@ -127,7 +131,7 @@ class Observer:
         self._context = wire.open_context()
         node = self._context.create_node("demo_check")
         for turtle in (LEADER, FOLLOWER):
-            self._listen(node, f"/{turtle}/pose", "turtlesim/msg/Pose", self._on_pose, turtle)
+            self._listen(node, f"/{turtle}/pose", _POSE, self._on_pose, turtle)
         self._listen(
             node,
             f"/{FOLLOWER}/cmd_vel",
@@ -185,9 +189,9 @@ class Observer:
                 raise CheckError(why)
 
     def _missing_transform(self) -> str:
-        """Why turtle2's transform has not arrived within half a second; "" when it has."""
-        why = self._buffer.can_transform_reason(FOLLOWER, LEADER, timeout_ns=500_000_000)
-        return why and f"no transform of {FOLLOWER} arrives: {why}"
+        """Return why turtle2's transform has not arrived within half a second, or ""."""
+        why = self._buffer.explain(FOLLOWER, LEADER, timeout_ns=500_000_000)
+        return f"no transform of {FOLLOWER} arrives: {why}" if why else ""
 
     def drive(self, forward: float, turn: float, duration: float, launch: Launch) -> None:
         """Command turtle1 for some seconds, with a lookup between the turtles at each command.

@@ -1,4 +1,4 @@
-"""Who imports whom: modules, circles and rooms, read from the sources without importing them.
+"""The import graph: modules, import cycles and packages, read from the sources.
 
 `scripts/architecture` draws docs/images/architecture.svg; `--check` fails if it is stale;
 `--figures` prints figures of the code, with `--root` of another checkout.
@@ -13,7 +13,7 @@ from collections import defaultdict
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from script_options import Parser
+from script_options import ScriptParser
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -172,7 +172,7 @@ def strong_components(nodes: Iterable[str], arrows: dict[str, set[str]]) -> list
 
 def main() -> int:
     """Draw the map, check it or print figures; the exit status."""
-    parser = Parser(prog="scripts/architecture", description=__doc__)
+    parser = ScriptParser(prog="scripts/architecture", description=__doc__)
     mode = parser.add_mutually_exclusive_group()
     mode.add_argument("--check", action="store_true", help="fail if the map is stale")
     mode.add_argument("--figures", action="store_true", help="print figures of the code")

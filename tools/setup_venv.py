@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 #: The releases that CI installs, with their hashes.
-LOCK = ROOT / "scripts" / "locks" / "ci.txt"
+LOCK = ROOT / "tools" / "locks" / "ci.txt"
 
 #: pip that installs dependency groups of a pyproject.toml.
 OLDEST_PIP = (25, 1)

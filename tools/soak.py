@@ -15,7 +15,7 @@ import time
 from pathlib import Path
 from typing import IO, NamedTuple
 
-from script_options import Parser
+from early_options import soak as soak_options
 from soak_actors import BROADCASTERS
 
 from turtlewire import wire
@@ -38,7 +38,7 @@ START_LIMIT_S = 120
 END_LIMIT_S = 60
 
 
-class Sample(NamedTuple):
+class MemorySample(NamedTuple):
     """What a process holds at a moment."""
 
     memory: int
@@ -51,7 +51,7 @@ class Resident:
 
     def __init__(self, name: str, *command: str | Path, log: IO[str]) -> None:
         self.name = name
-        self.samples: list[Sample] = []
+        self.samples: list[MemorySample] = []
         self.process = subprocess.Popen(
             [str(word) for word in command], stdout=subprocess.DEVNULL, stderr=log
         )
@@ -65,7 +65,7 @@ class Resident:
             threads = len(list((folder / "task").iterdir()))
         except (OSError, IndexError):
             return
-        self.samples.append(Sample(pages * os.sysconf("SC_PAGE_SIZE"), descriptors, threads))
+        self.samples.append(MemorySample(pages * os.sysconf("SC_PAGE_SIZE"), descriptors, threads))
 
     def ends_within(self, seconds: float) -> bool:
         """Return True if it ends in that time by itself; it is killed otherwise."""
@@ -91,7 +91,7 @@ class Resident:
                 found.append(f"{what}: {before} became {after}")
         return found
 
-    def thirds(self) -> list[Sample]:
+    def thirds(self) -> list[MemorySample]:
         """For each third of the run the least memory, and the fewest descriptors and threads.
 
         The minimum leaves out what visitors and full receive buffers need for a while.
@@ -99,7 +99,7 @@ class Resident:
         size = max(1, len(self.samples) // 3)
         parts = [self.samples[:size], self.samples[size:-size], self.samples[-size:]]
         return [
-            Sample(
+            MemorySample(
                 min(sample.memory for sample in part),
                 min(sample.descriptors for sample in part),
                 min(sample.threads for sample in part),
@@ -181,13 +181,7 @@ class Visitors:
 
 def main() -> int:
     """Run the soak; the exit status."""
-    parser = Parser(prog="scripts/soak", description=__doc__)
-    parser.add_argument("--minutes", type=float, default=15.0, help="default: %(default)s")
-    arguments = parser.parse_args()
-    if not sys.platform.startswith("linux"):
-        parser.error("needs /proc, which only Linux has")
-    if not 0.5 <= arguments.minutes <= 10_000:
-        parser.error(f"--minutes is between 0.5 and 10000, got {arguments.minutes:g}")
+    arguments = soak_options(sys.argv[1:])
     log_path = BIN.parent / "log" / f"soak-{os.getpid()}.txt"
     log_path.parent.mkdir(exist_ok=True)
     print(

@@ -115,15 +115,17 @@ def members(module: Any) -> dict[str, Any]:
 
 
 def is_described(value: Any) -> bool:
-    """Return True if a member is a class, a function or an attribute of instances."""
-    return callable(value) or isinstance(value, classmethod) or inspect.isdatadescriptor(value)
+    """Return True if a member is a class, a function, an attribute of instances or a constant."""
+    if callable(value) or inspect.isdatadescriptor(value):
+        return True
+    return isinstance(value, classmethod | int)
 
 
 def built(name: str, value: Any) -> str:
     """Return the parameters of a member of the module, as :func:`declared` writes them."""
     if isinstance(value, type):
         return "a class"
-    if isinstance(value, property) or inspect.isdatadescriptor(value):
+    if isinstance(value, int) or inspect.isdatadescriptor(value):
         return ATTRIBUTE
     if type(value) is type(object.__eq__):
         return SLOT

@@ -19,14 +19,17 @@ import zipfile
 from pathlib import Path
 from typing import Any
 
+import early_options
 from distributions import CLASS, ENGINE, LEARNING, ROS
 from lesson_npm import BuildError, fetched
-from script_options import Parser
+
+from turtlewire.program import program
 
 ROOT = Path(__file__).resolve().parent.parent
 SOURCE = CLASS / "page"
 LESSONS = CLASS / "src" / "turtle_lesson" / "lessons"
 WHEEL_CACHE = ROOT / "build" / "lesson-wheels"
+KIT = ENGINE / "src" / "turtlewire" / "web" / "kit"
 TURTLESIM_PAGE = ROS / "turtlesim" / "turtlesim" / "page"
 #: Ours, and how each is built without a compiler.
 WHEELS = (
@@ -37,22 +40,12 @@ WHEELS = (
 #: What ours need of others, in pure Python, as it is installed here.
 PURE_PYTHON = ("PyYAML", "argcomplete", "defusedxml")
 #: Files of the page itself, beside its scripts.
-PAGE = ("index.html", "style.css", "icon.svg")
+PAGE = ("index.html", "style.css")
 
 
 def main() -> int:
     """Build, and serve if asked to; the exit status."""
-    parser = Parser(prog="scripts/lesson", description=__doc__.splitlines()[0])
-    parser.add_argument(
-        "--output",
-        type=Path,
-        default=ROOT / "build" / "lesson",
-        metavar="FOLDER",
-        help="where to build it; an older one there is replaced (default: build/lesson)",
-    )
-    parser.add_argument("--serve", action="store_true", help="show it on this machine")
-    parser.add_argument("--port", type=int, default=8000, help="of --serve (default: 8000)")
-    options = parser.parse_args()
+    options = early_options.lesson(sys.argv[1:])
     try:
         weight = build(options.output)
         print(f"{options.output}: {weight / 1e6:.1f} MB to load, compressed")
@@ -71,7 +64,7 @@ def build(output: Path) -> int:
         BuildError: Something is missing, or the folder holds something else.
     """
     if output.exists() and any(output.iterdir()) and not (output / "manifest.json").exists():
-        raise BuildError(f"{output} is no lesson that was built before: it is not replaced")
+        raise BuildError(f"{output} holds no built lesson: choose an empty folder")
     with tempfile.TemporaryDirectory(dir=_made(ROOT / "build")) as folder:
         page = Path(folder) / "lesson"
         _copy_page(page)
@@ -99,6 +92,7 @@ def _copy_page(page: Path) -> None:
         shutil.copy(SOURCE / name, page)
     shutil.copytree(SOURCE / "js", page / "js")
     shutil.copytree(TURTLESIM_PAGE / "js", page / "turtlesim")
+    shutil.copytree(KIT, page / "kit")
     shutil.copy(ROOT / "LICENSE", page)
 
 
@@ -183,22 +177,27 @@ def _pack_lessons(page: Path) -> None:
     order = json.loads((LESSONS / "order.json").read_text(encoding="utf-8"))
     lessons = [_lesson(LESSONS / name) for name in order]
     (page / "lessons.json").write_text(json.dumps(lessons), encoding="utf-8")
+    # The first lesson can be read before any script has been loaded.
+    index = page / "index.html"
+    text = f'<article id="text">{lessons[0]["text"]}</article>'
+    html = index.read_text(encoding="utf-8").replace('<article id="text"></article>', text)
+    index.write_text(html, encoding="utf-8")
 
 
 def _lesson(folder: Path) -> dict[str, Any]:
     """Return a lesson as the page needs it: title, text and the student's files."""
     facts = json.loads((folder / "lesson.json").read_text(encoding="utf-8"))
+    from turtle_lesson.lesson import load_lesson  # not installed yet when --help is asked for
 
-    def sources(kind: str) -> dict[str, str]:
-        return {name: (folder / kind / name).read_text(encoding="utf-8") for name in facts["files"]}
+    lesson = load_lesson(folder)
 
     return {
         "id": folder.name,
         **{key: facts.get(key, "") for key in ("title", "target", "source", "topic")},
         "faults": facts.get("faults", []),
         "text": (folder / "text.html").read_text(encoding="utf-8"),
-        "starter": sources("starter"),
-        "solution": sources("solution"),
+        "starter": lesson.starter(),
+        "solution": lesson.solution(),
     }
 
 
@@ -255,8 +254,4 @@ def serve(folder: Path, port: int) -> None:
 
 
 if __name__ == "__main__":
-    if {"-h", "--help"}.isdisjoint(sys.argv):  # the help does without turtlewire
-        from turtlewire.program import program
-
-        main = program(main)
-    sys.exit(main())
+    sys.exit(program(main)())

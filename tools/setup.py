@@ -20,8 +20,8 @@ from typing import Any, NoReturn
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from distributions import ENGINE, LEARNING, ROOT, ROS, distributions, packages
-from script_options import Parser
-from setup_core import core_key, provide_core
+from script_options import ScriptParser
+from setup_core import CORE, core_key, provide_core
 from setup_steps import PYTHON, VENV, SetupError, run_python, say, stage
 from setup_venv import install, make_venv, pip_command, pip_version
 
@@ -30,12 +30,15 @@ STAMP = VENV / "turtlewire-stamp.json"
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 #: What can be added: dependency groups of pyproject.toml, and an extra of turtlewire-colcon.
 EXTRAS = {"test": "what the tests need", "lint": "ruff and mypy", "workspace": "colcon and rosdep"}
-#: Prints the middleware, and its library if that is not the usual one.
+#: Prints the middleware, and its library if that is not the usual one, or why it is Zenoh.
 MIDDLEWARE = """
-from turtlewire.wire.environment import is_installed, middleware_library, middleware_name
-name = middleware_name()
-library = middleware_library(name)
+from turtlewire.wire import environment
+from turtlewire.wire.environment import is_installed
+name = environment.middleware_name()
+library = environment.middleware_library(name)
 reason = "" if "the cyclonedds wheel" in library else f", which stands on {library}"
+if not is_installed("rmw_cyclonedds_cpp"):
+    reason = f". {environment.NO_CYCLONE}"
 print(f"middleware {name}{reason}" if is_installed(name) else "only the transform buffer")
 """
 
@@ -43,6 +46,7 @@ print(f"middleware {name}{reason}" if is_installed(name) else "only the transfor
 def main(extras: list[str]) -> None:
     """Bring .venv up to date with the sources, with ``extras`` installed besides."""
     if not missing(extras)[1]:
+        say("nothing to do: .venv is up to date")
         return
     lock = wait_for_turn(ROOT)
     try:
@@ -56,7 +60,7 @@ def main(extras: list[str]) -> None:
 def parse_extras(arguments: list[str]) -> list[str]:
     """Return the extras named on the command line; end the program at an unknown one."""
     described = "; ".join(f"{name}: {text}" for name, text in EXTRAS.items())
-    parser = Parser(
+    parser = ScriptParser(
         prog="scripts/setup",
         description="Makes .venv in this folder or brings it up to date, and installs everything "
         "into it, editable. Outside of this folder it writes only caches: what pip or uv keeps, "
@@ -79,6 +83,8 @@ def missing(extras: list[str]) -> tuple[dict[str, Any], dict[str, Any]]:
         "core": core_key(),
         "extras": sorted({*stamp.get("extras", []), *extras}),
     }
+    if stamp.pop("has_core", False) and not CORE.exists():  # deleted by hand
+        stamp.pop("core", None)
     return stamp, {} if stamp == wanted else wanted
 
 
@@ -115,7 +121,8 @@ def bring_up_to_date(stamp: dict[str, Any], wanted: dict[str, Any]) -> None:
         # An interrupted run goes on from here.
         STAMP.write_text(json.dumps({**wanted, "core": None}), encoding="utf-8")
         provide_core(wanted["core"])
-    STAMP.write_text(json.dumps(wanted), encoding="utf-8")
+    noted = {**wanted, "has_core": CORE.exists()}
+    STAMP.write_text(json.dumps(noted), encoding="utf-8")
     say(f"ready after {time.monotonic() - started:.0f} s: {middleware()}")
 
 
@@ -155,7 +162,8 @@ def fingerprint() -> str:
         files += [*folder.glob("*.toml"), *folder.glob("setup.*"), *folder.glob("*_build.py")]
         files += [path for path in folder.glob("prefix/**/*") if path.suffix != ".py"]
     files += ROS.glob("*/*/share/**/*")
-    files += (ENGINE / "src" / "turtlewire" / "msg" / "interfaces").glob("*/*/*.*")
+    msg = ENGINE / "src" / "turtlewire" / "msg"
+    files += [msg / "generate.py", msg / "stubs.py", *msg.glob("interfaces/*/*/*.*")]
     names = [str(package.relative_to(ROOT)) for package in packages()]
     digest = hashlib.sha256(repr(names).encode())
     for path in sorted(files):

@@ -28,14 +28,14 @@ from release_wheels import (
     possible_machines,
     targets,
 )
-from script_options import Parser
+from script_options import ScriptParser
 
 PROJECTS = {folder.name: folder for folder in distributions() if folder != LEARNING}
 
 
 def main() -> int:
     """Build, check and describe a release; the exit status."""
-    parser = Parser(
+    parser = ScriptParser(
         prog="scripts/release",
         description="Builds sdists and wheels into build/release, checks them, and writes the "
         "notes. Uploads nothing.",

@@ -18,7 +18,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from distributions import ENGINE, LEARNING, ROS
 from release_steps import ROOT, ReleaseError, run, say
 from release_wheels import interpreter, wheel_tag
-from script_options import Parser
+from script_options import ScriptParser
 
 HOME = ROOT / "build" / "elsewhere"
 WHEELS = ROOT / "build" / "release"
@@ -32,7 +32,7 @@ TEST_PACKAGES = (
 )
 
 
-class Place(NamedTuple):
+class OtherSystem(NamedTuple):
     """Another Debian with its Python."""
 
     suite: str
@@ -64,11 +64,11 @@ class Place(NamedTuple):
 
 
 PLACES = {
-    "arm64": Place(
+    "arm64": OtherSystem(
         *("bookworm", "arm64", "aarch64", "3.11", "libddsc0debian"),
         (f"{ENGINE}/tests/tf/test_buffer.py", f"{ENGINE}/tests/tf/test_batch.py"),
     ),
-    "python3.14": Place(
+    "python3.14": OtherSystem(
         *("forky", "amd64", "x86_64", "3.14", "libddsc0t64"),
         (
             "-n2",
@@ -85,7 +85,7 @@ MIDDLEWARES = ("rmw_zenoh_cpp", "rmw_cyclonedds_cpp")
 
 def main() -> int:
     """Prepare what is missing, and run the trials; the exit status."""
-    parser = Parser(
+    parser = ScriptParser(
         prog="scripts/elsewhere",
         description="Tries the wheels in build/release, as they are, with the Python of another "
         "Debian; scripts/release makes new ones.",
@@ -111,7 +111,7 @@ def main() -> int:
     return 0
 
 
-def run_tests(place: Place) -> None:
+def run_tests(place: OtherSystem) -> None:
     """The compiled core is there, and tests pass with it."""
     trial = "import platform, turtlewire.tf.buffer as b; print(platform.machine(), b.CORE)"
     told = run(place.python, "-c", trial, what="the import").strip()
@@ -121,13 +121,13 @@ def run_tests(place: Place) -> None:
     say(run(*command, what="the tests").strip().splitlines()[-1])
 
 
-def run_demo(place: Place) -> None:
+def run_demo(place: OtherSystem) -> None:
     """One turtle follows the other on each middleware, with this Debian's library of DDS."""
     for middleware in MIDDLEWARES:
         environment = dict(os.environ)
         if not place.emulated:  # the emulator looks below the root by itself
             environment["CYCLONEDDS_HOME"] = str(place.root / "usr")
-        command = [place.python, ROOT / "scripts" / "elsewhere_follow.py", middleware]
+        command = [place.python, ROOT / "tools" / "elsewhere_follow.py", middleware]
         if place.emulated and middleware == "rmw_zenoh_cpp":
             # Without a router, Zenoh's peers find each other by multicast: QEMU 7.2 refuses to
             # choose its interface (IP_MULTICAST_IF: "Protocol not available").
@@ -136,7 +136,7 @@ def run_demo(place: Place) -> None:
         say(done.strip().splitlines()[-1])
 
 
-def prepare(place: Place) -> None:
+def prepare(place: OtherSystem) -> None:
     """Debian, the venv and the wheels in it."""
     needs = EMULATOR_NEEDS if place.emulated else NEEDS
     missing = [package for command, package in needs.items() if shutil.which(command) is None]
@@ -150,7 +150,7 @@ def prepare(place: Place) -> None:
     (place.folder / "ready").touch()
 
 
-def unpack(place: Place) -> None:
+def unpack(place: OtherSystem) -> None:
     """Debian's Python and libddsc; the folder is whole once the mark is there."""
     shutil.rmtree(place.root, ignore_errors=True)
     place.folder.mkdir(parents=True, exist_ok=True)
@@ -162,7 +162,7 @@ def unpack(place: Place) -> None:
     (place.folder / "unpacked").touch()
 
 
-def compile_modules(place: Place, folder: Path) -> None:
+def compile_modules(place: OtherSystem, folder: Path) -> None:
     """Compile Python's modules here, for which an emulated Python takes minutes."""
     if not place.emulated:
         return
@@ -172,7 +172,7 @@ def compile_modules(place: Place, folder: Path) -> None:
     run(python, "-m", "compileall", "-q", "-j2", folder, what=f"bytecode in {folder.name}")
 
 
-def make_venv(place: Place) -> None:
+def make_venv(place: OtherSystem) -> None:
     """An empty venv whose Python is the other Debian's."""
     venv = place.python.parent.parent
     shutil.rmtree(venv, ignore_errors=True)
@@ -189,7 +189,7 @@ def make_venv(place: Place) -> None:
     place.python.chmod(0o755)
 
 
-def install(place: Place) -> None:
+def install(place: OtherSystem) -> None:
     """The wheels with all that they ask for there.
 
     An emulated pip would take many minutes, so this machine's pip resolves and downloads.
@@ -205,13 +205,13 @@ def install(place: Place) -> None:
     for path in ours(place):
         shutil.copy(path, wheels)
     venv = place.python.parent.parent
-    command = [tools, ROOT / "scripts" / "elsewhere_wheels.py"]
+    command = [tools, ROOT / "tools" / "elsewhere_wheels.py"]
     command += [wheels, venv, place.version, place.machine]
     run(*command, *TEST_PACKAGES, what="the wheels and their dependencies")
     compile_modules(place, venv / "lib" / f"python{place.version}" / "site-packages")
 
 
-def ours(place: Place) -> list[Path]:
+def ours(place: OtherSystem) -> list[Path]:
     """Return the release's wheels for this Python."""
     tag = wheel_tag(place.version)
     patterns = (f"turtlewire-*-{tag}-*{place.machine}.whl", "turtlewire_ros-*.whl")

@@ -24,7 +24,7 @@ LESSON = ROOT / "build" / "lesson"
 SITE = ROOT / "build" / "site"
 URDF_TUTORIAL = ROOT / "tests" / "robots" / "urdf_ws" / "src" / "urdf_tutorial"
 WALKER = ROOT / "examples" / "robots" / "walker.urdf.xacro"
-LIVE = "document.querySelector('#connection').dataset.state === 'live'"
+LIVE = "document.querySelector('#connection')?.dataset.state === 'live'"
 
 
 class ServedPage(NamedTuple):
@@ -149,7 +149,7 @@ PAGES = {
     "turtlesim": ServedPage(turtlesim, f"{LIVE} && document.querySelector('#roster tr')"),
     "sliders": ServedPage(sliders, f"{LIVE} && document.querySelector('[type=range]')"),
     "class": ServedPage(turtle_class, "document.querySelector('article canvas:not([hidden])')"),
-    "lesson": ServedPage(partial(static, LESSON), "document.body.dataset.loadedMs"),
+    "lesson": ServedPage(partial(static, LESSON), "document.body?.dataset.loadedMs"),
     "site": ServedPage(partial(static, SITE, "index.html"), "true"),
     "site's page": ServedPage(partial(static, SITE, "compatibility.html"), "true"),
 }

@@ -11,13 +11,16 @@ import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from typing import NoReturn
+    from typing import Any, NoReturn
 
 _UNKNOWN = re.compile(r"unrecognized arguments: (-\S+)")
 
 
-class Parser(argparse.ArgumentParser):
-    """A parser for programs that run before turtlewire is installed."""
+class ScriptParser(argparse.ArgumentParser):
+    """A parser for programs that run before turtlewire is installed; no option may be shortened."""
+
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(allow_abbrev=False, **settings)
 
     def error(self, message: str) -> NoReturn:
         """Print the usage, the message and the nearest option; exit with status 2."""

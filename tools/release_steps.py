@@ -45,12 +45,12 @@ def run(
 
 
 def install_locked(python: Path, lock: str, *, what: str) -> None:
-    """Install the releases of a file of ``scripts/locks``, checked by their hashes.
+    """Install the releases of a file of ``tools/locks``, checked by their hashes.
 
     Raises:
         ReleaseError: pip failed; its output was printed.
     """
-    file = ROOT / "scripts" / "locks" / f"{lock}.txt"
+    file = ROOT / "tools" / "locks" / f"{lock}.txt"
     run(python, "-m", "pip", "install", "-q", "--require-hashes", "-r", file, what=what)
 
 

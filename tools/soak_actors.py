@@ -1,6 +1,6 @@
 """The processes of scripts/soak: those that stay, and visitors that come and go.
 
-`python scripts/soak_actors.py ACTOR [ARGUMENT]`; a visitor's argument is its number.
+`python tools/soak_actors.py ACTOR [ARGUMENT]`; a visitor's argument is its number.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ def watcher(_argument: str) -> None:
     with TransformListener(buffer):
         while True:
             soon_ns = time.time_ns() + 10_000_000
-            buffer.can_transform("world", frame, soon_ns, PATIENCE_S * 10**9)
+            buffer.can_transform("world", frame, soon_ns, timeout_ns=PATIENCE_S * 10**9)
 
 
 def server(_argument: str) -> None:
