@@ -1,9 +1,9 @@
 """Many processes on one host, each with one node.
 
-How long until everybody sees everybody, and what they weigh.
+Measures the time until all have discovered each other, and their memory.
 
-``scripts/bench crowd`` measures 50. For another number, of which so many are started a second:
-``python -m benchmarks.crowd 120 5``.
+``scripts/bench crowd`` measures 50; ``python -m benchmarks.crowd 120 5`` measures 120, five started
+per second.
 """
 
 from __future__ import annotations

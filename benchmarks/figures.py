@@ -9,9 +9,9 @@ FACTORS = {"ns": 1.0, "µs": 1e3, "ms": 1e6, "s": 1e9}
 
 @dataclass(frozen=True)
 class Figure:
-    """What repeated measurements gave.
+    """The result of repeated measurements.
 
-    The least, which is the undisturbed cost, and the middle, which is what one sees.
+    The minimum is the undisturbed cost; the median is the typical one.
     """
 
     minimum: float
@@ -31,7 +31,7 @@ class Figure:
 
 @dataclass(frozen=True)
 class Row:
-    """One line: what was measured, our figure, those of rivals, and what DESIGN asks for."""
+    """One line: what was measured, our figure, those of rivals, and the budget."""
 
     what: str
     ours: Figure

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 TITLE = "the lesson in a browser tab (Chromium, without a graphics card)"
-SCRIPT = Path(__file__).parents[1] / "scripts" / "lesson.py"
+SCRIPT = Path(__file__).parents[1] / "tools" / "lesson.py"
 RESTARTS = 9
 SECONDS = 10
 LONG_MS = 300_000

@@ -47,7 +47,7 @@ def rows() -> Iterator[Row]:
         yield from compare(
             {"cpu": what}, lambda of, count=count, rate=rate: listen(of, count, rate)
         )
-    everybody = f"{CROWD} processes start at once: from the last one's start until all know all"
+    everybody = f"{CROWD} processes started at once: from the last start until all see all"
     yield from compare({"seconds": everybody}, know_each_other, "Zenoh <= 4 s")
 
 

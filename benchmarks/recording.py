@@ -36,7 +36,7 @@ from turtlewire.wire.qos import QoS
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from rosbag2_transport.player import Player
+    from rosbag2_transport.player import BagPlayer
     from turtlewire.bag import BagMessage
     from turtlewire.wire.base import Graph, Publisher
 
@@ -118,7 +118,7 @@ def load(minutes: float) -> int:
     return lost
 
 
-def note(player: Player, errors: list[float], message: BagMessage) -> None:
+def note(player: BagPlayer, errors: list[float], message: BagMessage) -> None:
     """Note how many milliseconds a message is late as it is published."""
     errors.append((player.clock.now_ns() - message.log_time_ns) / player.clock.rate * 1e-6)
 
@@ -126,7 +126,7 @@ def note(player: Player, errors: list[float], message: BagMessage) -> None:
 def lateness() -> Iterator[tuple[float, list[float]]]:
     """Play at three rates; each with the milliseconds by which its messages are late, in order."""
     from rosbag2_transport.options import PlayOptions
-    from rosbag2_transport.player import Player
+    from rosbag2_transport.player import BagPlayer
     from rosbag2_transport.session import BagSession
 
     with tempfile.TemporaryDirectory() as folder, isolated_domain():
@@ -139,7 +139,7 @@ def lateness() -> Iterator[tuple[float, list[float]]]:
             errors: list[float] = []
             options = PlayOptions(rate=rate, playback_duration=5.0 * rate)
             with BagSession("timing") as session:
-                player = Player(session.node, path, options)
+                player = BagPlayer(session.node, path, options)
                 player.on_publish.append(partial(note, player, errors))
                 player.play()
                 player.close()

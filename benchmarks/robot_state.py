@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from benchmarks.figures import Figure, Row
-from turtlewire.urdf import parse_urdf
+from turtlewire.urdf import Robot
 from turtlewire.urdf.joint_messages import JointMessages
 
 if TYPE_CHECKING:
@@ -65,9 +65,9 @@ def joint_state(number: int) -> bytes:
 
 def convert(core: str) -> Figure:
     code = (
-        "from benchmarks import robot_state as b; from turtlewire.urdf import parse_urdf\n"
+        "from benchmarks import robot_state as b; from turtlewire.urdf import Robot\n"
         "from turtlewire.urdf.joint_messages import JointMessages; import time, json\n"
-        "m = JointMessages(parse_urdf(b.urdf())); d = [b.joint_state(n) for n in range(2000)]\n"
+        "m = JointMessages(Robot.from_xml(b.urdf())); d = [b.joint_state(n) for n in range(2000)]\n"
         "def one():\n"
         "    t = time.process_time_ns()\n"
         "    for cdr in d: m.layout_of(cdr).transforms(cdr)\n"
@@ -85,7 +85,7 @@ def convert(core: str) -> Figure:
 def answer_datagrams() -> float:
     """CPU nanoseconds of a process for each datagram that it receives and answers."""
     size = len(
-        JointMessages(parse_urdf(urdf())).layout_of(joint_state(0)).transforms(joint_state(0))
+        JointMessages(Robot.from_xml(urdf())).layout_of(joint_state(0)).transforms(joint_state(0))
     )
     code = (
         "import socket, time; s = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)\n"

@@ -147,18 +147,18 @@ def wait() -> None:
 
     buffer = Buffer()
     with TransformListener(buffer):
-        buffer.lookup_transform("world", "frame0", 0, 10_000_000_000)
+        buffer.lookup_transform("world", "frame0", None, timeout_ns=10_000_000_000)
         waits = []
         for _ in range(WAITS):
-            between = buffer.latest_common_time("world", "frame0") + 500_000_000 // RATE_HZ
-            buffer.lookup_transform("world", "frame0", between, 10_000_000_000)
-            waits.append(time.time_ns() - buffer.latest_common_time("world", "frame0"))
+            between = buffer._latest_common_time("world", "frame0") + 500_000_000 // RATE_HZ
+            buffer.lookup_transform("world", "frame0", between, timeout_ns=10_000_000_000)
+            waits.append(time.time_ns() - buffer._latest_common_time("world", "frame0"))
     waits.sort()
     print(json.dumps([waits[WAITS // 2], waits[WAITS * 99 // 100]]))
 
 
 def newest_ns(buffer: Any) -> int:
-    return buffer.engine.latest_common_time("world", "frame0")
+    return buffer.engine._latest_common_time("world", "frame0")
 
 
 if __name__ == "__main__":

@@ -20,7 +20,7 @@ import numpy as np
 
 from benchmarks.figures import Figure, Row
 from turtlewire.web import Server
-from turtlewire_view.packets import encode_packet
+from turtlewire.web.packets import encode_packet
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

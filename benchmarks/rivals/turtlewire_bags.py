@@ -9,9 +9,12 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parents[2]))
 from benchmarks.bag_data import LINKS, SEVERAL, SINGLE, folder, tf_messages, trajectories
 from benchmarks.clock import report, summary
-from turtlewire import Buffer, trajectory
+from turtlewire import Buffer
 from turtlewire.bag import BagWriter, open_bag
 from turtlewire.tf.plain import RecordWalk
+from turtlewire.trajectory import Trajectory
+from turtlewire.trajectory.alignment import align
+from turtlewire.trajectory.metrics import ape, rpe
 
 import numpy as np  # isort: skip -- so that its import is in no figure
 
@@ -65,12 +68,12 @@ def main():
     figures["plain walk"] = cpu(lambda: plain_walk(one), 3)
     figures["several"] = cpu(lambda: Buffer.from_bag(several))
     stamps, p, q, estimated_p, estimated_q = trajectories()
-    reference = trajectory.Trajectory(stamps, np.hstack((p, q)))
-    estimate = trajectory.Trajectory(stamps, np.hstack((estimated_p, estimated_q)))
-    figures["ape"] = cpu(lambda: trajectory.ape(reference, estimate).statistics)
-    figures["ape full"] = cpu(lambda: trajectory.ape(reference, estimate, "full").statistics)
-    figures["rpe"] = cpu(lambda: trajectory.rpe(reference, estimate).statistics)
-    figures["align"] = cpu(lambda: trajectory.align(reference, estimate, "se3"))
+    reference = Trajectory(stamps, np.hstack((p, q)))
+    estimate = Trajectory(stamps, np.hstack((estimated_p, estimated_q)))
+    figures["ape"] = cpu(lambda: ape(reference, estimate).statistics)
+    figures["ape full"] = cpu(lambda: ape(reference, estimate, "full").statistics)
+    figures["rpe"] = cpu(lambda: rpe(reference, estimate).statistics)
+    figures["align"] = cpu(lambda: align(reference, estimate, "se3"))
     report(figures)
 
 

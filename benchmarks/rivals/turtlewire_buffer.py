@@ -30,11 +30,11 @@ def lookups(figures):
         "old": OLD,
         "error": Exception,
     }
-    figures["lookup latest"] = per_call('lookup("map", "camera", 0)', names)
+    figures["lookup latest"] = per_call('lookup("map", "camera")', names)
     figures["lookup interpolated"] = per_call('lookup("map", "camera", recent)', names)
     figures["lookup 9 s back"] = per_call('lookup("map", "camera", old)', names)
     figures["can_transform"] = per_call('can("map", "camera", recent)', names)
-    failing = 'try:\n    lookup("map", "nobody", 0)\nexcept error:\n    pass'
+    failing = 'try:\n    lookup("map", "nobody")\nexcept error:\n    pass'
     figures["failing lookup"] = per_call(failing, names)
 
 
@@ -44,7 +44,7 @@ def batches(figures):
     buffer = filled()
     stamps = np.array(random_stamps(100_000), dtype=np.int64)
     names = {
-        "batch": buffer.lookup_batch,
+        "batch": buffer.lookup_transforms,
         "stamps": stamps,
         "sorted_stamps": np.sort(stamps),
         "out": np.empty((100_000, 7)),
@@ -62,7 +62,7 @@ def batches(figures):
 
 
 def memory(figures):
-    from turtlewire.tf.inspection import links
+    from turtlewire.tf.links import links
 
     full = links(filled())
     figures["memory"] = [
@@ -116,7 +116,7 @@ def ingest(figures):
             data = [serialized(i, links) for i in range(start, start + step)]
             begin = time.perf_counter_ns()
             for cdr in data:
-                buffer.ingest(cdr)
+                buffer.add_tf_message(cdr)
             runs.append((time.perf_counter_ns() - begin) / step / links)
         figures["ingest " + case] = summary(runs)
 
@@ -133,7 +133,7 @@ def wake_up(figures):
     def wait():
         for i in range(1, 301):
             asked.release()
-            buffer.lookup_transform("a", "b", FIRST + i * STEP, 60 * 10**9)
+            buffer.lookup_transform("a", "b", FIRST + i * STEP, timeout_ns=60 * 10**9)
             times[1] = time.perf_counter_ns()
             done.release()
 
