@@ -10,6 +10,7 @@ GOLDEN = ROOT / "tests" / "golden"
 EXAMPLES = ROOT / "examples"
 HOW_TO = ROOT / "docs" / "how-to"
 SCRIPTS = ROOT / "scripts"
+TOOLS = ROOT / "tools"
 #: The engine: it has `native` and `src`.
 ENGINE = ROOT / "packages" / "turtlewire"
 #: ROS 2's packages.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib.util
 import threading
 
-from tests.places import SCRIPTS
+from tests.places import TOOLS
 
 #: Loading Python takes seconds, and the machine may be busy.
 LONG_MS = 100_000
@@ -13,7 +13,7 @@ LONG_MS = 100_000
 
 def static_server(folder):
     """The server of `scripts/docs --serve` and `scripts/lesson --serve`."""
-    path = SCRIPTS / "static_server.py"
+    path = TOOLS / "static_server.py"
     spec = importlib.util.spec_from_file_location("static_server", path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)

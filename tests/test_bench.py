@@ -1,11 +1,14 @@
-"""`scripts/bench` tells its names before it sets anything up."""
+"""The benchmarks: their names, and that they run with the API as it is."""
 
 from __future__ import annotations
 
+import json
 import shutil
 import subprocess
+import sys
 
 import pytest
+from benchmarks.tf_buffer import CASES
 from tests.places import ROOT, SCRIPTS
 
 
@@ -22,3 +25,14 @@ def test_help_lists_the_benchmarks_without_a_set_up(tmp_path, words):
     names = [line.strip() for line in rest if line.startswith("  ")]
     assert {"bags", "robot_state", "tf_buffer", "turtles"} <= set(names)
     assert "figures" not in names
+
+
+@pytest.mark.slow
+def test_the_figures_of_the_buffer_are_measured():
+    adapter = ROOT / "benchmarks" / "rivals" / "turtlewire_buffer.py"
+    done = subprocess.run([sys.executable, adapter], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    figures = json.loads(done.stdout)
+    measured = {case for _, case, *_ in CASES}
+    assert measured <= figures.keys()
+    assert all(min(figure) > 0 for figure in figures.values())

@@ -1,4 +1,4 @@
-"""`scripts/locks` names a release, with hashes, of all that CI and a release install."""
+"""`tools/locks` names a release, with hashes, of all that CI and a release install."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import sys
 import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
-from tests.places import ROOT, SCRIPTS
+from tests.places import ROOT, TOOLS
 
 if sys.version_info < (3, 11):
     pytest.skip("tomllib comes with Python 3.11", allow_module_level=True)
@@ -18,7 +18,7 @@ import tomllib
 OWN = {"turtlewire", "turtlewire-ros", "turtlewire-class", "learning-tf2-py"}
 
 
-def locked(name, folder="scripts/locks"):
+def locked(name, folder="tools/locks"):
     """The releases in a file: name and versions; each has a hash."""
     text = (ROOT / folder / f"{name}.txt").read_text(encoding="utf-8")
     assert "://" not in text
@@ -49,7 +49,7 @@ def project(folder):
 
 def names(module, variable):
     """A tuple of a script."""
-    tree = ast.parse((SCRIPTS / f"{module}.py").read_text(encoding="utf-8"))
+    tree = ast.parse((TOOLS / f"{module}.py").read_text(encoding="utf-8"))
     [value] = [
         node.value
         for node in tree.body

@@ -11,7 +11,7 @@ import subprocess
 import sys
 
 import pytest
-from tests.places import ENGINE, ROOT, SCRIPTS
+from tests.places import ENGINE, ROOT, TOOLS
 
 from turtlewire import demo
 from turtlewire.terminal.console_keyboard import ConsoleKeyboard
@@ -20,7 +20,7 @@ from turtlewire.wire.wheels import Platform, advice
 
 @pytest.fixture(scope="module")
 def platforms():
-    spec = importlib.util.spec_from_file_location("platforms", SCRIPTS / "platforms.py")
+    spec = importlib.util.spec_from_file_location("platforms", TOOLS / "platforms.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import doctest
 import re
 from pathlib import Path
@@ -9,15 +10,23 @@ from pathlib import Path
 import pytest
 from tests.places import LEARNING, ROOT
 
+import turtlewire
 from turtlewire_ros.executables import executable_paths
 
 FRONT = ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md")
 PAGES = [*(ROOT / name for name in FRONT), *sorted((ROOT / "docs").rglob("*.md"))]
 
 
-def test_its_python_session():
-    failed, tried = doctest.testfile(str(ROOT / "README.md"), module_relative=False)
-    assert (failed, tried) == (0, 6)
+def test_its_python_session(monkeypatch):
+    monkeypatch.setenv("TURTLEWIRE_BROWSER", "0")
+    monkeypatch.setenv("TURTLEWIRE_PORT", "0")
+    show = turtlewire.show
+    with contextlib.ExitStack() as views:
+        monkeypatch.setattr(
+            turtlewire, "show", lambda buffer: views.enter_context(show(buffer)), raising=False
+        )
+        failed, tried = doctest.testfile(str(ROOT / "README.md"), module_relative=False)
+        assert (failed, tried) == (0, 8)
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())

@@ -8,12 +8,12 @@ import tarfile
 import zipfile
 
 import pytest
-from tests.places import SCRIPTS
+from tests.places import TOOLS
 
 
 @pytest.fixture
 def release():
-    spec = importlib.util.spec_from_file_location("release", SCRIPTS / "release.py")
+    spec = importlib.util.spec_from_file_location("release", TOOLS / "release.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module

@@ -14,10 +14,9 @@ import yaml
 from tests.places import ROOT
 from tests.test_compatibility import functions_of
 
-from turtlewire import msg
+from turtlewire import Buffer, msg
 from turtlewire.bag.definitions import learn_types
 from turtlewire.errors import InterfaceError, TurtlewireError
-from turtlewire.tf import inspection
 
 PAGE = ROOT / "SECURITY.md"
 
@@ -43,6 +42,7 @@ It refuses requests with another `Host`
   foxglove/test_hostile.py test_pages_of_foxglove_and_of_this_machine_connect
 `scripts/docs --serve` and `scripts/lesson --serve`
   site/test_static_server.py test_foreign_names_and_pages_are_refused
+They list no folders
   site/test_static_server.py test_nothing_outside_the_folder_is_served test_folders_are_not_listed
 Bytes from the network are checked
   wire/test_bad_input.py test_a_malformed_message_is_named_once_and_the_next_good_one_arrives
@@ -167,7 +167,7 @@ def test_a_buffer_of_pickled_objects_is_refused(ran, tmp_path):
     np.savez(data, header=np.array([Touch()], dtype=object))
     (tmp_path / "buffer.npz").write_bytes(data.getvalue())
     with pytest.raises(ValueError, match="is not a saved buffer"):
-        inspection.load(tmp_path / "buffer.npz")
+        Buffer.load(tmp_path / "buffer.npz")
     assert not ran.exists()
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import sys
 
 import pytest
-from tests.places import SCRIPTS
+from tests.places import TOOLS
 
-SOAK = SCRIPTS / "soak.py"
+SOAK = TOOLS / "soak.py"
 
 
 @pytest.mark.slow

@@ -61,7 +61,7 @@ def size_of(file: Path) -> tuple[int, int]:
     """Return width and height of a PNG or SVG file in pixels.
 
     Raises:
-        ValueError: The file is another one, or does not say.
+        ValueError: The file has another format, or is an SVG without width and height.
     """
     content = file.read_bytes()
     if content.startswith(b"\x89PNG"):
@@ -69,5 +69,5 @@ def size_of(file: Path) -> tuple[int, int]:
         return width, height
     found = re.search(rb'<svg [^>]*?width="(\d+)" height="(\d+)"', content)
     if not found:
-        raise ValueError(f"{file} is no PNG, and no SVG with width and height")
+        raise ValueError(f"{file} is neither a PNG nor an SVG with width and height")
     return int(found[1]), int(found[2])

@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
 #: The plain-Python twin of the compiled core has its docstrings in Python, with types.
 os.environ["TURTLEWIRE_CORE"] = "python"
-sys.path[:0] = [str(ROOT / "scripts"), str(DOCS / "sphinx")]
+sys.path[:0] = [str(ROOT / "tools"), str(DOCS / "sphinx")]
 
 from distributions import import_path  # noqa: E402 -- its folder was unknown before
 
@@ -59,7 +59,7 @@ toc_object_entries_show_parents = "hide"
 templates_path = ["_templates"]
 html_theme = "furo"
 html_title = "turtlewire"
-html_favicon = "../../packages/turtlewire-class/page/icon.svg"
+html_favicon = "../../packages/turtlewire/src/turtlewire/web/kit/turtle.svg"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_js_files = [("site.js", {"defer": "defer"})]

@@ -7,7 +7,7 @@ import importlib
 import sys
 
 import pytest
-from tests.places import ROOT, SCRIPTS
+from tests.places import ROOT, TOOLS
 
 PAGES = ["view", "turtlesim", "sliders", "class", "lesson", "site", "site's page"]
 BUILT = {"lesson": "lesson", "site": "site", "site's page": "site"}
@@ -15,12 +15,12 @@ BUILT = {"lesson": "lesson", "site": "site", "site's page": "site"}
 
 @pytest.fixture(scope="session")
 def audit():
-    """The module `scripts/page_audit.py`."""
-    sys.path.insert(0, str(SCRIPTS))
+    """The module `tools/page_audit.py`."""
+    sys.path.insert(0, str(TOOLS))
     try:
         module = importlib.import_module("page_audit")
     finally:
-        sys.path.remove(str(SCRIPTS))
+        sys.path.remove(str(TOOLS))
     assert list(module.PAGES) == PAGES
     if text := module.missing():
         pytest.skip(text)

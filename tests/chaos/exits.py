@@ -39,7 +39,7 @@ def wait():
     import turtlewire
 
     buffer = turtlewire.Buffer()
-    in_daemons(lambda: buffer.can_transform("a", "b", 1, 1_000_000))
+    in_daemons(lambda: buffer.can_transform("a", "b", 1, timeout_ns=1_000_000))
 
 
 def batch():
@@ -50,7 +50,7 @@ def batch():
     for stamp in range(1, 100):
         buffer.set_transform("a", "b", stamp, NO_MOVE, NO_TURN)
     stamps = list(range(1, 99)) * 20
-    in_daemons(lambda: buffer.lookup_batch("a", "b", stamps))
+    in_daemons(lambda: buffer.lookup_transforms("a", "b", stamps))
 
 
 def intake():
@@ -97,13 +97,13 @@ def change_listener():
 
     buffer = turtlewire.Buffer()
     stamps = itertools.count(1)
-    buffer.add_change_listener(lambda: sum(range(2000)))
-    buffer.add_change_listener(lambda: buffer.can_transform("x", "y", 0, 100_000))
+    buffer.on_change(lambda: sum(range(2000)))
+    buffer.on_change(lambda: buffer.can_transform("x", "y", None, timeout_ns=100_000))
 
     def send():
         head = struct.pack("<IiI", 1, 0, next(stamps))
         frames = struct.pack("<I4sI4sI", 2, b"a", 2, b"b", 0)
-        buffer.ingest(b"\0\1\0\0" + head + frames + struct.pack("<7d", *NO_MOVE, *NO_TURN))
+        buffer.add_tf_message(b"\0\1\0\0" + head + frames + struct.pack("<7d", *NO_MOVE, *NO_TURN))
 
     in_daemons(send)
 

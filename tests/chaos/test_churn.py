@@ -19,7 +19,7 @@ from std_msgs.msg import Int32
 from tf2_ros import Buffer, TransformListener
 
 LIMIT_S = 120
-EXECUTORS, CHANGES = 400, 3000
+EXECUTORS, CHANGES = 200, 1500
 MOST_KEPT = 12
 
 

@@ -42,7 +42,7 @@ def generate_launch_description():
 
 
 @pytest.mark.parametrize("size", [0, 1000])
-def test_a_node_logs_on_and_says_once_that_the_file_lacks_lines(size, python, ends_well):
+def test_a_full_disk_does_not_stop_logging_and_is_reported_once(size, python, ends_well):
     program = python(LOGGING, limits={"RLIMIT_FSIZE": size})
     assert ends_well(program) == 0, program.text
     assert program.text.count("line ") == 50

@@ -79,7 +79,7 @@ def test_a_buffer_without_memory_raises_and_stays_usable(python, ends_well):
         except MemoryError:
             resource.setrlimit(resource.RLIMIT_AS, (hard, hard))
         print(buffer.lookup_transform("world", "robot1").translation)
-        buffer.set_transform("robot1", "later", 0, *pose, static=True)
+        buffer.set_static_transform("robot1", "later", *pose)
         print(buffer.can_transform("world", "later"))
         """
     )

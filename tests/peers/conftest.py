@@ -13,6 +13,7 @@ from tests.places import ROOT
 from turtlewire.wire import open_context
 
 PEER = Path(__file__).with_name("peer.py")
+SERVER = Path(__file__).with_name("server.py")
 BIN = Path(sys.executable).parent
 LONG = 60_000_000_000
 
@@ -31,16 +32,16 @@ def venv(request):
 
 @pytest.fixture
 def real(venv, run):
-    """Starts `peer.py` in the domain of this process, with its address space limited."""
+    """Starts `peer.py` or another program in this domain, with its address space limited."""
     nodes, before = [], shared_memory()
 
-    def start(*arguments, **environment):
+    def start(*arguments, program=PEER, **environment):
         kept = ("HOME", "ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE")
         variables = {key: os.environ[key] for key in kept} | {"PATH": "/usr/bin:/bin"}
         pairs = [f"{key}={value}" for key, value in (variables | environment).items()]
         limited = f'ulimit -v {ADDRESS_SPACE_KB}; exec env -i "$@"'
         python = venv / "bin" / "python"
-        nodes.append(run("sh", "-c", limited, "sh", *pairs, python, PEER, *arguments))
+        nodes.append(run("sh", "-c", limited, "sh", *pairs, python, program, *arguments))
         return nodes[-1]
 
     yield start
@@ -63,10 +64,13 @@ def in_use():
     """The files that a process has open or mapped, among them nodes of others on this computer."""
     found = set()
     for process in Path("/proc").glob("[0-9]*"):
-        with suppress(OSError):  # it has ended, or is somebody else's
+        # A file is opened, then mapped, then closed: looked for in this order, none is missed.
+        with suppress(OSError):  # the process has ended, or is somebody else's
+            for file in (process / "fd").iterdir():
+                with suppress(FileNotFoundError):  # closed since
+                    found.add(file.readlink())
             lines = (process / "maps").read_text().splitlines()
             found |= {Path(line.split(maxsplit=5)[-1]) for line in lines if "/dev/shm/" in line}
-            found |= {file.readlink() for file in (process / "fd").iterdir()}
     return found
 
 
@@ -123,3 +127,16 @@ def command(run, venv, tmp_path):
         return started.wait(), started.text
 
     return call
+
+
+@pytest.fixture
+def serve(run, venv):
+    """Starts the node /ours with the same services as /peer."""
+
+    def start(**environment):
+        ours = {"AMENT_PREFIX_PATH": str(venv), "RMW_IMPLEMENTATION": "rmw_cyclonedds_cpp"}
+        program = run(sys.executable, SERVER, environment=ours | environment)
+        program.wait_for("up")
+        return program
+
+    return start

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import socket
+import time
 from pathlib import Path
 
 import pytest
@@ -88,6 +89,24 @@ def publish_images(context, peer, topic, qos, size):
 @pytest.mark.parametrize("size", [100_000, 384_000, 1_000_000, 8_000_000])
 def test_images_arrive_at_a_reliable_subscription(peer, context, size):
     publish_images(context, peer, "/image", QoS(), size)
+
+
+@pytest.fixture
+def heartbeats(monkeypatch):
+    """The documented setting, before the context of the test is opened."""
+    (setting,) = re.findall(r"HEARTBEATS='(.*)'", PAGE.read_text())
+    monkeypatch.setenv("CYCLONEDDS_URI", f"<Internal>{setting}</Internal>")
+
+
+def test_a_flow_of_images_arrives_with_the_documented_heartbeats(heartbeats, peer, context):
+    name, size = "sensor_msgs/msg/Image", 384_000
+    image = msg.get_message(name)(data=bytes(size))
+    publisher = matched_publisher(context, peer, "/image", name)
+    for number in range(IMAGES):
+        image.header.frame_id = str(number)
+        publisher.publish(msg.serialize(image))
+        time.sleep(0.1)  # the rate
+    peer.wait_for(rf"image \d+ {size}", count=IMAGES, timeout=60)
 
 
 def test_images_arrive_with_the_documented_profile(start_peer, context, tmp_path):

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from tests.places import HOW_TO
 
-from joint_state_publisher.description import Options, read_joints
+from joint_state_publisher.description import JointOptions, read_joints
 
 PAGE = HOW_TO / "robots.md"
 BIN = Path(sys.executable).parent
@@ -62,7 +62,7 @@ def wait_until_printed(run, line: str, text: str) -> None:
 def test_the_table_names_every_parameter(run, tmp_path):
     model = tmp_path / "one.urdf"
     model.write_text("<robot name='a'><joint name='j' type='continuous'/></robot>")
-    assert read_joints(model.read_text(), Options({}, {}), print).order == ["j"]
+    assert read_joints(model.read_text(), JointOptions({}, {}), print).order == ["j"]
     node = run(BIN / "ros2", "run", "joint_state_publisher", "joint_state_publisher", model)
     limit = time.monotonic() + 60
     listing = run(BIN / "ros2", "param", "list", "/joint_state_publisher")

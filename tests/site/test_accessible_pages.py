@@ -46,7 +46,7 @@ def test_images_get_their_sizes(pages, tmp_path):
 
 def test_an_image_without_a_size_is_an_error(pages, tmp_path):
     (tmp_path / "a.svg").write_text("<svg>")
-    with pytest.raises(ValueError, match=r"a\.svg is no PNG, and no SVG with width and height"):
+    with pytest.raises(ValueError, match=r"a\.svg is neither a PNG nor an SVG"):
         pages.size_of(tmp_path / "a.svg")
 
 

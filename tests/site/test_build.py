@@ -8,14 +8,14 @@ import subprocess
 import sys
 
 import pytest
-from tests.places import SCRIPTS, SITE
+from tests.places import SITE, TOOLS
 
 GOOD = '<h1 id="top">A</h1><a href="sub/b.html#there">b</a><a href="https://example.org">out</a>'
 
 
 @pytest.fixture(scope="module")
 def faults_of():
-    spec = importlib.util.spec_from_file_location("docs_links", SCRIPTS / "docs_links.py")
+    spec = importlib.util.spec_from_file_location("docs_links", TOOLS / "docs_links.py")
     module = sys.modules[spec.name] = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     yield lambda folder: list(module.faults_of(folder, apart={"lesson"}))
@@ -83,7 +83,7 @@ def test_versions_are_pinned():
 
 
 def test_help_names_the_options():
-    script = SCRIPTS / "docs.py"
+    script = TOOLS / "docs.py"
     done = subprocess.run(
         [sys.executable, str(script), "--help"], capture_output=True, text=True, check=True
     )

@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 import pytest
-from tests.places import ROOT, SCRIPTS
+from tests.places import ROOT, TOOLS
 from tests.static_host import LONG_MS, Host
 
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(900)]
@@ -18,7 +18,7 @@ def built():
     """The site as `scripts/docs` builds it, with the lesson that `scripts/lesson` has built."""
     output = ROOT / "build" / "site"
     done = subprocess.run(
-        [sys.executable, str(SCRIPTS / "docs.py")],
+        [sys.executable, str(TOOLS / "docs.py")],
         capture_output=True,
         text=True,
         check=False,

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from tests.places import ROOT, SCRIPTS, SITE, modules_of_tests
+from tests.places import ROOT, SITE, modules_of_tests
 
 import turtlewire
 from turtlewire.cli.main import main
@@ -24,7 +24,7 @@ TROUBLE = (DOCS / "troubleshooting.md").read_text(encoding="utf-8")
 HEADINGS = re.findall(r"^### `(.+)`$", TROUBLE, re.MULTILINE)
 HINTS = re.findall(r"^> Hint: (.+)$", TROUBLE, re.MULTILINE)
 #: Packages of a real ROS 2 that pages name.
-THEIRS = {"urdf_tutorial", "my_turtle"}
+THEIRS = {"controller_manager", "my_turtle", "urdf_tutorial"}
 #: A block, or code within a line.
 CODE = re.compile(r"^```\w+\n(.*?)^```$|(`[^`\n]+`)", re.MULTILINE | re.DOTALL)
 SECOND = 1_000_000_000
@@ -88,11 +88,18 @@ def failures():
             yield str(error)
             yield error.hint
     nan = (float("nan"), 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)
-    yield full.set_transform("world", "world", SECOND, *upright)
-    yield full.set_transform("world", "bad", SECOND, *nan)
-    yield full.set_transform("world", "", SECOND, *upright)
     full.set_transform("world", "turtle1", 100 * SECOND, *upright)
-    yield full.set_transform("world", "turtle1", SECOND, *upright)
+    for parent, child, pose in [
+        ("world", "world", upright),
+        ("world", "bad", nan),
+        ("world", "", upright),
+        ("world", "turtle1", upright),  # old
+    ]:
+        try:
+            full.set_transform(parent, child, SECOND, *pose)
+        except turtlewire.errors.InvalidTransformError as error:
+            yield str(error)
+            yield error.hint
 
 
 def is_raised(text):
@@ -143,8 +150,8 @@ def test_programs_named_on_a_page_exist(page):
     for package, file in re.findall(r"ros2 launch (\w+) ([\w.]+)", text):
         if package not in THEIRS:
             assert list(Path(share_directory(package)).rglob(file)), file
-    for script in re.findall(r"\bscripts/(\w[\w-]*(?:\.py)?)", text):
-        assert (SCRIPTS / script).exists()
+    for path in re.findall(r"\b((?:scripts|tools)/\w[\w-]*(?:\.py)?)", text):
+        assert (ROOT / path).exists()
     code = "\n".join("".join(found) for found in CODE.findall(text))
     for verb in re.findall(r"(?:^|`)turtlewire ([a-z]+)\b", code, re.MULTILINE):
         with pytest.raises(SystemExit) as end:

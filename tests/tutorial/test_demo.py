@@ -13,9 +13,11 @@ import sys
 from pathlib import Path
 
 import pytest
-from tests.places import SCRIPTS
+from tests.needs import needs_cyclone_dds
+from tests.places import SCRIPTS, TOOLS
 
-DEMO = SCRIPTS / "demo.py"
+DEMO = TOOLS / "demo.py"
+INTERRUPTIBLE = SCRIPTS / "interruptible"
 VICTIMS = {
     "turtle_tf2_broadcaster-2": "a broadcaster has stopped",
     "turtle_tf2_broadcaster-3": "a broadcaster has stopped",
@@ -130,7 +132,7 @@ def test_ctrl_c_while_it_starts_is_one_line_and_leaves_nothing_behind(run, words
     if words and moment == "process started with pid":
         pytest.skip("--check shows nothing of what the processes print")
     environment = {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0"}
-    command = [DEMO.parent / "interruptible", sys.executable, DEMO, *words]
+    command = [INTERRUPTIBLE, sys.executable, DEMO, *words]
     begin = ["sh", "-c", 'echo begin; exec "$@"', "sh"]
     demo = run(*begin, *command, environment=environment, terminal=True)
     demo.wait_for(moment)
@@ -174,7 +176,7 @@ def test_ctrl_c_in_a_callback_of_a_weak_reference_is_not_lost(run):
     assert [line for _, line in program.lines] == ["interrupted"]
 
 
-@pytest.mark.parametrize("command", [[DEMO.parent / "interruptible"], []], ids=["shell", "python"])
+@pytest.mark.parametrize("command", [[INTERRUPTIBLE], []], ids=["shell", "python"])
 def test_not_even_sigkill_leaves_processes_behind(run, command):
     environment = {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0", "DISPLAY": ""}
     demo = run(*command, sys.executable, DEMO, environment=environment)
@@ -183,8 +185,16 @@ def test_not_even_sigkill_leaves_processes_behind(run, command):
     demo.wait_for_survivors()
 
 
-def test_a_second_demo_in_the_same_domain_is_warned(run):
+@pytest.mark.parametrize(
+    "middleware",
+    [
+        pytest.param("rmw_cyclonedds_cpp", marks=needs_cyclone_dds),
+        "rmw_zenoh_cpp",
+    ],
+)
+def test_a_second_demo_in_the_same_domain_is_warned(run, middleware):
     environment = {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0", "DISPLAY": ""}
+    environment["RMW_IMPLEMENTATION"] = middleware
     first = run(sys.executable, DEMO, environment=environment)
     first.wait_for("Starting turtlesim with node name /sim")
     second = run(sys.executable, DEMO, environment=environment)

@@ -99,6 +99,21 @@ def test_rosdep_says_what_the_page_says(bash, tmp_path):
     assert "mismatched tag: line" in rosdep.text
 
 
+def test_rosdep_needs_no_update_and_says_what_it_does_not_know(bash, tmp_path):
+    shutil.copytree(LEARNING, tmp_path / "src/p")
+    manifest = tmp_path / "src/p/package.xml"
+    unknown = "<depend>no_such_key</depend><depend>launch<"
+    manifest.write_text(manifest.read_text().replace("<depend>launch<", unknown, 1))
+    rosdep = bash("rosdep install -i --from-path src --rosdistro jazzy -y")
+    assert rosdep.wait(60) != 0
+    assert "Cannot locate rosdep definition for [no_such_key]" in rosdep.text
+    skipping = bash(
+        "rosdep install -i --from-path src --rosdistro jazzy -y --skip-keys no_such_key"
+    )
+    assert skipping.wait(60) == 0
+    assert skipping.text.splitlines()[0] == "#All required rosdeps installed successfully"
+
+
 def test_the_page_is_found_from_the_demo_and_the_readme():
     assert "(docs/how-to/first_package.md)" in (ROOT / "README.md").read_text()
     assert "(first_package.md)" in (HOW_TO / "learning_tf2_py.md").read_text()

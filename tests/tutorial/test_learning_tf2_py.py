@@ -34,7 +34,7 @@ def test_two_turtles_appear_and_one_follows(run, workspace, turtles):
     turtles.wait_for(lambda: len(turtles.poses) == 2 and turtles.distance() < 1.0)
     buffer = Buffer()
     with TransformListener(buffer, turtles.node, context=turtles.context):
-        assert buffer.lookup_transform("turtle2", "turtle1", 0, LONG_NS).stamp_ns > 0
+        assert buffer.lookup_transform("turtle2", "turtle1", timeout_ns=LONG_NS).stamp_ns > 0
 
     launch.signal_group(signal.SIGINT)
     assert launch.wait() == 0
@@ -71,7 +71,7 @@ def test_the_static_broadcaster_is_heard_by_late_joiners(run, workspace, turtles
     )
     buffer = Buffer()
     with TransformListener(buffer, turtles.node, context=turtles.context):
-        found = buffer.lookup_transform("world", "thing", 0, LONG_NS)
+        found = buffer.lookup_transform("world", "thing", timeout_ns=LONG_NS)
     assert found.translation == (1.0, 2.0, 0.5)
     assert found.rotation == pytest.approx((0.0, 0.0, 0.5**0.5, 0.5**0.5))
     program.signal_group(signal.SIGINT)

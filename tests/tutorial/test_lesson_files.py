@@ -10,6 +10,8 @@ from pathlib import Path
 import pytest
 from tests.places import LESSONS, ROOT
 
+from turtle_lesson.lesson import load_lesson
+
 ROS2 = Path(sys.executable).parent / "ros2"
 VERBATIM = ROOT / "tests" / "tutorial" / "verbatim" / "learning_tf2_py"
 SPAWN = "{x: 4.0, y: 2.0, theta: 0.0, name: 'turtle2'}"
@@ -21,8 +23,8 @@ def test_a_solution_of_the_lesson_does_the_same_when_it_is_launched(
 ):
     package = tmp_path / "learning_tf2_py"
     shutil.copytree(VERBATIM, package, ignore=shutil.ignore_patterns("__pycache__"))
-    for file in (LESSONS / "listener" / "solution").iterdir():
-        shutil.copy(file, package / "learning_tf2_py")
+    for name, text in load_lesson(LESSONS / "listener").solution().items():
+        (package / "learning_tf2_py" / name).write_text(text, encoding="utf-8")
     launch = run(
         ROS2, "launch", package.name, "turtle_tf2_demo.launch.py", environment=workspace(package)
     )

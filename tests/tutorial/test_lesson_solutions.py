@@ -60,7 +60,7 @@ def launch_file_of(lesson, folder):
             name += f", remappings=[('/tf', {BEFORE_THE_FAULT!r})]"
         parameters = dict(program.parameters)
         actions.append(f"Node({start}{name}, arguments={arguments}, parameters=[{parameters}])")
-    for file, source in lesson.sources("solution").items():
+    for file, source in lesson.solution().items():
         (folder / file).write_text(source, encoding="utf-8")
     path = folder / "lesson.launch.py"
     path.write_text(LAUNCH.format(actions=",\n        ".join(actions)), encoding="utf-8")
@@ -105,7 +105,7 @@ class Scene:
 
     def place(self, target, source):
         """Where `source` is as `target` sees it, as soon as TF knows."""
-        return self.buffer.lookup_transform(target, source, 0, LONG_NS)
+        return self.buffer.lookup_transform(target, source, timeout_ns=LONG_NS)
 
     def wait_for_gap(self, is_right, other=(MIDDLE, MIDDLE)):
         """Wait until turtle2's distance from a place satisfies a condition."""

@@ -56,7 +56,7 @@ def lesson(run, workspace):
 
 def carrot_seen_from_turtle1(turtles):
     with TransformListener(buffer := Buffer(), turtles.node, context=turtles.context):
-        return buffer.lookup_transform("turtle1", "carrot1", 0, LONG_NS).translation
+        return buffer.lookup_transform("turtle1", "carrot1", timeout_ns=LONG_NS).translation
 
 
 def away(turtles, x, y):

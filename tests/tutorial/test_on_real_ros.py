@@ -14,7 +14,7 @@ from xml.etree import ElementTree as ET
 import pytest
 from tests.places import GOLDEN, LEARNING
 
-from turtlewire.msg.registry import interface_names
+from turtlewire.msg.registry import interfaces
 
 PACKAGE = LEARNING
 FILES = sorted([*PACKAGE.glob("learning_tf2_py/*.py"), *PACKAGE.glob("launch/*.py")])
@@ -53,7 +53,7 @@ def is_on_real_ros(module: str, name: str) -> bool:
     if package == "learning_tf2_py" or package in sys.stdlib_module_names:
         return True
     if kind in {"msg", "srv"}:
-        return name in interface_names().get(package, {}).get(kind, [])
+        return name in interfaces().get(package, {}).get(kind, [])
     return module in SURFACE and (not name or name in SURFACE[module])
 
 

@@ -13,15 +13,15 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from tests.places import COLCON, ENGINE, SCRIPTS
+from tests.places import COLCON, ENGINE, SCRIPTS, TOOLS
 
-SETUP = SCRIPTS / "setup.py"
+SETUP = TOOLS / "setup.py"
 
 
 @pytest.fixture
 def module(monkeypatch, tmp_path):
-    """Imports a module of scripts/; what programs print goes to a file of this test."""
-    monkeypatch.syspath_prepend(SCRIPTS)
+    """Imports a module of tools/; what programs print goes to a file of this test."""
+    monkeypatch.syspath_prepend(TOOLS)
     monkeypatch.setattr(importlib.import_module("setup_steps"), "LOG", tmp_path / "setup.log")
     return importlib.import_module
 
@@ -48,19 +48,22 @@ def setup(module, monkeypatch, tmp_path):
         ("provide_core", lambda key: script.calls.append(("core", key))),
         ("usable", lambda _stamp, _wanted: True),
         ("STAMP", tmp_path / "stamp.json"),
+        ("CORE", tmp_path / "core.so"),
     ):
         monkeypatch.setattr(script, name, value)
     return script
 
 
-def test_nothing_is_done_twice(setup):
+def test_nothing_is_done_twice(setup, capsys):
     setup.main(["workspace"])
     (_install, *words), core = setup.calls
     assert words.count("-e") == len(setup.distributions())
     assert str(ENGINE) in words
     assert core == ("core", "key")
-    setup.main(["workspace"])
-    setup.main([])
+    for extras in (["workspace"], []):
+        capsys.readouterr()
+        setup.main(extras)
+        assert capsys.readouterr().err == "[setup] nothing to do: .venv is up to date\n"
     assert len(setup.calls) == 2
 
 
@@ -94,7 +97,7 @@ def test_ci_installs_what_is_locked_first(setup, monkeypatch):
     monkeypatch.setenv("CI", "true")
     setup.main(["test"])
     locked, (_install, *words), _core = setup.calls
-    assert locked == ("install", "--require-hashes", "-r", str(SCRIPTS / "locks" / "ci.txt"))
+    assert locked == ("install", "--require-hashes", "-r", str(TOOLS / "locks" / "ci.txt"))
     assert words.count("-e") == len(setup.distributions())
 
 
@@ -131,6 +134,24 @@ def test_changed_native_sources_install_no_package(setup, monkeypatch):
     monkeypatch.setattr(setup, "core_key", lambda: "other")
     setup.main([])
     assert setup.calls == [("core", "other")]
+
+
+def test_a_core_that_does_not_compile_is_not_tried_again(setup):
+    setup.main([])
+    setup.calls.clear()
+    setup.main([])
+    assert setup.calls == []
+
+
+def test_a_deleted_core_is_compiled_again(setup):
+    setup.CORE.touch()
+    setup.main([])
+    setup.calls.clear()
+    setup.main([])
+    assert setup.calls == []
+    setup.CORE.unlink()
+    setup.main([])
+    assert setup.calls == [("core", "key")]
 
 
 def test_an_interrupted_compilation_is_taken_up_again(setup, monkeypatch):
@@ -191,6 +212,7 @@ def typed(folder, name, *words, **streams):
     """Type a script's name in a copy of the scripts, with a Python that has no turtlewire."""
     if not (folder / "scripts").exists():
         shutil.copytree(SCRIPTS, folder / "scripts")
+        shutil.copytree(TOOLS, folder / "tools")
     (folder / "benchmarks").mkdir(exist_ok=True)
     (folder / "benchmarks" / "bench_one.py").write_text("def rows():")
     environment = {**os.environ, "PYTHON": sys._base_executable}
@@ -212,7 +234,7 @@ def test_the_help_of_a_script_does_nothing_else(tmp_path, name):
         assert (done.returncode, done.stderr) == (0, "")
         assert done.stdout.startswith(f"usage: scripts/{name} ")
         assert done.stdout.count("\n") > 2
-    assert {path.name for path in tmp_path.iterdir()} == {"benchmarks", "scripts"}
+    assert {path.name for path in tmp_path.iterdir()} == {"benchmarks", "scripts", "tools"}
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="/dev/full is of Linux")
@@ -236,6 +258,14 @@ def test_the_help_of_a_script_on_a_full_disk_is_one_line(tmp_path, name):
         ("smoke 3.12", "there is no '3.12'; usage: scripts/smoke [-h]"),
         ("demo --chek", "Did you mean: --check"),
         ("demo --secnods=3", "Did you mean: --seconds"),
+        ("docs --serv", "Did you mean: --serve"),
+        ("docs 8000", "unrecognized arguments: 8000"),
+        ("lesson --prot=1", "Did you mean: --port"),
+        ("page-audit veiw", "sliders, class, lesson, site, site's page"),
+        ("soak --minutes", "argument --minutes: expected one argument"),
+        ("soak --minutes=0", "--minutes is between 0.5 and 10000, got 0"),
+        ("soak --minute=1", "Did you mean: --minutes"),
+        ("bench tf_bufer", "there is no benchmark 'tf_bufer'; scripts/bench --help lists them"),
         ("setup --halp", "Did you mean: --help"),
         ("bundle --no-demoo", "unrecognized arguments: --no-demoo"),
     ],
@@ -521,7 +551,7 @@ class TestCore:
         ("script", "version"),
         [("echo c++ 12", "c++ 12\n"), ("echo install me; exit 1", "")],
     )
-    def test_a_compiler_that_only_says_how_to_install_it_is_none(
+    def test_a_stub_that_prints_install_advice_is_not_a_compiler(
         self, core, monkeypatch, tmp_path, script, version
     ):
         program = tmp_path / "my-c++"
@@ -599,7 +629,7 @@ def test_an_unknown_extra_is_refused_with_those_there_are(setup, capfd):
 #: The set-up with a pip that tells when it runs, and complains at length when it is interrupted.
 SLOW_PIP = f"""
 import os, pathlib, runpy, subprocess, sys
-sys.path.insert(0, {str(SCRIPTS)!r})
+sys.path.insert(0, {str(TOOLS)!r})
 import setup_steps as steps
 steps.LOG = pathlib.Path(sys.argv[1])
 pip = "import os, sys, time; os.write(int(sys.argv[1]), b'pip runs'); time.sleep(600)"
@@ -649,7 +679,7 @@ def test_an_interruptible_program_keeps_its_status_and_its_input(run, status):
 def test_a_terminal_shows_that_it_goes_on(run, tmp_path):
     """The last line that the program printed, without what would steer the terminal."""
     program = "import time; print('one\\nDownloading \\x1b[2Jtwo'); time.sleep(1.5)"
-    code = f"import pathlib, sys; sys.path.insert(0, {str(SCRIPTS)!r}); import setup_steps as s; "
+    code = f"import pathlib, sys; sys.path.insert(0, {str(TOOLS)!r}); import setup_steps as s; "
     code += f"s.LOG = pathlib.Path({str(tmp_path / 'log')!r}); "
     code += f"s.checked([sys.executable, '-c', {program!r}]); print('ready')"
     program = run(sys.executable, "-c", code, terminal=True)

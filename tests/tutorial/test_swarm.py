@@ -52,7 +52,7 @@ def test_a_swarm_of_twenty_closes_up(run, workspace, turtles):
     )
     with TransformListener(buffer, turtles.node, context=turtles.context):
         for one, other in itertools.pairwise(NAMES):
-            assert buffer.lookup_transform(other, one, 0, 60_000_000_000).stamp_ns > 0
+            assert buffer.lookup_transform(other, one, timeout_ns=60_000_000_000).stamp_ns > 0
     assert heard.wait(60)
     assert max(sizes) == COUNT // 5  # a fifth of the turtles in one message
     turtles.wait_for(lambda: sum(apart()) < 0.5 * sum(before) and max(apart()) < max(before))

@@ -30,6 +30,13 @@ if TYPE_CHECKING:
 
 HERE = Path(__file__).parent
 MORE = HERE.parent / "cli2"
+#: A container on a computer without demo_nodes_cpp, as the captured one was.
+CONTAINER = """
+import sys
+sys.modules["demo_nodes_cpp"] = None
+from rclpy_components.component_container import main
+main()
+"""
 ROOT = HERE.parents[2]
 #: Exit codes that the real tool gives for a verb ended by Ctrl-C, depending on which thread is faster.
 INTERRUPTED = {0, 1, 2, 15, 124}
@@ -373,10 +380,10 @@ def surroundings(number: int) -> Iterator[None]:
         if number >= 500:
             for words in (
                 ("run", "turtlesim", "turtlesim_node"),
-                ("run", "rclpy_components", "component_container"),
                 ("run", "tf2_ros", "static_transform_publisher", "--x", "1", "--frame-id", "world", "--child-frame-id", "cam"),
             ):
                 stack.enter_context(process(_ros2(*words)))
+            stack.enter_context(process([sys.executable, "-c", CONTAINER]))
             stack.enter_context(process([sys.executable, str(MORE / "nodes.py")]))
             _wait_for("node", "/turtlesim", "/ComponentManager", "/minimal_action_server", "/lc_talker")
             _wait_for("topic", "/tf_static", "/hidden_chatter")

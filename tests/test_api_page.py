@@ -1,0 +1,37 @@
+"""The examples of `docs/api.md` give the answers on the page."""
+
+from __future__ import annotations
+
+import doctest
+import re
+import subprocess
+import sys
+
+from tests.places import ROOT
+
+
+def test_its_examples(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("TURTLEWIRE_BROWSER", "0")
+    monkeypatch.setenv("TURTLEWIRE_PORT", "0")
+    failed, tried = doctest.testfile(str(ROOT / "docs" / "api.md"), module_relative=False)
+    assert failed == 0
+    assert tried >= 85
+
+
+def test_its_two_programs_meet():
+    text = (ROOT / "docs" / "api.md").read_text()
+    blocks = re.findall(r"^```python\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
+    sender, receiver = (block for block in blocks if not block.startswith(">>>"))
+    with subprocess.Popen([sys.executable, "-c", sender]) as sending:
+        try:
+            found = subprocess.run(
+                [sys.executable, "-c", receiver],
+                capture_output=True,
+                text=True,
+                timeout=120,
+                check=False,
+            )
+        finally:
+            sending.kill()
+    assert (found.stdout, found.stderr) == ("hello (1.0, 2.0, 0.0)\n", "")
