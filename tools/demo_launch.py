@@ -11,8 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
-# It sends the interrupt again when Python has dropped a KeyboardInterrupt.
-import rclpy.impl.excepthooks  # noqa: F401
+from rclpy.impl import excepthooks
 from turtlewire_ros.process_family import ProcessFamily
 
 if TYPE_CHECKING:
@@ -135,22 +134,13 @@ def interrupt(_signum: int = 0, _frame: object = None) -> NoReturn:
     raise KeyboardInterrupt
 
 
-def _listen_again(arguments: sys.UnraisableHookArgs) -> None:
-    """Let the interrupt come again if Python drops it, as in a callback of a weak reference.
-
-    Such callbacks run at the end of each import.
-    """
-    if issubclass(arguments.exc_type, KeyboardInterrupt):
-        for signum in ENDING:
-            signal.signal(signum, interrupt)
-    _previous_unraisable_hook(arguments)
-
-
-_previous_unraisable_hook = sys.unraisablehook
-sys.unraisablehook = _listen_again
-
-
 def _ignore_further_signals() -> None:
     """Protect the clean-up: at a terminal Ctrl-C arrives twice, as SIGINT and SIGTERM."""
     for signum in ENDING:  # with SIG_IGN, Python complains about a signal that is already pending
-        signal.signal(signum, lambda _signum, _frame: None)
+        signal.signal(signum, _ignore)
+
+
+def _ignore(_signum: int, _frame: object) -> None:
+    """Ignore a signal, unless it repeats an interrupt that Python has dropped."""
+    if excepthooks.take_dropped():
+        raise KeyboardInterrupt

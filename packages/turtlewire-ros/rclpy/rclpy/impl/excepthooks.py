@@ -11,10 +11,12 @@ there is one), Ctrl-C is raised again right afterwards.
 from __future__ import annotations
 
 import _thread
-import contextlib
+import functools
 import signal
 import sys
 import threading
+import weakref
+from signal import SIGINT
 from typing import TYPE_CHECKING
 
 from turtlewire.package_sources import explain_missing_modules
@@ -29,8 +31,8 @@ _previous_thread_hook = threading.excepthook
 _previous_unraisable_hook = sys.unraisablehook
 _signal_came = False
 _dropped = False
-#: Held where exceptions would be dropped.
-_dropping = threading.Lock()
+#: Keeps the callback of the last dropped interrupt.
+_guard_reference: weakref.ref[set[signal.Signals]] | None = None
 
 
 def install() -> None:
@@ -95,18 +97,20 @@ def _unraisable_hook(arguments: sys.UnraisableHookArgs) -> None:
         _previous_unraisable_hook(arguments)
         return
     _dropped = True
-    # At the end of the interpreter no thread starts any more, and there is nothing to interrupt.
-    with _dropping, contextlib.suppress(RuntimeError):
-        threading.Thread(target=_interrupt_again, daemon=True).start()
+    frame_guard = {SIGINT}
+    _raise_again_after(frame_guard)
 
 
-def _interrupt_again() -> None:
-    with _dropping:  # the main thread keeps the interpreter until it is out of the hook
-        pass
-    if hasattr(signal, "pthread_kill"):  # it also ends a wait of the main thread
-        signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGINT)
-    else:
-        _thread.interrupt_main()
+def _raise_again_after(frame_guard: set[signal.Signals]) -> None:
+    """Raise SIGINT in the main thread once the frame that holds ``frame_guard`` has ended.
+
+    Within that frame Python would drop the exception again. The callback has to be in C: a function
+    in Python would itself be the first to be interrupted. :func:`next` ignores the dead reference,
+    which is its default, and calls ``interrupt_main``.
+    """
+    global _guard_reference
+    call = functools.partial(next, map(_thread.interrupt_main, (SIGINT,)))
+    _guard_reference = weakref.ref(frame_guard, call)
 
 
 explain_missing_modules()  # before `install`, whose hook calls the one that it finds
