@@ -108,7 +108,7 @@ def _raise_again_after(frame_guard: set[signal.Signals]) -> None:
     in Python would itself be the first to be interrupted. :func:`next` ignores the dead reference,
     which is its default, and calls ``interrupt_main``.
     """
-    global _guard_reference
+    global _guard_reference  # noqa: PLW0603 - as above
     call = functools.partial(next, map(_thread.interrupt_main, (SIGINT,)))
     _guard_reference = weakref.ref(frame_guard, call)
 
