@@ -7,6 +7,7 @@ A benchmark is a module of this package with ``TITLE`` and ``rows()``, which yie
 from __future__ import annotations
 
 import importlib
+import os
 import pkgutil
 import platform
 import sys
@@ -48,7 +49,7 @@ def table(rows: list[Row]) -> str:
         )
     ]
     for row in rows:
-        first = (row.what, row.ours.text())
+        first = (row.what, row.ours.text() + _above_floor(row))
         if not row.rivals:
             lines.append((*first, "", "", "", row.budget))
         for name, rival in row.rivals.items():
@@ -67,6 +68,13 @@ def table(rows: list[Row]) -> str:
     return "\n".join(cells)
 
 
+def _above_floor(row: Row) -> str:
+    if row.floor is None:
+        return ""
+    least, typical = row.ours.minimum / row.floor.minimum, row.ours.median / row.floor.median
+    return f"; floor {row.floor.text()}: {least:.3g}x / {typical:.3g}x of it"
+
+
 def main() -> int:
     wanted = sys.argv[1:]
     found = modules()
@@ -81,6 +89,7 @@ def main() -> int:
             continue
         print(f"\n{module.TITLE}\n", flush=True)
         print(table(list(module.rows())), flush=True)
+        print("load average: {:.1f} (1 min), {:.1f} (5 min)".format(*os.getloadavg()), flush=True)
     return 0
 
 

@@ -31,9 +31,10 @@ class Figure:
 
 @dataclass(frozen=True)
 class Row:
-    """One line: what was measured, our figure, those of rivals, and the budget."""
+    """One line: what was measured, our figure, those of rivals, the budget, the machine's floor."""
 
     what: str
     ours: Figure
     rivals: dict[str, Figure] = field(default_factory=dict)
     budget: str = ""
+    floor: Figure | None = None

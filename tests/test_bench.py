@@ -21,7 +21,7 @@ def test_help_lists_the_benchmarks_without_a_set_up(tmp_path, words):
         [tmp_path / "scripts/bench", *words], capture_output=True, text=True, check=True
     )
     usage, *rest = done.stdout.splitlines()
-    assert usage == "usage: scripts/bench [-h] [NAME ...]"
+    assert usage == "usage: scripts/bench [-h] [--against real | NAME ...]"
     names = [line.strip() for line in rest if line.startswith("  ")]
     assert {"bags", "robot_state", "tf_buffer", "turtles"} <= set(names)
     assert "figures" not in names

@@ -1,0 +1,105 @@
+"""The least that the machine needs for the same work, without Python nodes."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import socket
+import statistics
+import subprocess
+import sys
+import threading
+import time
+
+from benchmarks.figures import Figure
+
+#: ddsperf on loopback only. Its participants find each other without multicast.
+_LOOPBACK = """
+<General>
+  <Interfaces><NetworkInterface name="lo"/></Interfaces><AllowMulticast>false</AllowMulticast>
+</General>
+<Discovery>
+  <ParticipantIndex>auto</ParticipantIndex><Peers><Peer address="127.0.0.1"/></Peers>
+</Discovery>
+"""
+_SECONDS = 5
+_LINE = re.compile(r" size \d+ mean ([\d.]+)us .* 50% ([\d.]+)us .* 99% ([\d.]+)us")
+_TICKS = 300
+
+
+def one_way(rate: str = "1kHz") -> dict[str, Figure] | None:
+    """Return half the round trip of ``ddsperf``, or None where cyclonedds-tools is not installed.
+
+    Args:
+        rate: How often it sends a ping; an empty text sends the next one after each answer.
+    """
+    if shutil.which("ddsperf") is None:
+        print("floors: no ddsperf (apt install cyclonedds-tools)", file=sys.stderr)
+        return None
+    environment = {**os.environ, "CYCLONEDDS_URI": _LOOPBACK}
+    command = ["ddsperf", "-i", "105", "-D"]
+    with subprocess.Popen(
+        [*command, str(_SECONDS + 2), "pong"], env=environment, stdout=subprocess.DEVNULL
+    ):
+        ping = subprocess.run(
+            [*command, str(_SECONDS), "ping", *([rate] if rate else []), "size", "40"],
+            env=environment,
+            check=True,
+            capture_output=True,
+            text=True,
+        )
+    seconds = [tuple(map(float, match)) for match in _LINE.findall(ping.stdout)]
+    means, medians, tails = zip(*seconds[1:], strict=True)  # the first second has the discovery
+    return {"mean": _figure(means), "p50": _figure(medians), "p99": _figure(tails)}
+
+
+def _figure(microseconds: tuple[float, ...]) -> Figure:
+    return Figure(min(microseconds) * 1e3, statistics.median(microseconds) * 1e3)
+
+
+def sleep_cpu(period_s: float = 0.01) -> Figure:
+    """Return the CPU time of one tick of a loop around ``clock_nanosleep``."""
+    runs = []
+    for _ in range(3):
+        begin, due = time.process_time_ns(), time.monotonic()
+        for _ in range(_TICKS):
+            due += period_s
+            time.sleep(max(0.0, due - time.monotonic()))
+        runs.append((time.process_time_ns() - begin) / _TICKS)
+    return Figure(min(runs), statistics.median(runs))
+
+
+def interpreter_start() -> Figure:
+    """Return the time of ``python -c pass``."""
+    runs = []
+    for _ in range(9):
+        begin = time.perf_counter_ns()
+        subprocess.run([sys.executable, "-c", "pass"], check=True)
+        runs.append(time.perf_counter_ns() - begin)
+    return Figure(min(runs), statistics.median(runs))
+
+
+def transfer(size: int) -> Figure:
+    """Return the time in which one process gets ``size`` bytes from a thread over loopback."""
+    data, count = bytes(size), 60
+    times = []
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        sender = threading.Thread(target=_send, args=(server.getsockname()[1], data, count))
+        sender.start()
+        connection, _ = server.accept()
+        target = memoryview(bytearray(size))
+        with connection:
+            for _ in range(count):
+                begin, filled = time.perf_counter_ns(), 0
+                while filled < size:
+                    filled += connection.recv_into(target[filled:])
+                times.append(time.perf_counter_ns() - begin)
+        sender.join()
+    return Figure(min(times), statistics.median(times))
+
+
+def _send(port: int, data: bytes, count: int) -> None:
+    with socket.create_connection(("127.0.0.1", port)) as connection:
+        for _ in range(count):
+            connection.sendall(data)

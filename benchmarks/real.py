@@ -1,0 +1,132 @@
+"""The same programs in our rclpy, in the real ones on Fast DDS, and the floor of the machine.
+
+The real ones are what `scripts/peers` installs; their address space is limited, because Fast DDS
+sizes its memory by the machine's. All take turns in one run.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import statistics
+import subprocess
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from benchmarks import floors
+from benchmarks.figures import Figure, Row
+from benchmarks.rivals import rclpy_programs
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+TITLE = "real: rclpy of turtlewire, Jazzy and Kilted, and the machine's floor"
+PEERS = Path(__file__).parents[1] / "build" / "peers"
+ROUNDS = 4
+ADDRESS_SPACE_KB = 6_000_000
+ENVIRONMENT = {
+    "HOME": os.environ["HOME"],
+    "PATH": "/usr/bin:/bin",
+    "ROS_DOMAIN_ID": "102",
+    "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+}
+#: Programs that need a second process, which serves them.
+SERVED = ("latency", "service", "images")
+ALONE = ("start", "timer")
+#: What is printed, by the name of the figure in the programs.
+WHAT = {
+    "p50": "publish to callback, two processes, 1 kHz, p50",
+    "p99": "the same, p99",
+    "sender_cpu": "CPU of the publisher and its timer for each message",
+    "receiver_cpu": "CPU of the receiver for each message",
+    "timer_cpu": "CPU of a tick of a timer, 100 Hz",
+    "call": "call of a service and its answer, mean",
+    "call_p50": "the same, p50",
+    "client_cpu": "CPU of the client for each call",
+    "server_cpu": "CPU of the server for each call",
+    "image": "an image of 6.2 MB, reliable, received",
+    "imported": "import rclpy",
+    "node": "import, init and a node",
+}
+
+
+def rows() -> Iterator[Row]:
+    pythons = _pythons()
+    measured: dict[str, dict[str, list[float]]] = {name: {} for name in pythons}
+    for _ in range(ROUNDS):
+        for name, command in pythons.items():
+            for figure, value in measure(command).items():
+                measured[name].setdefault(figure, []).append(value)
+    floor = _floors()
+    for figure, what in WHAT.items():
+        figures = {
+            name: Figure(min(values[figure]), statistics.median(values[figure]))
+            for name, values in measured.items()
+        }
+        yield Row(what, figures.pop("ours"), figures, floor=floor.get(figure))
+
+
+def _pythons() -> dict[str, list[str]]:
+    pythons = {"ours": [sys.executable]}
+    for distribution in ("jazzy", "kilted"):
+        python = PEERS / distribution / "bin" / "python"
+        if python.exists():
+            limited = f'ulimit -v {ADDRESS_SPACE_KB}; exec "$@"'
+            pythons[f"real {distribution.title()}"] = ["sh", "-c", limited, "sh", str(python)]
+        else:
+            print(f"real: no rclpy of {distribution} (run scripts/peers)", file=sys.stderr)
+    return pythons
+
+
+def _floors() -> dict[str, Figure]:
+    found = {
+        "timer_cpu": floors.sleep_cpu(rclpy_programs.TICK_S),
+        "imported": floors.interpreter_start(),
+        "image": floors.transfer(rclpy_programs.IMAGE_SIZE),
+    }
+    if (wire := floors.one_way()) is not None:
+        found |= {"p50": wire["p50"], "p99": wire["p99"]}
+    if (wire := floors.one_way("")) is not None:
+        for figure, kind in {"call": "mean", "call_p50": "p50"}.items():
+            found[figure] = Figure(wire[kind].minimum * 2, wire[kind].median * 2)
+    return found
+
+
+def measure(python: list[str]) -> dict[str, float]:
+    """Run each program once and return its figures [ns]."""
+    program = [*python, rclpy_programs.__file__]
+    figures: dict[str, float] = {}
+    for name in ALONE:
+        done = subprocess.run(
+            [*program, name], env=ENVIRONMENT, check=True, capture_output=True, text=True
+        )
+        figures |= {
+            {"cpu": "timer_cpu"}.get(figure, figure): value
+            for figure, value in json.loads(done.stdout).items()
+        }
+    for name in SERVED:
+        figures |= _served(program, name)
+    return figures
+
+
+def _served(program: list[str], name: str) -> dict[str, float]:
+    with (
+        subprocess.Popen(
+            [*program, f"{name}_serve"],
+            env=ENVIRONMENT,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        ) as server,
+        subprocess.Popen(
+            [*program, f"{name}_ask"], env=ENVIRONMENT, stdout=subprocess.PIPE, text=True
+        ) as asker,
+    ):
+        try:
+            asked, _ = asker.communicate(timeout=120)
+            served, _ = server.communicate("", timeout=60)
+        finally:  # of one that waits for the other, which failed
+            asker.kill()
+            server.kill()
+    return {**json.loads(asked), **json.loads(served)}
