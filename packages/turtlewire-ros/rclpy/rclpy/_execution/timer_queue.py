@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import heapq
 import itertools
+import math
 import threading
 import time
 from typing import TYPE_CHECKING, Generic, TypeVar
@@ -24,8 +25,8 @@ class TimerQueue(Generic[T]):
     newest ticket of a timer counts. Old entries are swept out before they outnumber the others.
 
     Args:
-        on_earlier: Called, without locks held, when the next moment came nearer, so that a thread
-            that waits for it can wait again.
+        on_earlier: Called, without locks held, when a timer becomes due before the moment until
+            which :meth:`time_until_next` lets a thread wait, so that it can wait again.
     """
 
     def __init__(self, on_earlier: Callable[[], None]) -> None:
@@ -33,6 +34,7 @@ class TimerQueue(Generic[T]):
         self._heap: list[tuple[int, int, T]] = []
         self._tickets: dict[T, int] = {}
         self._next_ticket = itertools.count()
+        self._awaited_ns: float | None = None  # None: no thread waits
         self._lock = threading.Lock()
 
     def schedule(self, timer: T, delay_ns: int | None) -> None:
@@ -50,8 +52,9 @@ class TimerQueue(Generic[T]):
             entry = (time.monotonic_ns() + delay_ns, ticket, timer)
             heapq.heappush(self._heap, entry)
             self._sweep()
-            is_first = self._heap[0] is entry
-        if is_first:
+            is_earlier = self._awaited_ns is not None and entry[0] < self._awaited_ns
+        # A callback's own timer needs no wake-up: its thread waits anew in any case.
+        if is_earlier:
             self._on_earlier()
 
     def discard(self, timer: T) -> None:
@@ -59,15 +62,23 @@ class TimerQueue(Generic[T]):
         self.schedule(timer, None)
 
     def time_until_next(self) -> int | None:
-        """Nanoseconds until the next timer is due, 0 if it is due, None without timers."""
+        """Return the nanoseconds for which a thread may wait; call :meth:`pop_due` afterwards.
+
+        0 if a timer is due, None without timers.
+        """
         with self._lock:
             self._drop_stale()
+            self._awaited_ns = self._heap[0][0] if self._heap else math.inf
             return max(0, self._heap[0][0] - time.monotonic_ns()) if self._heap else None
 
     def pop_due(self) -> list[T]:
-        """Remove and return the timers that are due; each must be scheduled again to come back."""
+        """End the wait, and remove and return the timers that are due.
+
+        Each must be scheduled again to come back.
+        """
         due: list[T] = []
         with self._lock:
+            self._awaited_ns = None
             now = time.monotonic_ns()
             self._drop_stale()
             while self._heap and self._heap[0][0] <= now:

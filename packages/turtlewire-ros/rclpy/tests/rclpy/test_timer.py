@@ -289,13 +289,15 @@ class _Waited:
         self.woken += 1
 
 
-def test_the_queue_gives_the_earliest_and_wakes_only_for_an_earlier_one():
+def test_the_queue_gives_the_earliest_and_wakes_a_waiting_thread_only_for_an_earlier_one():
     waited = _Waited()
     queue = TimerQueue(waited)
     slow, fast, idle = (Timer(None, None, 0, Clock(), context=object()) for _ in range(3))
     assert queue.time_until_next() is None
     queue.schedule(slow, 10_000_000_000)
     assert waited.woken == 1
+    assert queue.pop_due() == []
+    assert 9_000_000_000 < queue.time_until_next() <= 10_000_000_000
     queue.schedule(idle, 20_000_000_000)
     assert waited.woken == 1
     queue.schedule(fast, 0)
@@ -303,7 +305,9 @@ def test_the_queue_gives_the_earliest_and_wakes_only_for_an_earlier_one():
     assert queue.time_until_next() == 0
     assert queue.pop_due() == [fast]
     assert queue.pop_due() == []
-    assert 9_000_000_000 < queue.time_until_next() <= 10_000_000_000
+    queue.schedule(fast, 0)  # by the thread itself, which waits again afterwards
+    assert waited.woken == 2
+    assert queue.time_until_next() == 0
 
 
 def test_an_entry_that_was_replaced_or_discarded_does_not_count():
