@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -129,7 +130,8 @@ std::optional<std::pair<std::size_t, Verdict>> first_refused(const Tree& tree, c
   if (link != nullptr && !link->samples().empty()) newest = std::max(newest, link->newest());
   const Stamp limit = earlier(newest, tree.keep());
   for (std::size_t i = 0; i < batch.size(); ++i) {
-    Verdict verdict = tree.judge(batch.parent, batch.child, batch.pose(i));
+    Verdict verdict = i == 0 ? tree.judge(batch.parent, batch.child, batch.pose(i))
+                             : tree.judge(batch.pose(i));
     if (verdict == Verdict::accepted && batch.stamp(i) < limit) verdict = Verdict::old_data;
     if (verdict != Verdict::accepted) return std::pair(i, verdict);
   }
@@ -138,17 +140,18 @@ std::optional<std::pair<std::size_t, Verdict>> first_refused(const Tree& tree, c
 
 // Returns how many of the rows the buffer now holds.
 std::size_t add_rows(Tree& tree, const Batch& batch, SourceId sender) {
-  std::vector<Stamp> accepted;
-  accepted.reserve(batch.size());
+  std::vector<Stamp> refused;
   for (std::size_t i = 0; i < batch.size(); ++i) {
     const Stamp t = batch.stamp(i);
-    if (tree.set(batch.parent, batch.child, t, batch.pose(i), sender, false) == Verdict::accepted)
-      accepted.push_back(t);
+    if (tree.set(batch.parent, batch.child, t, batch.pose(i), sender, false) != Verdict::accepted)
+      refused.push_back(t);
   }
-  if (accepted.empty()) return 0;
+  if (refused.size() == batch.size()) return 0;
   const Stamp oldest = tree.find_link(batch.child)->oldest();
-  return static_cast<std::size_t>(
-      std::count_if(accepted.begin(), accepted.end(), [&](Stamp t) { return t >= oldest; }));
+  const auto held = [oldest](std::span<const Stamp> stamps) {
+    return std::count_if(stamps.begin(), stamps.end(), [oldest](Stamp t) { return t >= oldest; });
+  };
+  return static_cast<std::size_t>(held({batch.stamps.data(), batch.size()}) - held(refused));
 }
 
 constexpr Parameters<6> kSetTransforms{

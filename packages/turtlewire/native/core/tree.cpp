@@ -123,9 +123,7 @@ Verdict Tree::judge(std::string_view parent, std::string_view child, const Pose&
   child = without_slash(child);
   const Verdict verdict = judge_names(parent, child);
   if (verdict != Verdict::accepted) return verdict;
-  if (const Verdict unfit = judge_stored({pose.translation, stored(pose.rotation)});
-      unfit != Verdict::accepted)
-    return unfit;
+  if (const Verdict unfit = judge(pose); unfit != Verdict::accepted) return unfit;
   return has_room(parent, child) ? Verdict::accepted : Verdict::too_many_frames;
 }
 

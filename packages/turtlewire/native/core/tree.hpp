@@ -76,6 +76,10 @@ class Tree {
               SourceId source, bool is_static);
   // What `set` would say of this sample, but for its time.
   Verdict judge(std::string_view parent, std::string_view child, const Pose& pose) const;
+  // The same for a further sample of the same frames.
+  Verdict judge(const Pose& pose) const {
+    return judge_stored({pose.translation, stored(pose.rotation)});
+  }
   // Counts a transform that is not added.
   Verdict refuse(Verdict verdict, std::string_view parent, std::string_view child, Stamp stamp,
                  const Pose& pose, SourceId source);
