@@ -130,8 +130,8 @@ std::optional<std::pair<std::size_t, Verdict>> first_refused(const Tree& tree, c
   if (link != nullptr && !link->samples().empty()) newest = std::max(newest, link->newest());
   const Stamp limit = earlier(newest, tree.keep());
   for (std::size_t i = 0; i < batch.size(); ++i) {
-    Verdict verdict = i == 0 ? tree.judge(batch.parent, batch.child, batch.pose(i))
-                             : tree.judge(batch.pose(i));
+    Verdict verdict =
+        i == 0 ? tree.judge(batch.parent, batch.child, batch.pose(i)) : tree.judge(batch.pose(i));
     if (verdict == Verdict::accepted && batch.stamp(i) < limit) verdict = Verdict::old_data;
     if (verdict != Verdict::accepted) return std::pair(i, verdict);
   }

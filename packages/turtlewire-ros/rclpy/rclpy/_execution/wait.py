@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import threading
 from collections import deque
 from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
+from weakref import WeakSet
 
 from .timer_queue import TimerQueue
 
@@ -48,19 +50,34 @@ class ExecutorWait(Generic[T]):
         self.background: set[_Background] = set()
         self._wait_set = wait_set
         self._by_wire: dict[base.Entity, T] = {}
+        # Left, but still attached: `rclpy.spin_once` removes a node after each call, and adds it
+        # again before the next one. Closing an endpoint detaches it.
+        self._left: WeakSet[base.Waitable] = WeakSet()
+        # Also held by finalizers, which run in the middle of anything.
+        self._lock = threading.RLock()
         self._notified: deque[T] = deque()
         self._waiting = False
         self._ended = False
 
     def watch(self, wire: base.Waitable, entity: T) -> None:
         """Report ``entity`` when its side on the wire has something."""
-        self._by_wire[wire] = entity
-        self._wait_set.attach(wire)
+        with self._lock:
+            self._by_wire[wire] = entity
+            if wire in self._left:
+                self._left.discard(wire)
+            else:
+                self._wait_set.attach(wire)
 
     def unwatch(self, wire: base.Waitable) -> None:
         """Undo :meth:`watch`."""
-        self._wait_set.detach(wire)
-        self._by_wire.pop(wire, None)
+        with self._lock:
+            if self._by_wire.pop(wire, None) is not None:
+                self._left.add(wire)
+
+    def _detach_left(self) -> None:
+        with self._lock:
+            while self._left:
+                self._wait_set.detach(self._left.pop())
 
     def notify(self, entity: T) -> None:
         """Report ``entity`` at once."""
@@ -82,6 +99,8 @@ class ExecutorWait(Generic[T]):
         Returns:
             What is ready, in ROS 2's order.
         """
+        if self._left:
+            self._detach_left()
         # The wire still gets a look: what is ready there belongs to the same cycle.
         if self._notified:
             timeout_ns = 0
