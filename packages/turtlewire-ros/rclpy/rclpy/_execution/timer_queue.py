@@ -53,7 +53,7 @@ class TimerQueue(Generic[T]):
             heapq.heappush(self._heap, entry)
             self._sweep()
             is_earlier = self._awaited_ns is not None and entry[0] < self._awaited_ns
-        # A callback's own timer needs no wake-up: its thread waits anew in any case.
+        # A callback's own timer needs no wake-up: its thread starts the next wait by itself.
         if is_earlier:
             self._on_earlier()
 

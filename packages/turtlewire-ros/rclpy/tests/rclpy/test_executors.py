@@ -895,7 +895,7 @@ class _Ready:
     _rank = (0, 0, 0)
 
 
-def test_an_endpoint_that_leaves_between_two_waits_and_returns_stays_attached():
+def test_an_endpoint_that_leaves_and_returns_stays_attached():
     wait_set, wire, entity, other = _WaitSet(), _Wire(), _Ready(), _Ready()
     wait = ExecutorWait(wait_set)
     wait.watch(wire, entity)

@@ -289,7 +289,7 @@ class _Waited:
         self.woken += 1
 
 
-def test_the_queue_gives_the_earliest_and_wakes_a_waiting_thread_only_for_an_earlier_one():
+def test_the_queue_wakes_a_waiting_thread_for_an_earlier_timer_only():
     waited = _Waited()
     queue = TimerQueue(waited)
     slow, fast, idle = (Timer(None, None, 0, Clock(), context=object()) for _ in range(3))
