@@ -231,7 +231,7 @@ async def listen() -> None:
 
 
 def talk(net: Connection) -> None:
-    buffer = net.transforms(cache_time_ns=None, static_topic=None)
+    buffer = net.transforms(cache_time_ns=None, static_topic=None, forget_after_ns=SECOND)
     net.send_transform("map", "base", 5, (0, 0, 0))
     net.send_static_transform("base", "camera", (0, 0, 0), (0, 0, 0, 1))
     speaker: Publisher = net.publisher("/chatter", "std_msgs/msg/String")

@@ -70,10 +70,17 @@ class DelayStatistics:
     Args:
         name_of: Returns the name of a publisher's node for a gid.
         now: Returns the present time [s], from which delays are measured.
+        is_present: Returns True while the graph has the publisher with a gid.
     """
 
-    def __init__(self, name_of: Callable[[bytes], str], now: Callable[[], float]) -> None:
+    def __init__(
+        self,
+        name_of: Callable[[bytes], str],
+        now: Callable[[], float],
+        is_present: Callable[[bytes], bool],
+    ) -> None:
         self._name_of = name_of
+        self._is_present = is_present
         self._now = now
         self._lock = threading.Lock()
         self._names: dict[bytes, str] = {}
@@ -116,6 +123,7 @@ class DelayStatistics:
                     {
                         "frame": frame,
                         "published_by": self._name(gid),
+                        "departed": not self._is_present(gid),
                         "average_delay": delays.mean,
                         "max_delay": delays.maximum,
                     }
@@ -191,7 +199,9 @@ def _monitor(node: Node, options: argparse.Namespace) -> None:
     rclpy.get_default_context().on_shutdown(stopped.set)
     clock = node.get_clock()
     statistics = DelayStatistics(
-        lambda gid: _publisher_name(node, gid), lambda: clock.now().nanoseconds / 1e9
+        lambda gid: _publisher_name(node, gid),
+        lambda: clock.now().nanoseconds / 1e9,
+        lambda gid: any(gid == endpoint.gid for endpoint in node.context.wire.graph.endpoints()),
     )
     net = Delays()
     _subscribe(node, buffer, statistics, lambda: _note_chain(options.frames, buffer, net, clock))
@@ -296,7 +306,8 @@ def _in_lines(frames: list[str], data: dict[str, Any]) -> str:
         lines += ["RESULTS: for all Frames"]
     lines += ["", "Frames:"]
     lines += [
-        f"Frame: {entry['frame']}, published by {entry['published_by']}, "
+        f"Frame: {entry['frame']}, published by {entry['published_by']}"
+        f"{' (has left)' if entry['departed'] else ''}, "
         f"Average Delay: {entry['average_delay']:g}, Max Delay: {entry['max_delay']:g}"
         for entry in data["frames"]
     ]

@@ -6,6 +6,7 @@ from threading import current_thread
 from typing import TYPE_CHECKING, Any
 
 from rclpy._execution.background_events import BackgroundEvents
+from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
 from turtlewire.tf import listener as engine
 
@@ -30,6 +31,7 @@ __all__ = [
 
 DEFAULT_TF_TOPIC = "/tf"
 DEFAULT_STATIC_TF_TOPIC = "/tf_static"
+_FORGET_AFTER = "tf_forget_after"
 
 
 class TransformListener:
@@ -50,6 +52,9 @@ class TransformListener:
         tf_topic: The topic of transforms that change.
         tf_static_topic: The topic of static transforms.
         static_only: Subscribe to the static topic only.
+
+    The node's parameter ``tf_forget_after`` (seconds, set from outside, as with ``--ros-args -p``)
+    removes moving frames that long after their publisher has left the graph. ROS 2 keeps them.
 
     Attributes:
         buffer: The buffer.
@@ -87,6 +92,7 @@ class TransformListener:
                     history=HistoryPolicy.KEEP_LAST,
                 ),
             ).to_wire(),
+            forget_after_ns=_forget_after_ns(self.node),
         )
         self._follow_clock: JumpHandle | None = None
         # Otherwise the buffer follows the clock of its own node.
@@ -139,6 +145,16 @@ class TransformListener:
         """:meth:`callback` for static transforms."""
         for transform in data.transforms:
             self.buffer.set_transform_static(transform, "default_authority")
+
+
+def _forget_after_ns(node: Node | AsyncNode) -> int | None:
+    """Read the parameter; a node on which nobody has set it does not have it, as in ROS 2."""
+    if not node.has_parameter(_FORGET_AFTER):
+        if not node._parameters.has_override(_FORGET_AFTER):
+            return None
+        node.declare_parameter(_FORGET_AFTER, Parameter.Type.DOUBLE)
+    seconds = node.get_parameter(_FORGET_AFTER).value
+    return None if seconds is None else round(seconds * 1e9)
 
 
 def _make_node() -> Any:

@@ -76,6 +76,10 @@ class BagSource:
         with self._news:
             return min(self._clock.now_ns(), self._end_ns)
 
+    def departed_frames(self) -> list[str]:
+        """Return no frame: a bag does not say when publishers left."""
+        return []
+
     def new_timeline(self) -> BagSource:
         """Return the bag itself: all pages share its time, which begins with the first of them."""
         with self._news:

@@ -49,6 +49,10 @@ class BufferSource:
         newest = newest_stamp_ns(self.buffer)
         return time.time_ns() if newest is None else newest
 
+    def departed_frames(self) -> list[str]:
+        """Return no frame: a buffer does not know the graph."""
+        return []
+
     def new_timeline(self) -> LiveTimeline:
         """Return a page's own time, which follows the buffer until the page is paused."""
         return LiveTimeline(self)

@@ -97,6 +97,10 @@ class LiveSource:
         newest = newest_stamp_ns(self.buffer)
         return time.time_ns() if newest is None or newest >= _WALL_TIME_FROM_NS else newest
 
+    def departed_frames(self) -> list[str]:
+        """Return the moving frames whose publisher has left the graph."""
+        return self._listener.departed_frames()
+
     def new_timeline(self) -> LiveTimeline:
         """Return a page's own time, which follows the wire until the page is paused."""
         return LiveTimeline(self)

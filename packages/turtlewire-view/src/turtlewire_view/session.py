@@ -203,7 +203,7 @@ class ViewSession(CommandSession):
         self._source.drop_old_timeline()
         buffer, now_ns = self._timeline.buffer, self._source.now_ns()
         self._scene.read_structure(buffer)
-        rows = self._table.rows(buffer, now_ns)
+        rows = self._table.rows(buffer, now_ns, self._source.departed_frames())
         packets = [encode_packet({"type": "tree", "now": now_ns / 1e9, "rows": rows})]
         topics = self._viewer.topics()
         news = self._if_new("topics", {"type": "topics", "topics": topics})

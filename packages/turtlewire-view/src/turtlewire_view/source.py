@@ -132,6 +132,10 @@ class Source(Protocol):
         """Return the time that ages refer to."""
         ...
 
+    def departed_frames(self) -> list[str]:
+        """Return the moving frames whose publisher has left the graph."""
+        ...
+
     def new_timeline(self) -> Timeline:
         """Return the time of one more page; pages of a bag share theirs."""
         ...

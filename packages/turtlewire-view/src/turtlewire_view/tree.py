@@ -15,7 +15,7 @@ from turtlewire_view.frames import FRAME_TIMEOUT_S
 from turtlewire_view.words import transform_in_words
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Collection, Sequence
 
     from turtlewire.tf.buffer import Buffer
     from turtlewire.tf.links import Link
@@ -35,15 +35,24 @@ class TreeTable:
         self._delays: dict[str, deque[float]] = {}
         self._newest_ns: dict[str, int] = {}
 
-    def rows(self, buffer: Buffer, now_ns: int) -> list[dict[str, Any]]:
+    def rows(
+        self, buffer: Buffer, now_ns: int, departed: Collection[str] = ()
+    ) -> list[dict[str, Any]]:
         """Return a row for each frame with a parent, in no order.
 
         Its rate is in Hz, its times in seconds; a static link has neither rate, age nor delay.
+
+        Args:
+            buffer: The frames.
+            now_ns: The time that ages refer to.
+            departed: Moving frames whose publisher has left the graph.
         """
         links = [link for link in buffer.links() if link.samples]
         self._delays = {link.child_frame: self._delayed(link, now_ns) for link in links}
         self._newest_ns = {link.child_frame: link.newest_ns for link in links}
-        return [self._row(link, now_ns) for link in links]
+        return [
+            {**self._row(link, now_ns), "departed": link.child_frame in departed} for link in links
+        ]
 
     def _delayed(self, link: Link, now_ns: int) -> deque[float]:
         """The ages of new samples: what has no newer one grows older, and is not more delayed."""

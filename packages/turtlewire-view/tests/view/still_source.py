@@ -22,6 +22,7 @@ class StillSource:
 
     def __init__(self) -> None:
         self.buffer = Buffer()
+        self.departed: list[str] = []
         self.published: list[tuple[str, str, bytes]] = []
         self.parameters: dict[tuple[str, str], str] = {}
         self._topics: dict[str, Topic] = {}
@@ -51,6 +52,9 @@ class StillSource:
 
     def now_ns(self):
         return STAMP_NS
+
+    def departed_frames(self):
+        return self.departed
 
     def new_timeline(self):
         return LiveTimeline(self)

@@ -216,6 +216,14 @@ def test_the_relation_in_words_and_numbers(page, fake):
     }
 
 
+def test_a_publisher_that_left_is_marked(page, fake):
+    page.click("#tree .row:has(.name:text-is('turtle1'))")
+    gone = {**row("turtle1", "world", age=0.1), "publisher": "/gone", "departed": True}
+    fake.tell({"type": "tree", "now": 5.0, "rows": [gone]})
+    page.wait_for_selector("#facts dd:text('/gone (has left)')")
+    page.wait_for_selector("#tree .row[data-kind='stale']:has-text('/gone (has left)')")
+
+
 def test_values_rounded_to_zero_have_no_sign(page, fake):
     page.click("#tree .row:has(.name:text-is('turtle2'))")
     small = [[-1e-9] * 4 for _ in range(4)]

@@ -34,12 +34,15 @@ def test_rows_say_who_sends_how_often_and_how_late(buffer):
         "rate": None,
         "age": None,
         "delay": None,
+        "departed": False,
     }
     assert rows["base"]["delay"] is None  # its newest sample may have come long ago
     buffer.set_transform("map", "base", 3 * SECOND, (1, 2, 0), IDENTITY)
     table.rows(buffer, 3 * SECOND + SECOND // 4)
     rows = {row["name"]: row for row in table.rows(buffer, 4 * SECOND)}
     assert (rows["base"]["age"], rows["base"]["delay"]) == (1.0, 0.25)
+    departed = table.rows(buffer, 4 * SECOND, ["base"])
+    assert [row["name"] for row in departed if row["departed"]] == ["base"]
 
 
 def test_a_single_sample_has_no_rate():

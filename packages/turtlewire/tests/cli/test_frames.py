@@ -64,6 +64,15 @@ def test_a_tree_as_text(buffer):
     ]
 
 
+def test_a_frame_whose_publisher_left_is_marked_and_red(buffer):
+    picture = take_picture(buffer, NOW_NS, departed=["lost", "below"])
+    *_, lost, below = picture.as_text()
+    assert lost.endswith("/gone  (publisher left)")
+    assert below.endswith("0.000 s             /someone  (publisher left)")
+    assert picture.as_text(coloured=True)[-1].startswith(RED)
+    assert [row["departed"] for row in json.loads(picture.as_json())["frames"]][-2:] == [True, True]
+
+
 def test_stale_is_red_and_static_is_blue(buffer):
     lines = take_picture(buffer, NOW_NS).as_text(coloured=True)
     assert [line[:5] for line in lines if line.startswith("\033[3")] == [BLUE, RED]
@@ -194,6 +203,7 @@ def test_a_tree_as_json(buffer):
         "rate": 10.0,
         "publishers": ["/someone"],
         "stale": False,
+        "departed": False,
     }
     assert data["frames"][1] == robot
     assert (data["frames"][0]["parent"], data["frames"][2]["age"]) == (None, None)

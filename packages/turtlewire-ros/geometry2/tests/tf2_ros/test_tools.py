@@ -520,7 +520,7 @@ def test_the_tools_help_with_a_frame_id_that_is_not_known(stamped):
     (hint,) = tf2_echo._hints(buffer, "world", "robt", 0)
     assert "robot" in hint
     assert tf2_echo._hints(buffer, "world", "robot", 0) == []
-    statistics = tf2_monitor.DelayStatistics(lambda _gid: tf2_monitor.NOBODY, lambda: 0.0)
+    statistics = tf2_monitor.DelayStatistics(lambda _gid: tf2_monitor.NOBODY, lambda: 0.0, bool)
     options = argparse.Namespace(frames=["world", "robt"], json=False)
     assert hint in tf2_monitor._report(options, buffer, statistics, tf2_monitor.Delays())
 
@@ -528,8 +528,9 @@ def test_the_tools_help_with_a_frame_id_that_is_not_known(stamped):
 def test_statistics(stamped):
     now = [10.0]
     names = {b"one": "/one"}
+    present = {b"one", b"two"}
     statistics = tf2_monitor.DelayStatistics(
-        lambda gid: names.get(gid, tf2_monitor.NOBODY), lambda: now[0]
+        lambda gid: names.get(gid, tf2_monitor.NOBODY), lambda: now[0], present.__contains__
     )
     message = msg.get_message(TYPE_NAME)(transforms=[stamped(stamp_s=9)])
     for now[0] in (10.0, 11.0, 12.0):
@@ -540,6 +541,7 @@ def test_statistics(stamped):
         {
             "frame": "robot",
             "published_by": tf2_monitor.NOBODY,
+            "departed": False,
             "average_delay": 2.25,
             "max_delay": 3.0,
         }
@@ -557,12 +559,17 @@ def test_statistics(stamped):
     assert data["broadcasters"] == [
         {"node": "/one", "rate": 1.5, "average_delay": 2.25, "max_delay": 3.0}
     ]
+    present.clear()
+    assert statistics.as_dict()["frames"][0]["departed"]
+    options = argparse.Namespace(frames=[], json=False)
+    report = tf2_monitor._report(options, Buffer(), statistics, tf2_monitor.Delays())
+    assert "Frame: robot, published by /one (has left), Average Delay: 2.25, " in report
 
 
 def test_broadcasters_are_counted_by_messages_not_transforms(stamped):
     """A node that sends three transforms in each message, 20 messages a second, sends at 20 Hz."""
     now = [0.0]
-    statistics = tf2_monitor.DelayStatistics(lambda _gid: "/three", lambda: now[0])
+    statistics = tf2_monitor.DelayStatistics(lambda _gid: "/three", lambda: now[0], bool)
     transforms = [stamped(child=f"frame{number}", stamp_s=-number) for number in range(3)]
     message = msg.get_message(TYPE_NAME)(transforms=transforms)
     for tick in range(21):
@@ -580,7 +587,7 @@ STEERING_SHOWN = r"robot\x1b]0;title\x07\x1b[2J"
 
 
 def test_monitor_escapes_names_that_would_steer_the_terminal(stamped):
-    statistics = tf2_monitor.DelayStatistics(lambda _gid: STEERING, lambda: 0.0)
+    statistics = tf2_monitor.DelayStatistics(lambda _gid: STEERING, lambda: 0.0, bool)
     message = msg.get_message(TYPE_NAME)(transforms=[stamped(child=STEERING)])
     statistics.take(message, MessageInfo(0, 0, b"one"))
     options = argparse.Namespace(frames=[], json=False)

@@ -7,7 +7,9 @@ import threading
 import pytest
 
 import rclpy
+import turtlewire
 from rclpy.duration import Duration
+from rclpy.exceptions import InvalidParameterTypeException
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import QoSProfile
 from rclpy.task import Future
@@ -187,3 +189,43 @@ def test_the_executor_of_the_user_is_free_to_spin_the_node(context, node):
     executor.add_node(node)
     TransformListener(Buffer(), node)
     executor.spin_once(timeout_sec=0)
+
+
+class NotingEngine(turtlewire.Buffer):
+    """A buffer that reports the removal of a frame."""
+
+    def __init__(self):
+        super().__init__()
+        self.removed = threading.Event()
+
+    def remove_frame(self, child_frame):
+        found = super().remove_frame(child_frame)
+        self.removed.set()
+        return found
+
+
+def test_a_parameter_forgets_frames_of_publishers_that_left(make_node, stamped):
+    arguments = ["--ros-args", "-p", "tf_forget_after:=0.0"]
+    buffer, plain = Buffer(), Buffer()
+    buffer.engine = NotingEngine()
+    node = make_node("listener", cli_args=arguments)
+    TransformListener(buffer, node)
+    other = make_node("plain")
+    TransformListener(plain, other)
+    talker = make_node("talker")
+    TransformBroadcaster(talker).sendTransform(stamped())
+    for each in (buffer, plain):
+        each.engine.lookup_transform("world", "robot", None, timeout_ns=LONG.nanoseconds)
+    talker.destroy_node()
+    assert buffer.engine.removed.wait(60.0)
+    assert buffer.engine.frames() == []
+    assert node.get_parameter("tf_forget_after").value == 0.0
+    assert not other.has_parameter("tf_forget_after")
+    assert "robot" in plain.engine
+
+
+def test_a_wrong_type_of_the_parameter_is_explained(make_node):
+    node = make_node("listener", cli_args=["--ros-args", "-p", "tf_forget_after:=5"])
+    with pytest.raises(InvalidParameterTypeException) as caught:
+        TransformListener(Buffer(), node)
+    assert "5.0" in caught.value.hint

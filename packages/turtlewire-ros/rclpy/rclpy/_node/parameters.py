@@ -164,6 +164,10 @@ class NodeParameters(DeclaredParameters):
                 raise InvalidParameterValueException(parameter.name, parameter.value, reason)
         return [self._parameters[name] for name in declared]
 
+    def has_override(self, name: str) -> bool:
+        """Return True if the command line or the constructor gives a value for a parameter."""
+        return name in self._overrides
+
     def declare_overrides(self) -> None:
         """Declare every parameter of the command line and the constructor; types may change."""
         for name, value in self._overrides.items():

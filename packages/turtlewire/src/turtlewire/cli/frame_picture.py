@@ -13,7 +13,7 @@ from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire.tf.frame_tree import read_frame_tree
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Collection, Iterable, Iterator
 
     from turtlewire.tf.buffer import Buffer
     from turtlewire.tf.frame_tree import FrameTree
@@ -44,6 +44,7 @@ class Row(NamedTuple):
         rate_hz: Mean rate of the samples kept.
         publishers: Full names of the nodes that sent it.
         stale: Whether the newest sample is too old.
+        departed: Whether the frame moves and its publisher has left the graph.
     """
 
     frame: str
@@ -54,6 +55,7 @@ class Row(NamedTuple):
     rate_hz: float = 0.0
     publishers: tuple[str, ...] = ()
     stale: bool = False
+    departed: bool = False
 
 
 class Picture(NamedTuple):
@@ -84,6 +86,7 @@ class Picture(NamedTuple):
                 "rate": row.rate_hz,
                 "publishers": row.publishers,
                 "stale": row.stale,
+                "departed": row.departed,
             }
             for row in self.rows
         ]
@@ -100,7 +103,7 @@ class Picture(NamedTuple):
         lines = [_painted(header[:columns], _BOLD if coloured else "")]
         for row, name in zip(self.rows, names, strict=True):
             line = f"{name:{width}}{_figures(row)}".rstrip()[:columns]
-            colour = _RED if row.stale else _BLUE if row.static else ""
+            colour = _RED if row.stale or row.departed else _BLUE if row.static else ""
             lines.append(_painted(line, colour if coloured else ""))
         loops = (printable(" -> ".join((*loop, loop[0]))) for loop in self.loops)
         return lines + [f"Loop: {loop}"[:columns] for loop in loops]
@@ -116,16 +119,20 @@ def _figures(row: Row) -> str:
     state = "static" if row.age_s is None else f"{row.age_s:.3f} s"
     rate = f"{row.rate_hz:.1f} Hz" if row.rate_hz else ""
     publishers = ", ".join(map(printable, row.publishers))
-    return f"  {state:>9}  {rate:>9}  {publishers}{'  (stale)' if row.stale else ''}"
+    mark = "  (publisher left)" if row.departed else "  (stale)" if row.stale else ""
+    return f"  {state:>9}  {rate:>9}  {publishers}{mark}"
 
 
-def take_picture(buffer: Buffer, wall_ns: int, top: str | None = None) -> Picture:
+def take_picture(
+    buffer: Buffer, wall_ns: int, top: str | None = None, departed: Collection[str] = ()
+) -> Picture:
     """Return the tree of a buffer at a system time.
 
     Args:
         buffer: What to look at.
         wall_ns: System time.
         top: Take only this frame and those below it; None takes all.
+        departed: Moving frames whose publisher has left the graph.
     """
     tree = read_frame_tree(buffer)
     links = {link.child_frame: link for link in buffer.links() if link.samples}
@@ -137,7 +144,10 @@ def take_picture(buffer: Buffer, wall_ns: int, top: str | None = None) -> Pictur
     if top is not None and top not in tree.children:
         text = f"No frame {top!r} yet. {did_you_mean(top, tree.children)}".rstrip()
         return Picture(now_ns, [], [], printable(text))
-    rows = [_row(frame, branch, links, now_ns) for frame, branch in _walk(tree, top)]
+    rows = [
+        _row(frame, branch, links, now_ns)._replace(departed=frame in departed)
+        for frame, branch in _walk(tree, top)
+    ]
     shown = {row.frame for row in rows}
     return Picture(now_ns, rows, [loop for loop in tree.loops if not shown.isdisjoint(loop)])
 

@@ -45,12 +45,12 @@ def show_frames(top: str | None, *, once: bool, as_json: bool, period_s: float) 
     buffer = Buffer()
     restarts = RestartWatch(buffer)
     window, hinted = Window(), False
-    with TransformListener(buffer), open_scroll_keys(wanted=live) as keys:
+    with TransformListener(buffer) as listener, open_scroll_keys(wanted=live) as keys:
         while True:
             if _browse(keys, window, period_s) == _QUIT:
                 return 0
             restarts.look()
-            picture = take_picture(buffer, time.time_ns(), top)
+            picture = take_picture(buffer, time.time_ns(), top, listener.departed_frames())
             if live:
                 window.show(_with_hint(picture, buffer))
             elif as_json:

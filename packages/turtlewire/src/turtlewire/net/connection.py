@@ -120,6 +120,7 @@ class Connection:
         cache_time_ns: Span | None = 10_000_000_000,
         topic: str | None = TOPIC,
         static_topic: str | None = STATIC_TOPIC,
+        forget_after_ns: Span | None = None,
     ) -> Buffer:
         """Return a buffer that is filled until the connection is closed.
 
@@ -127,9 +128,10 @@ class Connection:
             cache_time_ns: How long samples are kept; None keeps everything.
             topic: Where transforms are published; None leaves them out.
             static_topic: Where static transforms are published; None leaves them out.
+            forget_after_ns: Remove a moving frame this long after its publisher has left the
+                graph; None keeps it, as tf2 does.
         """
-        keep = None if cache_time_ns is None else as_nanoseconds(cache_time_ns, "cache_time_ns")
-        buffer = Buffer(keep)
+        buffer = Buffer(_span_or_none(cache_time_ns, "cache_time_ns"))
         buffer._hint_if_empty = NOTHING_RECEIVED
         self._keep(
             TransformListener(
@@ -138,6 +140,7 @@ class Connection:
                 context=self._context,
                 topic=None if topic is None else self._full_name(topic),
                 static_topic=None if static_topic is None else self._full_name(static_topic),
+                forget_after_ns=_span_or_none(forget_after_ns, "forget_after_ns"),
             )
         )
         return buffer
@@ -313,3 +316,7 @@ class Connection:
         trace: TracebackType | None,
     ) -> None:
         await asyncio.to_thread(self.close)
+
+
+def _span_or_none(value: Span | None, name: str) -> int | None:
+    return None if value is None else as_nanoseconds(value, name)

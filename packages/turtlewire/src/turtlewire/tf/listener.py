@@ -19,6 +19,7 @@ from weakref import WeakKeyDictionary
 from turtlewire import msg, wire
 from turtlewire.errors import CdrError, WireError
 from turtlewire.tf.buffer import CORE, Buffer
+from turtlewire.tf.departures import DepartureWatch, departed_frames
 from turtlewire.tf.full_buffers import FullBuffers
 from turtlewire.tf.publisher_names import PublisherNames
 from turtlewire.wire.base import TypeId
@@ -33,10 +34,11 @@ if TYPE_CHECKING:
     from types import TracebackType
     from typing import Protocol
 
+    from turtlewire.tf.departures import Forgetful
     from turtlewire.wire import base
 
-    class Store(Protocol):
-        """The part of :class:`turtlewire.Buffer` that a listener feeds."""
+    class Store(Forgetful, Protocol):
+        """The part of :class:`turtlewire.Buffer` that a listener needs."""
 
         def add_tf_message(
             self, cdr: bytes, *, static: bool = False, sender: str = "default_authority"
@@ -324,6 +326,8 @@ class TransformListener:
         static_topic: Fully qualified name of the topic of static transforms; None leaves them out.
         qos: Of the first subscription.
         static_qos: Of the second one.
+        forget_after_ns: Remove a moving frame this long after its publisher has left the graph;
+            None keeps it, as tf2 does.
 
     The authority in the buffer is the publishing node (``/namespace/name``), or the
     publisher's gid in hex while the graph knows none. Messages that are no ``TFMessage`` are
@@ -340,7 +344,10 @@ class TransformListener:
         static_topic: str | None = STATIC_TOPIC,
         qos: QoS = QOS,
         static_qos: QoS = STATIC_QOS,
+        forget_after_ns: int | None = None,
     ) -> None:
+        if forget_after_ns is not None and forget_after_ns < 0:
+            raise ValueError(f"forget_after_ns must not be negative: {forget_after_ns}")
         self._own_context = wire.open_context() if context is None else None
         context = context or self._own_context
         assert context is not None
@@ -356,6 +363,16 @@ class TransformListener:
             self._seen[channel] = channel.total()
             channel.join(self._member)
             self._joined.append(channel)
+        self._topic = topic
+        self._departures: DepartureWatch | None = None
+        if topic is not None and forget_after_ns is not None:
+            self._departures = DepartureWatch(buffer, context.graph, topic, forget_after_ns)
+
+    def departed_frames(self) -> list[str]:
+        """Return the moving frames whose publisher has left the graph."""
+        if self._topic is None:
+            return []
+        return departed_frames(self._member.store, self._member.graph, self._topic)
 
     def expect_message(self, call: Callable[[], None]) -> bool:
         """Return True if a message was stored since :meth:`take_arrivals`.
@@ -391,6 +408,8 @@ class TransformListener:
         """Stop filling the buffer; what is in it stays. Idempotent, callable from any thread."""
         with self._lock:
             joined, self._joined = self._joined, []
+        if self._departures is not None:
+            self._departures.close()
         for channel in joined:
             channel.leave(self._member)
         if self._own_node is not None:

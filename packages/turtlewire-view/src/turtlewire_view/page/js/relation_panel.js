@@ -3,7 +3,9 @@
 import { byId, setText } from "../kit/dom.js";
 import { byName } from "../kit/names.js";
 import { make, offer, setFacts, setLine } from "./dom.js";
-import { ageInWords, delayInWords, fixed, isNumber, numbersInWords, rateInWords } from "./words.js";
+import {
+  ageInWords, delayInWords, fixed, isNumber, numbersInWords, publisherInWords, rateInWords,
+} from "./words.js";
 
 const FIXED = ""; // the target that is always the fixed frame
 const MATRIX_ROWS = ["x", "y", "z", "last row"];
@@ -82,7 +84,7 @@ export class RelationPanel {
     const isMoving = row.parent && !row.static;
     setFacts(byId("facts"), [
       ["parent", this.#frames.names[this.#frames.parents[k]] ?? "none, it is a root"],
-      ["published by", row.publisher || null],
+      ["published by", row.publisher ? publisherInWords(row) : null],
       ["rate", row.static ? "static" : isNumber(row.rate) ? rateInWords(row.rate) : null],
       ["age", isMoving && isNumber(row.age) ? ageInWords(row.age) : null],
       ["delay", isMoving && isNumber(row.delay) ? delayInWords(row.delay) : null],

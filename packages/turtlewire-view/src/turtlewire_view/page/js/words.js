@@ -28,14 +28,20 @@ export function readingInWords(row) {
   const parts = row.static ? ["static"] : [];
   if (!row.static && isNumber(row.rate)) parts.push(rateInWords(row.rate));
   if (!row.static && isNumber(row.age)) parts.push(ageInWords(row.age));
-  if (row.publisher) parts.push(row.publisher);
+  if (row.publisher) parts.push(publisherInWords(row));
   return parts.join(" · ");
+}
+
+/** The nodes that sent a frame, marked if they have left. */
+export function publisherInWords(row) {
+  return row.departed ? `${row.publisher} (has left)` : row.publisher;
 }
 
 /** "live", "static", "stale" or "root": how the tree marks a frame. */
 export function kindOf(row) {
   if (!row || !row.parent) return "root";
   if (row.static) return "static";
+  if (row.departed) return "stale";
   return isNumber(row.age) && Math.abs(row.age) > STALE_SECONDS ? "stale" : "live";
 }
 

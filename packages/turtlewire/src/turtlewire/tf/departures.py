@@ -1,0 +1,108 @@
+"""Moving frames whose publisher has left the graph: finding them, and forgetting them in time.
+
+A static transform stays when its publisher leaves, as in tf2, and so do samples that did not come
+from the network.
+"""
+
+from __future__ import annotations
+
+import re
+import threading
+import time
+from typing import TYPE_CHECKING, Protocol
+
+from turtlewire.tf.links import links
+
+if TYPE_CHECKING:
+    from turtlewire.tf.links import HasLinks
+    from turtlewire.wire.base import Graph
+
+    class Forgetful(HasLinks, Protocol):
+        """A buffer that can forget a frame."""
+
+        def remove_frame(self, child_frame: str) -> bool:
+            """Forget how a frame lies in its parent."""
+            ...
+
+
+__all__ = ["DepartureWatch", "departed_frames"]
+
+#: What a listener calls a sender: the node's full name, or the gid while no node is known.
+_OF_NETWORK = re.compile(r"/|[0-9a-f]{32,48}\Z")
+
+
+def departed_frames(buffer: HasLinks, graph: Graph, topic: str) -> list[str]:
+    """Return the moving frames whose last sender has no publisher of ``topic`` in the graph."""
+    present = set[str]()
+    for endpoint in graph.endpoints_of(topic, "publisher"):
+        present.add(endpoint.gid.hex())
+        if endpoint.node is not None:
+            present.add(f"{endpoint.node.namespace.rstrip('/')}/{endpoint.node.name}")
+    return [
+        link.child_frame
+        for link in links(buffer)
+        if not link.static
+        and link.senders
+        and _OF_NETWORK.match(link.senders[-1].name)
+        and link.senders[-1].name not in present
+    ]
+
+
+class DepartureWatch:
+    """Removes moving frames from a buffer some time after their publisher has left the graph.
+
+    A frame that another publisher sends meanwhile stays. Owns a thread, which waits for changes of
+    the graph and for the moments of removal.
+
+    Args:
+        buffer: What to remove the frames from.
+        graph: Where publishers appear and leave.
+        topic: Their topic.
+        after_ns: Time between the departure and the removal.
+    """
+
+    def __init__(self, buffer: Forgetful, graph: Graph, topic: str, after_ns: int) -> None:
+        self._buffer = buffer
+        self._graph = graph
+        self._topic = topic
+        self._after_s = after_ns / 1e9
+        self._condition = threading.Condition()
+        self._changed = True
+        self._closed = False
+        self._thread = threading.Thread(target=self._run, name="tf-departures", daemon=True)
+        self._stop_listening = graph.add_listener(self._note_change)
+        self._thread.start()
+
+    def _note_change(self) -> None:
+        with self._condition:
+            self._changed = True
+            self._condition.notify_all()
+
+    def _run(self) -> None:
+        due: dict[str, float] = {}  # moments of removal, by frame
+        while self._wait(min(due.values(), default=None)):
+            departed = departed_frames(self._buffer, self._graph, self._topic)
+            now = time.monotonic()
+            due = {frame: due.get(frame, now + self._after_s) for frame in departed}
+            for frame in [frame for frame, moment in due.items() if moment <= now]:
+                self._buffer.remove_frame(frame)
+                del due[frame]
+
+    def _wait(self, until: float | None) -> bool:
+        """Wait for a change of the graph, at most until a moment; False once closed."""
+        with self._condition:
+            self._condition.wait_for(
+                lambda: self._changed or self._closed,
+                None if until is None else max(0.0, until - time.monotonic()),
+            )
+            self._changed = False
+            return not self._closed
+
+    def close(self) -> None:
+        """Stop watching, and join the thread. Idempotent."""
+        self._stop_listening()
+        with self._condition:
+            self._closed = True
+            self._condition.notify_all()
+        if threading.current_thread() is not self._thread:
+            self._thread.join()

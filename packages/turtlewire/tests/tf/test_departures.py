@@ -1,0 +1,147 @@
+"""Frames whose publisher has left the graph: how they are found, marked and forgotten."""
+
+from __future__ import annotations
+
+import queue
+
+import pytest
+
+from turtlewire import Buffer, msg, wire
+from turtlewire.tf.listener import QOS, STATIC_QOS, TYPE_NAME, TransformListener
+from turtlewire.wire.base import TypeId
+
+TYPE = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
+LONG_S = 60.0
+LONG_NS = 60_000_000_000
+
+
+def tf_bytes(parent, child, stamp_s=1):
+    transform = msg.get_message("geometry_msgs/msg/TransformStamped")(child_frame_id=child)
+    transform.header.frame_id = parent
+    transform.header.stamp.sec = stamp_s
+    return msg.serialize(msg.get_message(TYPE_NAME)(transforms=[transform]))
+
+
+class NotingBuffer(Buffer):
+    """A buffer that reports the frames that are removed from it."""
+
+    def __init__(self):
+        super().__init__()
+        self.removed = queue.SimpleQueue()
+
+    def remove_frame(self, child_frame):
+        removed = super().remove_frame(child_frame)
+        self.removed.put((child_frame, removed))
+        return removed
+
+
+class Robot:
+    """A process that publishes transforms, as a context of its own."""
+
+    def __init__(self, middleware, name):
+        self.context = wire.open_context(middleware=middleware)
+        node = self.context.create_node(name)
+        self.tf = node.create_publisher("/tf", TYPE, QOS)
+        self.tf_static = node.create_publisher("/tf_static", TYPE, STATIC_QOS)
+
+    def send(self, buffer, child, publisher=None, stamp_s=1):
+        """Publish a transform, and wait until the buffer has it."""
+        publisher = publisher or self.tf
+        self.context.graph.wait_for(lambda: publisher.subscription_count() > 0, LONG_NS)
+        publisher.publish(tf_bytes("world", child, stamp_s))
+        buffer.lookup_transform("world", child, None, timeout_ns=LONG_NS)
+
+    def leave(self, graph):
+        """Close the context, and wait until the others know it."""
+        gid = self.tf.gid
+        self.context.close()
+        assert graph.wait_for(lambda: gid not in [end.gid for end in graph.endpoints()], LONG_NS)
+
+
+@pytest.fixture(params=["local", "rmw_cyclonedds_cpp", "rmw_zenoh_cpp"])
+def middleware(request):
+    return request.param
+
+
+@pytest.fixture
+def receiver(middleware):
+    context = wire.open_context(middleware=middleware)
+    yield context
+    context.close()
+
+
+def test_a_moving_frame_is_forgotten_after_its_publisher_left(middleware, receiver):
+    one, two = Robot(middleware, "one"), Robot(middleware, "two")
+    buffer = NotingBuffer()
+    listener = TransformListener(
+        buffer, receiver.create_node("listener"), context=receiver, forget_after_ns=10_000_000
+    )
+    with listener:
+        one.send(buffer, "moving")
+        one.send(buffer, "fixed", one.tf_static)
+        two.send(buffer, "other")
+        assert listener.departed_frames() == []
+        one.leave(receiver.graph)
+        assert buffer.removed.get(timeout=LONG_S) == ("moving", True)
+        assert listener.departed_frames() == []
+        assert sorted(buffer.frames()) == ["fixed", "other", "world"]
+        two.leave(receiver.graph)
+        assert buffer.removed.get(timeout=LONG_S) == ("other", True)
+        assert sorted(buffer.frames()) == ["fixed", "world"]
+    assert buffer.removed.empty()
+
+
+def test_frames_stay_without_the_option(middleware, receiver):
+    robot, buffer = Robot(middleware, "robot"), Buffer()
+    with TransformListener(buffer, receiver.create_node("listener"), context=receiver) as listener:
+        robot.send(buffer, "moving")
+        robot.leave(receiver.graph)
+        assert listener.departed_frames() == ["moving"]
+        assert "moving" in buffer
+
+
+@pytest.mark.parametrize("middleware", ["local"], indirect=True)  # it delivers in no time
+def test_a_frame_that_another_publisher_sends_meanwhile_stays(middleware, receiver):
+    one, two = Robot(middleware, "one"), Robot(middleware, "two")
+    buffer = NotingBuffer()
+    listener = TransformListener(
+        buffer, receiver.create_node("listener"), context=receiver, forget_after_ns=2_000_000_000
+    )
+    with listener:
+        one.send(buffer, "taken_over")
+        one.send(buffer, "left_alone")
+        one.leave(receiver.graph)
+        two.send(buffer, "taken_over", stamp_s=2)
+        assert buffer.removed.get(timeout=LONG_S) == ("left_alone", True)
+        assert listener.departed_frames() == []
+        assert "taken_over" in buffer
+    two.context.close()
+
+
+def test_what_a_program_sets_itself_does_not_depart():
+    context = wire.open_context(middleware="local")
+    buffer = Buffer()
+    buffer.set_transform("world", "own", 1, (0, 0, 0))
+    node = context.create_node("listener")
+    with TransformListener(buffer, node, context=context) as listener:
+        assert listener.departed_frames() == []
+    with TransformListener(buffer, node, context=context, topic=None) as listener:
+        assert listener.departed_frames() == []
+    context.close()
+
+
+def test_a_negative_time_is_refused():
+    with pytest.raises(ValueError, match="forget_after_ns must not be negative: -1"):
+        TransformListener(Buffer(), forget_after_ns=-1)
+
+
+def test_closing_does_not_wait_for_frames_that_are_due_later(middleware, receiver):
+    robot, buffer = Robot(middleware, "robot"), NotingBuffer()
+    listener = TransformListener(
+        buffer, receiver.create_node("listener"), context=receiver, forget_after_ns=10**15
+    )
+    with listener:
+        robot.send(buffer, "moving")
+        robot.leave(receiver.graph)
+    assert buffer.removed.empty()
+    listener.close()
