@@ -186,6 +186,14 @@ void add_intake_type(nb::module_& module) {
       .def(
           "expect", [](IntakeObject& self) { self.core.expect(); },
           "Have on_expected called after the next message that is stored.")
+      .def(
+          "expect_waking",
+          [](IntakeObject& self, std::uintptr_t trigger, std::int32_t guard) {
+            self.core.expect(Waker{reinterpret_cast<decltype(Waker::trigger)>(trigger), guard});
+          },
+          "trigger"_a, "guard"_a,
+          "Have the next message that is stored trigger a guard condition, once: `trigger` is the "
+          "address of\ndds_set_guardcondition. Python takes no part in it.")
       .def("serve", &IntakeObject::serve, "gid_of"_a,
            "See turtlewire.wire.base.Sink. Identifies publishers, stores their messages, calls the "
            "change listeners of\nthe buffers if data came since the last time, and on_expected "

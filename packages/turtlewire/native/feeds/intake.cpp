@@ -5,9 +5,22 @@
 namespace turtlewire {
 
 bool Intake::receive(std::uint64_t publisher, Stamp sent, std::span<const unsigned char> bytes) {
-  const std::scoped_lock lock(mutex_);
-  if (backlog_.must_wait() || !store(publisher, bytes)) backlog_.add(publisher, sent, bytes);
-  return (news_ || expected_came_ || !backlog_.empty()) && backlog_.call_python();
+  bool needs_python = false;
+  std::vector<Waker> wakers;
+  {
+    const std::scoped_lock lock(mutex_);
+    const std::uint64_t before = stored_;
+    if (backlog_.must_wait() || !store(publisher, bytes)) backlog_.add(publisher, sent, bytes);
+    needs_python = (news_ || expected_came_ || !backlog_.empty()) && backlog_.call_python();
+    wakers = take_wakers(before);
+  }
+  for (const Waker& waker : wakers) waker.wake();
+  return needs_python;
+}
+
+// Call with the lock held, and wake them without it. None if no message was stored since.
+std::vector<Waker> Intake::take_wakers(std::uint64_t stored_before) {
+  return stored_ == stored_before ? std::vector<Waker>{} : std::exchange(wakers_, {});
 }
 
 // Call with the lock held. Null if the publisher was not introduced, or has no name.
@@ -73,17 +86,23 @@ void Intake::name(std::string_view gid, std::string_view name) {
 }
 
 std::deque<WaitingMessage> Intake::take(std::deque<WaitingMessage> former) {
-  const std::scoped_lock lock(mutex_);
-  backlog_.python_came();
-  backlog_.put_back(std::move(former));
-  while (!backlog_.empty() && store(backlog_.front().publisher, backlog_.front().bytes))
-    backlog_.take_front();
   std::deque<WaitingMessage> taken;
-  while (!backlog_.empty() &&
-         (taken.empty() || buffers_.empty() || name_of(backlog_.front().publisher) == nullptr)) {
-    taken.push_back(backlog_.take_front());
+  std::vector<Waker> wakers;
+  {
+    const std::scoped_lock lock(mutex_);
+    const std::uint64_t before = stored_;
+    backlog_.python_came();
+    backlog_.put_back(std::move(former));
+    while (!backlog_.empty() && store(backlog_.front().publisher, backlog_.front().bytes))
+      backlog_.take_front();
+    while (!backlog_.empty() &&
+           (taken.empty() || buffers_.empty() || name_of(backlog_.front().publisher) == nullptr)) {
+      taken.push_back(backlog_.take_front());
+    }
+    backlog_.python_is_busy(!taken.empty());
+    wakers = take_wakers(before);
   }
-  backlog_.python_is_busy(!taken.empty());
+  for (const Waker& waker : wakers) waker.wake();
   return taken;
 }
 
@@ -101,6 +120,14 @@ std::uint64_t Intake::stored() {
 void Intake::expect() {
   const std::scoped_lock lock(mutex_);
   expecting_ = true;
+}
+
+void Intake::expect(Waker waker) {
+  const std::scoped_lock lock(mutex_);
+  for (const Waker& known : wakers_) {
+    if (known.guard == waker.guard) return;
+  }
+  wakers_.push_back(waker);
 }
 
 bool Intake::take_expected() {

@@ -19,6 +19,14 @@
 
 namespace turtlewire {
 
+// Ends a wait of a program's own thread, by triggering a guard condition of the middleware.
+struct Waker {
+  std::int32_t (*trigger)(std::int32_t guard, bool triggered);
+  std::int32_t guard;
+
+  void wake() const { trigger(guard, true); }
+};
+
 // A reader thread handles what needs Python: messages of publishers without a name, and malformed
 // ones. The order of all messages is kept: until the reader thread has found nothing left to take,
 // further messages are kept back as well.
@@ -55,6 +63,8 @@ class Intake final : public ForkAware {
   std::uint64_t stored();
   // The next message that is stored wakes the reader thread.
   void expect();
+  // The next message that is stored wakes another thread, once, and not the reader thread.
+  void expect(Waker waker);
   // Whether an expected message came since the last time, or one with a frame for which a buffer
   // had no room; of the latter it is told once in kRoomPeriod.
   bool take_expected();
@@ -69,6 +79,7 @@ class Intake final : public ForkAware {
 
   const std::string* name_of(std::uint64_t publisher) const;
   bool store(std::uint64_t publisher, std::span<const unsigned char> bytes);
+  std::vector<Waker> take_wakers(std::uint64_t stored_before);
   bool may_tell_of_room();
 
   const bool is_static_;
@@ -82,6 +93,7 @@ class Intake final : public ForkAware {
   std::uint64_t stored_ = 0;  // messages, without those that were kept back for good
   bool expecting_ = false;    // the next message is expected
   bool expected_came_ = false;
+  std::vector<Waker> wakers_;  // of threads that expect the next message
   std::chrono::steady_clock::time_point next_told_of_room_{};
   const ForkRegistration registration_{*this, Order::outer};
 };

@@ -118,7 +118,7 @@ def test_a_frame_that_another_publisher_sends_meanwhile_stays(middleware, receiv
     two.context.close()
 
 
-def test_what_a_program_sets_itself_does_not_depart():
+def test_a_frame_that_the_program_sets_does_not_depart():
     context = wire.open_context(middleware="local")
     buffer = Buffer()
     buffer.set_transform("world", "own", 1, (0, 0, 0))

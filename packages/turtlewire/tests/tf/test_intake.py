@@ -103,6 +103,25 @@ def test_python_is_asked_once_for_each_publisher_and_sees_no_message(flow):
     assert (flow.identified, flow.by_python) == (1, 0)
 
 
+def test_an_expected_message_ends_a_wait_without_python_where_it_can(flow):
+    buffer, calls = Buffer(), []
+    wait_set = flow.receiver.create_wait_set()
+    waker = wait_set.native_waker()
+    assert (waker is None) == (flow.middleware == "rmw_zenoh_cpp")
+    with flow.listen(buffer) as listening:
+        flow.wait_for_match()
+        flow.send_until_short(buffer)
+        for _ in range(3):
+            assert listening.take_arrivals()
+            assert not listening.expect_message(lambda: (calls.append(1), wait_set.wake()), waker)
+            waiting = threading.Thread(target=wait_set.wait, daemon=True)
+            waiting.start()
+            flow.send(buffer)
+            waiting.join(LONG_NS / 1e9)
+            assert not waiting.is_alive()
+        assert (calls == []) == (waker is not None)
+
+
 def test_messages_during_the_name_lookup_need_no_python(flow, monkeypatch):
     """So that a machine under load finds back to the short way."""
     buffer = Buffer(None)

@@ -17,8 +17,13 @@ __all__ = ["Arrivals", "BackgroundEvents"]
 class Arrivals(Protocol):
     """What handles the messages, such as :class:`turtlewire.tf.listener.TransformListener`."""
 
-    def expect_message(self, call: Callable[[], None]) -> bool:
-        """Return True if a message came since :meth:`take_arrivals`; else call back at the next."""
+    def expect_message(
+        self, call: Callable[[], None], waker: tuple[int, int] | None = None
+    ) -> bool:
+        """Return True if a message came since :meth:`take_arrivals`; else call back at the next.
+
+        With a waker, native code may use it instead of the call.
+        """
         ...
 
     def take_arrivals(self) -> bool:
@@ -50,9 +55,13 @@ class BackgroundEvents(Entity):
 
         self._call = report_if_alive
 
-    def expect(self) -> None:
-        """Report the next message to the executor, at once if one came already."""
-        if self._arrivals.expect_message(self._call):
+    def expect(self, waker: tuple[int, int] | None) -> None:
+        """Report the next message to the executor, at once if one came already.
+
+        Args:
+            waker: Ends the executor's wait from native code; then the executor has to ask.
+        """
+        if self._arrivals.expect_message(self._call, waker):
             self._report()
 
     def _report(self) -> None:

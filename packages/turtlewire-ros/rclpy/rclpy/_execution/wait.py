@@ -23,14 +23,6 @@ class _Ranked(Protocol):
     _rank: tuple[int, int, int]
 
 
-class _Background(Protocol):
-    """Messages that other threads handle."""
-
-    def expect(self) -> None:
-        """Report the next one with :meth:`ExecutorWait.notify`."""
-        ...
-
-
 T = TypeVar("T", bound=_Ranked)
 
 
@@ -47,7 +39,7 @@ class ExecutorWait(Generic[T]):
 
     def __init__(self, wait_set: base.WaitSet) -> None:
         self.timers: TimerQueue[Any] = TimerQueue(wait_set.wake)
-        self.background: set[_Background] = set()
+        self.background: set[Any] = set()  # of BackgroundEvents
         self._wait_set = wait_set
         self._by_wire: dict[base.Entity, T] = {}
         # Left, but still attached: `rclpy.spin_once` removes a node after each call, and adds it
@@ -56,6 +48,8 @@ class ExecutorWait(Generic[T]):
         # Also held by finalizers, which run in the middle of anything.
         self._lock = threading.RLock()
         self._notified: deque[T] = deque()
+        self._waker = wait_set.native_waker()
+        self._expecting = False
         self._waiting = False
         self._ended = False
 
@@ -87,7 +81,8 @@ class ExecutorWait(Generic[T]):
     def expect_background(self) -> None:
         """End the wait at the next message that another thread handles."""
         for events in list(self.background):
-            events.expect()
+            events.expect(self._waker)
+        self._expecting = True
 
     def wake(self) -> None:
         """End the current wait, or the next one at once."""
@@ -117,6 +112,10 @@ class ExecutorWait(Generic[T]):
         entities += self.timers.pop_due()
         while self._notified:
             entities.append(self._notified.popleft())
+        if self._expecting:
+            # Native code ends the wait without a report; events without arrivals do no work.
+            self._expecting = False
+            entities += self.background
         if len(entities) > 1:
             entities.sort(key=_rank)
         return entities

@@ -886,6 +886,9 @@ class _WaitSet:
     def wake(self):
         """Nobody waits in another thread."""
 
+    def native_waker(self):
+        return None
+
 
 class _Wire:
     """An endpoint, ready at all times."""

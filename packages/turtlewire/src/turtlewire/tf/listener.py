@@ -96,13 +96,19 @@ class _Arrivals:
         """Return the number of messages so far."""
         return self._count + (0 if intake is None else intake.stored())
 
-    def expect(self, call: Callable[[], None], intake: Intake | None) -> None:
-        """Call ``call()`` once, after the next message."""
+    def expect(
+        self, call: Callable[[], None], intake: Intake | None, waker: tuple[int, int] | None
+    ) -> None:
+        """Call ``call()`` once, or use ``waker`` instead, after the next message."""
         # In this order: a message that comes between both steps finds the call.
         with self._lock:
             self._calls[call] = None
-        if intake is not None:
+        if intake is None:
+            return
+        if waker is None:
             intake.expect()
+        else:
+            intake.expect_waking(*waker)
 
     def count(self, messages: int = 1) -> None:
         """Count messages that native code does not count (any more)."""
@@ -239,10 +245,10 @@ class _Channel:
         feed = self._feed
         return self._arrivals.total(None if feed is None else feed.intake)
 
-    def expect(self, call: Callable[[], None]) -> None:
+    def expect(self, call: Callable[[], None], waker: tuple[int, int] | None) -> None:
         """Call ``call()`` once, after the next message; it may come without one, too."""
         feed = self._feed
-        self._arrivals.expect(call, None if feed is None else feed.intake)
+        self._arrivals.expect(call, None if feed is None else feed.intake, waker)
 
     def leave(self, member: _Member) -> None:
         """Feed one buffer less; the last one ends the subscription."""
@@ -374,14 +380,21 @@ class TransformListener:
             return []
         return departed_frames(self._member.store, self._member.graph, self._topic)
 
-    def expect_message(self, call: Callable[[], None]) -> bool:
+    def expect_message(
+        self, call: Callable[[], None], waker: tuple[int, int] | None = None
+    ) -> bool:
         """Return True if a message was stored since :meth:`take_arrivals`.
 
         If not, ``call()`` is called once after the next one, on a thread of the wire; it may also
         be called without one.
+
+        Args:
+            call: What to call.
+            waker: What native code does in place of the call where it stores the message; see
+                :meth:`turtlewire.wire.base.WaitSet.native_waker`.
         """
         for channel in self._seen:
-            channel.expect(call)
+            channel.expect(call, waker)
         # After that: a message that came before is seen here, a later one calls.
         return any(channel.total() != seen for channel, seen in self._seen.items())
 

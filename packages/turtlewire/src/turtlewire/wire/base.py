@@ -275,6 +275,13 @@ class WaitSet(Entity):
         Safe from any thread and from a signal's helper thread.
         """
 
+    def native_waker(self) -> tuple[int, int] | None:
+        """Return what :meth:`wake` calls: the address of a C function, and the guard it takes.
+
+        Native code wakes the waiting thread with it; None if only Python can.
+        """
+        return None
+
 
 class Node(Entity):
     """A named member of the graph that owns endpoints. Closing it closes them."""

@@ -11,6 +11,7 @@ from turtlewire.wire.events import EventWatcher, StatusEvent
 from turtlewire.wire.services import TopicClient, TopicService
 
 from . import library as dds
+from .native import address_of
 from .subscription import CycloneSubscription
 
 if TYPE_CHECKING:
@@ -79,6 +80,11 @@ class ConditionSet(Generic[T]):
         """End the current or the next wait."""
         dds.set_guard_condition(self._guard, True)
 
+    @property
+    def guard(self) -> int:
+        """The guard condition that :meth:`wake` triggers."""
+        return self._guard
+
     def close(self) -> None:
         """End the waits, now and in the future, and delete. Idempotent."""
         with self._lock:
@@ -122,6 +128,9 @@ class CycloneWaitSet(EventWatcher, WaitSet):
 
     def wake(self) -> None:
         self._conditions.wake()
+
+    def native_waker(self) -> tuple[int, int] | None:
+        return address_of(dds.set_guard_condition), self._conditions.guard
 
     def close(self) -> None:
         self._on_closing(self)
