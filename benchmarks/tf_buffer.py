@@ -61,9 +61,11 @@ def rows() -> Iterator[Row]:
     others = os.environ.get("BENCHMARK_PYTHON", sys.executable)
     numba = run_adapter(others, "numba_chain", needs="numba")
     pytransform3d = run_adapter(others, "pytransform3d_chain", needs="pytransform3d")
+    transform_tree = run_adapter(others, "transform_tree_chain", needs="tf_tree")
     for what, case, debian_case, numpy_case, budget in CASES:
         rivals = {DEBIAN: debian.get(debian_case), "NumPy": numpy.get(numpy_case)}
         rivals |= {"Numba": numba.get(case), "pytransform3d": pytransform3d.get(case)}
+        rivals["transform-tree"] = transform_tree.get(case)
         yield Row(
             what, ours[case], {name: figure for name, figure in rivals.items() if figure}, budget
         )
