@@ -5,6 +5,7 @@ from __future__ import annotations
 import atexit
 import ctypes
 import os
+import threading
 from typing import TYPE_CHECKING, ClassVar
 from weakref import WeakSet
 
@@ -34,6 +35,8 @@ _FORK_FIRST = (
     "Start processes with subprocess or multiprocessing's 'spawn', or fork before the first "
     "context."
 )
+#: How long the interpreter's end waits for a thread that closes a context [s].
+_LONGEST_CLOSE_S = 10.0
 _contexts: WeakSet[ZenohContext] = WeakSet()
 
 
@@ -70,7 +73,8 @@ class ZenohContext(Context):
         self._wait_sets: set[QueueWaitSet] = set()
         self._graph.start(session, self._core.threads)
         _contexts.add(self)
-        atexit.register(self.close)
+        self._closed = threading.Event()
+        atexit.register(self._close_at_exit)
 
     @property
     def graph(self) -> ZenohGraph:
@@ -126,7 +130,6 @@ class ZenohContext(Context):
                 return
             self._core.closing = True
             nodes = list(self._nodes)
-        atexit.unregister(self.close)
         self._core.reader.close()
         self._core.calls.close()
         self._core.session.close()  # type: ignore[no-untyped-call]
@@ -137,6 +140,18 @@ class ZenohContext(Context):
         self._graph.end_waits()
         self._core.calls.join()
         self._core.threads.join()
+        self._closed.set()
+        atexit.unregister(self._close_at_exit)
+
+    def _close_at_exit(self) -> None:
+        """Close it, or wait for the daemon thread that is about to.
+
+        Python ends a daemon thread that comes back from Zenoh's library after the end of the
+        interpreter. Within Rust code, that aborts the process.
+        """
+        if self._process == os.getpid():
+            self.close()
+            self._closed.wait(_LONGEST_CLOSE_S)
 
 
 def _open() -> zenoh.Session:
