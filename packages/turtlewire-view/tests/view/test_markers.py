@@ -117,6 +117,27 @@ def test_the_last_marker_of_a_key_in_a_message_counts():
     assert [each["shape"] for each in shown(outputs)] == ["sphere"]
 
 
+@pytest.mark.parametrize("in_one_message", [True, False])
+def test_only_so_many_markers_are_shown(monkeypatch, in_one_message):
+    monkeypatch.setattr("turtlewire_view.displays.marker._MOST_MARKERS", 3)
+    display = MarkerDisplay()
+    messages = [marker(key=("a", k)) for k in range(4)]
+    for each in [Array(markers=messages[:3])] if in_one_message else messages[:3]:
+        assert display.content(each)[-1].level == "ok"
+    assert display.content(messages[3])[-1].text == "marker a/3: there are 3 markers already"
+    assert display.content(messages[2])[-1].level == "ok"  # one of the three
+    replaced = Array(markers=[marker(action=2, key=("a", 0)), messages[3]])
+    assert display.content(replaced)[-1].level == "ok"
+
+
+def test_one_message_does_not_exceed_the_limit(monkeypatch):
+    monkeypatch.setattr("turtlewire_view.displays.marker._MOST_MARKERS", 3)
+    messages = [marker(key=("a", k)) for k in (0, 1, 2, 3, 1)]
+    *outputs, status = MarkerDisplay().content(Array(markers=messages))
+    assert sorted(each["key"] for each in shown(outputs)) == [["a", 0], ["a", 1], ["a", 2]]
+    assert status.text.startswith("marker a/3: there are 3 markers already")
+
+
 def test_expired_markers_are_forgotten():
     now = 0
     display = MarkerDisplay(clock=lambda: now)

@@ -67,14 +67,17 @@ class MarkerDisplay(Display):
         groups: dict[_Place, dict[_Key, tuple[Any, MarkerShape]]] = {}
         budget = self.budget
         added: set[_Key] = set()
+        new: set[_Key] = set()  # drawn by this message and not held before
         for marker in markers:
             key = (marker.ns, marker.id)
             if marker.action == _DELETEALL:
                 groups.clear()
                 added.clear()
+                new.clear()
                 outputs = [Content(self._clear(), event=True)]
             elif marker.action == _DELETE:
                 added.discard(key)
+                new.discard(key)
                 for group in groups.values():
                     group.pop(key, None)
                 if self._forget(key):
@@ -86,7 +89,7 @@ class MarkerDisplay(Display):
                         f"({marker.ns}, {marker.id})"
                     )
                 added.add(key)
-                budget -= self._add(marker, groups, budget)
+                budget -= self._add(marker, groups, new, budget)
             else:
                 self.warn(f"marker {_named(key)}: the action {marker.action} is unknown")
         outputs += [self._part(place, group) for place, group in groups.items() if group]
@@ -96,6 +99,7 @@ class MarkerDisplay(Display):
         self,
         marker: Any,
         groups: dict[_Place, dict[_Key, tuple[Any, MarkerShape]]],
+        new: set[_Key],
         budget: int,
     ) -> int:
         """Put a marker into the group of its place; returns how many points it has."""
@@ -104,7 +108,8 @@ class MarkerDisplay(Display):
         def warn(text: str) -> None:
             self.warn(f"marker {_named(key)}: {text}")
 
-        if len(self._held) >= _MOST_MARKERS and key not in self._held:
+        is_new = key not in self._held and key not in new
+        if is_new and len(self._held) + len(new) >= _MOST_MARKERS:
             warn(f"there are {_MOST_MARKERS} markers already")
             return 0
         try:
@@ -116,6 +121,8 @@ class MarkerDisplay(Display):
         for group in groups.values():
             group.pop(key, None)
         groups.setdefault(place, {})[key] = (marker, shape)
+        if is_new:
+            new.add(key)
         return len(shape.points)
 
     def _part(self, place: _Place, group: dict[_Key, tuple[Any, MarkerShape]]) -> Content:
