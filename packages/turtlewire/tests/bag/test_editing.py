@@ -412,6 +412,17 @@ def test_pieces_have_about_the_size(tmp_path, compression):
         assert min(sizes[:-1]) > 52_000
 
 
+@pytest.mark.parametrize(("size", "counts"), [(29, [1, 1, 1, 1]), (30, [2, 2]), (44, [2, 2])])
+def test_a_message_that_just_fits_belongs_to_the_piece(tmp_path, size, counts):
+    # Of a database, the bytes of the messages count.
+    with BagWriter(tmp_path / "in", storage="sqlite3") as writer:
+        writer.add_topic("/a", "std_msgs/msg/String")
+        for number in range(4):
+            writer.write("/a", bytes(15), START + number)
+    done = split_bag(tmp_path / "in", tmp_path / "out", size=size)
+    assert [len(everything(path)) for path in done.paths] == counts
+
+
 def test_the_first_piece_repeats_nothing(tmp_path):
     source = latched_bag(tmp_path / "in")
     copy_bag(source, tmp_path / "out", tf_at_start=True)

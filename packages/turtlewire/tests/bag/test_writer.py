@@ -308,6 +308,16 @@ def test_a_message_at_the_end_of_a_file_belongs_to_it(tmp_path, max_file_ns, cou
     assert [file.message_count for file in writer.metadata.files] == counts
 
 
+def test_the_length_of_a_file_counts_from_its_first_message_after_a_split(tmp_path):
+    with BagWriter(tmp_path / "made", max_file_ns=10) as writer:
+        writer.add_topic("/a", "std_msgs/msg/String")
+        writer.write("/a", bytes(8), 100)
+        writer.split()
+        for time in (120, 130, 131):
+            writer.write("/a", bytes(8), time)
+    assert [file.message_count for file in writer.metadata.files] == [1, 2, 1]
+
+
 def test_a_name_that_is_none_of_a_type(tmp_path):
     with (
         BagWriter(tmp_path / "made") as writer,

@@ -495,6 +495,13 @@ class TestCache:
             buffer.lookup_transform("a", "b", SECOND).x == 0.0
         )  # at the oldest stamp tf2 answers with the first
 
+    def test_a_flood_is_not_counted_after_clear(self, buffer: turtlewire.Buffer) -> None:
+        for i in range(3000):
+            buffer.set_transform("a", "b", SECOND, (i, 0, 0), NO_TURN)
+        buffer.clear()
+        buffer.set_transform("a", "b", SECOND, (0, 0, 0), NO_TURN)
+        assert "rate: 10000.000" in buffer.to_yaml()  # one sample, as in a new buffer
+
     def test_unlimited(self, core: Any) -> None:
         buffer = core.Buffer(2**63 - 1)
         for t in (-5, 1, 10**18):
