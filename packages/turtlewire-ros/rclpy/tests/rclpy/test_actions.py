@@ -511,3 +511,16 @@ def test_no_feedback_that_was_sent_after_the_result(serve, client, finish, spin_
     finish(second.get_result_async())
     spin_until(lambda: other)  # it was sent after the one that must not come
     assert [list(each.feedback.sequence) for each in feedback] == [[0], [0, 1]]
+
+
+def test_callbacks_of_the_last_finished_goals_are_kept_for_late_feedback(
+    serve, client, finish, monkeypatch
+):
+    monkeypatch.setattr("rclpy.action.client._FINISHED_GOALS", 2)
+    serve(count)
+    keys = []
+    for kept in (1, 2, 2):
+        handle = send(client, finish, order=0, feedback_callback=print)
+        keys.append(bytes(handle.goal_id.uuid))
+        finish(handle.get_result_async())
+        assert list(client._feedback_callbacks) == keys[-kept:]

@@ -60,6 +60,17 @@ def test_done_callbacks_run_inline_without_an_executor():
     assert called == [("before", 1), ("after", 1)]
 
 
+def test_done_callbacks_are_called_once_though_a_later_result_replaces_the_first():
+    called = []
+    future = Future()
+    future.add_done_callback(called.append)
+    future.set_result(1)
+    assert not future.remove_done_callback(called.append)
+    future.set_result(2)
+    assert future.result() == 2
+    assert called == [future]
+
+
 def test_raising_done_callback_does_not_stop_the_others():
     called = []
     future = Future()
