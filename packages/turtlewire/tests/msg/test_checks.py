@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import subprocess
 import sys
 from array import array
@@ -87,6 +88,27 @@ def test_unsuitable_values_are_assertion_errors(name, fields, text):
     with pytest.raises(AssertionError) as caught:
         _make(name, **fields)
     assert str(caught.value) == text
+
+
+@pytest.mark.parametrize(
+    ("name", "field", "value"),
+    [
+        ("std_msgs/msg/Float32", "data", 3.402823466e38),
+        ("std_msgs/msg/Float32", "data", -3.402823466e38),
+        ("std_msgs/msg/Float32", "data", math.inf),
+        ("std_msgs/msg/UInt8", "data", 0),
+        ("std_msgs/msg/UInt8", "data", 255),
+        ("std_msgs/msg/Int8", "data", -128),
+        ("std_msgs/msg/Int8", "data", 127),
+        ("rmw_dds_common/msg/NodeEntitiesInfo", "node_name", "x" * 256),
+        ("turtlesim/srv/Spawn_Event", "request", [msg.get_service("turtlesim/srv/Spawn").Request()]),
+        ("shape_msgs/msg/SolidPrimitive", "dimensions", array("d", [1.0] * 3)),
+        ("shape_msgs/msg/SolidPrimitive", "dimensions", [1.0] * 3),
+    ],
+)
+def test_values_at_the_limits_are_taken(name, field, value):
+    message = _make(name, **{field: value})
+    assert message == msg.get_message(name)(**{field: value})
 
 
 def test_every_later_assignment_is_checked():
