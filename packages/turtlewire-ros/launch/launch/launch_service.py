@@ -126,7 +126,8 @@ class LaunchService:
         try:
             self._run.begin()
             self._task = asyncio.current_task()
-            self._return_code = 0
+            self._return_code = self._unseen_interrupts = 0
+            self._interrupted = False
             with self._signals_handled():
                 logging.log_launch_config(logger=self._logger)
                 await self._serve(shutdown_when_idle)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import threading
 
 import pytest
@@ -159,6 +160,26 @@ def test_another_thread_can_end_it(launch):
     threads[0].join()
     assert outcome.status == 0
     assert process.return_code == -2
+
+
+def test_the_next_run_forgets_a_failure():
+    service = LaunchService(noninteractive=True)
+
+    def fail(_context):
+        raise ValueError("boom")
+
+    service.include_launch_description(LaunchDescription([OpaqueFunction(function=fail)]))
+    assert service.run() == 1
+    assert service.run() == 0
+
+
+def test_the_next_run_forgets_a_ctrl_c(caplog):
+    service = LaunchService(noninteractive=True)
+    interrupt = OpaqueFunction(function=lambda _: signal.raise_signal(signal.SIGINT))
+    for _ in range(2):
+        service.include_launch_description(LaunchDescription([interrupt]))
+        assert service.run() == 0
+        assert caplog.messages[-1] == "user interrupted with ctrl-c (SIGINT)"
 
 
 def test_it_runs_in_another_thread_too():
