@@ -102,6 +102,8 @@ def value(evaluate, body: str) -> str:
         ('foreach(i RANGE 2 5 3)\n  set(X "${X}${i}")\nendforeach()', "25"),
         ('foreach(i RANGE 3 1)\n  set(X "${X}${i}")\nendforeach()', "321"),
         ('foreach(i RANGE 6 1 -4)\n  set(X "${X}${i}")\nendforeach()', "62"),
+        ('set(i before)\nforeach(i 1 2)\nendforeach()\nset(X "${i}")', "before"),
+        ('foreach(i 1 2)\nendforeach()\nset(X "[${i}]")', "[]"),
         ('set(l a b)\nforeach(i IN LISTS l ITEMS c)\n  set(X "${X}${i}")\nendforeach()', "abc"),
         (("foreach(i a b c)\n  if(i STREQUAL b)\n    continue()\n  endif()\n"
          '  set(X "${X}${i}")\nendforeach()'), "ac"),

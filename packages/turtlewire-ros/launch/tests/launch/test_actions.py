@@ -309,6 +309,20 @@ def test_a_timer_that_is_cancelled_before_its_start_does_not_start(launch):
     assert timer.get_asyncio_future() is None
 
 
+def test_a_timer_can_be_cancelled_twice_and_after_its_time(launch):
+    late = TimerAction(period=100.0, actions=[LogInfo(msg="never")])
+
+    def cancel(_context):
+        late.cancel()
+        late.cancel()
+
+    outcome = launch(late, OpaqueFunction(function=cancel))
+    assert (outcome.status, outcome.messages) == (0, [])
+    over = TimerAction(period=0.0, actions=[LogInfo(msg="over")])
+    assert launch(over).messages == ["over"]
+    over.cancel()
+
+
 def test_shutdown_tells_why(launch):
     why = OnShutdown(on_shutdown=[LogInfo(msg=["why: ", LocalSubstitution("event.reason")])])
     assert launch(RegisterEventHandler(why), Shutdown(reason="enough")).messages == ["why: enough"]

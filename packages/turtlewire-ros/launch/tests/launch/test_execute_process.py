@@ -388,6 +388,21 @@ def test_the_end_of_the_launch_ends_respawns(launch):
     assert sum(line.endswith("] run") for line in outcome.lines) == 1
 
 
+@pytest.mark.parametrize("last", [1, 2, 3])
+def test_no_respawn_overtakes_the_handler_of_an_end(launch, last):
+    ends = []
+
+    def on_exit(event, _context):
+        ends.append(event.pid)
+        return [Shutdown()] if len(ends) == last else []
+
+    process = python("pass", respawn=True)
+    outcome = launch(
+        process, RegisterEventHandler(OnProcessExit(target_action=process, on_exit=on_exit))
+    )
+    assert outcome.text.count("process started with pid") == len(ends) == last
+
+
 def test_it_is_executed_once(launch):
     process = python("pass")
     assert "executed more than once" in launch(process, process).error

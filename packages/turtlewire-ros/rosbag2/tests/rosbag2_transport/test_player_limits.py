@@ -115,6 +115,17 @@ def test_a_playback_that_failed_can_be_played_again(player, monkeypatch, start):
     assert failures == ["a chunk is damaged"]
 
 
+def test_a_second_playback_has_not_started_because_the_first_one_had(player):
+    twice = player()
+    twice.play()
+    assert twice.wait_until_started(0)
+    assert twice.begin()
+    assert not twice.wait_until_started(0)
+    twice.run()
+    assert twice.wait_until_started(0)
+    assert twice.sent == [0, 10, 20, 30] * 2
+
+
 @pytest.mark.parametrize(("delay", "logged"), [(0.0, False), (1e-9, True)])
 def test_only_a_delay_is_logged(player, capfd, delay, logged):
     player(delay=delay).play()
