@@ -816,8 +816,13 @@ def test_the_endpoints_of_one_topic(node: Node, other: Node):
     other.create_publisher("/elsewhere", STRING, QoS())
     service = other.create_service("/switch", SWITCH, QoS())
     requests = "rq/switchRequest"
-    wait_until(node.context, lambda: bool(graph.endpoints_of(requests, "subscription")))
-    wait_until(node.context, lambda: bool(graph.endpoints_of("/scan", "subscription")))
+    for topic, kind in (  # they may become known in any order
+        ("/scan", "publisher"),
+        ("/scan", "subscription"),
+        (requests, "subscription"),
+        ("rr/switchReply", "publisher"),
+    ):
+        wait_until(node.context, lambda end=(topic, kind): bool(graph.endpoints_of(*end)))
     assert [end.gid for end in graph.endpoints_of("/scan", "publisher")] == [publisher.gid]
     assert [end.gid for end in graph.endpoints_of("/scan", "subscription")] == [subscription.gid]
     assert graph.endpoints_of(requests, "publisher") == []
