@@ -502,6 +502,18 @@ class TestCache:
         buffer.set_transform("a", "b", SECOND, (0, 0, 0), NO_TURN)
         assert "rate: 10000.000" in buffer.to_yaml()  # one sample, as in a new buffer
 
+    def test_a_flood_is_counted_as_long_as_its_stamp_is_kept(self, core: Any) -> None:
+        buffer = core.Buffer(10 * SECOND)
+        buffer.set_transform("a", "b", SECOND - 1, (0, 0, 0), NO_TURN)
+        for i in range(3000):
+            buffer.set_transform("a", "b", SECOND, (i, 0, 0), NO_TURN)
+        for i in range(2):  # what is too old by the newest stamp goes with the next sample
+            buffer.set_transform("a", "b", 11 * SECOND, (i, 0, 0), NO_TURN)
+        assert "rate: 300.200" in buffer.to_yaml()
+        for i in range(2):
+            buffer.set_transform("a", "b", 11 * SECOND + 1, (i, 0, 0), NO_TURN)
+        assert "rate: 40000.000" in buffer.to_yaml()  # four samples in no time
+
     def test_unlimited(self, core: Any) -> None:
         buffer = core.Buffer(2**63 - 1)
         for t in (-5, 1, 10**18):
