@@ -227,6 +227,8 @@ class DisplayFeed:
             if self.display.replays:
                 self._last[topic] = cdr
             self._take(self._outputs(topic, cdr))
+            if len(self._waiting) > 2 * _MOST_WAITING:  # not after each message: lookups cost
+                self._place_waiting(base)
         self._place_waiting(base)
         if self._base is None or not base.same_place(self._base):
             self._base = base
@@ -284,9 +286,6 @@ class DisplayFeed:
                 self._send_live(output)
             else:
                 self._waiting.append(output)
-        while len(self._waiting) > _MOST_WAITING:
-            dropped = self._waiting.popleft()
-            self._say(Status.of("warn", f"No transform for {dropped.frame_id!r}: dropped."))
 
     def _forget(self, part: str) -> None:
         self._shown.pop(part, None)
@@ -301,6 +300,7 @@ class DisplayFeed:
 
     def _place_waiting(self, base: Base) -> None:
         still: deque[Content] = deque()
+        reason = ""
         for content in self._waiting:
             if content.event:  # what it changes may wait before it
                 if still:
@@ -317,7 +317,12 @@ class DisplayFeed:
                 self._say(self._own_status)
             elif not _is_too_old(error, content, base):
                 still.append(content)
+                reason = f"{error} {error.hint}".strip()
         self._waiting = still
+        if len(still) > _MOST_WAITING:
+            self._waiting = deque(list(still)[-_MOST_WAITING:])
+            text = f"More than {_MOST_WAITING} messages wait, the oldest are dropped: {reason}"
+            self._say(Status.of("warn", text))
 
     def _place(self, content: Content, base: Base) -> TransformException | None:
         """Send a content where it is, or say in the status why that is not known."""

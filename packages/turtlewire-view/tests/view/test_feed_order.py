@@ -14,6 +14,7 @@ from turtlewire_view.displays.point_cloud import PointCloudDisplay
 from .packets import decode_packet
 
 Marker = msg.get_message("visualization_msgs/msg/Marker")
+MarkerArray = msg.get_message("visualization_msgs/msg/MarkerArray")
 
 
 class Page:
@@ -133,6 +134,33 @@ def test_other_options_show_the_last_message_again():
     page.feed.set_options({"color": "flat", "flat_color": [1, 2, 3]})
     page.feed.work(Base(page.buffer, "map", (0.0, 0.0, 0.0)))
     assert page.take()[0]["arrays"]["rgba"].tolist() == [[1, 2, 3, 255]]
+
+
+@pytest.mark.parametrize(("sent", "dropped"), [(50, 0), (51, 1)])
+def test_fifty_contents_wait_for_transforms(page, sent, dropped):
+    for number in range(sent):
+        page.send(marker(number))
+    text = page.take()[-1]["text"]
+    assert text.startswith("More than 50 messages wait, the oldest are dropped: ") == bool(dropped)
+    assert '"map" passed to lookupTransform argument target_frame does not exist' in text
+    page.know("base")
+    page.feed.work(Base(page.buffer, "map", (0.0, 0.0, 0.0)))
+    keys = [p["markers"][0]["key"][1] for p in page.take() if "markers" in p]
+    assert keys == list(range(dropped, sent))
+
+
+@pytest.mark.parametrize("in_one_message", [True, False])
+def test_nothing_is_dropped_whose_transforms_are_known(in_one_message):
+    page = Page(MarkerDisplay(), {"/t": "visualization_msgs/msg/MarkerArray"})
+    page.know("base")
+    markers = [marker(number) for number in range(120)]
+    for number, each in enumerate(markers):  # each stamp is a part of its own
+        each.header.stamp.sec = number + 1
+    for some in [markers] if in_one_message else [[each] for each in markers]:
+        page.feed.take_message("/t", msg.serialize(MarkerArray(markers=some)))
+    page.feed.work(Base(page.buffer, "map", (0.0, 0.0, 0.0)))
+    keys = [p["markers"][0]["key"][1] for p in page.take() if "markers" in p]
+    assert keys == list(range(120))
 
 
 def test_the_status_of_a_wait_ends_with_it(page):
