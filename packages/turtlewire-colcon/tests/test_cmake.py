@@ -119,6 +119,9 @@ def value(evaluate, body: str) -> str:
         (('macro(m)\n  cmake_parse_arguments(ARG "FLAG" "ONE" "MANY" ${ARGN})\nendmacro()\n'
          "m(rest FLAG ONE 1 MANY 2 3)\n"
          "set(X ${ARG_FLAG} ${ARG_ONE} ${ARG_MANY} ${ARG_UNPARSED_ARGUMENTS})"), "TRUE;1;2;3;rest"),
+        (('function(f a)\n  cmake_parse_arguments(PARSE_ARGV 1 P "" "ONE" "MANY")\n'
+         '  set(X "${a};${P_ONE};${P_MANY};${P_UNPARSED_ARGUMENTS}" PARENT_SCOPE)\nendfunction()\n'
+         "f(1 rest ONE 2 MANY 3 4)"), "1;2;3;4;rest"),
         ("get_filename_component(X /a/b.c.d NAME_WE)", "b"),
         ("get_filename_component(X /a/b.c.d DIRECTORY)", "/a"),
         ('string(SUBSTRING "abcdef" 1 3 X)', "bcd"), ('string(SUBSTRING "abc" 1 0 X)', ""),

@@ -13,7 +13,7 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
-from turtle_class import supervise
+from turtle_class import runner, supervise
 from turtle_class.catalogue import chosen
 from turtle_class.runner import Limits, Runner
 from turtlewire.cli.main import main
@@ -104,6 +104,24 @@ def test_non_python_file_is_a_failed_result(tmp_path, spoil, state, text):
     assert result.hint
 
 
+def test_a_file_of_a_million_bytes_is_read(tmp_path):
+    (tmp_path / FILE).write_bytes(b"#" * 1_000_000)
+    assert len(runner._read(tmp_path, FILE)) == 1_000_000
+    (tmp_path / FILE).write_bytes(b"#" * 1_000_001)
+    with pytest.raises(runner._UnreadableError, match="has 1000001 bytes"):
+        runner._read(tmp_path, FILE)
+
+
+@pytest.mark.parametrize(
+    ("printed", "log"), [(b"12345", "12345"), (b"123456", "12345\n… and 1 bytes more")]
+)
+def test_a_log_that_just_fits_is_whole(printed, log):
+    output, end = os.pipe()
+    os.write(end, printed)
+    os.close(end)
+    assert runner._beginning(os.fdopen(output, "rb"), 5) == log
+
+
 def test_the_students_code_sees_nothing_of_the_teachers_environment(tmp_path, monkeypatch):
     monkeypatch.setenv("SECRET_TOKEN", "abc")
     text = silly("solved").replace(
@@ -183,7 +201,7 @@ def test_a_process_that_runs_away_is_ended():
 #: The first search of /proc finds no process, as if all had begun meanwhile.
 SEARCH_THAT_MISSES = """
 import sys
-from turtle_class import supervise
+from turtle_class import runner, supervise
 searches = [supervise._groups_below] * 100 + [set]
 supervise._groups_below = lambda: searches.pop()()
 sys.exit(supervise.supervise(60, 2 << 30, sys.argv[1:]))

@@ -8,6 +8,13 @@ from turtle_class import ClassError
 from turtle_class.roster import Seat, read_roster, seats_of_domains
 
 
+@pytest.mark.parametrize(
+    ("text", "domains"), [("0", [0]), ("232", [232]), ("231-232", [231, 232]), ("5-5", [5])]
+)
+def test_the_first_and_the_last_domain(text, domains):
+    assert [seat.domain for seat in seats_of_domains(text)] == domains
+
+
 def test_domains():
     seats = seats_of_domains("1-3, 40")
     assert [seat.domain for seat in seats] == [1, 2, 3, 40]

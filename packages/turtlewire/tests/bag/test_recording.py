@@ -6,6 +6,7 @@ import threading
 
 import pytest
 
+from turtlewire.bag import BagWriter
 from turtlewire.bag.recording import Recording
 
 
@@ -43,6 +44,19 @@ def test_a_snapshot_keeps_the_newest_messages_that_fit(disk, last, kept):
     assert recording.take_snapshot()
     recording.close()
     assert [stamp for _, stamp, _ in disk.messages] == kept
+
+
+def test_a_topic_may_be_named_for_repetition_again(tmp_path):
+    with BagWriter(tmp_path / "bag") as writer:
+        writer.add_topic("/map", "std_msgs/msg/String")
+        recording = Recording(writer)
+        recording.repeat("/map", 2)
+        recording.write("/map", bytes(8), 1)
+        recording.split()
+        recording.repeat("/map", 2)
+        recording.split()
+        recording.close()
+    assert [file.message_count for file in writer.metadata.files] == [1, 1, 1]
 
 
 @pytest.mark.parametrize(("last", "lost"), [(b"6bytes", {}), (b"7 bytes", {"/a": 1})])

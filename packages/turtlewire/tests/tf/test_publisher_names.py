@@ -51,6 +51,18 @@ def test_many_publishers_stay_bounded():
     assert len(names) <= 1000
 
 
+def test_a_forgotten_publisher_is_not_named_later():
+    graph, renamed = Graph(), []
+    names = PublisherNames(graph, lambda gid, name: renamed.append(gid))
+    assert names[GID] == "01" * 16
+    for i in range(1000):
+        assert names[i.to_bytes(16, "big")] == f"{i:032x}"
+    graph.known[GID] = NodeInfo("slam", "/", "/")
+    graph.notify_changed()
+    assert renamed == []
+    assert names[GID] == "/slam"
+
+
 def test_closed_it_listens_no_more():
     graph = Graph()
     names = PublisherNames(graph, lambda gid, name: None)

@@ -142,6 +142,16 @@ def test_three_turns_by_ten_degrees_make_thirty(all_pairs, ends):
     assert sorted(set(errors.rows.tolist())) == list(ends)
 
 
+@pytest.mark.parametrize(
+    ("delta", "ends"), [(1.5, [2, 4, 6]), (2.0, [2, 4, 6]), (2.5, [3, 6]), (6.0, [6])]
+)
+def test_a_pair_ends_where_the_distance_is_reached(delta, ends):
+    poses = np.zeros((7, 7))
+    poses[:, 0], poses[:, 6] = np.arange(7), 1.0
+    walk = Trajectory(np.arange(7), poses)
+    assert rpe(walk, walk, delta=delta, unit="m").rows.tolist() == ends
+
+
 def test_of_equally_many_poses_those_of_the_estimate_look_for_partners():
     still = np.tile([0.0, 0, 0, 0, 0, 0, 1], (3, 1))
     first = Trajectory(np.array([0, 100, 200]), still)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from turtlewire.wire import report
 from turtlewire.wire.conflicts import NodeNames
 
@@ -24,6 +26,16 @@ def test_names_that_come_and_go_for_ever_do_not_fill_the_memory(monkeypatch, cap
         report.warn_once(f"topic {number}", "a mistake")
     capfd.readouterr()
     assert len(said) <= 1000
+
+
+@pytest.mark.parametrize(("keys", "said"), [(1000, 0), (1001, 1)])
+def test_a_thousand_warnings_are_remembered(monkeypatch, capfd, keys, said):
+    monkeypatch.setattr(report, "_said", set())
+    for number in range(keys):
+        report.warn_once(f"topic {number}", "a mistake")
+    capfd.readouterr()
+    report.warn_once("topic 0", "a mistake")
+    assert capfd.readouterr().err.count("a mistake") == said
 
 
 def test_only_a_node_that_is_there_has_a_twin(monkeypatch, capfd):

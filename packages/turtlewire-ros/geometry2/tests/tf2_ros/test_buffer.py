@@ -412,6 +412,7 @@ def test_deadlines_come_in_order_and_leave_no_thread():
         if thread.name == "tf2-deadlines":
             thread.join(60)
     assert calls == ["early", "late"]
+    assert deadlines._due == []  # nor the cancelled one
     again = threading.Event()
     deadlines.call_after(0.0, again.set)
     assert again.wait(60)

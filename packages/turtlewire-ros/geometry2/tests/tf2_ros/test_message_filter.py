@@ -176,6 +176,15 @@ def test_a_message_waits_no_longer_than_the_timeout(setup, stamped):
     s.spin_until(lambda: s.passed == [3])
 
 
+def test_no_timer_runs_when_no_message_waits(setup):
+    s = setup(timeout=Duration(seconds=0.01))
+    assert s.filter._timer.is_canceled()
+    s.filter.add(point(1))
+    assert not s.filter._timer.is_canceled()
+    s.spin_until(lambda: s.failed)
+    assert s.filter._timer.is_canceled()
+
+
 def test_each_message_has_the_timeout_from_its_own_arrival(setup, node):
     clock = node.get_clock()
     clock._set_ros_time_is_active(True)

@@ -118,6 +118,17 @@ def test_exact_means_exact_and_the_queue_has_an_end(collected):
     assert collected.stamps() == [(3, 3)]
 
 
+def test_a_stamp_that_comes_again_has_waited_least(collected):
+    left, right = SimpleFilter(), SimpleFilter()
+    TimeSynchronizer([left, right], 2).registerCallback(collected)
+    for stamp, x in ((1, 0.0), (2, 0.0), (1, 7.0), (3, 0.0)):
+        left.signalMessage(at(stamp, x=x))
+    for stamp in (1, 2, 3):
+        right.signalMessage(at(stamp))
+    assert collected.stamps() == [(1, 1), (3, 3)]
+    assert collected[0][0].point.x == 7.0
+
+
 def test_a_callback_may_feed_the_synchronizer_again(collected):
     left, right = SimpleFilter(), SimpleFilter()
     synchronizer = TimeSynchronizer([left, right], 5)

@@ -344,6 +344,16 @@ def test_results_are_forgotten_after_their_time(serve, client, finish, executor)
     assert finish(handle.get_result_async()).status == GoalStatus.STATUS_UNKNOWN
 
 
+def test_a_goal_that_is_destroyed_has_no_result_to_forget(serve, client, finish):
+    handles = []
+    server = serve(lambda goal_handle: (handles.append(goal_handle), count(goal_handle))[1])
+    finish(send(client, finish).get_result_async())
+    assert server._goals.first_end_ns() is not None
+    handles[0].destroy()
+    assert len(server._goals) == 0
+    assert server._goals.first_end_ns() is None
+
+
 def test_states_are_published_also_for_late_joiners(serve, client, finish, node, spin_until):
     serve(count)
     handle = send(client, finish)

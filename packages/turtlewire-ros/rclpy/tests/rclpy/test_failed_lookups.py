@@ -89,6 +89,14 @@ def test_many_frames_are_not_remembered_without_end(buffer, clock, capfd):
     assert capfd.readouterr().err.count("Could not") == 151
 
 
+@pytest.mark.parametrize(("frames", "shown"), [(100, 100), (101, 102)])
+def test_a_hundred_frames_are_remembered(buffer, clock, capfd, frames, shown):
+    on_timer = listener(buffer)
+    for number in (*range(frames), 0):
+        on_timer(f"unknown{number}")
+    assert capfd.readouterr().err.count("Could not") == shown
+
+
 def test_other_lines_are_left_alone(buffer, clock, capfd):
     logger = get_logger("listener")
     for error in ValueError("a"), None:

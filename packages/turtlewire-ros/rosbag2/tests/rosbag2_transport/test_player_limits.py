@@ -6,8 +6,10 @@ import threading
 
 import pytest
 
+from rosbag2_interfaces.msg import ReadSplitEvent
 from rosbag2_py import PlayOptions
 from rosbag2_transport.player import BagPlayer
+from rosbag2_transport.player_services import PlayerServices
 from std_msgs.msg import String
 from turtlewire.bag import BagWriter
 from turtlewire.errors import BagError
@@ -124,6 +126,20 @@ def test_a_second_playback_has_not_started_because_the_first_one_had(player):
     twice.run()
     assert twice.wait_until_started(0)
     assert twice.sent == [0, 10, 20, 30] * 2
+
+
+def test_the_first_message_of_a_file_announces_the_file(peer, tmp_path):
+    with BagWriter(tmp_path / "bag", max_file_ns=10) as writer:
+        writer.add_topic("/text", "std_msgs/msg/String")
+        for time in (START, START + 10, START + 21):
+            writer.write("/text", String(), time)
+    splits = peer.listen("/events/read_split", type_=ReadSplitEvent)
+    player = BagPlayer(peer.node, str(tmp_path / "bag"), PlayOptions())
+    peer.heard(PlayerServices(peer.node, player)._splits)
+    player.play()
+    player.close()
+    peer.wait_for(lambda: splits)
+    assert [split.opened_file for split in splits] == [str(tmp_path / "bag" / "bag_1.mcap")]
 
 
 @pytest.mark.parametrize(("delay", "logged"), [(0.0, False), (1e-9, True)])
