@@ -101,7 +101,11 @@ def test_unsuitable_values_are_assertion_errors(name, fields, text):
         ("std_msgs/msg/Int8", "data", -128),
         ("std_msgs/msg/Int8", "data", 127),
         ("rmw_dds_common/msg/NodeEntitiesInfo", "node_name", "x" * 256),
-        ("turtlesim/srv/Spawn_Event", "request", [msg.get_service("turtlesim/srv/Spawn").Request()]),
+        (
+            "turtlesim/srv/Spawn_Event",
+            "request",
+            [msg.get_service("turtlesim/srv/Spawn").Request()],
+        ),
         ("shape_msgs/msg/SolidPrimitive", "dimensions", array("d", [1.0] * 3)),
         ("shape_msgs/msg/SolidPrimitive", "dimensions", [1.0] * 3),
     ],

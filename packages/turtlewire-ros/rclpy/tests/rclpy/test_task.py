@@ -60,7 +60,7 @@ def test_done_callbacks_run_inline_without_an_executor():
     assert called == [("before", 1), ("after", 1)]
 
 
-def test_done_callbacks_are_called_once_though_a_later_result_replaces_the_first():
+def test_done_callbacks_are_called_once_though_another_result_follows():
     called = []
     future = Future()
     future.add_done_callback(called.append)

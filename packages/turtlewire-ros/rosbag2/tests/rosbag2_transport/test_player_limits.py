@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import threading
+from types import SimpleNamespace
 
 import pytest
 
-from rosbag2_interfaces.msg import ReadSplitEvent
 from rosbag2_py import PlayOptions
 from rosbag2_transport.player import BagPlayer
 from rosbag2_transport.player_services import PlayerServices
@@ -128,18 +128,19 @@ def test_a_second_playback_has_not_started_because_the_first_one_had(player):
     assert twice.sent == [0, 10, 20, 30] * 2
 
 
-def test_the_first_message_of_a_file_announces_the_file(peer, tmp_path):
+def test_the_first_message_of_a_file_announces_the_file_in_each_round(peer, tmp_path):
     with BagWriter(tmp_path / "bag", max_file_ns=10) as writer:
         writer.add_topic("/text", "std_msgs/msg/String")
         for time in (START, START + 10, START + 21):
             writer.write("/text", String(), time)
-    splits = peer.listen("/events/read_split", type_=ReadSplitEvent)
-    player = BagPlayer(peer.node, str(tmp_path / "bag"), PlayOptions())
-    peer.heard(PlayerServices(peer.node, player)._splits)
-    player.play()
+    player, splits = BagPlayer(peer.node, str(tmp_path / "bag"), PlayOptions()), []
+    PlayerServices(peer.node, player)._splits = SimpleNamespace(publish=splits.append)
+    for count in (1, 2):
+        player.play()
+        assert [split.opened_file for split in splits] == [
+            str(tmp_path / "bag" / "bag_1.mcap")
+        ] * count
     player.close()
-    peer.wait_for(lambda: splits)
-    assert [split.opened_file for split in splits] == [str(tmp_path / "bag" / "bag_1.mcap")]
 
 
 @pytest.mark.parametrize(("delay", "logged"), [(0.0, False), (1e-9, True)])
