@@ -7,6 +7,7 @@ asyncio future of that loop.
 
 from __future__ import annotations
 
+import contextlib
 import sys
 import threading
 import weakref
@@ -88,7 +89,11 @@ class Future(Generic[T]):
             if not finished.done():
                 finished.set_result(None)
 
-        self._add_waiter(lambda: loop.call_soon_threadsafe(finish))
+        def wake() -> None:
+            with contextlib.suppress(RuntimeError):  # the loop was closed: nobody waits any more
+                loop.call_soon_threadsafe(finish)
+
+        self._add_waiter(wake)
         yield from finished.__await__()
 
     def _pending(self) -> bool:

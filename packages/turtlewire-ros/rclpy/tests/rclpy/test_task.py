@@ -91,6 +91,25 @@ def test_done_callbacks_can_be_removed():
     assert called == []
 
 
+def test_a_future_may_be_done_after_the_loop_in_which_it_was_awaited():
+    called = []
+    future = Future()
+    future.add_done_callback(called.append)
+
+    async def give_up():
+        async def wait():
+            await future
+
+        waiting = asyncio.create_task(wait())
+        await asyncio.sleep(0)
+        waiting.cancel()
+
+    asyncio.run(give_up())
+    future.set_result(1)
+    assert future.result() == 1
+    assert called == [future]
+
+
 def test_a_task_runs_a_function():
     task = Task(lambda a, b: a - b, args=(5,), kwargs={"b": 2})
     task()
