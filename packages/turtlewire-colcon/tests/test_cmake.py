@@ -127,6 +127,8 @@ def value(evaluate, body: str) -> str:
         ('string(SUBSTRING "abcdef" 1 3 X)', "bcd"), ('string(SUBSTRING "abc" 1 0 X)', ""),
         ('string(SUBSTRING "abc" 1 -1 X)', "bc"), ('string(SUBSTRING "abc" 3 -1 X)', ""),
         ('string(SUBSTRING "abc" 2 5 X)', "c"),
+        ("string(FIND abcabc b X)", "1"), ("string(FIND abcabc b X REVERSE)", "4"),
+        ('string(REGEX MATCHALL "[a-z]1" X a1 b1c1)', "a1;b1;c1"),
         ("return()\nset(X 1)", "not set"),
         ("set(X a b c)\nlist(REMOVE_AT X 0 -1)", "b"),
         ('set(X "a \\"b c\\" d")\nseparate_arguments(X)', "a;b c;d"),

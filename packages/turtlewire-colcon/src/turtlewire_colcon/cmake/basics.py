@@ -173,6 +173,14 @@ def _string(run: Interpreter, call: ExpandedCommand) -> None:
         raise CMakeError(call.place, f"string({action}) is not known here")
 
 
+def _all_matches(regex: str, text: str) -> str:
+    return ";".join(match[0] for match in re.finditer(regex, text))
+
+
+def _found(text: str, part: str, *, last: bool) -> str:
+    return str(text.rfind(part) if last else text.find(part))
+
+
 def _substring(text: str, begin: int, length: int) -> str:
     return text[begin:] if length < 0 else text[begin : begin + length]
 
@@ -186,11 +194,9 @@ _STRINGS: dict[str, tuple[int, int, Callable[[list[str]], str]]] = {
     "CONCAT": (1, 0, "".join),
     "JOIN": (2, 1, lambda words: words[0].join(words[1:])),
     "REPLACE": (4, 2, lambda words: "".join(words[2:]).replace(words[0], words[1])),
-    "FIND": (3, 2, lambda words: str(words[0].find(words[1]))),
+    "FIND": (3, 2, lambda words: _found(words[0], words[1], last="REVERSE" in words[2:])),
     "REGEX REPLACE": (4, 2, lambda words: re.sub(words[0], words[1], "".join(words[2:]))),
-    "REGEX MATCHALL": (
-        3, 1, lambda words: ";".join(match[0] for match in re.finditer(words[0], words[1])),
-    ),
+    "REGEX MATCHALL": (3, 1, lambda words: _all_matches(words[0], "".join(words[1:]))),
     "SUBSTRING": (4, 3, lambda words: _substring(words[0], int(words[1]), int(words[2]))),
     "MAKE_C_IDENTIFIER": (2, 1, lambda words: re.sub(r"\W", "_", words[0])),
 }  # fmt: skip
