@@ -5,6 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.entry_points import load_entry_points
+from turtlewire.plugin_versions import (
+    PluginException,
+    get_upper_bound_caret_version,
+    satisfies_version,
+)
 
 if TYPE_CHECKING:
     import argparse
@@ -25,10 +30,6 @@ __all__ = [
 PLUGIN_SYSTEM_VERSION = "0.1"
 
 _instances: dict[tuple[str, str], Any] = {}
-
-
-class PluginException(Exception):
-    """An extension is for another version of the command line."""
 
 
 def instantiate_extensions(
@@ -81,36 +82,6 @@ def order_extensions(
 def order_extensions_by_name(extensions: dict[str, Any]) -> dict[str, Any]:
     """Return the extensions sorted by name."""
     return order_extensions(extensions, lambda name, _: name)
-
-
-def satisfies_version(version: str, caret_range: str) -> None:
-    """Check that a version is in a caret range.
-
-    Args:
-        version: For example ``0.1``.
-        caret_range: For example ``^0.1``: the same until the first number that is not zero.
-
-    Raises:
-        PluginException: The version is too old or too new.
-    """
-    assert caret_range.startswith("^"), "expected a range that begins with ^"
-    lower = _numbers(caret_range[1:])
-    if _numbers(version) < lower:
-        raise PluginException(f"Extension point version {version} is too old for {caret_range}")
-    if _numbers(version) >= _numbers(get_upper_bound_caret_version(caret_range[1:])):
-        raise PluginException(f"Extension point version {version} is too new for {caret_range}")
-
-
-def get_upper_bound_caret_version(version: str) -> str:
-    """Return the first version that is outside of a caret range: ``0.2`` for ``0.1``."""
-    numbers = _numbers(version)
-    place = next((index for index, number in enumerate(numbers) if number), len(numbers) - 1)
-    upper = [*numbers[:place], numbers[place] + 1, *[0] * (len(numbers) - place - 1)]
-    return ".".join(map(str, upper))
-
-
-def _numbers(version: str) -> list[int]:
-    return [int(part) for part in version.split(".")]
 
 
 def call_add_arguments(

@@ -1,4 +1,4 @@
-"""Converts single files on the command line: ``msg2idl.py``, ``srv2idl.py``, ``action2idl.py``."""
+"""Converts files: ``msg2idl.py``, ``srv2idl.py``, ``action2idl.py``, and the classes for builds."""
 
 from __future__ import annotations
 
@@ -7,10 +7,94 @@ import pathlib
 import sys
 from typing import TYPE_CHECKING, Any
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
+from rosidl_adapter.action import convert_action_to_idl
+from rosidl_adapter.msg import convert_msg_to_idl
+from rosidl_adapter.srv import convert_srv_to_idl
 
-__all__ = ["convert_files_to_idl"]
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+__all__ = [
+    "TranslateActionToIDL",
+    "TranslateMsgToIDL",
+    "TranslateSrvToIDL",
+    "TranslateToIDL",
+    "convert_files_to_idl",
+]
+
+
+class TranslateToIDL:
+    """Converts files of one kind of a package, for a build; base of the classes for each kind."""
+
+    output_format = "idl"
+
+    @property
+    def conversion_function(self) -> Callable[..., pathlib.Path]:
+        """The function that converts a file."""
+        raise NotImplementedError
+
+    def translate(
+        self,
+        package_name: str,
+        interface_files: Iterable[str],
+        include_paths: Iterable[str],  # noqa: ARG002  ROS 2's signature; nothing is included
+        output_path: pathlib.Path,
+    ) -> list[str]:
+        """Convert files; return the results as ``OUTPUT_PATH:PATH``.
+
+        Args:
+            package_name: Name of the package.
+            interface_files: Paths in the folder of the package, each as ``FOLDER:PATH``, or alone
+                if that is the current folder.
+            include_paths: Not used.
+            output_path: Folder for the results, which get the same paths in it.
+
+        Raises:
+            ValueError: A path is absolute, or the file is wrong.
+            InvalidSpecification: The file is wrong.
+        """
+        translated = []
+        for each in interface_files:
+            prefix, _, path = each.rpartition(":")
+            source, folder = pathlib.Path(path), pathlib.Path(prefix).absolute()
+            result = self.conversion_function(
+                folder, package_name, source, output_path / source.parent
+            )
+            translated.append(f"{output_path}:{result.relative_to(output_path).as_posix()}")
+        return translated
+
+
+class TranslateMsgToIDL(TranslateToIDL):
+    """Converts ``.msg`` files."""
+
+    input_format = "msg"
+
+    @property
+    def conversion_function(self) -> Callable[..., pathlib.Path]:
+        """The function that converts a file."""
+        return convert_msg_to_idl
+
+
+class TranslateSrvToIDL(TranslateToIDL):
+    """Converts ``.srv`` files."""
+
+    input_format = "srv"
+
+    @property
+    def conversion_function(self) -> Callable[..., pathlib.Path]:
+        """The function that converts a file."""
+        return convert_srv_to_idl
+
+
+class TranslateActionToIDL(TranslateToIDL):
+    """Converts ``.action`` files."""
+
+    input_format = "action"
+
+    @property
+    def conversion_function(self) -> Callable[..., pathlib.Path]:
+        """The function that converts a file."""
+        return convert_action_to_idl
 
 
 def convert_files_to_idl(

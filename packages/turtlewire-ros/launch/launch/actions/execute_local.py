@@ -17,7 +17,6 @@ from launch.events.process import (
     ProcessIO,
     ProcessStarted,
     ProcessStderr,
-    ProcessStdin,
     ProcessStdout,
     ProcessTargetedEvent,
     ShutdownProcess,
@@ -317,7 +316,10 @@ class ExecuteLocal(ProcessAction):
             OnProcessExit(target_action=self, on_exit=on_exit),
             OnProcessExit(target_action=self, on_exit=self._show_end),
             OnProcessIO(
-                target_action=self, on_stdout=self._show_output, on_stderr=self._show_output
+                target_action=self,
+                on_stdin=self._on_stdin,
+                on_stdout=self._show_output,
+                on_stderr=self._show_output,
             ),
             OnShutdown(on_shutdown=self._on_shutdown),
             EventHandler(matcher=self._is_for_me, entities=self._on_targeted_event),
@@ -332,7 +334,9 @@ class ExecuteLocal(ProcessAction):
             self._send_signal(event.signal)
         elif isinstance(event, ShutdownProcess):
             self._shutdown_process(context, send_sigint=True)
-        elif isinstance(event, ProcessStdin) and self._process is not None:
+
+    def _on_stdin(self, event: ProcessIO) -> None:
+        if self._process is not None:
             self._process.write(event.text)
 
     def _event_details(self) -> dict[str, Any]:

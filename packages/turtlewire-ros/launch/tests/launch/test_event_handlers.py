@@ -28,7 +28,6 @@ from launch.events.process import (
     ProcessExited,
     ProcessStarted,
     ProcessStderr,
-    ProcessStdin,
     ProcessStdout,
     ShutdownProcess,
     SignalProcess,
@@ -188,7 +187,6 @@ def test_signals_have_numbers_and_names():
         assert event.process_matcher is everyone
     with pytest.raises(KeyError):
         SignalProcess(signal_number="SIGNOTHING", process_matcher=everyone)
-    assert ProcessStdin(text=b"x", process_matcher=everyone).text == b"x"
     assert ShutdownProcess(process_matcher=everyone).process_matcher is everyone
 
 

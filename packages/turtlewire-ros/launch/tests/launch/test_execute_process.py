@@ -15,6 +15,7 @@ from launch.actions import (
     EmitEvent,
     ExecuteProcess,
     LogInfo,
+    OpaqueFunction,
     RegisterEventHandler,
     SetLaunchConfiguration,
     Shutdown,
@@ -293,7 +294,14 @@ def test_single_processes_can_be_stopped_signalled_and_fed(launch):
         "exit(5))\nprint('ready')\nsignal.pause()"
     )
     fed = python("print('ready'); print('got', input())")
+    seen = []
+
+    def feed(context):
+        event = ProcessStdin(text=b"this\n", action=fed, **fed.process_details)
+        return [EmitEvent(event=event)]
+
     outcome = launch(
+        RegisterEventHandler(OnProcessIO(target_action=fed, on_stdin=seen.append)),
         stopped,
         signalled,
         fed,
@@ -311,13 +319,15 @@ def test_single_processes_can_be_stopped_signalled_and_fed(launch):
         ),
         when_ready(
             fed,
-            EmitEvent(
-                event=ProcessStdin(text=b"this\n", process_matcher=lambda action: action is fed)
-            ),
+            OpaqueFunction(function=feed),
         ),
     )
     assert [process.return_code for process in (stopped, signalled, fed)] == [0, 5, 0]
     assert "] got this" in outcome.text
+    (event,) = seen
+    assert event.from_stdin and not event.from_stdout and not event.from_stderr
+    assert (event.text, event.action) == (b"this\n", fed)
+    assert event.pid == fed.process_details["pid"]
 
 
 def test_matchers(launch):

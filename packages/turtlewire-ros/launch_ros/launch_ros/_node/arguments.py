@@ -88,9 +88,10 @@ class NodeArguments:
         if joined is not None:
             self.namespace = make_namespace_absolute(joined)
 
-    def namespace_words(self) -> list[str]:
-        """Return the words for the namespace."""
-        return ["-r", f"__ns:={self.namespace}"] if self.namespace else []
+    def name_rules(self) -> dict[str, str]:
+        """Return the rules for name and namespace, as ROS 2 calls them."""
+        rules = {"name": f"__node:={self.name}"} if self.name is not None else {}
+        return rules | ({"ns": f"__ns:={self.namespace}"} if self.namespace else {})
 
     def expand_parameters(self, context: LaunchContext) -> list[str]:
         """Return the words for the parameters; writes files that :meth:`clean_up` removes."""

@@ -7,11 +7,18 @@ from typing import TYPE_CHECKING, Any
 from launch.actions import ExecuteProcess
 from launch.actions.execute_process import split_command_line
 from launch.frontend import expose_action
+from launch.logging import get_logger
 from launch_ros._node.arguments import NodeArguments
 from launch_ros._node.elements import (
     parse_parameter_elements,
     parse_parameters,
     parse_remappings,
+)
+from launch_ros._node.extensions import (
+    NodeActionExtension,
+    get_extensions,
+    instantiate_extension,
+    prepared_by,
 )
 from launch_ros.substitutions import ExecutableInPackage
 from launch_ros.utilities.track_node_names import add_node_name
@@ -27,7 +34,7 @@ if TYPE_CHECKING:
     from launch_ros.parameters_type import SomeParameters
     from launch_ros.remap_rule_type import SomeRemapRules
 
-__all__ = ["Node"]
+__all__ = ["Node", "NodeActionExtension", "get_extensions", "instantiate_extension"]
 
 
 @expose_action("node")
@@ -161,19 +168,23 @@ class Node(ExecuteProcess):
     def prepare(self, context: LaunchContext) -> None:
         """Perform the substitutions, and append the arguments that the scope adds."""
         self._ros.expand_names(context)
+        added, names = prepared_by(
+            get_extensions(get_logger(__name__)), context, self._ros.name_rules(), self
+        )
         # For the substitution of `NodeArguments.name_words`.
-        context.extend_locals({"ros_specific_arguments": {"name": f"__node:={self._ros.name}"}})
+        context.extend_locals({"ros_specific_arguments": names})
         super().prepare(context)
         # Appended to the performed command, because the scope's arguments are known only now.
         final_cmd = self.process_description.final_cmd
         assert final_cmd is not None
-        final_cmd += self._ros.namespace_words() + self._ros.expand_parameters(context)
+        final_cmd += ["-r", names["ns"]] if "ns" in names else []
+        final_cmd += self._ros.expand_parameters(context)
         self._expanded_remappings = self._ros.expand_remappings(context)
         final_cmd += [
             word
             for source, target in self._expanded_remappings
             for word in ("-r", f"{source}:={target}")
-        ]
+        ] + added
 
     def command(self) -> list[str]:
         """Return the command; a Python script is run by this interpreter."""

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
     from launch.launch_context import LaunchContext
 
-__all__ = ["to_parameters_list"]
+__all__ = ["is_node_name_matched", "to_parameters_list"]
 
 
 def to_parameters_list(
@@ -45,6 +45,18 @@ def to_parameters_list(
         else:
             values[each.name] = each.value
     return [Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]
+
+
+def is_node_name_matched(node_name: str, node_fqn: str) -> bool:
+    """Return True if a node name of a parameter file means a node.
+
+    Args:
+        node_name: The name; ``/*`` is one token, ``/**`` any number of them.
+        node_fqn: Full name of the node.
+    """
+    from rclpy.impl.arguments import matches_node
+
+    return matches_node(node_name, node_fqn)
 
 
 def _of_file(path: Path, full_name: str) -> dict[str, Any]:

@@ -37,6 +37,7 @@ from launch_ros.utilities import (
     prefix_namespace,
     to_parameters_list,
 )
+from launch_ros.utilities.to_parameters_list import is_node_name_matched
 from lifecycle_msgs.msg import State, Transition
 from rclpy.parameter import parameter_value_to_python
 
@@ -158,7 +159,7 @@ def test_an_empty_value_in_xml(context, tmp_path):
     root, parser = Parser.load(str(xml))
     (node,) = parser.parse_description(root).entities
     node._ros.expand_names(context)
-    assert node._ros.namespace_words() == ["-r", "__ns:=/"]
+    assert node._ros.name_rules()["ns"] == "__ns:=/"
     assert node._ros.evaluated_parameters(context) == [{"empty": ""}]
 
 
@@ -243,3 +244,18 @@ def test_a_timer_waits_for_simulated_time(launch):
         node.destroy_node()
         rclpy.shutdown(context=own)
     assert outcome.messages == ["the time has come"]
+
+
+@pytest.mark.parametrize(
+    ("pattern", "matches"),
+    [
+        ("/**", True),
+        ("/robot/arm/talker", True),
+        ("/robot/*/talker", True),
+        ("/**/talker", True),
+        ("/*/talker", False),
+        ("/robot/arm", False),
+    ],
+)
+def test_names_of_nodes_in_parameter_files(pattern, matches):
+    assert is_node_name_matched(pattern, "/robot/arm/talker") is matches

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from rclpy.impl.rcl_remap import RemapRule
     from rclpy.impl.rcl_yaml_param_parser import ParameterValue
 
-__all__ = ["Arguments"]
+__all__ = ["Arguments", "matches_node"]
 
 _BEGIN = "--ros-args"
 _END = "--"
@@ -240,7 +240,7 @@ class Arguments:
         overrides: dict[str, Any] = {}
         for nodes in self.parameter_maps:
             for pattern, parameters in nodes.items():
-                if _matches(pattern, node_fqn):
+                if matches_node(pattern, node_fqn):
                     overrides.update(parameters)
         return overrides
 
@@ -306,7 +306,7 @@ class Arguments:
         self.enclave = name
 
 
-def _matches(pattern: str, node_fqn: str) -> bool:
+def matches_node(pattern: str, node_fqn: str) -> bool:
     """Return True if a node name of a parameter file means this node.
 
     ``/*`` is one token, ``/**`` any number of them.

@@ -12,7 +12,13 @@ from mcap_ros2._vendor.rosidl_adapter import parser as upstream
 from rosbags.typesys import get_types_from_idl, get_types_from_msg
 
 from rosidl_adapter import convert_to_idl, idl, parser
-from rosidl_adapter.cli import convert_files_to_idl
+from rosidl_adapter.cli import (
+    TranslateActionToIDL,
+    TranslateMsgToIDL,
+    TranslateSrvToIDL,
+    TranslateToIDL,
+    convert_files_to_idl,
+)
 from rosidl_adapter.main import main
 from rosidl_adapter.msg import convert_msg_to_idl
 from turtlewire import msg
@@ -247,3 +253,24 @@ def test_the_commands(tmp_path, monkeypatch):
     outside = tmp_path / "Lonely.msg"
     outside.write_text("")
     assert "no package.xml" in convert_files_to_idl(".msg", convert_msg_to_idl, [str(outside)])
+
+
+def test_files_of_a_package_are_translated(tmp_path, monkeypatch, capsys):
+    texts = {"msg/A": "bool x", "srv/B": "---", "action/C": "---\n---"}
+    for path, text in texts.items():
+        kind = path.partition("/")[0]
+        file = tmp_path / "package" / f"{path}.{kind}"
+        file.parent.mkdir(parents=True)
+        file.write_text(text)
+    monkeypatch.chdir(tmp_path / "package")
+    out = tmp_path / "out"
+    for cls, path in zip((TranslateMsgToIDL, TranslateSrvToIDL, TranslateActionToIDL), texts):
+        file = f"{path}.{cls.input_format}"
+        for given in (file, f"{tmp_path / 'package'}:{file}"):
+            assert cls().translate("probe", [given], [], out) == [f"{out}:{path}.idl"]
+        assert (out / f"{path}.idl").read_text().count("struct")
+        assert cls.output_format == "idl"
+    with pytest.raises(ValueError, match=r"does not end in '\.msg'"):
+        TranslateMsgToIDL().translate("probe", ["srv/B.srv"], [], out)
+    with pytest.raises(NotImplementedError):
+        TranslateToIDL().translate("probe", ["srv/B.srv"], [], out)

@@ -1,37 +1,27 @@
-"""A request to send input to a process."""
+"""Input for a process."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Any
 
-from launch.events.process.process_targeted_event import ProcessTargetedEvent
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from launch._kernel.protocols import ProcessRunner
+from launch.events.process.process_io import ProcessIO
 
 __all__ = ["ProcessStdin"]
 
 
-class ProcessStdin(ProcessTargetedEvent):
-    """A request to send input to a process.
+class ProcessStdin(ProcessIO):
+    """Input for a process, which whoever emits the event sends to it.
 
     It takes effect if the process reads from a pipe. With ``emulate_tty`` it reads from the
     terminal of the launch, if there is one.
 
     Args:
         text: The bytes.
-        process_matcher: Which processes: a predicate over their actions.
+        **kwargs: See :class:`RunningProcessEvent`; ``action`` is the process that gets them.
+            `ExecuteLocal.process_details` has the others.
     """
 
     name = "launch.events.process.ProcessStdin"
 
-    def __init__(self, *, text: bytes, process_matcher: Callable[[ProcessRunner], bool]) -> None:
-        super().__init__(process_matcher=process_matcher)
-        self._text = text
-
-    @property
-    def text(self) -> bytes:
-        """The bytes."""
-        return self._text
+    def __init__(self, *, text: bytes, **kwargs: Any) -> None:
+        super().__init__(text=text, fd=0, **kwargs)
