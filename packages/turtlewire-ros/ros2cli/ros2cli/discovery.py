@@ -63,7 +63,7 @@ SPIN_ARGUMENTS = (
 STRATEGY_ARGUMENTS = (
     *SPIN_ARGUMENTS,
     argument(
-        "--no-daemon", action="store_true", help="Accepted for compatibility: there is no daemon"
+        "--no-daemon", action="store_true", help="Accepted for compatibility: no daemon is asked"
     ),
 )
 
@@ -138,6 +138,6 @@ def discovered_graph(spin_time: float | None = None) -> Iterator[Graph]:
         context.close()
 
 
-def hidden_node_name() -> str:
-    """Return the name of this process's node."""
-    return f"_ros2cli_{os.getpid()}"
+def hidden_node_name(suffix: str | None = None) -> str:
+    """Return the name of this process's node, which by default ends in the process id."""
+    return f"_ros2cli{suffix or f'_{os.getpid()}'}"

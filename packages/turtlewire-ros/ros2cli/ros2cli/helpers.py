@@ -51,11 +51,11 @@ def check_discovery_configuration() -> None:
 
 
 def before_invocation(func: Callable[..., Any], hook: Callable[..., Any]) -> Callable[..., Any]:
-    """Return a function that calls ``hook`` with the same arguments before ``func``."""
+    """Return a function that calls ``hook(func, …)`` with its arguments before ``func``."""
 
     @functools.wraps(func)
     def wrapper(*args: Any, **kwargs: Any) -> Any:
-        hook(*args, **kwargs)
+        hook(func, *args, **kwargs)
         return func(*args, **kwargs)
 
     return wrapper

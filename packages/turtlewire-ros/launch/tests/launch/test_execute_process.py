@@ -325,7 +325,7 @@ def test_single_processes_can_be_stopped_signalled_and_fed(launch):
     assert [process.return_code for process in (stopped, signalled, fed)] == [0, 5, 0]
     assert "] got this" in outcome.text
     (event,) = seen
-    assert event.from_stdin and not event.from_stdout and not event.from_stderr
+    assert (event.from_stdin, event.from_stdout, event.from_stderr) == (True, False, False)
     assert (event.text, event.action) == (b"this\n", fed)
     assert event.pid == fed.process_details["pid"]
 

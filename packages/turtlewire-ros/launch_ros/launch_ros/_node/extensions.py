@@ -106,7 +106,7 @@ def instantiate_extension(
         return None
     # Another's constructor may fail in any way; nodes start without it.
     except Exception as error:  # noqa: BLE001
-        logger.error(failed, group_name, extension_name, error)
+        logger.error(failed, group_name, extension_name, error)  # noqa: TRY400  one line, as in ROS 2
         return None
     if not unique_instance:
         extensions[extension_name] = extension

@@ -84,7 +84,8 @@ def test_instances_are_kept_unless_a_new_one_is_wanted():
         "group", "plain", NodeActionExtension, kept, logger, unique_instance=True
     )
     assert kept == {"plain": first}
-    assert again is first and other is not first
+    assert again is first
+    assert other is not first
     names = {"name": "__node:=talker"}
     assert first.prepare_for_execute(None, names, None) == ([], names)
 

@@ -1,13 +1,21 @@
-"""ROS 2's daemon, which keeps the graph for other commands: here it never runs.
+"""The daemon as its clients see it; see :mod:`ros2cli.daemon`.
 
-Each command discovers the nodes by itself, in about the time in which a daemon would answer.
-Programs that ask for the daemon learn that none runs, and use a direct node as they do with
-``--no-daemon``.
+``ros2 daemon start`` starts it. The verbs of ``ros2`` do without it, because they discover the
+nodes in about the time in which it would answer.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import errno
+import functools
+import os
+from typing import TYPE_CHECKING, Any
+
+import ros2cli.xmlrpc.marshal.rclpy  # noqa: F401  enters the types of the results
+from ros2cli.background import daemonize
+from ros2cli.helpers import get_ros_domain_id, wait_for
+from ros2cli.node.server import get_xmlrpc_server_url, make_xmlrpc_server, serve_and_close
+from ros2cli.xmlrpc.client import ServerProxy
 
 if TYPE_CHECKING:
     import argparse
@@ -17,7 +25,7 @@ __all__ = ["DaemonNode", "add_arguments", "is_daemon_running", "shutdown_daemon"
 
 
 class DaemonNode:
-    """A connection to the daemon, which is never made.
+    """A connection to the daemon; its other attributes are the daemon's functions.
 
     Args:
         args: The command line.
@@ -25,22 +33,33 @@ class DaemonNode:
 
     def __init__(self, args: argparse.Namespace | None) -> None:
         self._args = args
+        self._proxy = ServerProxy(get_xmlrpc_server_url(), allow_none=True)
 
     @property
     def connected(self) -> bool:
-        """True if there is a daemon: no."""
-        return False
+        """True if the daemon answers."""
+        try:
+            return bool(self.methods)
+        except ConnectionError:  # or it ends just now
+            return False
 
     @property
     def methods(self) -> list[str]:
         """Names of the functions that the daemon offers.
 
         Raises:
-            ConnectionRefusedError: Always, as in ROS 2 when the daemon does not run.
+            ConnectionRefusedError: The daemon does not run.
         """
-        raise ConnectionRefusedError("there is no daemon: use ros2cli.node.direct.DirectNode")
+        names: Any = self._proxy.system.listMethods()
+        return [name for name in names if not name.startswith("system.")]
+
+    def __getattr__(self, name: str) -> Any:
+        if name == "_proxy":  # the constructor has failed
+            raise AttributeError(name)
+        return getattr(self._proxy, name)
 
     def __enter__(self) -> DaemonNode:  # noqa: PYI034  Self is not in Python 3.10
+        self._proxy.__enter__()
         return self
 
     def __exit__(
@@ -49,33 +68,72 @@ class DaemonNode:
         exc_value: BaseException | None,
         traceback: TracebackType | None,
     ) -> None:
-        pass
+        self._proxy.__exit__(exc_type, exc_value, traceback)
 
 
-def is_daemon_running(args: argparse.Namespace | None) -> bool:  # noqa: ARG001
-    """Return True if the daemon runs: no."""
-    return False
+def is_daemon_running(args: argparse.Namespace | None) -> bool:
+    """Return True if the daemon of the domain answers."""
+    with DaemonNode(args) as node:
+        return node.connected
 
 
-def shutdown_daemon(
-    args: argparse.Namespace | None,  # noqa: ARG001
-    timeout: float | None = None,  # noqa: ARG001
-) -> bool:
-    """Return True if a daemon was stopped: there was none."""
-    return False
+def shutdown_daemon(args: argparse.Namespace | None, timeout: float | None = None) -> bool:
+    """Ask the daemon to end; return False if there is none.
+
+    Args:
+        args: The command line.
+        timeout: Seconds to wait for its end; by default it is not waited for.
+
+    Raises:
+        RuntimeError: It still answers after that time.
+    """
+    with DaemonNode(args) as node:
+        if not node.connected:
+            return False
+        node.system.shutdown()
+    if timeout is not None and not wait_for(lambda: not is_daemon_running(args), timeout):
+        raise RuntimeError(f"The daemon has not ended within {timeout} s")
+    return True
 
 
 def spawn_daemon(
     args: argparse.Namespace | None,  # noqa: ARG001
-    timeout: float | None = None,  # noqa: ARG001
-    debug: bool = False,  # noqa: ARG001
+    timeout: float | None = None,
+    debug: bool = False,
 ) -> bool:
-    """Return True if a daemon was started: always False, because commands need no daemon."""
-    return False
+    """Start the daemon; return False if it runs already.
+
+    Args:
+        args: The command line.
+        timeout: Seconds that its process may take to start.
+        debug: Whether it prints on stderr what it is asked.
+
+    Raises:
+        OSError: The port cannot be opened.
+        RuntimeError: The process did not start.
+    """
+    try:
+        # Here and not in the process: only one of two that are started at once gets the port.
+        server = make_xmlrpc_server()
+    except OSError as error:
+        if error.errno == errno.EADDRINUSE:
+            return False
+        raise
+    tags = {
+        "name": "ros2-daemon",
+        "ros-domain-id": get_ros_domain_id(),
+        "rmw-implementation": os.environ.get("RMW_IMPLEMENTATION", ""),
+    }
+    try:
+        serve = functools.partial(serve_and_close, server)
+        daemonize(serve, tags=tags, timeout=timeout, debug=debug)
+    finally:
+        server.server_close()
+    return True
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add ``--no-daemon``, which is accepted for compatibility."""
+    """Add ``--no-daemon``, with which a `NodeStrategy` does not ask the daemon."""
     from ros2cli.arguments import add_arguments as add
     from ros2cli.discovery import STRATEGY_ARGUMENTS
 

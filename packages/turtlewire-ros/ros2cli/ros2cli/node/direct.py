@@ -54,7 +54,7 @@ class DirectNode:
         with nullcontext() if lingers else leaving_at_once():
             rclpy.init(args=[])
             self.node: Node = rclpy.create_node(
-                node_name or hidden_node_name(),
+                node_name or hidden_node_name(getattr(args, "node_name_suffix", None)),
                 # As in ROS 2, this node has no services for other tools.
                 start_parameter_services=False,
                 parameter_overrides=overrides,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import Any
 from xmlrpc.server import SimpleXMLRPCServer
 
@@ -13,8 +14,9 @@ __all__ = ["LocalXMLRPCServer", "get_local_ipaddrs"]
 class LocalXMLRPCServer(SimpleXMLRPCServer):
     """A server of remote calls that refuses requests of other hosts."""
 
-    # Two servers must not share a port: the second would seem to work, and never be asked.
-    allow_reuse_address = False
+    # So that a server can follow another one at once. On Windows two servers would share the port,
+    # and the second would never be asked.
+    allow_reuse_address = sys.platform != "win32"
 
     def verify_request(self, request: Any, client_address: Any) -> bool:  # noqa: ARG002
         """Return True if a request comes from this host."""

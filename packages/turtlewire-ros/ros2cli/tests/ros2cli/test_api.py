@@ -13,7 +13,6 @@ import rclpy
 from ros2cli import helpers, plugin_system
 from ros2cli.entry_points import get_entry_points, get_first_line_doc
 from ros2cli.installed import declared
-from ros2cli.node.daemon import DaemonNode, is_daemon_running, shutdown_daemon, spawn_daemon
 from ros2cli.node.direct import DirectNode
 from ros2cli.node.strategy import NodeStrategy
 
@@ -187,16 +186,6 @@ def test_a_verb_runs_by_its_class(capsys, tmp_path):
     assert "turtlesim turtlesim_node\n" in capsys.readouterr().out
 
 
-def test_there_is_no_daemon():
-    assert not is_daemon_running(None)
-    assert not spawn_daemon(None)
-    assert not shutdown_daemon(None)
-    with DaemonNode(None) as daemon:
-        assert not daemon.connected
-        with pytest.raises(ConnectionRefusedError):
-            assert daemon.methods
-
-
 @pytest.mark.parametrize(
     ("version", "wanted", "fits"),
     [
@@ -218,9 +207,9 @@ def test_versions_of_extensions(version, wanted, fits):
 
 def test_helpers(capsys, monkeypatch):
     said = []
-    hooked = helpers.before_invocation(lambda word: word.upper(), said.append)
+    hooked = helpers.before_invocation(str.upper, lambda func, word: said.append((func, word)))
     assert hooked("a") == "A"
-    assert said == ["a"]
+    assert said == [(str.upper, "a")]
     helpers.pretty_print_call(test_helpers, 1, name="x")
     assert capsys.readouterr().out == "test_helpers(1, name='x')\n"
     monkeypatch.setenv("ROS_DOMAIN_ID", "7")

@@ -264,7 +264,9 @@ def test_files_of_a_package_are_translated(tmp_path, monkeypatch, capsys):
         file.write_text(text)
     monkeypatch.chdir(tmp_path / "package")
     out = tmp_path / "out"
-    for cls, path in zip((TranslateMsgToIDL, TranslateSrvToIDL, TranslateActionToIDL), texts):
+    for cls, path in zip(
+        (TranslateMsgToIDL, TranslateSrvToIDL, TranslateActionToIDL), texts, strict=True
+    ):
         file = f"{path}.{cls.input_format}"
         for given in (file, f"{tmp_path / 'package'}:{file}"):
             assert cls().translate("probe", [given], [], out) == [f"{out}:{path}.idl"]

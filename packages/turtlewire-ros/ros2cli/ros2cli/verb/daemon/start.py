@@ -13,19 +13,22 @@ if TYPE_CHECKING:
 
 __all__ = ["ARGUMENTS", "StartVerb", "main"]
 
+_START_S = 10.0
+
 
 ARGUMENTS = (
-    argument(
-        "-d", "--debug", action="store_true", help="Accepted for compatibility: there is no daemon"
-    ),
+    argument("-d", "--debug", action="store_true", help="Show on stderr what the daemon is asked"),
 )
 
 
-def main(_args: argparse.Namespace) -> None:
-    """Say why nothing is started."""
-    print("No daemon is needed: every command discovers the nodes by itself")
+def main(args: argparse.Namespace) -> None:
+    """Start the daemon."""
+    from ros2cli.node.daemon import spawn_daemon
+
+    started = spawn_daemon(args, timeout=_START_S, debug=args.debug)
+    print("The daemon has been started" if started else "The daemon is already running")
 
 
 @verb_of_module
 class StartVerb(VerbExtension):
-    """Explain that there is no daemon."""
+    """Start the daemon, which answers programs; the verbs need none."""

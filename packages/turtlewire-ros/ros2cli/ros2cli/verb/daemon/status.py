@@ -13,11 +13,13 @@ if TYPE_CHECKING:
 __all__ = ["StatusVerb", "main"]
 
 
-def main(_args: argparse.Namespace) -> None:
-    """Say that no daemon exists."""
-    print("The daemon is not running")
+def main(args: argparse.Namespace) -> None:
+    """Say if the daemon runs."""
+    from ros2cli.node.daemon import is_daemon_running
+
+    print(f"The daemon is {'' if is_daemon_running(args) else 'not '}running")
 
 
 @verb_of_module
 class StatusVerb(VerbExtension):
-    """Show that no daemon is running."""
+    """Show if the daemon is running."""

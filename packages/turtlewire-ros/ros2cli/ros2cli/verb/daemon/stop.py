@@ -12,12 +12,17 @@ if TYPE_CHECKING:
 
 __all__ = ["StopVerb", "main"]
 
+_END_S = 10.0
 
-def main(_args: argparse.Namespace) -> None:
-    """Say that no daemon exists."""
-    print("The daemon is not running")
+
+def main(args: argparse.Namespace) -> None:
+    """Stop the daemon, and wait for its end."""
+    from ros2cli.node.daemon import shutdown_daemon
+
+    stopped = shutdown_daemon(args, timeout=_END_S)
+    print("The daemon has been stopped" if stopped else "The daemon is not running")
 
 
 @verb_of_module
 class StopVerb(VerbExtension):
-    """Show that no daemon is running."""
+    """Stop the daemon."""
