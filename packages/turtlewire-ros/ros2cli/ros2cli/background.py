@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 __all__ = ["PicklerForProcess", "daemonize", "main"]
 
 _READY = b"ready\n"
-#: The processes, which nobody waits for; Python warns of those that it forgets.
-_running: list[subprocess.Popen[bytes]] = []
 
 
 class PicklerForProcess(pickle.Pickler):
@@ -98,7 +96,6 @@ def daemonize(
     else:
         pickled, sockets = _pickled(callable_, None)
         process = subprocess.Popen(words, start_new_session=True, pass_fds=sockets, **options)  # noqa: S603  our own
-    _running[:] = [*(each for each in _running if each.poll() is None), process]
     _hand_over(process, pickled, timeout)
 
 
@@ -126,15 +123,22 @@ def _hand_over(process: subprocess.Popen[bytes], pickled: bytes, timeout: float 
         limit.cancel()
         limit.join()
     if not is_ready:
-        _running.remove(process)
         process.kill()
+    if sys.platform == "win32" and is_ready:
+        process.returncode = 0  # nobody waits for it, so that Python must not warn
+    else:
         process.wait()
+    if not is_ready:
         raise RuntimeError("the process ended before it called the function; see `debug`")
 
 
 def main() -> None:
     """Be the process: read the function from stdin, and call it; the tags are for people."""
     function = pickle.load(sys.stdin.buffer)  # noqa: S301  of the process that started this one
+    # A child of its own goes on: the process that started this one waits for it, and then has no
+    # child that would be left as a zombie.
+    if sys.platform != "win32" and os.fork():
+        os._exit(0)
     sys.stdout.buffer.write(_READY)
     sys.stdout.flush()
     # The other end of this pipe ends soon. With `debug`, stderr shows what is printed.

@@ -10,7 +10,8 @@ from ros2cli.arguments import argument, exclusive
 from ros2cli.builtin import verb_of_module
 from ros2cli.completion import action_names, action_types, goal_values
 from ros2cli.node import NODE_NAME_PREFIX
-from ros2cli.values import read_values, shortened, unsigned_int
+from ros2cli.values import read_values, shortened
+from ros2cli.values import unsigned_int as non_negative_int
 from turtlewire.distro import LYRICAL, since
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
     from ros2cli.node.direct import DirectNode
 
-__all__ = ["ARGUMENTS", "NODE_NAME_PREFIX", "SendGoalVerb", "main"]
+__all__ = ["ARGUMENTS", "NODE_NAME_PREFIX", "SendGoalVerb", "main", "non_negative_int"]
 
 _DEFAULT_CANCEL_TIMEOUT_S = 5.0
 
@@ -50,7 +51,7 @@ ARGUMENTS = (
         "-t",
         "--timeout",
         metavar="N",
-        type=unsigned_int,
+        type=non_negative_int,
         help="Wait at most N seconds for the action server, in Lyrical also for each of its answers"
         " (default: no limit)",
     ),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import sys
 from typing import TYPE_CHECKING, Any
 
@@ -15,17 +16,38 @@ from ros2interface.verb import VerbExtension
 from turtlewire.msg.parser import without_comment
 
 if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from turtlewire.msg.definition import Field, MessageDefinition
 
-__all__ = ["ARGUMENTS", "InterfaceTextLine", "ShowVerb", "main"]
+__all__ = ["ARGUMENTS", "InterfaceTextLine", "ReadStdinPipe", "ShowVerb", "main"]
+
+
+class ReadStdinPipe(argparse.Action):
+    """Takes the value of an argument; ``-`` stands for the first line of stdin."""
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: str | Sequence[Any] | None,
+        option_string: str | None = None,
+    ) -> None:
+        """Set the value; the program ends with its usage if there is none on stdin."""
+        del option_string
+        if values == "-":
+            if sys.stdin is None or sys.stdin.isatty():
+                parser.error("expected stdin pipe")
+            values = sys.stdin.readline().strip()
+            if not values:
+                parser.error("the passed value is empty")
+        setattr(namespace, self.dest, values)
 
 
 ARGUMENTS = (
     argument(
         "type",
+        action=ReadStdinPipe,
         nargs=OPTIONAL,
         help="Name of the interface, for example geometry_msgs/msg/Twist; '-' reads it from stdin",
         completer=interfaces,
@@ -49,7 +71,7 @@ def main(args: argparse.Namespace) -> str | None:
         if name is None:
             return "No interface selected"
     else:
-        name = sys.stdin.readline().strip() if args.type == "-" else args.type
+        name = args.type
     try:
         if args.json:
             print_json(_data(name))

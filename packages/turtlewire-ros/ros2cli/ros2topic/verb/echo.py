@@ -28,7 +28,14 @@ if TYPE_CHECKING:
 
     from ros2cli.node.direct import DirectNode
 
-__all__ = ["ARGUMENTS", "DEFAULT_TRUNCATE_LENGTH", "EchoVerb", "main", "make_filter"]
+__all__ = [
+    "ARGUMENTS",
+    "DEFAULT_TRUNCATE_LENGTH",
+    "EchoVerb",
+    "clear_terminal",
+    "main",
+    "make_filter",
+]
 
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,

@@ -19,10 +19,18 @@ from ros2topic.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Iterator
 
     from ros2cli.node.direct import DirectNode
 
-__all__ = ["ARGUMENTS", "DEFAULT_WAIT_TIME", "PubVerb", "main", "nonnegative_int"]
+__all__ = [
+    "ARGUMENTS",
+    "DEFAULT_WAIT_TIME",
+    "PubVerb",
+    "main",
+    "nonnegative_int",
+    "read_msg_from_yaml",
+]
 
 DEFAULT_WAIT_TIME = 0.1
 
@@ -144,15 +152,25 @@ def _documents(args: argparse.Namespace) -> list[dict[str, Any]]:
     """
     if args.yaml_file is None:
         return [read_values(sys.stdin.read() if args.stdin else args.values)]
-    try:
-        text = Path(args.yaml_file).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "it is not text"
-        raise RuntimeError(f"Cannot read '{args.yaml_file}': {reason}") from None
-    documents = read_documents(text)
+    documents = list(read_msg_from_yaml(args.yaml_file))
     if not documents:
         raise RuntimeError(f"The file '{args.yaml_file}' holds no YAML document")
     return documents
+
+
+def read_msg_from_yaml(yaml_file: str) -> Iterator[dict[str, Any]]:
+    """Yield the values of a message for each document of a YAML file.
+
+    Raises:
+        RuntimeError: The file cannot be read, or a document is no mapping.
+        yaml.YAMLError: The file is not YAML.
+    """
+    try:
+        text = Path(yaml_file).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or "it is not text"
+        raise RuntimeError(f"Cannot read '{yaml_file}': {reason}") from None
+    yield from read_documents(text)
 
 
 def _filled(kind: Any, values: dict[str, Any]) -> tuple[Any, list[Any]]:

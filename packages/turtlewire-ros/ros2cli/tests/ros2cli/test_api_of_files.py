@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import argparse
+import io
 
 import pytest
 
 from ros2bag import api as bag
+from ros2interface.verb.show import ReadStdinPipe
 from ros2launch import api as launch
 from ros2launch.api.api import get_launch_file_paths, parse_launch_arguments
 from ros2pkg import api as pkg
 from ros2run import api as run
+from ros2topic.verb.pub import read_msg_from_yaml
 
 
 def test_values_of_bag(tmp_path):
@@ -65,3 +68,30 @@ def test_launch_files(tmp_path, capsys):
         )
         == 0
     )
+
+
+def test_the_messages_in_a_file(tmp_path):
+    path = tmp_path / "points.yaml"
+    path.write_text("{x: 1}\n---\n---\n{x: 2}\n")
+    assert list(read_msg_from_yaml(str(path))) == [{"x": 1}, {"x": 2}]
+    with pytest.raises(RuntimeError, match=r"Cannot read .*: No such file"):
+        list(read_msg_from_yaml(str(tmp_path / "none.yaml")))
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def test_an_argument_is_read_from_stdin(monkeypatch, capsys):
+    parser = argparse.ArgumentParser()
+    parser.add_argument("type", nargs="?", action=ReadStdinPipe)
+    assert parser.parse_args([]).type is None
+    assert parser.parse_args(["std_msgs/msg/String"]).type == "std_msgs/msg/String"
+    monkeypatch.setattr("sys.stdin", io.StringIO("std_msgs/msg/Bool\nmore\n"))
+    assert parser.parse_args(["-"]).type == "std_msgs/msg/Bool"
+    for stdin, error in ((io.StringIO(), "value is empty"), (Terminal(), "expected stdin pipe")):
+        monkeypatch.setattr("sys.stdin", stdin)
+        with pytest.raises(SystemExit):
+            parser.parse_args(["-"])
+        assert error in capsys.readouterr().err
