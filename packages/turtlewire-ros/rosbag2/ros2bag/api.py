@@ -14,9 +14,12 @@ if TYPE_CHECKING:
 
     from rclpy.duration import Duration
     from rclpy.qos import QoSProfile
+    from rosbag2_py import StorageOptions
 
 __all__ = [
     "SplitLineFormatter",
+    "add_multi_bag_input_arg",
+    "add_standard_multi_reader_args",
     "add_standard_reader_args",
     "add_writer_storage_plugin_extensions",
     "check_not_negative_float",
@@ -27,6 +30,7 @@ __all__ = [
     "convert_yaml_to_qos_profile",
     "create_bag_directory",
     "dict_to_duration",
+    "input_bag_arg_to_storage_options",
     "interpret_dict_as_qos_profile",
     "print_error",
     "print_warn",
@@ -59,6 +63,44 @@ def add_standard_reader_args(parser: argparse.ArgumentParser) -> None:
     from ros2cli.arguments import add_arguments
 
     add_arguments(parser, [bag_options.BAG_PATH, bag_options.STORAGE])
+
+
+def add_standard_multi_reader_args(parser: argparse.ArgumentParser) -> None:
+    """Add the path of a bag and ``--storage``, both optional, and ``--input`` for several bags."""
+    from ros2cli.arguments import add_arguments
+
+    add_arguments(parser, bag_options.BAGS_TO_PLAY)
+
+
+def add_multi_bag_input_arg(parser: argparse.ArgumentParser, required: bool = False) -> None:
+    """Add ``--input``, whose value is a list of bags, each with its path and storage."""
+    options = {**bag_options.INPUT.options, "required": required}
+    parser.add_argument(*bag_options.INPUT.names, **options)
+
+
+def input_bag_arg_to_storage_options(
+    input_arg: Sequence[Sequence[str]] | None = None, storage_config_file: str | None = None
+) -> list[StorageOptions]:
+    """Return the options of bags that ``--input`` names.
+
+    Args:
+        input_arg: For each bag its path, and optionally its storage.
+        storage_config_file: A file with settings of the storage.
+
+    Raises:
+        ValueError: A bag does not exist, its storage is not known, or there are further words.
+    """
+    from rosbag2_py import StorageOptions
+
+    found = []
+    for words in input_arg or ():
+        try:
+            uri, storage = bag_options.bag_and_storage(words)
+        except argparse.ArgumentTypeError as error:
+            raise ValueError(print_error(str(error))) from None
+        config = storage_config_file or ""
+        found.append(StorageOptions(uri=uri, storage_id=storage, storage_config_uri=config))
+    return found
 
 
 def add_writer_storage_plugin_extensions(parser: argparse.ArgumentParser) -> None:

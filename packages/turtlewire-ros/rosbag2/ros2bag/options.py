@@ -11,10 +11,15 @@ from ros2cli.completion import files
 from ros2cli.values import unsigned_int
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from rclpy.qos import QoSProfile
+    from rosbag2_py import StorageOptions
 
 __all__ = [
+    "BAGS_TO_PLAY",
     "BAG_PATH",
+    "INPUT",
     "LOG_LEVEL",
     "QOS_OVERRIDES",
     "READ_AHEAD",
@@ -23,8 +28,10 @@ __all__ = [
     "STORAGES",
     "STORAGE_CONFIG",
     "absolute",
+    "bag_and_storage",
     "bag_path",
     "bag_topics",
+    "bags_to_play",
     "custom_data",
     "event_topics",
     "existing_file",
@@ -105,6 +112,80 @@ REMAP = argument(
     default=[],
     help="New names of topics, for example /tf:=/old_tf",
 )
+
+
+def bag_and_storage(words: Sequence[str]) -> tuple[str, str]:
+    """Return the path of a bag and its storage, which is empty if it is not given.
+
+    Raises:
+        argparse.ArgumentTypeError: The bag does not exist, its storage is not known, or there are
+            further words.
+    """
+    if not 1 <= len(words) <= 2:
+        raise argparse.ArgumentTypeError(
+            f"expected a bag and optionally its storage, got {len(words)} words"
+        )
+    storage = words[1] if len(words) == 2 else ""
+    if storage and storage not in STORAGES:
+        raise argparse.ArgumentTypeError(
+            f"invalid storage '{storage}' (choose from {', '.join(STORAGES)})"
+        )
+    return bag_path(words[0]), storage
+
+
+class _Input(argparse.Action):
+    """Collects ``-i URI [STORAGE_ID]``."""
+
+    def __call__(
+        self,
+        _parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: str | Sequence[Any] | None,
+        _option: str | None = None,
+    ) -> None:
+        """Check one bag's words."""
+        try:
+            found = bag_and_storage([str(value) for value in values or ()])
+        except argparse.ArgumentTypeError as error:
+            raise argparse.ArgumentError(self, str(error)) from None
+        known = getattr(namespace, self.dest) or []
+        setattr(namespace, self.dest, [*known, found])
+
+
+INPUT = argument(
+    "-i",
+    "--input",
+    action=_Input,
+    nargs="+",
+    metavar=("uri", "storage_id"),
+    help="A bag to read, and optionally its storage; may be given several times",
+    completer=files,
+)
+
+#: One bag by its path, or several with ``-i``.
+BAGS_TO_PLAY = (
+    argument(
+        "bag_path",
+        nargs="?",
+        type=bag_path,
+        help="Folder of the bag, or one file",
+        completer=files,
+    ),
+    STORAGE,
+    INPUT,
+)
+
+
+def bags_to_play(args: argparse.Namespace) -> list[StorageOptions]:
+    """Return the bags of `BAGS_TO_PLAY`; the program ends with its usage if there is none."""
+    from rosbag2_py import StorageOptions
+
+    found = [StorageOptions(uri=uri, storage_id=storage) for uri, storage in args.input or ()]
+    if args.bag_path is not None:
+        found.insert(0, StorageOptions(uri=args.bag_path, storage_id=args.storage))
+    if not found:
+        args.parser.error("the following arguments are required: bag_path, or -i/--input")
+    return found
 
 
 def bag_topics(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:

@@ -55,7 +55,12 @@ from rosbag2_py._writer import (
     get_registered_serializers,
     get_registered_writers,
 )
-from rosbag2_transport.options import PlayOptions, RecordOptions, ServiceRequestsSource
+from rosbag2_transport.options import (
+    MessageOrder,
+    PlayOptions,
+    RecordOptions,
+    ServiceRequestsSource,
+)
 
 if TYPE_CHECKING:
     from rosbag2_py._player import Player
@@ -71,6 +76,7 @@ __all__ = [
     "Info",
     "LocalMessageDefinitionSource",
     "MessageDefinition",
+    "MessageOrder",
     "MetadataIo",
     "PlayOptions",
     "Player",

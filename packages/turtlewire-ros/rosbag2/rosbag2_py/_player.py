@@ -30,8 +30,8 @@ class Player:
     first releases of Jazzy, :meth:`play` and :meth:`burst` are given the bag, and block.
 
     Args:
-        storage_options: The bag, or a list with one bag; or the log level, as in the first
-            releases of Jazzy.
+        storage_options: The bag, or a list of bags; or the log level, as in the first releases of
+            Jazzy.
         play_options: What is played, and how.
         log_level: ``debug``, ``info``, ``warn``, ``error`` or ``fatal``.
         node_name: Name of the player's node.
@@ -61,8 +61,8 @@ class Player:
             return
         opened = contextlib.ExitStack()
         try:
-            path, options = _path(storage_options), play_options or PlayOptions()
-            self._player, _ = opened.enter_context(served_player(path, options, node_name))
+            paths, options = _paths(storage_options), play_options or PlayOptions()
+            self._player, _ = opened.enter_context(served_player(paths, options, node_name))
         except (BagError, OSError) as error:
             raise RuntimeError(str(error)) from error
         # Ends threads and node with the object, or with the process.
@@ -77,7 +77,9 @@ class Player:
         """Do nothing, as :meth:`start_spin`."""
 
     def play(
-        self, storage_options: StorageOptions | None = None, play_options: PlayOptions | None = None
+        self,
+        storage_options: StorageOptions | Sequence[StorageOptions] | None = None,
+        play_options: PlayOptions | None = None,
     ) -> bool:
         """Start the playback; without a bag of its own, play one to the end.
 
@@ -92,7 +94,7 @@ class Player:
         """
         if storage_options is not None:
             options = play_options or PlayOptions()
-            self._until_cancelled(lambda stop: play(_path(storage_options), options, stop))
+            self._until_cancelled(lambda stop: play(_paths(storage_options), options, stop))
             return True
         player = self._steered()
         if not player.begin():
@@ -150,7 +152,7 @@ class Player:
         if not bag:
             return self._steered().burst(number)
         storage, options = bag
-        self._until_cancelled(lambda stop: burst(_path(storage), options, stop, number))
+        self._until_cancelled(lambda stop: burst(_paths(storage), options, stop, number))
         return None
 
     def wait_for_playback_to_start(self, timeout: float = -1.0) -> bool:
@@ -227,18 +229,14 @@ def _end(player: BagPlayer, threads: list[threading.Thread], opened: contextlib.
     opened.close()
 
 
-def _path(storage_options: StorageOptions | Sequence[StorageOptions]) -> str:
-    """Return the path of the one bag.
+def _paths(storage_options: StorageOptions | Sequence[StorageOptions]) -> list[str]:
+    """Return the paths of the bags.
 
     Raises:
-        RuntimeError: The list has several bags, or none.
+        RuntimeError: The list is empty.
     """
     if not isinstance(storage_options, (list, tuple)):
-        return storage_options.uri  # type: ignore[union-attr]
-    if len(storage_options) != 1:
-        raise RuntimeError(
-            f"expected one bag to play, got {len(storage_options)}; "
-            "`ros2 bag convert` joins several bags to one"
-        )
-    path: str = storage_options[0].uri
-    return path
+        return [storage_options.uri]  # type: ignore[union-attr]
+    if not storage_options:
+        raise RuntimeError("expected at least one bag to play, got an empty list")
+    return [each.uri for each in storage_options]

@@ -5,9 +5,15 @@ from __future__ import annotations
 from rosbag2_py._player import Player
 from rosbag2_py._recorder import Recorder
 from rosbag2_py._rewrite import bag_rewrite
-from rosbag2_transport.options import PlayOptions, RecordOptions, ServiceRequestsSource
+from rosbag2_transport.options import (
+    MessageOrder,
+    PlayOptions,
+    RecordOptions,
+    ServiceRequestsSource,
+)
 
 __all__ = [
+    "MessageOrder",
     "PlayOptions",
     "Player",
     "RecordOptions",

@@ -16,6 +16,7 @@ module                 what it holds
 `action_topics`        which topics belong to an action
 `static_topics`        topics that are recorded from the start
 `player`               `Player`: time, order, and what pauses, seeks or ends it
+`played_bags`          the bags, as if they were one
 `player_outputs`       its publishers
 `player_requests`      recorded requests, sent to services again
 `player_qos`           with which QoS it publishes

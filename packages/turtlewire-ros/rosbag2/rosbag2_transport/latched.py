@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from turtlewire.bag import Bag, BagMessage
+    from rosbag2_transport.played_bags import PlayedBags
+    from turtlewire.bag import BagMessage
 
 __all__ = ["Latched"]
 
@@ -21,11 +22,11 @@ class Latched:
     """The latched messages that have been sent, and that are missing at a time.
 
     Args:
-        bag: The bag; another object than the one that is played.
+        bag: The bags; another object than the one that is played.
         depths: How many messages of each latched topic listeners keep, by topic.
     """
 
-    def __init__(self, bag: Bag, depths: Mapping[str, int]) -> None:
+    def __init__(self, bag: PlayedBags, depths: Mapping[str, int]) -> None:
         self._bag = bag
         self._depths = depths
         self._passed = dict.fromkeys(depths, 0)
@@ -86,7 +87,7 @@ class Latched:
 
     def _extend(self, wanted: dict[str, tuple[int, deque[BagMessage]]], time_ns: int) -> None:
         """Add messages that were sent before a time and received after it."""
-        is_sqlite = self._bag.metadata.storage == "sqlite3"
+        is_sqlite = self._bag.has_sqlite
         open_topics = set(self._depths)
         for message in self._bag.messages(self._depths, start_ns=time_ns):
             if message.topic not in open_topics:

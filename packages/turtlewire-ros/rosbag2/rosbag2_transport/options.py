@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
 
-__all__ = ["NumberedEnum", "PlayOptions", "RecordOptions", "ServiceRequestsSource"]
+__all__ = ["MessageOrder", "NumberedEnum", "PlayOptions", "RecordOptions", "ServiceRequestsSource"]
 
 
 class NumberedEnum(enum.Enum):
@@ -28,6 +28,13 @@ class ServiceRequestsSource(NumberedEnum):
 
     SERVICE_INTROSPECTION = 0
     CLIENT_INTROSPECTION = 1
+
+
+class MessageOrder(NumberedEnum):
+    """By which of their times messages are played."""
+
+    RECEIVED_TIMESTAMP = 0
+    SENT_TIMESTAMP = 1
 
 
 @dataclass(slots=True)
@@ -110,6 +117,9 @@ class PlayOptions:
 
     Attributes:
         read_ahead_queue_size: How many messages are read before they are due.
+        message_order: By which of their times messages are played. By the time at which they were
+            sent, one that is due more than ``read_ahead_queue_size`` messages earlier than it was
+            received comes late; bags of sqlite3 have only the time at which it was received.
         node_prefix: Put in front of the node's name.
         rate: Bag seconds in one second.
         topics_to_filter: Names of the topics to play; empty for all.
@@ -174,3 +184,4 @@ class PlayOptions:
     progress_bar_separation_lines: int = 2
     publish_service_requests: bool = False
     service_requests_source: ServiceRequestsSource = ServiceRequestsSource.SERVICE_INTROSPECTION
+    message_order: MessageOrder = MessageOrder.RECEIVED_TIMESTAMP

@@ -16,7 +16,7 @@ from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
     import queue
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Sequence
 
     from rosbag2_transport.options import PlayOptions
 
@@ -33,38 +33,40 @@ _KEYS = (
 )
 
 
-def play(path: str, options: PlayOptions, stop: queue.SimpleQueue[None]) -> None:
-    """Play a bag until its end, or until ``stop`` holds an item or SIGINT or SIGTERM comes.
+def play(paths: Sequence[str], options: PlayOptions, stop: queue.SimpleQueue[None]) -> None:
+    """Play bags to their end, or until ``stop`` holds an item or SIGINT or SIGTERM comes.
 
     Args:
-        path: The bag.
+        paths: The bags.
         options: What is played, and how.
         stop: Ends the playback.
 
     Raises:
-        RuntimeError: The bag does not exist, or an option is invalid.
+        RuntimeError: A bag does not exist, or an option is invalid.
     """
-    _with_player(path, options, stop, lambda _player: None)
+    _with_player(paths, options, stop, lambda _player: None)
 
 
-def burst(path: str, options: PlayOptions, stop: queue.SimpleQueue[None], count: int) -> None:
-    """Publish the first messages of a bag at once, then wait paused as `play` does.
+def burst(
+    paths: Sequence[str], options: PlayOptions, stop: queue.SimpleQueue[None], count: int
+) -> None:
+    """Publish the first messages of bags at once, then wait paused as `play` does.
 
     Args:
-        path: The bag.
+        paths: The bags.
         options: What is played, and how.
         stop: Ends the playback.
         count: How many messages; 0 for all.
 
     Raises:
-        RuntimeError: The bag does not exist, or an option is invalid.
+        RuntimeError: A bag does not exist, or an option is invalid.
     """
     options.start_paused = True
-    _with_player(path, options, stop, lambda player: player.burst(count))
+    _with_player(paths, options, stop, lambda player: player.burst(count))
 
 
 def _with_player(
-    path: str,
+    paths: Sequence[str],
     options: PlayOptions,
     stop: queue.SimpleQueue[None],
     first: Callable[[BagPlayer], object],
@@ -73,7 +75,7 @@ def _with_player(
     try:
         with (
             stopped_by_signals(stop),
-            served_player(path, options) as (player, session),
+            served_player(paths, options) as (player, session),
             handle_keys(_bindings(player, session, options), not options.disable_keyboard_controls),
             ProgressLine(lambda: _progress(player), options.progress_bar_update_rate),
         ):
@@ -86,23 +88,23 @@ def _with_player(
 
 @contextlib.contextmanager
 def served_player(
-    path: str, options: PlayOptions, node_name: str = "rosbag2_player"
+    paths: Sequence[str], options: PlayOptions, node_name: str = "rosbag2_player"
 ) -> Iterator[tuple[BagPlayer, BagSession]]:
-    """Open a bag to play, on a node with the player's services and clock.
+    """Open bags to play, on a node with the player's services and clock.
 
     Args:
-        path: The bag.
+        paths: The bags.
         options: What is played, and how.
         node_name: Name of the node.
 
     Raises:
-        BagError: The bag cannot be read.
-        FileNotFoundError: The bag does not exist.
+        BagError: A bag cannot be read.
+        FileNotFoundError: A bag does not exist.
         RuntimeError: An option is invalid.
     """
     words = [word for word in options.topic_remapping_options if ":=" in word]
     with BagSession(options.node_prefix + node_name, remap=tuple(words)) as session:
-        player = BagPlayer(session.node, path, options)
+        player = BagPlayer(session.node, paths, options)
         try:
             PlayerServices(session.node, player)
             with ClockPublisher(session.node, player, options):

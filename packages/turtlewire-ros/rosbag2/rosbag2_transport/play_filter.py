@@ -14,14 +14,14 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from rosbag2_transport.options import PlayOptions
-    from turtlewire.bag import Bag
+    from rosbag2_transport.played_bags import PlayedBags
 
 __all__ = ["mistakes", "played_topics"]
 
 _SECOND = 1_000_000_000
 
 
-def played_topics(bag: Bag, options: PlayOptions) -> list[str]:
+def played_topics(bag: PlayedBags, options: PlayOptions) -> list[str]:
     """Return the names of the topics to play, which must be decodable; patterns match whole names.
 
     As in rosbag2, names of topics do not hold back service events, nor the other way round.
@@ -32,7 +32,7 @@ def played_topics(bag: Bag, options: PlayOptions) -> list[str]:
     return [name for name in _selected(bag, options) if is_decodable(bag.topics[name])]
 
 
-def _selected(bag: Bag, options: PlayOptions) -> list[str]:
+def _selected(bag: PlayedBags, options: PlayOptions) -> list[str]:
     """Return the names of the topics that the options leave."""
     regex, exclude = pattern(options.regex_to_filter), pattern(options.exclude_regex_to_filter)
     own_clock = options.clock_publish_frequency > 0 or options.clock_publish_on_topic_publish
@@ -70,7 +70,7 @@ def _knows_actions(options: PlayOptions) -> bool:
     return since(KILTED) or any(asked)
 
 
-def mistakes(bag: Bag, options: PlayOptions) -> list[str]:
+def mistakes(bag: PlayedBags, options: PlayOptions) -> list[str]:
     """List what is not played although it was asked for; rosbag2 ignores it silently."""
     foreign = not_in_cdr((bag.topics[name] for name in _selected(bag, options)), "not played")
     return [
@@ -81,7 +81,7 @@ def mistakes(bag: Bag, options: PlayOptions) -> list[str]:
     ] or [f"Nothing is played: {why}" for why in _emptiness(bag, options)]
 
 
-def _unknown_topics(bag: Bag, options: PlayOptions) -> Iterator[str]:
+def _unknown_topics(bag: PlayedBags, options: PlayOptions) -> Iterator[str]:
     named = (
         *options.topics_to_filter,
         *options.exclude_topics_to_filter,
@@ -94,7 +94,7 @@ def _unknown_topics(bag: Bag, options: PlayOptions) -> Iterator[str]:
             yield f"The bag has no topic '{name}'. {did_you_mean(name, bag.topics) or known}"
 
 
-def _unknown_services(bag: Bag, options: PlayOptions) -> Iterator[str]:
+def _unknown_services(bag: PlayedBags, options: PlayOptions) -> Iterator[str]:
     services = [
         name.removesuffix(EVENT_TOPIC)
         for name, topic in sorted(bag.topics.items())
@@ -110,7 +110,7 @@ def _unknown_services(bag: Bag, options: PlayOptions) -> Iterator[str]:
             yield f"The bag has no events of a service '{name}'. {hint}"
 
 
-def _unknown_actions(bag: Bag, options: PlayOptions) -> Iterator[str]:
+def _unknown_actions(bag: PlayedBags, options: PlayOptions) -> Iterator[str]:
     found = (action_topic(name, topic.type) for name, topic in bag.topics.items())
     actions = sorted({each.action for each in found if each is not None})
     named = (*options.actions_to_filter, *options.exclude_actions_to_filter)
@@ -120,7 +120,7 @@ def _unknown_actions(bag: Bag, options: PlayOptions) -> Iterator[str]:
             yield f"The bag has no action '{name}'. {did_you_mean(name, actions) or known}"
 
 
-def _emptiness(bag: Bag, options: PlayOptions) -> Iterator[str]:
+def _emptiness(bag: PlayedBags, options: PlayOptions) -> Iterator[str]:
     """Yield why nothing of a bag is played, if that is so."""
     lasts_ns = bag.end_ns - bag.start_ns
     if not bag.topics:

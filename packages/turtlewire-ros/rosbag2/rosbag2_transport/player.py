@@ -1,4 +1,4 @@
-"""Plays a bag at its own pace, paused, faster, from another position, or message by message.
+"""Plays bags at their own pace, paused, faster, from another position, or message by message.
 
 All times of the bag are log times in nanoseconds. One thread plays; commands come from any other.
 The playing thread waits for a deadline or a command; a command wakes it.
@@ -7,21 +7,21 @@ The playing thread waits for a deadline or a command; a command wakes it.
 from __future__ import annotations
 
 import contextlib
-import os
 import sqlite3
 import threading
 import time
 from typing import TYPE_CHECKING
 
 from rosbag2_transport.latched import Latched
+from rosbag2_transport.options import MessageOrder
 from rosbag2_transport.play_filter import mistakes, played_topics
+from rosbag2_transport.played_bags import PlayedBags
 from rosbag2_transport.player_outputs import PlayerOutputs
-from turtlewire.bag import Bag
 from turtlewire.bag.playback import PlayClock, ReadAhead
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Sequence
 
     from rclpy.node import Node
     from rosbag2_transport.options import PlayOptions
@@ -37,17 +37,17 @@ _ACKNOWLEDGED_NS = _SECOND // 10
 
 
 class BagPlayer:
-    """Plays one bag. Thread-safe, except that one thread plays at a time.
+    """Plays bags. Thread-safe, except that one thread plays at a time.
 
     Args:
         node: The node whose publishers it uses.
-        path: The bag.
+        paths: The bags.
         options: What is played, and how.
 
     Attributes:
         changed: Guards everything; notified after each command.
         clock: The time of the bag.
-        start_ns: Log time of the bag's first message.
+        start_ns: Log time of the first message.
         end_ns: Log time of its last message, or the time at which the options end the playback.
         on_publish: Called with each message before it is published.
 
@@ -57,12 +57,13 @@ class BagPlayer:
         RuntimeError: An option is wrong.
     """
 
-    def __init__(self, node: Node, path: str, options: PlayOptions) -> None:
+    def __init__(self, node: Node, paths: Sequence[str], options: PlayOptions) -> None:
         self._logger = node.get_logger()
         self._options = options
-        self._bag = Bag(path)
-        # Latched messages are looked up while the other one is read ahead by a thread.
-        self._side_bag = Bag(path)
+        as_sent = options.message_order == MessageOrder.SENT_TIMESTAMP
+        self._bag = PlayedBags(paths, options.read_ahead_queue_size if as_sent else 0)
+        # Latched messages are looked up while the others are read ahead by a thread.
+        self._side_bag = PlayedBags(paths)
         self.start_ns, self.end_ns = self._bag.start_ns, self._bag.end_ns
         self._topics = played_topics(self._bag, options)
         for mistake in mistakes(self._bag, options):
@@ -97,10 +98,7 @@ class BagPlayer:
 
     def files(self) -> list[tuple[int, str]]:
         """Return the log time of the first message, and the path, of each file in order."""
-        folder = self._bag.path
-        return [
-            (file.start_ns, os.path.join(folder, file.path)) for file in self._bag.metadata.files
-        ]
+        return self._bag.files()
 
     def close(self) -> None:
         """Release the bag and leave the graph."""

@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 
     from rclpy.node import Node
     from rosbag2_transport.options import PlayOptions
-    from turtlewire.bag import Bag, BagMessage, TopicInfo
+    from rosbag2_transport.played_bags import PlayedBags
+    from turtlewire.bag import BagMessage, TopicInfo
     from turtlewire.wire.base import Publisher
 
 __all__ = ["PlayerOutputs"]
@@ -33,7 +34,7 @@ class PlayerOutputs:
 
     Args:
         node: The node whose publishers they are; its remapping rules apply.
-        bag: The bag.
+        bag: The bags.
         topics: Names of the topics to publish.
         options: Overrides of QoS, and whether requests are sent to services.
 
@@ -41,7 +42,9 @@ class PlayerOutputs:
         latched: How many messages late listeners get, of each latched topic.
     """
 
-    def __init__(self, node: Node, bag: Bag, topics: Iterable[str], options: PlayOptions) -> None:
+    def __init__(
+        self, node: Node, bag: PlayedBags, topics: Iterable[str], options: PlayOptions
+    ) -> None:
         self._node = node
         self._graph = node.context.wire.graph
         self._logger = node.get_logger()

@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2bag.options import (
-    BAG_PATH,
+    BAGS_TO_PLAY,
     QOS_OVERRIDES,
     READ_AHEAD,
     REMAP,
-    STORAGE,
     STORAGE_CONFIG,
     absolute,
     bag_topics,
+    bags_to_play,
     event_topics,
     qos_overrides,
     remap_words,
@@ -29,8 +29,7 @@ if TYPE_CHECKING:
 __all__ = ["ARGUMENTS", "NODE_NAME_PREFIX", "BurstVerb", "main"]
 
 ARGUMENTS = (
-    BAG_PATH,
-    STORAGE,
+    *BAGS_TO_PLAY,
     READ_AHEAD,
     argument(
         "--topics",
@@ -70,7 +69,7 @@ ARGUMENTS = (
 
 def main(args: argparse.Namespace) -> None:
     """Publish the messages at once, then wait paused until Ctrl-C."""
-    from rosbag2_py import Player, PlayOptions, StorageOptions
+    from rosbag2_py import Player, PlayOptions
 
     options = PlayOptions(
         read_ahead_queue_size=args.read_ahead_queue_size,
@@ -82,8 +81,7 @@ def main(args: argparse.Namespace) -> None:
         start_offset=args.start_offset,
         start_paused=True,
     )
-    storage = StorageOptions(uri=args.bag_path, storage_id=args.storage)
-    Player().burst(storage, options, args.num_messages)
+    Player().burst(bags_to_play(args), options, args.num_messages)
 
 
 @verb_of_module

@@ -7,15 +7,15 @@ import math
 from typing import TYPE_CHECKING
 
 from ros2bag.options import (
-    BAG_PATH,
+    BAGS_TO_PLAY,
     LOG_LEVEL,
     QOS_OVERRIDES,
     READ_AHEAD,
     REMAP,
-    STORAGE,
     STORAGE_CONFIG,
     absolute,
     bag_topics,
+    bags_to_play,
     event_topics,
     qos_overrides,
     remap_words,
@@ -55,8 +55,7 @@ def _number(text: str) -> float:
 
 
 ARGUMENTS = (
-    BAG_PATH,
-    STORAGE,
+    *BAGS_TO_PLAY,
     READ_AHEAD,
     argument(
         "-r", "--rate", type=_more_than_zero, default=1.0, help="Playback speed; 2 is twice as fast"
@@ -184,6 +183,12 @@ ARGUMENTS = (
         help="Send recorded goals to action servers instead of publishing the topics of actions",
     ),
     argument(
+        "--message-order",
+        choices=("received", "sent"),
+        default="received",
+        help="Play messages at the times at which they were received, or sent",
+    ),
+    argument(
         "--progress-bar-update-rate",
         metavar="HZ",
         type=int,
@@ -208,16 +213,14 @@ ARGUMENTS = (
 
 
 def main(args: argparse.Namespace) -> None:
-    """Play to the end of the bag, or until Ctrl-C."""
-    from rosbag2_py import Player, StorageOptions
+    """Play to the end of the bags, or until Ctrl-C."""
+    from rosbag2_py import Player
 
-    Player(args.log_level).play(
-        StorageOptions(uri=args.bag_path, storage_id=args.storage), _play_options(args)
-    )
+    Player(args.log_level).play(bags_to_play(args), _play_options(args))
 
 
 def _play_options(args: argparse.Namespace) -> PlayOptions:
-    from rosbag2_py import PlayOptions, ServiceRequestsSource
+    from rosbag2_py import MessageOrder, PlayOptions, ServiceRequestsSource
 
     until_ns = args.playback_until_nsec
     if args.playback_until_sec >= 0:
@@ -251,6 +254,7 @@ def _play_options(args: argparse.Namespace) -> PlayOptions:
         progress_bar_separation_lines=args.progress_bar_separation_lines,
         publish_service_requests=args.publish_service_requests,
         service_requests_source=ServiceRequestsSource[args.service_requests_source.upper()],
+        message_order=MessageOrder[f"{args.message_order}_timestamp".upper()],
     )
 
 

@@ -122,8 +122,8 @@ def test_a_steered_player_ends_with_its_object(peer):  # noqa: F811 - the fixtur
 def test_steering_without_a_bag_is_an_error(tmp_path):
     with pytest.raises(RuntimeError, match="there is no bag at nothing"):
         rosbag2_py.Player(storage("nothing"), rosbag2_py.PlayOptions())
-    with pytest.raises(RuntimeError, match="expected one bag to play, got 2"):
-        rosbag2_py.Player([storage(SMALL), storage(SMALL)], rosbag2_py.PlayOptions())
+    with pytest.raises(RuntimeError, match="expected at least one bag to play"):
+        rosbag2_py.Player([], rosbag2_py.PlayOptions())
     with pytest.raises(RuntimeError, match="this Player has no bag"):
         rosbag2_py.Player().pause()
     with pytest.raises(RuntimeError, match="this Recorder has no bag"):

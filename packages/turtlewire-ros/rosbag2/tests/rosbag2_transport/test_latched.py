@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from rosbag2_transport.latched import Latched
-from turtlewire.bag import BagWriter, open_bag
+from rosbag2_transport.played_bags import PlayedBags
+from turtlewire.bag import BagWriter
 
 SECOND = 1_000_000_000
 
@@ -22,7 +23,7 @@ def latched(tmp_path):
             writer.write("/other", bytes(8), 0)
             for received, sent in times:
                 writer.write("/map", bytes(8), received, sent)
-        bags.append(open_bag(tmp_path / "bag"))
+        bags.append(PlayedBags([str(tmp_path / "bag")]))
         return Latched(bags[-1], {"/map": depth})
 
     yield make

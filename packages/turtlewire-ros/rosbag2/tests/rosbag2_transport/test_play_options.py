@@ -15,7 +15,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from ros2bag.verb import play
 from ros2cli.arguments import add_arguments
 from rosbag2_interfaces import srv
-from rosbag2_py import PlayOptions, ServiceRequestsSource, StorageOptions
+from rosbag2_py import MessageOrder, PlayOptions, ServiceRequestsSource, StorageOptions
 from rosbag2_transport.play_filter import mistakes
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import String
@@ -45,6 +45,7 @@ LOSSY = QoSProfile(depth=1000, reliability=ReliabilityPolicy.BEST_EFFORT)
         ("--exclude-topics /a", {"exclude_topics_to_filter": ["/a"]}),
         ("--exclude-services /add", {"exclude_service_events_to_filter": ["/add"]}),
         ("-l", {"loop": True}),
+        ("--message-order sent", {"message_order": MessageOrder.SENT_TIMESTAMP}),
         ("-m /a:=/b", {"topic_remapping_options": ["--ros-args", "--remap", "/a:=/b"]}),
         ("--clock", {"clock_publish_frequency": 40}),
         ("--clock 3", {"clock_publish_frequency": 3}),

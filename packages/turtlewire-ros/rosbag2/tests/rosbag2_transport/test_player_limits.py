@@ -28,7 +28,7 @@ def player(peer, tmp_path):
     players = []
 
     def make(**options):
-        made = BagPlayer(peer.node, str(tmp_path / "bag"), PlayOptions(**options))
+        made = BagPlayer(peer.node, [str(tmp_path / "bag")], PlayOptions(**options))
         made.sent = []
         made.on_publish.append(lambda message: made.sent.append(message.log_time_ns - START))
         players.append(made)
