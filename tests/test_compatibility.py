@@ -417,8 +417,13 @@ a component container must be named in full
   launch_ros/test_composable_nodes.py test_nodes_of_a_container
 a container loads libraries of C++
   rclpy_components/test_component_manager.py test_a_class_has_the_name_of_a_component_of_cpp
-a daemon answers queries about the graph
+a daemon is started by the first command and answers queries about the graph
   test_compatibility.py test_no_daemon_is_running
+  ros2cli/test_daemon.py test_the_verbs test_it_answers_as_a_node_does
+any page in a browser can call the daemon
+  ros2cli/test_daemon.py test_any_program_may_ask_but_no_web_page
+`ProcessStdin` has no effect
+  launch/test_execute_process.py test_single_processes_can_be_stopped_signalled_and_fed
 Ctrl-C of a verb may end in error lines
   ros2cli/test_main.py test_verb_errors_become_one_line_and_a_status
 a verb ends with a traceback or "Exception ignored" if `head` has closed its output or the disk is full

@@ -24,9 +24,21 @@ __all__ = [
 
 
 class TranslateToIDL:
-    """Converts files of one kind of a package, for a build; base of the classes for each kind."""
+    """Converts files of one kind of a package, for a build; base of the classes for each kind.
+
+    Args:
+        name: Name of the entry point in ROS 2, for example ``msg2idl``.
+    """
 
     output_format = "idl"
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+
+    @property
+    def name(self) -> str:
+        """The argument."""
+        return self._name
 
     @property
     def conversion_function(self) -> Callable[..., pathlib.Path]:

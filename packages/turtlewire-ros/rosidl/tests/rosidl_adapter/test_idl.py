@@ -269,10 +269,10 @@ def test_files_of_a_package_are_translated(tmp_path, monkeypatch, capsys):
     ):
         file = f"{path}.{cls.input_format}"
         for given in (file, f"{tmp_path / 'package'}:{file}"):
-            assert cls().translate("probe", [given], [], out) == [f"{out}:{path}.idl"]
+            assert cls("probe2idl").translate("probe", [given], [], out) == [f"{out}:{path}.idl"]
         assert (out / f"{path}.idl").read_text().count("struct")
-        assert cls.output_format == "idl"
+        assert (cls.output_format, cls("msg2idl").name) == ("idl", "msg2idl")
     with pytest.raises(ValueError, match=r"does not end in '\.msg'"):
-        TranslateMsgToIDL().translate("probe", ["srv/B.srv"], [], out)
+        TranslateMsgToIDL("probe2idl").translate("probe", ["srv/B.srv"], [], out)
     with pytest.raises(NotImplementedError):
-        TranslateToIDL().translate("probe", ["srv/B.srv"], [], out)
+        TranslateToIDL("probe2idl").translate("probe", ["srv/B.srv"], [], out)
