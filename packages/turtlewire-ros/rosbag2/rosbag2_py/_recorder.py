@@ -186,6 +186,7 @@ def _record(
         stop,
         node_name=node_name,
         cache_bytes=storage.max_cache_size,
+        cache_ns=storage.max_cache_duration * 1_000_000_000,
         snapshot=storage.snapshot_mode,
         on_start=on_start,
     )

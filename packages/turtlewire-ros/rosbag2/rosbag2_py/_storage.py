@@ -67,6 +67,8 @@ class StorageOptions:
         custom_data: Texts kept in the metadata.
         max_bag_files: The oldest file is removed when there would be more than this number; 0 keeps
             all.
+        max_cache_duration: Seconds that the messages of a snapshot may span; 0 for no limit.
+            Without snapshots it has no effect, because all is written within half a second.
     """
 
     uri: str
@@ -81,6 +83,7 @@ class StorageOptions:
     end_time_ns: int = -1
     custom_data: dict[str, str] = field(default_factory=dict)
     max_bag_files: int = 0
+    max_cache_duration: int = 0
 
 
 @dataclass(slots=True)

@@ -18,6 +18,7 @@ from rosbag2_transport.topic_filter import EVENT_TOPIC, check_patterns
 from turtlewire.bag.metadata import METADATA_FILE
 from turtlewire.bag.recording import Recording
 from turtlewire.bag.times import size_text
+from turtlewire.distro import LYRICAL, since
 from turtlewire.wire.names import validate_node_name, validate_topic_name
 
 if TYPE_CHECKING:
@@ -37,6 +38,7 @@ def record(
     *,
     node_name: str = "rosbag2_recorder",
     cache_bytes: int = 0,
+    cache_ns: int = 0,
     snapshot: bool = False,
     on_start: Callable[[BagRecorder], object] = lambda _recorder: None,
 ) -> None:
@@ -48,6 +50,7 @@ def record(
         stop: Ends the recording.
         node_name: Name of the recorder's node.
         cache_bytes: How many bytes may wait for the disk; 0 for no limit.
+        cache_ns: How long a span of time the messages of a snapshot may have; 0 for no limit.
         snapshot: Whether only snapshots are written.
         on_start: Called with the recorder when it has started.
 
@@ -58,8 +61,12 @@ def record(
     check_patterns(options)
     _check_names(options)
     static = read_static_topics(options.static_topics_uri) if options.static_topics_uri else {}
-    if snapshot and not cache_bytes:
-        raise RuntimeError("Max cache size must be greater than 0 when snapshot mode is enabled")
+    if snapshot and not cache_bytes and not cache_ns:
+        what = "Either the max cache size or the maximum cache duration"
+        raise RuntimeError(
+            f"{what if since(LYRICAL) else 'Max cache size'} must be greater than 0 when snapshot"
+            " mode is enabled"
+        )
     name = options.node_prefix + node_name
     if fault := validate_node_name(name):
         raise RuntimeError(f"'{name}' cannot be the name of a node: {fault.message}")
@@ -70,7 +77,11 @@ def record(
     ):
         writer = make_writer()
         recording = Recording(
-            writer, cache_bytes=cache_bytes, snapshot=snapshot, on_failure=lambda _: stop.put(None)
+            writer,
+            cache_bytes=cache_bytes,
+            cache_ns=cache_ns,
+            snapshot=snapshot,
+            on_failure=lambda _: stop.put(None),
         )
         at_end.callback(_finish, recording, writer)
         recorder = BagRecorder(session.node, recording, options, static)

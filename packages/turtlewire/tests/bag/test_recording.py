@@ -8,6 +8,7 @@ import pytest
 
 from turtlewire.bag import BagWriter
 from turtlewire.bag.recording import Recording
+from turtlewire.errors import BagError
 
 
 class Disk:
@@ -57,6 +58,24 @@ def test_a_topic_may_be_named_for_repetition_again(tmp_path):
         recording.split()
         recording.close()
     assert [file.message_count for file in writer.metadata.files] == [1, 1, 1]
+
+
+@pytest.mark.parametrize(
+    ("cache_bytes", "kept"), [(0, [20, 25, 30]), (100, [20, 25, 30]), (8, [25, 30])]
+)
+def test_a_snapshot_keeps_the_messages_of_a_span(disk, cache_bytes, kept):
+    disk.is_free.set()
+    recording = Recording(disk, cache_bytes=cache_bytes, cache_ns=10, snapshot=True)
+    for stamp in (10, 19, 20, 25, 30):
+        recording.write("/a", b"four", stamp)
+    assert recording.take_snapshot()
+    recording.close()
+    assert [stamp for _, stamp, _ in disk.messages] == kept
+
+
+def test_a_snapshot_needs_a_limit(disk):
+    with pytest.raises(BagError, match="snapshots need a limit"):
+        Recording(disk, cache_bytes=0, snapshot=True)
 
 
 @pytest.mark.parametrize(("last", "lost"), [(b"6bytes", {}), (b"7 bytes", {"/a": 1})])

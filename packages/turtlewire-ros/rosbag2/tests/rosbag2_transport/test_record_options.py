@@ -112,6 +112,7 @@ def test_words_become_options_of_the_recording(words, expected):
         ("-o b -b 5000", {"uri": "b", "max_bagfile_size": 5000}),
         ("-o b -d 5", {"uri": "b", "max_bagfile_duration": 5}),
         ("-o b --max-cache-size 5", {"uri": "b", "max_cache_size": 5}),
+        ("-o b --max-cache-duration 5", {"uri": "b", "max_cache_duration": 5}),
         ("-o b -d 5 --max-bag-files 3", {"max_bagfile_duration": 5, "max_bag_files": 3}),
         ("-o b --snapshot-mode", {"uri": "b", "snapshot_mode": True}),
         ("-o b --custom-data k=v w=x=y", {"uri": "b", "custom_data": {"k": "v", "w": "x=y"}}),

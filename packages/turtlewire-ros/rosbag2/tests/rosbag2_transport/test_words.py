@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -11,6 +14,7 @@ from tests.places import GOLDEN
 import ros2cli.main
 
 SMALL = GOLDEN / "bag" / "p_small"
+REST = "must be greater than 0 when snapshot mode is enabled\n"
 
 
 @pytest.mark.parametrize(
@@ -67,3 +71,26 @@ def test_wrong_words(words, status, answer, tmp_path, monkeypatch, capfd):
         found = end.code
     assert (found, answer in capfd.readouterr().err) == (status, True)
     assert set(Path().iterdir()) == before  # no folder is begun
+
+
+@pytest.mark.parametrize(
+    ("distro", "answer"),
+    [
+        ("kilted", f"Max cache size {REST}"),
+        ("lyrical", f"Either the max cache size or the maximum cache duration {REST}"),
+    ],
+)
+def test_a_snapshot_needs_a_limit(distro, answer, tmp_path):
+    words = ["bag", "record", "--topics", "/a", "--snapshot-mode", "--max-cache-size", "0"]
+    code = f"import sys; from ros2cli.main import main; sys.exit(main({words}))"
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        cwd=tmp_path,
+        env={**os.environ, "ROS_DISTRO": distro},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (1, answer)
+    assert list(tmp_path.iterdir()) == []

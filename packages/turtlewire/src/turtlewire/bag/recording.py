@@ -48,8 +48,9 @@ class Recording:
         writer: The bag. It belongs to this object from now on; topics are added with `add_topic`.
         cache_bytes: How many bytes may wait for the disk; what comes then is lost and counted. 0
             means no limit.
-        snapshot: Whether messages are only kept, the newest ``cache_bytes`` of them, until
-            `take_snapshot` writes them.
+        cache_ns: The span of log times that a snapshot may have; 0 means no limit.
+        snapshot: Whether messages are only kept, the newest within ``cache_bytes`` and
+            ``cache_ns``, until `take_snapshot` writes them.
         on_failure: Called once, on the writing thread, when the bag cannot be written any more.
 
     Attributes:
@@ -65,15 +66,16 @@ class Recording:
         writer: BagWriter,
         *,
         cache_bytes: int = 100 << 20,
+        cache_ns: int = 0,
         snapshot: bool = False,
         on_failure: Callable[[Exception], None] | None = None,
     ) -> None:
-        if snapshot and not cache_bytes:
-            raise BagError("Max cache size must be greater than 0 when snapshot mode is enabled")
+        if snapshot and not cache_bytes and not cache_ns:
+            raise BagError("snapshots need a limit: cache_bytes or cache_ns must be more than 0")
         self.failure: Exception | None = None
         self.lost: dict[str, int] = {}
         self._writer = writer
-        self._cache_bytes = cache_bytes
+        self._cache_bytes, self._cache_ns = cache_bytes, cache_ns
         self._snapshot = snapshot
         self._on_failure = on_failure
         self._messages = self._data_bytes = 0
@@ -110,19 +112,27 @@ class Recording:
         with self._changed:
             self._messages += 1
             self._data_bytes += size
-            full = self._cache_bytes and self._waiting_bytes + size > self._cache_bytes
-            if full and self._snapshot:
-                while self._waiting and self._waiting_bytes + size > self._cache_bytes:
-                    dropped = self._waiting.popleft()
-                    self._waiting_bytes -= len(dropped[1])
-                    self._remember(dropped)
-            elif (full and self._waiting) or self.failure or self._closing:
+            if self._snapshot:
+                self._drop_oldest(size, log_time_ns)
+            elif (self._is_full(size) and self._waiting) or self.failure or self._closing:
                 self.lost[topic] = self.lost.get(topic, 0) + 1
                 return
             self._waiting.append(message)
             self._waiting_bytes += size
             if len(self._waiting) == 1 or self._waiting_bytes >= _BATCH_BYTES:
                 self._changed.notify_all()
+
+    def _is_full(self, size: int) -> bool:
+        return 0 < self._cache_bytes < self._waiting_bytes + size
+
+    def _drop_oldest(self, size: int, now_ns: int) -> None:
+        """Drop messages until a new one fits into the snapshot."""
+        while self._waiting and (
+            self._is_full(size) or 0 < self._cache_ns < now_ns - self._waiting[0][2]
+        ):
+            dropped = self._waiting.popleft()
+            self._waiting_bytes -= len(dropped[1])
+            self._remember(dropped)
 
     def add_topic(self, *args: Any, **options: Any) -> None:
         """Add a topic; see `BagWriter.add_topic`."""
