@@ -1,4 +1,7 @@
-"""User code: every public name of the engine, as mypy must accept it. It is not run."""
+"""User code: every public name of the engine, as mypy must accept it. It is not run.
+
+The last functions use names of ROS 2's Python packages.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +10,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import turtlewire
+from launch.actions import EmitEvent, ExecuteProcess
+from launch.events.process import ProcessStdin
+from launch_ros.actions.node import Node, NodeActionExtension, get_extensions
+from launch_ros.utilities.to_parameters_list import is_node_name_matched
+from rosbag2_py import MessageOrder, Player, PlayOptions, StorageOptions
 from turtlewire import errors, geometry, msg, testing
 from turtlewire.bag import (
     Bag,
@@ -54,9 +62,12 @@ from turtlewire.viewing import Viewer
 from turtlewire.viewing import show as open_view
 
 if TYPE_CHECKING:
+    import logging
     from pathlib import Path
 
     from numpy.typing import NDArray
+
+    from launch import LaunchContext
 
 SECOND = 1_000_000_000
 
@@ -293,3 +304,26 @@ def explain(problem: Exception) -> str:
     ):
         return problem.hint
     return ""
+
+
+class Secured(NodeActionExtension):
+    def prepare_for_execute(
+        self, context: LaunchContext, ros_specific_arguments: dict[str, Any], node_action: Node
+    ) -> tuple[list[Any], dict[str, Any]]:
+        if is_node_name_matched("/robot/*", node_action.node_name):
+            return ["--enclave", context.launch_configurations["enclave"]], ros_specific_arguments
+        return super().prepare_for_execute(context, ros_specific_arguments, node_action)
+
+
+def extended(logger: logging.Logger) -> dict[str, Any]:
+    return get_extensions(logger)
+
+
+def answered(process: ExecuteProcess) -> EmitEvent:
+    details = process.process_details or {}
+    return EmitEvent(event=ProcessStdin(text=b"y\n", action=process, **details))
+
+
+def play(paths: list[str]) -> bool:
+    options = PlayOptions(message_order=MessageOrder.SENT_TIMESTAMP)
+    return Player([StorageOptions(uri=path) for path in paths], options).play()
