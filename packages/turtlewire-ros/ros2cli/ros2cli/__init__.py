@@ -29,5 +29,7 @@ module                             what it holds
 `extension`                        runs extensions of other packages
 `node`                             the rclpy node of verbs, and ROS 2's names of it
 `xmlrpc`                           remote calls on this host
+`daemon`                           answers these calls about the graph
+`background`                       runs a function in a process that stays
 =================================  ========================================================
 """

@@ -78,7 +78,7 @@ def daemonize(
         callable_: The function; it must be possible to pickle it.
         tags: Words for the command line of the process, where a list of processes shows them.
         timeout: Seconds that the process may take until it calls the function.
-        debug: Whether its output appears on stderr; otherwise there is none.
+        debug: Whether its output appears on stderr; otherwise it is discarded.
 
     Raises:
         RuntimeError: The process did not call the function.

@@ -177,7 +177,7 @@ BAGS_TO_PLAY = (
 
 
 def bags_to_play(args: argparse.Namespace) -> list[StorageOptions]:
-    """Return the bags of `BAGS_TO_PLAY`; the program ends with its usage if there is none."""
+    """Return the bags of `BAGS_TO_PLAY`; the program ends with its usage if no bag is given."""
     from rosbag2_py import StorageOptions
 
     found = [StorageOptions(uri=uri, storage_id=storage) for uri, storage in args.input or ()]

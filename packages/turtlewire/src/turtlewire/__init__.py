@@ -18,6 +18,7 @@ module               what it holds
 `path_arguments`     paths that callers pass, and near names of those that are missing
 `platforms`          what this platform can do, and which core is asked for
 `plugins`            entry points that installed packages declare
+`plugin_versions`    versions of the interfaces of extensions
 `program`            how a command ends whose output cannot be written
 `relay`              topics and services carried between two networks
 `terminal`           command lines, keys and text of terminals

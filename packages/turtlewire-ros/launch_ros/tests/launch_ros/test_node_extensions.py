@@ -63,7 +63,7 @@ def test_an_extension_adds_words_and_changes_names(install, launch, monkeypatch,
     assert words in outcome.text
 
 
-def test_those_that_fail_are_left_out(install, caplog):
+def test_extensions_that_fail_are_left_out(install, caplog):
     install(secure="Secure", old="Old", broken="Broken", absent="Absent")
     found = get_extensions(logging.getLogger("test"))
     assert {name: each.NAME for name, each in found.items()} == {"secure": "secure"}

@@ -9,9 +9,9 @@ from ros2action.verb import VerbExtension
 from ros2cli.arguments import argument, exclusive
 from ros2cli.builtin import verb_of_module
 from ros2cli.completion import action_names, action_types, goal_values
+from ros2cli.helpers import unsigned_int as non_negative_int
 from ros2cli.node import NODE_NAME_PREFIX
 from ros2cli.values import read_values, shortened
-from ros2cli.values import unsigned_int as non_negative_int
 from turtlewire.distro import LYRICAL, since
 
 if TYPE_CHECKING:

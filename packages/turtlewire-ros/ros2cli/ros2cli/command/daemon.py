@@ -12,4 +12,4 @@ VERB_GROUP = "ros2cli.daemon.verb"
 
 @command_of_module
 class DaemonCommand(CommandExtension):
-    """Status of the daemon (turtlewire needs none)."""
+    """Start and stop the daemon, which verbs do not need."""

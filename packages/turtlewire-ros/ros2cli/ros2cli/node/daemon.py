@@ -11,11 +11,7 @@ import functools
 import os
 from typing import TYPE_CHECKING, Any
 
-import ros2cli.xmlrpc.marshal.rclpy  # noqa: F401  enters the types of the results
-from ros2cli.background import daemonize
 from ros2cli.helpers import get_ros_domain_id, wait_for
-from ros2cli.node.server import get_xmlrpc_server_url, make_xmlrpc_server, serve_and_close
-from ros2cli.xmlrpc.client import ServerProxy
 
 if TYPE_CHECKING:
     import argparse
@@ -32,15 +28,24 @@ class DaemonNode:
     """
 
     def __init__(self, args: argparse.Namespace | None) -> None:
+        # Here, because modules of extensions import this one only for `add_arguments`.
+        import ros2cli.xmlrpc.marshal.rclpy  # noqa: F401  enters the types of the results
+        from ros2cli.node.server import get_xmlrpc_server_url
+        from ros2cli.xmlrpc.client import ServerProxy
+
         self._args = args
         self._proxy = ServerProxy(get_xmlrpc_server_url(), allow_none=True)
 
     @property
     def connected(self) -> bool:
         """True if the daemon answers."""
+        from http.client import HTTPException
+        from xmlrpc.client import Error
+
         try:
             return bool(self.methods)
-        except ConnectionError:  # or it ends just now
+        # It does not run, ends just now, or another program has its port.
+        except (ConnectionError, HTTPException, Error):
             return False
 
     @property
@@ -78,14 +83,14 @@ def is_daemon_running(args: argparse.Namespace | None) -> bool:
 
 
 def shutdown_daemon(args: argparse.Namespace | None, timeout: float | None = None) -> bool:
-    """Ask the daemon to end; return False if there is none.
+    """Ask the daemon to end; return False if it does not run.
 
     Args:
         args: The command line.
         timeout: Seconds to wait for its end; by default it is not waited for.
 
     Raises:
-        RuntimeError: It still answers after that time.
+        RuntimeError: The daemon still answers after that time.
     """
     with DaemonNode(args) as node:
         if not node.connected:
@@ -112,6 +117,9 @@ def spawn_daemon(
         OSError: The port cannot be opened.
         RuntimeError: The process did not start.
     """
+    from ros2cli.background import daemonize
+    from ros2cli.node.server import make_xmlrpc_server, serve_and_close
+
     try:
         # Here and not in the process: only one of two that are started at once gets the port.
         server = make_xmlrpc_server()

@@ -17,7 +17,7 @@ __all__ = ["NetworkAwareNode", "get_interfaces_ip_addresses"]
 
 
 class NetworkAwareNode:
-    """A `DirectNode` that is made anew if the addresses have changed since the last call.
+    """A `DirectNode` that is replaced if the addresses have changed since the last call.
 
     The middleware binds its sockets to the addresses at the start; a node that is hours old would
     see none of a network that was joined later.
@@ -60,7 +60,7 @@ class NetworkAwareNode:
         return method
 
     def reset_if_addresses_changed(self) -> None:
-        """Make the node anew if the addresses are not those at its start."""
+        """Replace the node if the addresses have changed since it was made."""
         addresses = get_interfaces_ip_addresses()
         if addresses == self._addresses:
             return

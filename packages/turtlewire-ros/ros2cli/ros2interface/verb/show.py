@@ -33,7 +33,7 @@ class ReadStdinPipe(argparse.Action):
         values: str | Sequence[Any] | None,
         option_string: str | None = None,
     ) -> None:
-        """Set the value; the program ends with its usage if there is none on stdin."""
+        """Set the value; the program ends with its usage if stdin has no value."""
         del option_string
         if values == "-":
             if sys.stdin is None or sys.stdin.isatty():

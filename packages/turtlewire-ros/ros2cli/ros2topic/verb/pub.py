@@ -162,7 +162,7 @@ def read_msg_from_yaml(yaml_file: str) -> Iterator[dict[str, Any]]:
     """Yield the values of a message for each document of a YAML file.
 
     Raises:
-        RuntimeError: The file cannot be read, or a document is no mapping.
+        RuntimeError: The file cannot be read, or a document is not a mapping.
         yaml.YAMLError: The file is not YAML.
     """
     try:

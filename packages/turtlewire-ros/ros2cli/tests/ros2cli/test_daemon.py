@@ -12,6 +12,7 @@ import subprocess
 import sys
 import threading
 import xmlrpc.client
+from contextlib import suppress
 
 import pytest
 
@@ -83,7 +84,7 @@ def test_it_answers_as_a_node_does():
 
 
 @pytest.mark.usefixtures("running")
-def test_what_the_daemon_does_not_offer_a_node_does():
+def test_a_node_has_what_the_daemon_does_not_offer():
     with NodeStrategy(None) as strategy:
         assert "get_parameter" not in strategy.daemon_node.methods
         assert strategy.get_parameter("use_sim_time").value is False
@@ -138,6 +139,26 @@ def test_without_it_nobody_answers():
         assert not node.connected
         with pytest.raises(ConnectionRefusedError):
             assert node.methods
+
+
+def test_another_program_has_the_port(capsys):
+    def answer(server):
+        with suppress(OSError):
+            while True:
+                connection, _ = server.accept()
+                with connection:
+                    connection.sendall(b"SSH-2.0-none\r\n")
+
+    with socket.create_server(daemon.get_address()) as server:
+        thread = threading.Thread(target=answer, args=(server,))
+        thread.start()
+        assert not is_daemon_running(None)
+        assert main(["daemon", "start"]) == 1
+        assert "is in use by another program" in capsys.readouterr().err
+        with NodeStrategy(None) as node:
+            assert node.daemon_node is None
+        server.shutdown(socket.SHUT_RDWR)
+        thread.join()
 
 
 def test_the_port_is_that_of_the_domain(monkeypatch):

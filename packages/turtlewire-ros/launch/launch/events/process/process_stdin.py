@@ -10,7 +10,7 @@ __all__ = ["ProcessStdin"]
 
 
 class ProcessStdin(ProcessIO):
-    """Input for a process, which whoever emits the event sends to it.
+    """Input that is sent to a process by emitting this event.
 
     It takes effect if the process reads from a pipe. With ``emulate_tty`` it reads from the
     terminal of the launch, if there is one.

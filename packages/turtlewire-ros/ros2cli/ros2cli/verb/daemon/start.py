@@ -21,12 +21,19 @@ ARGUMENTS = (
 )
 
 
-def main(args: argparse.Namespace) -> None:
-    """Start the daemon."""
-    from ros2cli.node.daemon import spawn_daemon
+def main(args: argparse.Namespace) -> str | None:
+    """Start the daemon; return the text of an error if that is not possible."""
+    from ros2cli.node.daemon import is_daemon_running, spawn_daemon
+    from ros2cli.node.server import get_port
 
     started = spawn_daemon(args, timeout=_START_S, debug=args.debug)
+    if not started and not is_daemon_running(args):
+        return (
+            f"Port {get_port()}, which is the daemon's in this domain, is in use by another "
+            "program: stop it, or choose another ROS_DOMAIN_ID"
+        )
     print("The daemon has been started" if started else "The daemon is already running")
+    return None
 
 
 @verb_of_module

@@ -37,7 +37,7 @@ def dump_any_with_slots(
         marshaller: Writes the attributes.
         value: The value.
         write: Takes the text.
-        transform: Makes names of arguments of the constructor from those of the attributes.
+        transform: Makes the name of an argument of the constructor from that of its attribute.
     """
     names = getattr(value, "__slots__", None) or vars(value)
     attributes = {
