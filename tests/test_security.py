@@ -40,6 +40,10 @@ It refuses requests with another `Host`
   foxglove/test_hostile.py test_a_foreign_name_is_refused_with_one_line
   foxglove/test_hostile.py test_other_pages_are_refused_with_one_line
   foxglove/test_hostile.py test_pages_of_foxglove_and_of_this_machine_connect
+The daemon of `ros2 daemon start` listens on loopback only
+  ros2cli/test_daemon.py test_any_program_may_ask_but_no_web_page
+  ros2cli/test_daemon.py test_the_port_is_that_of_the_domain
+  ros2cli/test_api.py test_only_this_host_may_call
 `scripts/docs --serve` and `scripts/lesson --serve`
   site/test_static_server.py test_foreign_names_and_pages_are_refused
 They list no folders
