@@ -46,6 +46,6 @@ def __getattr__(name: str) -> Any:
     """Load `LifecycleEventManager` on first use: its module imports this package."""
     if name != "LifecycleEventManager":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from importlib import import_module
+    from launch_ros.utilities import lifecycle_event_manager
 
-    return import_module("launch_ros._node.lifecycle_event_manager").LifecycleEventManager
+    return lifecycle_event_manager.LifecycleEventManager

@@ -259,3 +259,15 @@ def test_a_timer_waits_for_simulated_time(launch):
 )
 def test_names_of_nodes_in_parameter_files(pattern, matches):
     assert is_node_name_matched(pattern, "/robot/arm/talker") is matches
+
+
+def test_the_manager_of_managed_nodes_has_ros_2_s_module():
+    from launch_ros import utilities
+    from launch_ros.utilities import lifecycle_event_manager
+
+    manager = utilities.LifecycleEventManager(Node(executable="e"))
+    assert type(manager) is lifecycle_event_manager.LifecycleEventManager
+    assert manager.node_name is None
+    for module in (utilities, lifecycle_event_manager):
+        with pytest.raises(AttributeError, match="has no attribute 'nothing'"):
+            module.nothing  # noqa: B018  it is read

@@ -18,6 +18,7 @@ from ros2topic.verb import VerbExtension
 
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Iterable, Sequence
 
     from ros2cli.graph import NamesAndTypes
     from turtlewire.wire.base import Graph
@@ -51,16 +52,17 @@ def main(args: argparse.Namespace) -> None:
 def _print_verbose(graph: Graph, found: NamesAndTypes) -> None:
     from ros2cli.graph import endpoints_of_topic
 
-    for title, kind, word in (
-        ("Published", "publisher", "publisher"),
-        ("Subscribed", "subscription", "subscriber"),
-    ):
-        print(f"{title} topics:")
-        for name, types in found:
-            count = len(endpoints_of_topic(graph, name, kind))
-            if count:
-                print(f" * {name} [{', '.join(types)}] {count} {word}{'' if count == 1 else 's'}")
-        print()
+    info = [
+        (
+            name,
+            types,
+            len(endpoints_of_topic(graph, name, "publisher")),
+            len(endpoints_of_topic(graph, name, "subscription")),
+        )
+        for name, types in found
+    ]
+    for is_publisher in (True, False):
+        print(ListVerb.show_topic_info(info, is_publisher))
 
 
 def _print_verbose_json(graph: Graph, found: NamesAndTypes) -> None:
@@ -80,3 +82,22 @@ def _print_verbose_json(graph: Graph, found: NamesAndTypes) -> None:
 @verb_of_module
 class ListVerb(VerbExtension):
     """List the topics."""
+
+    @staticmethod
+    def show_topic_info(
+        topic_info: Iterable[tuple[str, Sequence[str], int, int]], is_publisher: bool
+    ) -> str:
+        """Return a line for each topic that is published, or subscribed to, below a title.
+
+        Args:
+            topic_info: Names and types of topics, and how many publish them and subscribe to them.
+            is_publisher: Whether the publishers are meant.
+        """
+        title, word = ("Published", "publisher") if is_publisher else ("Subscribed", "subscriber")
+        lines = [f"{title} topics:"]
+        for name, types, publishers, subscribers in topic_info:
+            count = publishers if is_publisher else subscribers
+            if count:
+                plural = "" if count == 1 else "s"
+                lines.append(f" * {name} [{', '.join(types)}] {count} {word}{plural}")
+        return "".join(f"{line}\n" for line in lines)

@@ -8,11 +8,13 @@ import io
 import pytest
 
 from ros2bag import api as bag
+from ros2bag.verb.play import PlayVerb
 from ros2interface.verb.show import ReadStdinPipe
 from ros2launch import api as launch
 from ros2launch.api.api import get_launch_file_paths, parse_launch_arguments
 from ros2pkg import api as pkg
 from ros2run import api as run
+from ros2topic.verb.list import ListVerb
 from ros2topic.verb.pub import read_msg_from_yaml
 
 
@@ -95,3 +97,20 @@ def test_an_argument_is_read_from_stdin(monkeypatch, capsys):
         with pytest.raises(SystemExit):
             parser.parse_args(["-"])
         assert error in capsys.readouterr().err
+
+
+def test_topics_as_a_verbose_list():
+    info = [("/a", ["x/msg/A"], 1, 0), ("/b", ["x/msg/A", "x/msg/B"], 2, 3)]
+    assert ListVerb.show_topic_info(info, True) == (
+        "Published topics:\n * /a [x/msg/A] 1 publisher\n * /b [x/msg/A, x/msg/B] 2 publishers\n"
+    )
+    assert ListVerb.show_topic_info(info, False) == (
+        "Subscribed topics:\n * /b [x/msg/A, x/msg/B] 3 subscribers\n"
+    )
+
+
+def test_a_playback_ends_at_the_time_in_seconds_or_nanoseconds():
+    until = PlayVerb().get_playback_until_from_arg_group
+    assert until(1.5, -1) == 1_500_000_000
+    assert until(-1.0, 7) == 7
+    assert until(-1.0, -1) == -1

@@ -222,9 +222,6 @@ def main(args: argparse.Namespace) -> None:
 def _play_options(args: argparse.Namespace) -> PlayOptions:
     from rosbag2_py import MessageOrder, PlayOptions, ServiceRequestsSource
 
-    until_ns = args.playback_until_nsec
-    if args.playback_until_sec >= 0:
-        until_ns = int(args.playback_until_sec * 1_000_000_000)
     return PlayOptions(
         read_ahead_queue_size=args.read_ahead_queue_size,
         rate=args.rate,
@@ -245,7 +242,9 @@ def _play_options(args: argparse.Namespace) -> PlayOptions:
         clock_trigger_topics=args.clock_topics,
         delay=args.delay,
         playback_duration=args.playback_duration,
-        playback_until_timestamp=until_ns,
+        playback_until_timestamp=PlayVerb().get_playback_until_from_arg_group(
+            args.playback_until_sec, args.playback_until_nsec
+        ),
         start_paused=args.start_paused,
         start_offset=args.start_offset,
         disable_keyboard_controls=args.disable_keyboard_controls,
@@ -261,3 +260,11 @@ def _play_options(args: argparse.Namespace) -> PlayOptions:
 @verb_of_module
 class PlayVerb(VerbExtension):
     """Publish the messages of a bag at their times."""
+
+    def get_playback_until_from_arg_group(
+        self, playback_until_sec: float, playback_until_nsec: int
+    ) -> int:
+        """Return the time of the bag at which to end [ns]; negative for its end."""
+        if playback_until_sec >= 0:
+            return int(playback_until_sec * 1_000_000_000)
+        return playback_until_nsec
