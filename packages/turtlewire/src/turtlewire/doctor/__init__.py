@@ -16,6 +16,7 @@ module               what it holds
 `tf_findings`        checks of the published transforms
 `tf_gaps`            transforms that are missing from a rhythm
 `tf_traffic`         who published which transforms during the checks
+`discovery`          waits for the graph
 `network`            sockets of other domains, and multicast
 ===================  ============================================================
 """

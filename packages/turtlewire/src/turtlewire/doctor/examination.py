@@ -9,11 +9,12 @@ import time
 from contextlib import nullcontext
 from typing import TYPE_CHECKING
 
+from turtlewire.doctor.discovery import wait_for_graph
 from turtlewire.doctor.fast_dds_findings import fast_dds_environment, out_of_reach
 from turtlewire.doctor.fast_dds_search import FastDdsSearch
 from turtlewire.doctor.finding import Finding, problem
 from turtlewire.doctor.graph_findings import graph_findings
-from turtlewire.doctor.setup_findings import looks_for_others, network_findings, setup_findings
+from turtlewire.doctor.setup_findings import network_findings, setup_findings
 from turtlewire.doctor.shared_memory import sharing_processes
 from turtlewire.doctor.tf_findings import tf_findings
 from turtlewire.doctor.tf_traffic import TfListener, tf_publishers
@@ -29,8 +30,6 @@ if TYPE_CHECKING:
 __all__ = ["as_json", "examine", "full_report", "report"]
 
 _LISTEN_S = 2.0
-_DISCOVERY_LIMIT_NS = 2_000_000_000
-_OTHER_HOSTS_NS = 500_000_000  # as long as ROS 2's own tools wait for other hosts
 
 
 def examine(listen_s: float | None = None) -> list[Finding]:
@@ -53,10 +52,7 @@ def examine(listen_s: float | None = None) -> list[Finding]:
         context.create_node("_turtlewire_doctor")
         listener = TfListener(context)
         with _fast_dds_search(context.domain_id) as search:
-            graph.hurry()
-            if looks_for_others():
-                graph.wait_for(lambda: False, _OTHER_HOSTS_NS)
-            graph.wait_for(graph.is_complete, _DISCOVERY_LIMIT_NS)
+            wait_for_graph(graph)
             if listen_s is None:
                 _listen(listener, graph)
             elif tf_publishers(graph):

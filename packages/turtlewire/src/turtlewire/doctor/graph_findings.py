@@ -10,16 +10,15 @@ from turtlewire.doctor.fast_dds_findings import fast_dds_findings
 from turtlewire.doctor.finding import Finding, note, problem
 from turtlewire.doctor.network import other_domains
 from turtlewire.doctor.setup_findings import looks_for_others, only_this_host
-from turtlewire.wire.environment import compares_qos, discovery, domain_id
+from turtlewire.wire.environment import discovery, domain_id
+from turtlewire.wire.matching import obstacles
 from turtlewire.wire.names import fully_qualified_node_name, is_hidden
-from turtlewire.wire.qos import Durability, Reliability
 from turtlewire.wire.services import ONE_MIDDLEWARE, advice
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from turtlewire.wire.base import EndpointInfo, ForeignServer, Graph
-    from turtlewire.wire.qos import QoS
 
 __all__ = ["graph_findings", "owner_of"]
 
@@ -118,31 +117,8 @@ def _topic_findings(topic: str, endpoints: list[EndpointInfo]) -> list[Finding]:
     found = []
     for publisher in (end for end in endpoints if end.kind == "publisher"):
         for subscription in (end for end in endpoints if end.kind == "subscription"):
-            reason = _mismatch(publisher, subscription)
-            if reason:
+            for obstacle in obstacles(publisher, subscription)[:1]:
                 receiver, sender = owner_of(subscription), owner_of(publisher)
-                text = f"{topic}: {receiver} receives nothing from {sender}: {reason}."
+                text = f"{topic}: {receiver} receives nothing from {sender}: {obstacle.reason}."
                 found.append(problem(text, _ONE_QOS))
     return found
-
-
-def _mismatch(publisher: EndpointInfo, subscription: EndpointInfo) -> str:
-    """Return why the middleware does not connect the two endpoints; empty if it does."""
-    hashes = {publisher.type_hash, subscription.type_hash} - {""}
-    return (compares_qos() and _qos_mismatch(publisher.qos, subscription.qos)) or (
-        "their definitions of the type differ" if len(hashes) > 1 else ""
-    )
-
-
-def _qos_mismatch(offered: QoS, requested: QoS) -> str:
-    if (offered.reliability, requested.reliability) == (
-        Reliability.BEST_EFFORT,
-        Reliability.RELIABLE,
-    ):
-        return "it requests RELIABLE, but the publisher offers BEST_EFFORT"
-    if (offered.durability, requested.durability) == (
-        Durability.VOLATILE,
-        Durability.TRANSIENT_LOCAL,
-    ):
-        return "it requests TRANSIENT_LOCAL, but the publisher offers VOLATILE"
-    return ""

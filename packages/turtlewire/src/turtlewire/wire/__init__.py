@@ -15,6 +15,7 @@ module            what it holds
 `lingering`       whether the end waits for acknowledgements
 `loopback`        binds sockets to the loopback interface
 `graph`           what the graphs of all middlewares share; ``ros_discovery_info``
+`matching`        why a publisher and a subscription are not connected
 `conflicts`       two types on one topic or service, two nodes of one name
 `encapsulation`   the four bytes in front of every serialized message
 `events`          counters of endpoints' events
