@@ -1,8 +1,8 @@
 // The list of displays with their options, and the topics that can be added.
 
-import { byId, setText } from "../kit/dom.js";
+import { byId, make, setText } from "../kit/dom.js";
 import { byName } from "../kit/names.js";
-import { make, offer, setLine } from "./dom.js";
+import { offer, setLine } from "./dom.js";
 import { ItemList } from "./item_list.js";
 import { optionControl } from "./option_controls.js";
 

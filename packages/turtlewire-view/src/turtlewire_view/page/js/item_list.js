@@ -1,7 +1,7 @@
 // Check boxes for the named things of a display: namespaces of markers, links of a robot.
 
+import { make } from "../kit/dom.js";
 import { byName } from "../kit/names.js";
-import { make } from "./dom.js";
 
 export class ItemList {
   element = make("div", { className: "items" });

@@ -1,6 +1,6 @@
 // A control for an option of a display, by the option's type.
 
-import { make } from "./dom.js";
+import { make } from "../kit/dom.js";
 
 const MAKERS = {
   bool: (value, changed) => {

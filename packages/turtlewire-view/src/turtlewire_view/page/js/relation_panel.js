@@ -1,8 +1,8 @@
 // Where one frame is as another sees it: the sentence, the numbers, or why there is no answer.
 
-import { byId, setText } from "../kit/dom.js";
+import { byId, make, setFacts, setText } from "../kit/dom.js";
 import { byName } from "../kit/names.js";
-import { make, offer, setFacts, setLine } from "./dom.js";
+import { offer, setLine } from "./dom.js";
 import {
   ageInWords, delayInWords, fixed, isNumber, numbersInWords, publisherInWords, rateInWords,
 } from "./words.js";

@@ -1,11 +1,10 @@
 // Tools on the picture: measure, publish a point, a pose estimate or a goal, as RViz has them.
 
-import { byId } from "../kit/dom.js";
+import { byId, make } from "../kit/dom.js";
 import { Group, Plane, Quaternion, Raycaster, Vector2, Vector3 } from "three";
 import { clear } from "./displays/parts/common.js";
 import { makeRibbons } from "./displays/parts/ribbons.js";
 import { makeArrows, makeBody } from "./displays/parts/solids.js";
-import { make } from "./dom.js";
 
 const TOOLS = [
   {

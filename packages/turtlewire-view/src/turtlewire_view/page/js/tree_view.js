@@ -1,7 +1,6 @@
 // The tree of frames as rows; only those in sight are elements.
 
-import { byId, setText } from "../kit/dom.js";
-import { make } from "./dom.js";
+import { byId, make, setText } from "../kit/dom.js";
 import { TreeModel } from "./tree_model.js";
 import { kindOf, readingInWords } from "./words.js";
 
