@@ -8,12 +8,12 @@ import sys
 __all__ = ["equivalent", "main"]
 
 _EQUIVALENTS = {
-    "rqt": "turtlewire view (frames, robots, images), turtlewire foxglove (plots, logs, topics)",
+    "rqt": "turtlewire graph (nodes, topics), turtlewire view (frames, robots, images), turtlewire "
+    "foxglove (plots, logs)",
     "rqt_action": "ros2 action list -t",
     "rqt_bag": "turtlewire view BAG, or ros2 bag info BAG",
     "rqt_console": "ros2 topic echo /rosout, or the Log panel of turtlewire foxglove",
-    "rqt_graph": "ros2 node list and ros2 node info NODE, or the Topic Graph panel of turtlewire "
-    "foxglove",
+    "rqt_graph": "turtlewire graph, or turtlewire graph --save graph.svg",
     "rqt_image_view": "turtlewire view: press Add and choose the image's topic",
     "rqt_logger_level": "ros2 param and --ros-args --log-level NODE:=debug",
     "rqt_msg": "ros2 interface show TYPE",

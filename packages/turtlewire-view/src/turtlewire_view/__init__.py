@@ -36,6 +36,8 @@ module              what it holds
 `tools`             what Publish Point, 2D Pose Estimate and 2D Goal Pose publish
 `showing`           ``turtlewire.show``
 `view_command`      ``turtlewire view``
+`graph`             the page of nodes and topics, and its files
+`graph_command`     ``turtlewire graph``
 `foxglove`          the server of Foxglove's protocol: topics for Foxglove and Lichtblick
 `foxglove_command`  ``turtlewire foxglove``
 ==================  =============================================================================

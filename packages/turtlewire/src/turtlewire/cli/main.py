@@ -27,6 +27,7 @@ _COMMANDS = "turtlewire.commands"
 _DISTRIBUTIONS = {
     "class": "turtlewire-class",
     "foxglove": "turtlewire-view",
+    "graph": "turtlewire-view",
     "view": "turtlewire-view",
 }
 #: What to type instead of words that are not commands.

@@ -9,7 +9,7 @@ from xml.sax.saxutils import escape
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["circle", "document", "line", "polyline", "rectangle", "text"]
+__all__ = ["circle", "document", "line", "path", "polyline", "rectangle", "text"]
 
 _NOT_IN_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
@@ -51,6 +51,12 @@ def polyline(
     )
 
 
+def path(way: str, colour: str, width: float, *, title: str = "") -> str:
+    """Return a line along a way in SVG's notation, with a title that browsers show beside it."""
+    tip = f"<title>{_escaped(title)}</title>" if title else ""
+    return f'<path d="{way}" fill="none" stroke="{colour}" stroke-width="{width:g}">{tip}</path>'
+
+
 def circle(x: float, y: float, radius: float, style: str) -> str:
     """Return a circle."""
     return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{radius:g}"{style}/>'
@@ -58,7 +64,11 @@ def circle(x: float, y: float, radius: float, style: str) -> str:
 
 def text(x: float, y: float, content: str, size: float, colour: str, style: str = "") -> str:
     """Return one line of text; characters that XML forbids are replaced."""
-    shown = escape(_NOT_IN_XML.sub("\N{REPLACEMENT CHARACTER}", content))
     return (
-        f'<text x="{x:.1f}" y="{y:.1f}" font-size="{size:g}" fill="{colour}"{style}>{shown}</text>'
+        f'<text x="{x:.1f}" y="{y:.1f}" font-size="{size:g}" fill="{colour}"{style}>'
+        f"{_escaped(content)}</text>"
     )
+
+
+def _escaped(content: str) -> str:
+    return escape(_NOT_IN_XML.sub("\N{REPLACEMENT CHARACTER}", content))

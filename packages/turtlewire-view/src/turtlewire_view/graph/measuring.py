@@ -1,0 +1,181 @@
+"""Rates and values of topics: subscriptions that exist only while a page asks for them.
+
+They are best effort and volatile and keep few messages, so that no publisher waits for them. The
+bytes of messages are counted, and only those of the newest one are decoded, at the pace of the
+page.
+"""
+
+from __future__ import annotations
+
+import json
+import threading
+import time
+from collections import deque
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from turtlewire import msg
+from turtlewire.errors import TurtlewireError
+from turtlewire.msg.json_values import json_value
+from turtlewire.wire.base import TypeId
+from turtlewire.wire.qos import Durability, QoS, Reliability
+
+if TYPE_CHECKING:
+    from turtlewire.wire.base import Graph, MessageInfo, Node, Subscription
+
+__all__ = ["Measuring", "Reading"]
+
+_QOS = QoS(depth=10, reliability=Reliability.BEST_EFFORT)
+_WINDOW_NS = 5 * 10**9
+#: Rates are of at most so many messages, and of at least so many, however old they are.
+_MOST, _FEWEST = 5_000, 2
+#: Larger messages, such as images, are not shown.
+_LARGEST = 20_000
+_LATCHED = (
+    "The publisher keeps its last messages for late subscribers. This page subscribes as best "
+    "effort and does not get them; ros2 topic echo --once shows them."
+)
+
+
+class Reading(NamedTuple):
+    """What is known of a topic that is measured.
+
+    Attributes:
+        rate: Messages a second [Hz]; None before the second one.
+        bandwidth: Bytes a second; likewise.
+        age: How long ago the last message arrived [s]; None without one.
+        value: The last message as lines of text; empty without one.
+        note: Why something is missing.
+    """
+
+    rate: float | None
+    bandwidth: float | None
+    age: float | None
+    value: str
+    note: str
+
+
+class Measuring:
+    """Subscribes to the topics that are asked for. For one thread.
+
+    Args:
+        graph: Knows the publishers and their types.
+        node: Owns the subscriptions.
+    """
+
+    def __init__(self, graph: Graph, node: Node) -> None:
+        self._graph = graph
+        self._node = node
+        self._topics: dict[str, _MeasuredTopic] = {}
+
+    def follow(self, topics: set[str]) -> None:
+        """Measure these topics, with the types that their publishers have now, and no others."""
+        for topic in [name for name in self._topics if name not in topics]:
+            self._topics.pop(topic).close()
+        for topic in topics:
+            publishers = self._graph.endpoints_of(topic, "publisher")
+            kinds = {TypeId(each.type_name, each.type_hash): each.qos for each in publishers}
+            measured = self._topics.get(topic)
+            if measured is not None and (measured.type_id in kinds or not kinds):
+                continue
+            if measured is not None:
+                measured.close()
+            kind = min(kinds, default=None)
+            latched = kind is not None and kinds[kind].durability == Durability.TRANSIENT_LOCAL
+            self._topics[topic] = _MeasuredTopic(self._node, topic, kind, is_latched=latched)
+
+    def readings(self) -> dict[str, dict[str, Any]]:
+        """Return the readings of all topics, for ``json.dumps``."""
+        return {name: topic.read()._asdict() for name, topic in sorted(self._topics.items())}
+
+    def close(self) -> None:
+        """End all subscriptions."""
+        self.follow(set())
+
+
+class _MeasuredTopic:
+    """A subscription, and what it received."""
+
+    def __init__(self, node: Node, topic: str, type_id: TypeId | None, *, is_latched: bool) -> None:
+        self.type_id = type_id
+        self._is_latched = is_latched
+        self._lock = threading.Lock()  # of the next two
+        self._arrivals: deque[tuple[int, int]] = deque(maxlen=_MOST)  # time and size
+        self._last = b""
+        self._shown: tuple[bytes, str, str] = (b"", "", "")
+        self._problem = ""
+        self._subscription: Subscription | None = None
+        if type_id is None:
+            return
+        try:
+            known = type_id if type_id.type_hash else _with_hash(type_id.name)
+            self._subscription = node.create_subscription(topic, known, _QOS, self._take)
+        except TurtlewireError as error:
+            self._problem = str(error)
+
+    def close(self) -> None:
+        if self._subscription is not None:
+            self._subscription.close()
+
+    def read(self) -> Reading:
+        now_ns = time.time_ns()
+        with self._lock:
+            while len(self._arrivals) > _FEWEST and self._arrivals[0][0] < now_ns - _WINDOW_NS:
+                self._arrivals.popleft()
+            arrivals, last = list(self._arrivals), self._last
+        if not arrivals:
+            note = self._problem or (_LATCHED if self._is_latched else "No message yet.")
+            if self.type_id is None:
+                note = "No node publishes this topic."
+            return Reading(None, None, None, "", note)
+        age_s = max(0.0, (now_ns - arrivals[-1][0]) / 1e9)
+        value, note = self._text_of(last)
+        span_s = (arrivals[-1][0] - arrivals[0][0]) / 1e9
+        if span_s <= 0.0:
+            return Reading(None, None, age_s, value, note)
+        # A topic that has become silent slows down instead of keeping its last rate.
+        count = len(arrivals) - 1
+        span_s = max(span_s, span_s + age_s - 2 * span_s / count)
+        size = sum(size for _, size in arrivals[1:])
+        return Reading(count / span_s, size / span_s, age_s, value, note)
+
+    def _take(self, cdr: bytes, info: MessageInfo) -> None:
+        """On the wire's thread."""
+        with self._lock:
+            self._arrivals.append((info.received_timestamp_ns, len(cdr)))
+            self._last = cdr
+
+    def _text_of(self, last: bytes) -> tuple[str, str]:
+        """Return the text of the last message, and why there is none."""
+        if last is not self._shown[0]:
+            self._shown = (last, *self._decoded(last))
+        return self._shown[1:]
+
+    def _decoded(self, cdr: bytes) -> tuple[str, str]:
+        if len(cdr) > _LARGEST:
+            return "", f"The message has {len(cdr):,} bytes, too many to show here."
+        assert self.type_id is not None
+        try:
+            message = msg.deserialize(self.type_id.name, cdr)
+        except TurtlewireError as error:
+            return "", f"The message cannot be shown: {error}"
+        return "\n".join(_lines(json_value(message), "")), ""
+
+
+def _with_hash(type_name: str) -> TypeId:
+    return TypeId(type_name, msg.type_hash(type_name))
+
+
+def _lines(value: Any, indent: str) -> list[str]:
+    """Return a message as indented lines, much as ``ros2 topic echo`` prints it."""
+    lines = []
+    items = value.items() if isinstance(value, dict) else (("-", item) for item in value)
+    for name, item in items:
+        head = f"{indent}{name}" if isinstance(value, list) else f"{indent}{name}:"
+        is_nested = isinstance(item, dict) or (
+            isinstance(item, list) and any(isinstance(each, dict) for each in item)
+        )
+        if is_nested and item:
+            lines += [head, *_lines(item, indent + "  ")]
+        else:
+            lines.append(f"{head} {json.dumps(item, ensure_ascii=False)}")
+    return lines

@@ -1,0 +1,113 @@
+// The selected node or topic: its endpoints with their QoS, mismatches, rate and last message.
+
+import { byId, make, setFacts, setText } from "../kit/dom.js";
+import { keyOf, partsOf } from "./graph_model.js";
+import { bandwidthInWords, qosInWords, rateInWords } from "./words.js";
+
+export class Details {
+  #model;
+  #actions;
+  #key = "";
+  #shape = "";
+  #facts = make("dl");
+  #note = make("p", { className: "note" });
+  #value = make("pre", { tabIndex: 0 });
+
+  /** `actions`: choose(key), pin(topic), isPinned(topic). */
+  constructor(model, actions) {
+    this.#model = model;
+    this.#actions = actions;
+    this.#value.setAttribute("aria-label", "Last message");
+  }
+
+  /** Show a node or topic; "" for none. */
+  show(key) {
+    const [kind, name] = partsOf(key);
+    const parts = key ? (kind === "topic" ? this.#topic(name) : this.#node(name)) : [];
+    const isPinned = key && this.#actions.isPinned(name);
+    const shape = JSON.stringify([key, parts.map(({ outerHTML }) => outerHTML), isPinned]);
+    if (shape === this.#shape) return; // what has the focus keeps it
+    this.#shape = shape;
+    byId("help").hidden = Boolean(key);
+    byId("selected").hidden = !key;
+    if (key !== this.#key) this.showReading(null);
+    this.#key = key;
+    byId("selected").replaceChildren(...parts);
+  }
+
+  /** The server's reading of the selected topic, or null. */
+  showReading(reading) {
+    const { rate, bandwidth, age } = reading ?? {};
+    setFacts(this.#facts, [
+      ["rate", reading ? (rate === null ? "–" : rateInWords(rate)) : "…"],
+      ["bandwidth", reading ? (bandwidth === null ? "–" : bandwidthInWords(bandwidth)) : "…"],
+      ["last message", age > 2 ? `${age.toFixed(0)} s ago` : null],
+    ]);
+    setText(this.#note, reading?.note ?? "");
+    this.#note.hidden = !reading?.note;
+    setText(this.#value, reading?.value ?? "");
+    this.#value.hidden = !reading?.value;
+  }
+
+  #topic(name) {
+    const topic = this.#model.graph.topics.find((each) => each.topic === name);
+    const types = make("p", { className: "types" }, ...(topic?.types ?? ["gone"]).map((type) => {
+      return make("code", { textContent: type });
+    }));
+    const isPinned = this.#actions.isPinned(name);
+    const pin = make("button", { type: "button", id: "pin", textContent: "Keep rate" });
+    pin.title = "Show the rate in the picture also when something else is selected";
+    pin.setAttribute("aria-pressed", String(isPinned));
+    pin.onclick = () => this.#actions.pin(name);
+    const head = make("p", { className: "title" }, make("b", { textContent: name }), pin);
+    const live = make("div", {}, this.#facts, this.#note, this.#value);
+    return [
+      head, types, ...this.#problems("topic", name), live,
+      ...this.#endpoints("Publishers", "topic", name, "publisher"),
+      ...this.#endpoints("Subscriptions", "topic", name, "subscription"),
+    ];
+  }
+
+  #node(name) {
+    const box = this.#model.box(keyOf("node", name));
+    const note = box?.note ?? "This node is gone.";
+    const head = make("p", { className: "title" }, make("b", { textContent: name }));
+    return [
+      head, ...(note ? [make("p", { className: "bad", textContent: `${note}.` })] : []),
+      ...this.#problems("node", name),
+      ...this.#endpoints("Publishes", "node", name, "publisher"),
+      ...this.#endpoints("Subscribes to", "node", name, "subscription"),
+    ];
+  }
+
+  #problems(kind, name) {
+    return this.#model.mismatches(kind, name).map((each) => {
+      return make("p", { className: "bad", textContent: mismatchInWords(each) });
+    });
+  }
+
+  #endpoints(title, kind, name, side) {
+    const ends = this.#model.endpoints(kind, name, side);
+    const other = kind === "topic" ? "node" : "topic";
+    const rows = ends.map((end) => {
+      const text = end[other] ?? "(unknown node)";
+      const button = make("button", { type: "button", className: "link", textContent: text });
+      button.onclick = () => this.#actions.choose(keyOf(other, text));
+      return make("li", {}, button, make("small", { textContent: qosInWords(end.qos) }));
+    });
+    const none = make("p", { className: "note", textContent: "none" });
+    return [make("h3", { textContent: title }), rows.length ? make("ul", {}, ...rows) : none];
+  }
+}
+
+/** The sentence about endpoints that do not connect. */
+export function mismatchInWords({ topic, reason, publishers, subscriptions }) {
+  const [senders, receivers] = [publishers, subscriptions].map(namesInWords);
+  const verb = subscriptions.length > 1 ? "receive" : "receives";
+  return `${topic}: ${receivers} ${verb} nothing from ${senders}: ${reason}.`;
+}
+
+function namesInWords(names) {
+  const shown = names.slice(0, 3).map((name) => name ?? "an unknown node").join(", ");
+  return names.length > 3 ? `${shown} and ${names.length - 3} more` : shown;
+}

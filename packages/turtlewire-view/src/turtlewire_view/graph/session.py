@@ -1,0 +1,96 @@
+"""One page of the graph: what it asks for, and what it does not have yet."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any, Protocol
+
+from turtlewire.web import CommandSession
+from turtlewire.web.commands import CommandError
+from turtlewire_view.graph import page_commands
+from turtlewire_view.graph.selection import TOPICS, Selection
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["GraphHost", "GraphSession"]
+
+#: Each topic that is measured is a subscription, which the robot's network has to serve.
+_MOST_TOPICS = 16
+
+
+class GraphHost(Protocol):
+    """What a session needs; it is :class:`turtlewire_view.graph.graph_page.GraphPage`."""
+
+    selection: Selection
+
+    def ask(self) -> None:
+        """Wake the thread that draws and measures: a page asked for something else."""
+        ...
+
+    def forget(self, session: GraphSession) -> None:
+        """A page is gone."""
+        ...
+
+
+class GraphSession(CommandSession):
+    """The server's thread calls all methods but `show` and `show_readings`.
+
+    Attributes:
+        selection: What the page shows.
+        topics: What it measures. Both are replaced, never changed: another thread reads them.
+    """
+
+    def __init__(self, host: GraphHost, name: str) -> None:
+        super().__init__(page_commands.READER)
+        self._host = host
+        self.selection = host.selection
+        self.topics: frozenset[str] = frozenset()
+        self._shown = self._sent = self._readings = self._sent_readings = ""
+        self._actions: dict[type, Callable[[Any], None]] = {
+            page_commands.ShowGraph: self._select,
+            page_commands.MeasureTopics: self._measure,
+        }
+        self.answer({"type": "hello", "source": name, "selection": self.selection._asdict()})
+
+    def show(self, message: str) -> None:
+        """Take a graph; for any thread."""
+        self._shown = message
+
+    def show_readings(self, readings: dict[str, dict[str, Any]]) -> None:
+        """Take the readings of all topics; for any thread."""
+        own = {topic: reading for topic, reading in readings.items() if topic in self.topics}
+        self._readings = json.dumps({"type": "readings", "topics": own})
+
+    def news(self) -> list[str | bytes]:
+        """Return what the page does not have yet."""
+        news: list[str | bytes] = []
+        shown, readings = self._shown, self._readings
+        if shown != self._sent:
+            self._sent = shown
+            news.append(shown)
+        if readings != self._sent_readings:
+            self._sent_readings = readings
+            news.append(readings)
+        return news
+
+    def obey(self, command: Any) -> None:
+        """Carry out a command."""
+        self._actions[type(command)](command)
+        self._host.ask()
+
+    def closed(self) -> None:
+        """The page is gone."""
+        self._host.forget(self)
+
+    def _select(self, command: page_commands.ShowGraph) -> None:
+        if command.topics not in TOPICS:
+            raise CommandError(f"topics is one of {', '.join(TOPICS)}, not {command.topics!r}")
+        self.selection = Selection(*command)
+
+    def _measure(self, command: page_commands.MeasureTopics) -> None:
+        if not all(isinstance(each, str) and each.startswith("/") for each in command.topics):
+            raise CommandError("topics is a list of the names of topics")
+        if len(command.topics) > _MOST_TOPICS:
+            raise CommandError(f"A page measures at most {_MOST_TOPICS} topics.")
+        self.topics = frozenset(command.topics)

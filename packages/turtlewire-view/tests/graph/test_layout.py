@@ -1,0 +1,133 @@
+"""The places of boxes and the ways of arrows."""
+
+from __future__ import annotations
+
+import itertools
+import re
+
+import pytest
+
+from turtlewire_view.graph.diagram import Arrow, Box, Diagram, make_diagram
+from turtlewire_view.graph.layers import make_layers
+from turtlewire_view.graph.layout import make_layout
+from turtlewire_view.graph.selection import Selection, select
+
+from .pictures import KnownGraph, large, robot
+
+
+def placed(graph, topics="all"):
+    picture = select(graph.picture(), Selection(topics))
+    diagram = make_diagram(picture, with_topics=topics != "none")
+    return diagram, make_layout(diagram)
+
+
+def overlaps(layout):
+    """Pairs of boxes that share a point, found in the order of their left ends."""
+    boxes = sorted(layout.boxes)
+    found = []
+    for n, one in enumerate(boxes):
+        for other in itertools.takewhile(lambda box: box.x < one.x + one.width, boxes[n + 1 :]):  # noqa: B023
+            if one.y < other.y + other.height and other.y < one.y + one.height:
+                found.append((one.label, other.label))
+    return found
+
+
+def ends(way):
+    """The points where a way begins and ends: the first, and the tip of the head."""
+    numbers = [float(number) for number in re.findall(r"-?\d+", way.path)]
+    return numbers[:2], numbers[-4:-2]
+
+
+def test_messages_flow_from_left_to_right():
+    diagram, layout = placed(KnownGraph().node("/a", ["/t"]).node("/b", ["/u"], ["/t"]))
+    at = {box.name: place.x for box, place in zip(diagram.boxes, layout.boxes, strict=True)}
+    assert at["/a"] < at["/t"] < at["/b"] < at["/u"]
+
+
+@pytest.mark.parametrize("topics", ["all", "none"])
+@pytest.mark.parametrize("graph", [robot(), large(300)], ids=["robot", "300 nodes"])
+def test_boxes_do_not_overlap_and_lie_within_the_picture(graph, topics):
+    diagram, layout = placed(graph, topics)
+    assert len(diagram.boxes) == len(layout.boxes)
+    assert len(diagram.arrows) == len(layout.ways)
+    assert overlaps(layout) == []
+    for x, y, width, height, _ in layout.boxes:
+        assert 0 < x < x + width < layout.width
+        assert 0 < y < y + height < layout.height
+
+
+def test_the_layout_of_300_nodes_has_the_shape_of_a_screen():
+    diagram, layout = placed(large(300))
+    assert len(diagram.boxes) == 300 + 602
+    assert 0.4 < layout.width / layout.height < 6
+
+
+def test_the_same_graph_has_the_same_layout():
+    assert placed(large(60)) == placed(large(60))
+
+
+@pytest.mark.parametrize("graph", [robot(), large(60)], ids=["robot", "60 nodes"])
+def test_arrows_begin_and_end_at_the_sides_of_their_boxes(graph):
+    diagram, layout = placed(graph)
+    for arrow, way in zip(diagram.arrows, layout.ways, strict=True):
+        for point, index in zip(ends(way), (arrow.source, arrow.target), strict=True):
+            x, y, width, height, label = layout.boxes[index]
+            assert min(abs(point[0] - x), abs(point[0] - x - width)) <= 1, label
+            assert abs(point[1] - y - height / 2) <= 1, label
+
+
+def test_a_circle_is_drawn_with_one_arrow_back():
+    layers = make_layers([0, 0, 0], [(0, 1), (1, 2), (2, 0)])
+    assert layers.columns == [[0], [1, 3], [2]]
+    assert layers.steps == [1, 1, -2]
+    assert layers.joints == [[], [], [3]]
+
+
+def test_behind_a_circle_messages_flow_on():
+    layers = make_layers([0] * 5, [(0, 1), (1, 2), (2, 1), (2, 3), (4, 3)])
+    assert layers.columns == [[0], [1], [2, 4], [3]]
+
+
+def test_what_only_sends_stands_beside_what_it_sends_to():
+    layers = make_layers([0] * 4, [(0, 1), (1, 2), (3, 2)])
+    assert layers.columns[1] == [1, 3]
+
+
+def test_a_box_that_sends_to_itself_gets_a_loop():
+    diagram = Diagram([Box("node", "/echo")], [Arrow(0, 0, ("/t",), ())])
+    layout = make_layout(diagram)
+    assert "C" in layout.ways[0].path
+
+
+def test_nodes_that_send_to_each_other_in_one_column_are_connected_beside_it():
+    pairs = [(0, 1), (0, 2), (1, 2), (2, 1)]
+    diagram = Diagram(
+        [Box("node", name) for name in ("/a", "/b", "/d")],  # of one width
+        [Arrow(*pair, ("/t",), ()) for pair in pairs],
+    )
+    layout = make_layout(diagram)
+    assert len(layout.ways) == 4
+    assert layout.boxes[1].x == pytest.approx(layout.boxes[2].x)
+    for way in layout.ways[2:]:
+        assert way.x > layout.boxes[1].x + layout.boxes[1].width
+
+
+def test_a_topic_with_hundreds_of_subscriptions_becomes_a_block():
+    graph = KnownGraph().node("/clock_source", ["/clock"])
+    for number in range(300):
+        graph.node(f"/listener_{number}", (), ["/clock"])
+    _, layout = placed(graph)
+    assert overlaps(layout) == []
+    assert 0.4 < layout.width / layout.height < 4
+
+
+def test_long_names_are_cut_at_their_beginning():
+    name = f"/{'namespace/' * 8}node"
+    layout = make_layout(Diagram([Box("node", name)], []))
+    assert layout.boxes[0].label.startswith("…")
+    assert name.endswith(layout.boxes[0].label[1:])
+
+
+def test_an_empty_graph_has_an_empty_layout():
+    layout = make_layout(Diagram([], []))
+    assert (layout.boxes, layout.ways) == ([], [])
