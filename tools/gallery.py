@@ -61,6 +61,7 @@ def main() -> None:
         picture_lesson(browser)
         picture_sliders(browser)
         picture_class(browser)
+        picture_graph(browser)
         browser.close()
         browser = playwright.chromium.launch(
             executable_path=shutil.which("chromium"), args=FLAGS_3D
@@ -150,6 +151,18 @@ def picture_view(browser: Browser) -> None:
         page.locator(".display", has_text="/robot_description").wait_for(timeout=PATIENCE_MS)
         page.wait_for_timeout(3000)
         page.screenshot(path=IMAGES / "view.png")
+        page.close()
+
+
+def picture_graph(browser: Browser) -> None:
+    """The graph of a robot with three mistakes, one of which is selected."""
+    with served_pages.graph() as address:
+        page = browser.new_page(viewport={"width": 1280, "height": 720})
+        page.goto(address)
+        page.locator("#problem-count", has_text="3").wait_for(timeout=PATIENCE_MS)
+        page.locator("#list li", has_text="/cmd_vel").click()
+        page.locator("#selected dd", has_text="Hz").first.wait_for(timeout=PATIENCE_MS)
+        page.screenshot(path=IMAGES / "graph.png")
         page.close()
 
 

@@ -23,6 +23,7 @@ ROOT = Path(__file__).resolve().parent.parent
 LESSON = ROOT / "build" / "lesson"
 SITE = ROOT / "build" / "site"
 URDF_TUTORIAL = ROOT / "tests" / "robots" / "urdf_ws" / "src" / "urdf_tutorial"
+GRAPH_NODES = Path(__file__).with_name("graph_nodes.py")
 WALKER = ROOT / "examples" / "robots" / "walker.urdf.xacro"
 LIVE = "document.querySelector('#connection')?.dataset.state === 'live'"
 
@@ -100,6 +101,14 @@ def view() -> Iterator[str]:
 
 
 @contextlib.contextmanager
+def graph() -> Iterator[str]:
+    """Serve the page of the graph beside the nodes of a robot with three mistakes."""
+    command = (program("turtlewire"), "graph", "--port", "0")
+    with running(sys.executable, str(GRAPH_NODES)), running(*command) as process:
+        yield address_of(process)
+
+
+@contextlib.contextmanager
 def turtlesim() -> Iterator[str]:
     """Serve the page of turtlesim."""
     with running(program("ros2"), "run", "turtlesim", "turtlesim_node") as node:
@@ -146,6 +155,7 @@ class _Quiet(SimpleHTTPRequestHandler):
 
 PAGES = {
     "view": ServedPage(view, f"{LIVE} && document.body.innerText.includes('left_runner')"),
+    "graph": ServedPage(graph, f"{LIVE} && document.querySelector('#picture .policy')"),
     "turtlesim": ServedPage(turtlesim, f"{LIVE} && document.querySelector('#roster tr')"),
     "sliders": ServedPage(sliders, f"{LIVE} && document.querySelector('[type=range]')"),
     "class": ServedPage(turtle_class, "document.querySelector('article canvas:not([hidden])')"),

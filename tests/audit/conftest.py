@@ -9,7 +9,7 @@ import sys
 import pytest
 from tests.places import ROOT, TOOLS
 
-PAGES = ["view", "turtlesim", "sliders", "class", "lesson", "site", "site's page"]
+PAGES = ["view", "graph", "turtlesim", "sliders", "class", "lesson", "site", "site's page"]
 BUILT = {"lesson": "lesson", "site": "site", "site's page": "site"}
 
 

@@ -18,6 +18,7 @@ MOST_SHIFT = 0.1
 #: What a first visit may transfer; the static pages are served without compression here.
 MOST_KB = {
     "view": 400,
+    "graph": 60,
     "turtlesim": 60,
     "sliders": 30,
     "class": 20,

@@ -17,6 +17,7 @@ from turtlewire_view.graph.graph_page import GraphPage
 from turtlewire_view.graph.selection import Selection
 
 LIMIT_S = 120
+DEFAULT = QoS()
 
 
 class Nodes:
@@ -31,10 +32,10 @@ class Nodes:
             self._nodes[name] = self.context.create_node(name)
         return self._nodes[name]
 
-    def publisher(self, node, topic, qos=QoS(), type_name="std_msgs/msg/String"):
+    def publisher(self, node, topic, qos=DEFAULT, type_name="std_msgs/msg/String"):
         return self.node(node).create_publisher(topic, self._type(type_name), qos)
 
-    def subscription(self, node, topic, qos=QoS(), type_name="std_msgs/msg/String"):
+    def subscription(self, node, topic, qos=DEFAULT, type_name="std_msgs/msg/String"):
         return self.node(node).create_subscription(topic, self._type(type_name), qos)
 
     def wait_for(self, predicate):

@@ -7,6 +7,7 @@ from turtlewire.wire.qos import Durability, QoS, Reliability
 from turtlewire_view.graph.picture import Picture, read_graph
 
 STRING = "std_msgs/msg/String"
+DEFAULT = QoS()
 BEST_EFFORT = QoS(depth=5, reliability=Reliability.BEST_EFFORT)
 LATCHED = QoS(depth=1, durability=Durability.TRANSIENT_LOCAL)
 
@@ -25,11 +26,11 @@ class KnownGraph:
         self._nodes.append(node)
         for kind, topics in (("publisher", publishes), ("subscription", subscribes)):
             for each in topics:
-                topic, qos, type_name = (each, QoS(), STRING) if isinstance(each, str) else each
+                topic, qos, type_name = (each, DEFAULT, STRING) if isinstance(each, str) else each
                 self.add(kind, topic, type_name, node, qos)
         return self
 
-    def add(self, kind, topic, type_name, node, qos=QoS()):
+    def add(self, kind, topic, type_name, node, qos=DEFAULT):
         gid = len(self._endpoints).to_bytes(16, "big")
         self._endpoints.append(EndpointInfo(kind, topic, type_name, "", node, gid, qos))
 
@@ -50,7 +51,7 @@ def robot() -> KnownGraph:
         .node("/lidar", [("/scan", BEST_EFFORT, STRING), "/rosout"])
         .node("/slam", ["/map"], ["/scan"])
         .node("/planner", ["/cmd_vel"], [("/map", LATCHED, STRING)])
-        .node("/wheels", (), [("/cmd_vel", QoS(), "std_msgs/msg/Int32")])
+        .node("/wheels", (), [("/cmd_vel", DEFAULT, "std_msgs/msg/Int32")])
         .node("/robot2/camera", ["/robot2/image"])
         .node("/_hidden", ["/parameter_events"])
     )

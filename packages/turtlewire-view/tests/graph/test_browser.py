@@ -185,6 +185,17 @@ def test_the_list_is_searched_and_walked_with_keys(page):
     assert row.get_attribute("aria-selected") == "true"
 
 
+def test_a_row_far_down_the_list_is_pressed(robot, open_graph):
+    for number in range(40):
+        robot.node(f"node_{number}")
+    page = open_graph()
+    wait_for_robot(page)
+    row = page.get_by_role("option", name="topic /scan, mismatch")
+    row.scroll_into_view_if_needed()
+    row.click()
+    assert title(page) == "/scan"
+
+
 def test_keys_move_the_picture(page):
     whole = view_box(page)
     page.focus("#picture")

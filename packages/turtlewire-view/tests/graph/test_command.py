@@ -90,7 +90,7 @@ def test_the_graph_is_saved(graph, talker, tmp_path, suffix):
     if suffix == "json":
         assert json.loads(text)["nodes"] == [{"node": "/talker", "count": 1}]
     if suffix == "svg":
-        assert ET.fromstring(text).tag.endswith("svg")  # noqa: S314 - our own
+        assert ET.fromstring(text).tag.endswith("svg")
 
 
 def test_a_wrong_suffix_is_refused_before_the_network_is_joined(graph, tmp_path):

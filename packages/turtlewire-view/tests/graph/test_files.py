@@ -6,8 +6,8 @@ import json
 from xml.etree import ElementTree as ET
 
 import pytest
-from turtlewire.wire.qos import INFINITE_NS, QoS
 
+from turtlewire.wire.qos import INFINITE_NS, QoS
 from turtlewire_view.graph.files import as_dot, as_json, as_svg, writer_for
 from turtlewire_view.graph.selection import Selection
 
@@ -18,7 +18,7 @@ RED = "#c2334d"
 
 
 def svg_of(graph, *words):
-    return ET.fromstring(as_svg(graph.picture(), Selection(*words)))  # noqa: S314 - our own
+    return ET.fromstring(as_svg(graph.picture(), Selection(*words)))
 
 
 def test_the_picture_shows_mismatches_in_red_with_their_policy():

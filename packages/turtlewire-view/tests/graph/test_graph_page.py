@@ -105,7 +105,7 @@ def test_a_measured_topic_has_a_rate_and_its_last_message(nodes, peer):
     assert reading["age"] >= 0
 
 
-def test_what_cannot_be_measured_is_said(nodes, peer):
+def test_a_topic_without_readings_has_a_reason(nodes, peer):
     nodes.publisher("map_server", "/map", LATCHED)
     nodes.subscription("planner", "/goal")
     large = nodes.publisher("camera", "/image")

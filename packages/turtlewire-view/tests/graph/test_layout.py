@@ -24,12 +24,14 @@ def placed(graph, topics="all"):
 def overlaps(layout):
     """Pairs of boxes that share a point, found in the order of their left ends."""
     boxes = sorted(layout.boxes)
-    found = []
-    for n, one in enumerate(boxes):
-        for other in itertools.takewhile(lambda box: box.x < one.x + one.width, boxes[n + 1 :]):  # noqa: B023
-            if one.y < other.y + other.height and other.y < one.y + one.height:
-                found.append((one.label, other.label))
-    return found
+    return [
+        (one.label, other.label)
+        for n, one in enumerate(boxes)
+        for other in itertools.takewhile(
+            lambda box, end=one.x + one.width: box.x < end, boxes[n + 1 :]
+        )
+        if one.y < other.y + other.height and other.y < one.y + one.height
+    ]
 
 
 def ends(way):
@@ -88,7 +90,7 @@ def test_behind_a_circle_messages_flow_on():
     assert layers.columns == [[0], [1], [2, 4], [3]]
 
 
-def test_what_only_sends_stands_beside_what_it_sends_to():
+def test_a_box_without_input_stands_beside_its_receivers():
     layers = make_layers([0] * 4, [(0, 1), (1, 2), (3, 2)])
     assert layers.columns[1] == [1, 3]
 
@@ -99,7 +101,7 @@ def test_a_box_that_sends_to_itself_gets_a_loop():
     assert "C" in layout.ways[0].path
 
 
-def test_nodes_that_send_to_each_other_in_one_column_are_connected_beside_it():
+def test_arrows_within_a_column_are_drawn_beside_it():
     pairs = [(0, 1), (0, 2), (1, 2), (2, 1)]
     diagram = Diagram(
         [Box("node", name) for name in ("/a", "/b", "/d")],  # of one width

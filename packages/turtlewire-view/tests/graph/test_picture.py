@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from turtlewire.wire.qos import QoS
 
+from turtlewire.wire.qos import QoS
 from turtlewire_view.graph.diagram import make_diagram
 from turtlewire_view.graph.picture import UNKNOWN, read_graph
 from turtlewire_view.graph.selection import Selection, select
@@ -68,7 +68,7 @@ def test_the_page_does_not_show_itself():
     assert [each.node for each in picture.endpoints] == ["/talker"]
 
 
-def test_what_belongs_to_debugging_is_hidden_first():
+def test_debugging_topics_and_nodes_are_hidden_by_default():
     nodes, topics = shown(robot())
     assert nodes == ["/lidar", "/planner", "/robot2/camera", "/slam", "/wheels"]
     assert topics == ["/cmd_vel", "/map", "/robot2/image", "/scan"]

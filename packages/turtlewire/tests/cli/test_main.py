@@ -78,7 +78,7 @@ def offered(line, answers):
             "turtlewire ",
             [
                 "--version",
-                *("bag", "class", "compare", "doctor", "foxglove", "frames", "relay"),
+                *("bag", "class", "compare", "doctor", "foxglove", "frames", "graph", "relay"),
                 *("trajectory", "view"),
             ],
         ),

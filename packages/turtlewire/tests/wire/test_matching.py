@@ -10,12 +10,13 @@ from turtlewire.wire.matching import obstacles
 from turtlewire.wire.qos import INFINITE_NS, Durability, Liveliness, QoS, Reliability
 
 SECOND = 10**9
+DEFAULT = QoS()
 BEST_EFFORT = QoS(reliability=Reliability.BEST_EFFORT)
 LATCHED = QoS(durability=Durability.TRANSIENT_LOCAL)
 MANUAL = QoS(liveliness=Liveliness.MANUAL_BY_TOPIC)
 
 
-def endpoint(kind, qos=QoS(), type_name="std_msgs/msg/String", type_hash="RIHS01_a"):
+def endpoint(kind, qos=DEFAULT, type_name="std_msgs/msg/String", type_hash="RIHS01_a"):
     return EndpointInfo(kind, "/chatter", type_name, type_hash, None, bytes(16), qos)
 
 
@@ -40,8 +41,8 @@ def found(offered, requested):
         (QoS(), MANUAL, "liveliness",
          "it requests MANUAL_BY_TOPIC, but the publisher offers AUTOMATIC"),
         (QoS(liveliness_lease_ns=INFINITE_NS), QoS(liveliness_lease_ns=SECOND), "liveliness",
-         "it requests a liveliness lease of 1 s, but the publisher offers a liveliness lease "
-         "without limit"),
+         ("it requests a liveliness lease of 1 s, but the publisher offers a liveliness lease "
+          "without limit")),
     ],
 )  # fmt: skip
 def test_a_policy_that_keeps_two_endpoints_apart_is_named(offered, requested, policy, reason):

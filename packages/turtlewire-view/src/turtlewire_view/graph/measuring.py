@@ -1,8 +1,7 @@
 """Rates and values of topics: subscriptions that exist only while a page asks for them.
 
-They are best effort and volatile and keep few messages, so that no publisher waits for them. The
-bytes of messages are counted, and only those of the newest one are decoded, at the pace of the
-page.
+They are best effort and volatile and keep few messages, so that no publisher waits for them. All
+messages are counted, and only the newest is decoded, once for each reading.
 """
 
 from __future__ import annotations
@@ -20,7 +19,7 @@ from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import Durability, QoS, Reliability
 
 if TYPE_CHECKING:
-    from turtlewire.wire.base import Graph, MessageInfo, Node, Subscription
+    from turtlewire.wire.base import EndpointInfo, Graph, MessageInfo, Node, Subscription
 
 __all__ = ["Measuring", "Reading"]
 
@@ -72,16 +71,9 @@ class Measuring:
         for topic in [name for name in self._topics if name not in topics]:
             self._topics.pop(topic).close()
         for topic in topics:
-            publishers = self._graph.endpoints_of(topic, "publisher")
-            kinds = {TypeId(each.type_name, each.type_hash): each.qos for each in publishers}
-            measured = self._topics.get(topic)
-            if measured is not None and (measured.type_id in kinds or not kinds):
-                continue
-            if measured is not None:
-                measured.close()
-            kind = min(kinds, default=None)
-            latched = kind is not None and kinds[kind].durability == Durability.TRANSIENT_LOCAL
-            self._topics[topic] = _MeasuredTopic(self._node, topic, kind, is_latched=latched)
+            if topic not in self._topics:
+                self._topics[topic] = _MeasuredTopic(self._node, topic)
+            self._topics[topic].fit(self._graph.endpoints_of(topic, "publisher"))
 
     def readings(self) -> dict[str, dict[str, Any]]:
         """Return the readings of all topics, for ``json.dumps``."""
@@ -93,28 +85,47 @@ class Measuring:
 
 
 class _MeasuredTopic:
-    """A subscription, and what it received."""
+    """A subscription for each type of a topic, and what they received."""
 
-    def __init__(self, node: Node, topic: str, type_id: TypeId | None, *, is_latched: bool) -> None:
-        self.type_id = type_id
-        self._is_latched = is_latched
+    def __init__(self, node: Node, topic: str) -> None:
+        self._node = node
+        self._topic = topic
+        self._subscriptions: dict[TypeId, Subscription] = {}
+        self._has_publisher = self._is_latched = False
+        self._problem = ""
         self._lock = threading.Lock()  # of the next two
         self._arrivals: deque[tuple[int, int]] = deque(maxlen=_MOST)  # time and size
-        self._last = b""
-        self._shown: tuple[bytes, str, str] = (b"", "", "")
-        self._problem = ""
-        self._subscription: Subscription | None = None
-        if type_id is None:
-            return
-        try:
-            known = type_id if type_id.type_hash else _with_hash(type_id.name)
-            self._subscription = node.create_subscription(topic, known, _QOS, self._take)
-        except TurtlewireError as error:
-            self._problem = str(error)
+        self._last = ("", b"")  # type and bytes
+        self._decoded = (self._last, "", "")
+
+    def fit(self, publishers: list[EndpointInfo]) -> None:
+        """Subscribe to the types of these publishers, if that is not so yet."""
+        self._has_publisher = bool(publishers)
+        durabilities = {each.qos.durability for each in publishers}
+        self._is_latched = durabilities == {Durability.TRANSIENT_LOCAL}
+        for type_id in sorted({TypeId(each.type_name, each.type_hash) for each in publishers}):
+            if type_id in self._subscriptions:
+                continue
+            try:
+                self._subscriptions[type_id] = self._subscribe(type_id)
+            except TurtlewireError as error:
+                self._problem = str(error)
 
     def close(self) -> None:
-        if self._subscription is not None:
-            self._subscription.close()
+        for subscription in self._subscriptions.values():
+            subscription.close()
+
+    def _subscribe(self, type_id: TypeId) -> Subscription:
+        name, type_hash = type_id
+
+        def take(cdr: bytes, info: MessageInfo) -> None:
+            """On the wire's thread."""
+            with self._lock:
+                self._arrivals.append((info.received_timestamp_ns, len(cdr)))
+                self._last = name, cdr
+
+        known = TypeId(name, type_hash or msg.type_hash(name))
+        return self._node.create_subscription(self._topic, known, _QOS, take)
 
     def read(self) -> Reading:
         now_ns = time.time_ns()
@@ -123,10 +134,7 @@ class _MeasuredTopic:
                 self._arrivals.popleft()
             arrivals, last = list(self._arrivals), self._last
         if not arrivals:
-            note = self._problem or (_LATCHED if self._is_latched else "No message yet.")
-            if self.type_id is None:
-                note = "No node publishes this topic."
-            return Reading(None, None, None, "", note)
+            return Reading(None, None, None, "", self._reason())
         age_s = max(0.0, (now_ns - arrivals[-1][0]) / 1e9)
         value, note = self._text_of(last)
         span_s = (arrivals[-1][0] - arrivals[0][0]) / 1e9
@@ -138,31 +146,27 @@ class _MeasuredTopic:
         size = sum(size for _, size in arrivals[1:])
         return Reading(count / span_s, size / span_s, age_s, value, note)
 
-    def _take(self, cdr: bytes, info: MessageInfo) -> None:
-        """On the wire's thread."""
-        with self._lock:
-            self._arrivals.append((info.received_timestamp_ns, len(cdr)))
-            self._last = cdr
+    def _reason(self) -> str:
+        """Say why there is no message."""
+        if not self._has_publisher:
+            return "No node publishes this topic."
+        return self._problem or (_LATCHED if self._is_latched else "No message yet.")
 
-    def _text_of(self, last: bytes) -> tuple[str, str]:
-        """Return the text of the last message, and why there is none."""
-        if last is not self._shown[0]:
-            self._shown = (last, *self._decoded(last))
-        return self._shown[1:]
-
-    def _decoded(self, cdr: bytes) -> tuple[str, str]:
-        if len(cdr) > _LARGEST:
-            return "", f"The message has {len(cdr):,} bytes, too many to show here."
-        assert self.type_id is not None
-        try:
-            message = msg.deserialize(self.type_id.name, cdr)
-        except TurtlewireError as error:
-            return "", f"The message cannot be shown: {error}"
-        return "\n".join(_lines(json_value(message), "")), ""
+    def _text_of(self, last: tuple[str, bytes]) -> tuple[str, str]:
+        """Return the text of a message, or why it is not shown; a message is decoded once."""
+        if last is not self._decoded[0]:
+            self._decoded = (last, *_decode(*last))
+        return self._decoded[1:]
 
 
-def _with_hash(type_name: str) -> TypeId:
-    return TypeId(type_name, msg.type_hash(type_name))
+def _decode(type_name: str, cdr: bytes) -> tuple[str, str]:
+    if len(cdr) > _LARGEST:
+        return "", f"The message has {len(cdr):,} bytes, too many to show here."
+    try:
+        message = msg.deserialize(type_name, cdr)
+    except TurtlewireError as error:
+        return "", f"The message cannot be shown: {error}"
+    return "\n".join(_lines(json_value(message), "")), ""
 
 
 def _lines(value: Any, indent: str) -> list[str]:

@@ -16,7 +16,7 @@ _OTHER_HOSTS_NS = 500_000_000  # as long as ROS 2's own tools wait for other hos
 
 
 def wait_for_graph(graph: Graph) -> None:
-    """Wait until all nodes of this host are known, and for a moment for those of other hosts.
+    """Wait until all nodes of this host are known, and for a moment for nodes of other hosts.
 
     It returns after at most 2.5 seconds, even if something on this host keeps silent.
     """

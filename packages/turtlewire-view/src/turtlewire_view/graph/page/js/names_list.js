@@ -9,6 +9,7 @@ export class NamesList {
   #choose;
   #list = byId("list");
   #keys = [];
+  #shape = "";
   #selected = "";
   #active = "";
 
@@ -26,7 +27,10 @@ export class NamesList {
       if (row) choose(row.dataset.key);
     });
     this.#list.addEventListener("keydown", (event) => this.#key(event));
-    this.#list.addEventListener("focus", () => this.#activate(this.#active || this.#keys[0]));
+    this.#list.addEventListener("focus", () => {
+      // A press must not scroll the list, or it hits another row.
+      if (this.#list.matches(":focus-visible")) this.#activate(this.#active || this.#keys[0]);
+    });
   }
 
   /** Show the names that the search finds. */
@@ -35,11 +39,15 @@ export class NamesList {
     const search = byId("search").value.trim();
     const found = names.filter(([, name]) => isFound(name, search));
     found.sort(([kind, a], [other, b]) => (kind === other ? byName(a, b) : kind < other ? -1 : 1));
-    const bad = new Set(graph.mismatches.flatMap(({ topic, publishers, subscriptions }) => [
-      keyOf("topic", topic), ...[...publishers, ...subscriptions].map((each) => keyOf("node", each)),
-    ]));
+    const bad = new Set(graph.mismatches.flatMap(({ topic, publishers, subscriptions }) => {
+      const nodes = [...publishers, ...subscriptions];
+      return [keyOf("topic", topic), ...nodes.map((each) => keyOf("node", each))];
+    }));
     this.#keys = found.map(([kind, name]) => keyOf(kind, name));
-    this.#list.replaceChildren(...this.#keys.map((key, k) => this.#row(key, k, bad.has(key))));
+    const rows = this.#keys.map((key, k) => this.#row(key, k, bad.has(key)));
+    const shape = rows.map(({ ariaLabel }) => ariaLabel).join("\n");
+    if (shape !== this.#shape) this.#list.replaceChildren(...rows); // a row may just be pressed
+    this.#shape = shape;
     setText(byId("name-count"), names.length ? String(names.length) : "");
     byId("nothing").hidden = found.length > 0;
     setText(byId("nothing"), names.length ? "No name matches." : "No node is running.");
