@@ -31,7 +31,7 @@ class Figure:
 
 @dataclass(frozen=True)
 class Row:
-    """One line: what was measured, our figure, those of rivals, and the budget."""
+    """A row of the table: a measurement, our figure, the rivals' figures, and the budget."""
 
     what: str
     ours: Figure

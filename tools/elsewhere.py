@@ -1,8 +1,8 @@
-"""What scripts/elsewhere does: another Debian in build/elsewhere, a venv in it, and trials there.
+"""The implementation of scripts/elsewhere: tries wheels in a venv of another Debian.
 
 Debian's packages are only unpacked. The venv's `python` is a script that starts the other Debian's
-Python, by the emulator or by that Debian's own loader. It is what `sys.executable` tells and the
-commands name, so the processes of the demo run there, too.
+Python, by the emulator or by that Debian's own loader. `sys.executable` and the commands name this
+script, so the processes of the demo also run there.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""What scripts/release does: sdists, wheels, checks and notes, in build/release.
+"""The implementation of scripts/release: sdists, wheels, checks and notes, in build/release.
 
-`release_wheels` says which wheels there are, `release_checks` what must hold for them. Wheels of
+`release_wheels` defines the wheels, `release_checks` checks them. Wheels of
 other platforms come from .github/workflows/wheels.yml.
 """
 

@@ -1,4 +1,4 @@
-"""What scripts/setup does, with a bare python3: without venv package, pip or compiler."""
+"""The implementation of scripts/setup for a bare python3, without venv package, pip or compiler."""
 
 import sys
 
@@ -100,7 +100,7 @@ def wait_for_turn(folder: Path) -> int:
 
 
 def bring_up_to_date(stamp: dict[str, Any], wanted: dict[str, Any]) -> None:
-    """Make .venv, or what of it is stale, and note what it holds then."""
+    """Create .venv or update its stale parts, and record its contents."""
     started = time.monotonic()
     venv_works = usable(stamp, wanted)
     if not venv_works:

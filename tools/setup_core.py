@@ -1,7 +1,7 @@
-"""How the set-up provides the compiled core: from this user's cache, or by compiling it.
+"""Provides the compiled core for the set-up: from this user's cache, or by compiling it.
 
-The core is one file beside the Python modules. The cache holds it under a key of all that makes it:
-sources, compiler, flags and Python. Another checkout with the same ones does not compile again.
+The core is one file next to the Python modules. The cache stores it under a key of all its inputs:
+sources, compiler, flags and Python. Another checkout with the same inputs does not compile again.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""How the set-up makes .venv, puts pip into it and installs the packages."""
+"""Creates .venv for the set-up, with pip and the packages."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""What scripts/soak does once .venv is there.
+"""The implementation of scripts/soak.
 
-Lets a robot's processes run while others come and go, and measures them.
+Runs a robot's processes while other processes start and end, and measures the former.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ END_LIMIT_S = 60
 
 
 class MemorySample(NamedTuple):
-    """What a process holds at a moment."""
+    """The memory, descriptors and threads of a process at a moment."""
 
     memory: int
     descriptors: int
@@ -57,7 +57,7 @@ class Resident:
         )
 
     def sample(self) -> None:
-        """Note what it holds now; nothing of one that has ended."""
+        """Record a sample of the process, unless it has ended."""
         folder = Path(f"/proc/{self.process.pid}")
         try:
             pages = int((folder / "statm").read_text().split()[1])
@@ -109,7 +109,7 @@ class Resident:
 
 
 class Visitors:
-    """Processes that come and go, on a thread of their own; one of three is killed."""
+    """Starts and ends processes on a separate thread; kills one of three."""
 
     def __init__(self, page: str, seconds: float, log: IO[str]) -> None:
         self.come = self.killed = 0

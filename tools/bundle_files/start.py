@@ -1,4 +1,4 @@
-"""Installs turtlewire from the wheels beside this file, without a network, and runs the demo.
+"""Installs turtlewire from the wheels next to this file, without a network, and runs the demo.
 
 It needs nothing but a Python for which the folder has wheels: no pip, no venv package of Debian.
 """

@@ -1,4 +1,4 @@
-// Python, in a thread of its own: an endless loop stops this worker, not the page. It is a classic
+// Python, in its own thread: an endless loop stops this worker, not the page. It is a classic
 // script, because Chromium starts no module as a worker where the page was opened as a file.
 
 // Pyodide takes this function for the sign of a worker that cannot import modules; ours can.

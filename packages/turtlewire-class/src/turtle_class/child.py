@@ -1,7 +1,7 @@
 """The checks of one exercise of one student: ``python -m turtle_class.child EXERCISE FOLDER``.
 
-It writes each result to stdout as a line of JSON as soon as it is there. The student's code runs in
-a process of its own, which it starts, so that the code reaches neither checks nor results.
+It writes each result to stdout as a line of JSON as soon as it is available. The student's code
+runs in a separate process, which it starts, so that the code reaches neither checks nor results.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""What a page shows of one student's domain: nodes, turtles, transforms, and what is wrong.
+"""The state of one student's domain for the page: nodes, turtles, transforms and problems.
 
-The messages of poses and transforms are not handled in Python: the middleware keeps the newest pose
-of a turtle, and the native buffer takes the transforms. Watching thirty domains is cheap.
+Python does not handle poses and transforms one by one: the middleware keeps the newest pose of a
+turtle, and the native buffer stores the transforms. So thirty domains need little CPU.
 """
 
 from __future__ import annotations

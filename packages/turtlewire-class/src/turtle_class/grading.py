@@ -29,7 +29,7 @@ _LAST_DOMAIN = 101
 
 
 class GradeReport(NamedTuple):
-    """What a student has reached.
+    """The results of a student.
 
     Attributes:
         student: The name of the student's folder, safe to show.
@@ -74,7 +74,7 @@ def grade_all(
     *,
     jobs: int | None = None,
 ) -> list[GradeReport]:
-    """Grade, each exercise of each student in processes of its own.
+    """Grade each exercise of each student in its own processes.
 
     On Linux, other processes of this user cannot read this one's memory meanwhile.
 

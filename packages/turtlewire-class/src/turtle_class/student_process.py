@@ -1,4 +1,4 @@
-"""The process of a student's programs, as the process of the checks sees it."""
+"""Starts and controls the process of a student's programs, from the process of the checks."""
 
 from __future__ import annotations
 

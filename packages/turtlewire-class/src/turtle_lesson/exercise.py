@@ -1,4 +1,4 @@
-"""A simulation in which the programs of a lesson run; what checks look at."""
+"""A simulation that runs the programs of a lesson and that checks examine."""
 
 from __future__ import annotations
 

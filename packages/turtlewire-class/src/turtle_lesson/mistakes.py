@@ -1,4 +1,4 @@
-"""Errors of the student's code: where they are, what they say and what helps."""
+"""Errors of the student's code: position, text and hint."""
 
 from __future__ import annotations
 

@@ -71,7 +71,7 @@ def why_not():
     if not list(WHEELHOUSE.glob("turtlewire_class-*.whl")):
         return f"needs wheels in {WHEELHOUSE.relative_to(ROOT)}: scripts/smoke makes them"
     probe = subprocess.run(f"unshare -n {UP}", shell=True, capture_output=True, check=False)
-    return "a network of its own takes root, unshare and ip" if probe.returncode else ""
+    return "a separate network needs root, unshare and ip" if probe.returncode else ""
 
 
 @pytest.mark.slow

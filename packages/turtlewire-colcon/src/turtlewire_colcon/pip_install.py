@@ -1,8 +1,8 @@
 """``python -m turtlewire_colcon.pip_install PACKAGE…``: pip installs ament_cmake packages.
 
-pip itself refuses folders without pyproject.toml and setup.py, as such packages are, before it asks
-anybody else. Packages that it takes are handed to it as they are, so that all packages of a
-workspace can be named.
+pip refuses folders without pyproject.toml and setup.py before it asks a build backend, and these
+packages have neither. Packages that pip accepts are passed to it unchanged, so you can name all
+packages of a workspace.
 """
 
 from __future__ import annotations

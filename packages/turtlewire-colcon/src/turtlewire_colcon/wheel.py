@@ -1,7 +1,7 @@
 """Builds the wheel of an ament_cmake package without C++, for pip.
 
-What the package installs into a prefix goes into the environment's: a virtual environment with
-turtlewire is a prefix, in which ``ros2 run`` and launch files find the package.
+Files for a prefix go into the environment: a virtual environment with turtlewire is a prefix, in
+which ``ros2 run`` and launch files find the package.
 """
 
 from __future__ import annotations

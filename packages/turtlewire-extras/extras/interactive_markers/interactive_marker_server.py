@@ -55,7 +55,7 @@ class InteractiveMarkerServer:
         feedback_sub_qos: The QoS of the feedback, or its depth.
     """
 
-    #: Stands for all types of feedback that have no callback of their own.
+    #: The key of the callback for all types of feedback without a specific one.
     DEFAULT_FEEDBACK_CALLBACK = 255
 
     def __init__(

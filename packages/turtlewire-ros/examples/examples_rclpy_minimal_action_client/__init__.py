@@ -1,7 +1,7 @@
 """ROS 2's minimal examples: Clients of the action server for Fibonacci sequences.
 
 =======================  ==================================================
-module                   what it holds
+module                   contents
 =======================  ==================================================
 `client`                 sends a goal and waits for its result
 `client_asyncio`         awaits one goal, then two at a time, in asyncio

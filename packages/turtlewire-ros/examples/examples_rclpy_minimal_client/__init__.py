@@ -1,7 +1,7 @@
 """ROS 2's minimal examples: A service's client in four styles.
 
 ==============================  =================================================
-module                          what it holds
+module                          contents
 ==============================  =================================================
 `client`                        spins until the answer is there
 `client_async`                  looks for the answer between calls of `spin_once`

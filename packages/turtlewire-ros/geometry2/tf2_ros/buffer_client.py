@@ -46,7 +46,7 @@ _NO_RESULT = f"The BufferServer returned None for result or result.error!  {_WRO
 class BufferClient(BufferInterface):
     """A buffer interface whose lookups a :class:`~tf2_ros.BufferServer` answers. Thread-safe.
 
-    The client has a node and a thread of its own, so that a lookup works in any callback, whether
+    The client has its own node and thread, so that a lookup works in any callback, whether
     or not the user's node is being spun.
 
     Args:

@@ -26,7 +26,7 @@ __all__ = ["FilterFailureReason", "MessageFilter"]
 
 
 class FilterFailureReason(IntEnum):
-    """Why a message was dropped."""
+    """The reason for which a message was dropped."""
 
     Unknown = 0
     """The clock has jumped back, and the message belongs to another time."""

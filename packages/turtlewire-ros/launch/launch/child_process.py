@@ -192,7 +192,7 @@ class _Protocol(asyncio.SubprocessProtocol):
 
 
 class _TerminalStream(asyncio.Protocol):
-    """One output stream that comes over a pseudo terminal."""
+    """An output stream that is read from a pseudo terminal."""
 
     def __init__(self, child: _Protocol, fd: int) -> None:
         self._child = child

@@ -11,7 +11,7 @@ __all__ = ["LaunchArgument"]
 
 
 class LaunchArgument(Protocol):
-    """What launch descriptions know of a ``DeclareLaunchArgument``."""
+    """The description of a ``DeclareLaunchArgument``."""
 
     #: Whether it is declared only under a condition; known after a search for arguments.
     conditionally_included: bool

@@ -1,4 +1,4 @@
-"""Marks of functions that make launch descriptions, and of tests."""
+"""Markers of functions that create launch descriptions, and of tests."""
 
 from __future__ import annotations
 

@@ -25,8 +25,8 @@ __all__ = ["WaitForTopics"]
 class WaitForTopics:
     """Subscribes to topics and waits for a message on each.
 
-    ``with WaitForTopics([("chatter", String)]) as topics:`` waits at the beginning. It has a node
-    and a context of its own.
+    ``with WaitForTopics([("chatter", String)]) as topics:`` waits at the beginning. It has its own
+    node and context.
 
     Args:
         topic_tuples: Names and types of the topics.

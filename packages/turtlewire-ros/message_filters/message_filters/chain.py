@@ -1,4 +1,4 @@
-"""Puts filters behind each other, as one filter."""
+"""Combines a sequence of filters into one filter."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The guardian of a :class:`~turtlewire_ros.process_family.ProcessFamily`: a script of its own.
+"""A script: the guardian of a :class:`~turtlewire_ros.process_family.ProcessFamily`.
 
 It waits until its stdin ends, which happens when the process that started it ends, by SIGKILL too,
 and then stops every process of the family. It runs next to each `ros2 run` and `ros2 launch`, so it

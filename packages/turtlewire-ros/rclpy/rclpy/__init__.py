@@ -12,16 +12,16 @@ The modules load when they are first used: ``rclpy.time``, ``rclpy.qos`` and all
 attributes of the package after ``import rclpy``.
 
 ==========================================  ========================================================
-module                                      what it holds
+module                                      contents
 ==========================================  ========================================================
 `node`                                      `Node`; its parts are in `_node`
 `executors`                                 `Executor`; its parts are in `_execution`
-`_node`, `_execution`, `_qos`               what a node, an executor and a QoS consist of
+`_node`, `_execution`, `_qos`               private parts of nodes, executors and QoS
 `context`, `utilities`                      `Context`; the default context, `ok`, `try_shutdown`
 `publisher`, `subscription`                 endpoints of topics
 `client`, `service`                         endpoints of services
 `timer`, `guard_condition`                  timers; wake-ups by hand
-`waitable`, `destroyable`                   entities of programs
+`waitable`, `destroyable`                   entities that programs define
 `action`, `lifecycle`                       action clients and servers; lifecycle nodes
 `callback_groups`, `task`                   which callbacks may run together; futures and coroutines
 `clock`, `clock_type`, `time`, `duration`   clocks, times and durations
@@ -34,10 +34,10 @@ module                                      what it holds
 `qos_overriding_options`                    QoS set by parameters
 `event_handler`                             events: incompatible QoS, deadlines, matches
 `qos_event`                                 the former name of `event_handler`
-`endpoint_info`, `type_hash`                what the graph shows of an endpoint
+`endpoint_info`, `type_hash`                information about an endpoint in the graph
 `topic_endpoint_info`                       the same, under Jazzy's names
 `logging`                                   loggers
-`impl`                                      their outputs and formats; ROS arguments; hints
+`impl`                                      outputs and formats of logs; ROS arguments; hints
 `logging_service`                           the services of a node's log levels
 `service_introspection`                     events of requests and responses
 `type_description_service`                  the service ``~/get_type_description``
@@ -120,7 +120,7 @@ class InitContextManager:
     ) -> None:
         is_default = context is None or context is get_default_context()
         self.context = get_default_context() if context is None else context
-        # As in ROS 2, a library with a context of its own leaves the signals to the program.
+        # As in ROS 2, a library with its own context leaves the signals to the program.
         if signal_handler_options is None:
             signal_handler_options = (
                 SignalHandlerOptions.ALL if is_default else SignalHandlerOptions.NO

@@ -33,7 +33,7 @@ _ALREADY_SHUT_DOWN = "failed to shutdown: rcl_shutdown already called on the giv
 
 
 class _Scheduler(Protocol):
-    """What a context knows of an executor."""
+    """The part of an executor that a context uses."""
 
     def holds_up(self, service: str) -> bool:
         """Return True if a request for a service is there that cannot be answered at the moment."""
@@ -41,7 +41,7 @@ class _Scheduler(Protocol):
 
 
 class _Wait(Protocol):
-    """What a context ends."""
+    """A wait that the shutdown of a context ends."""
 
     def set(self) -> None:
         """End the wait."""
@@ -49,7 +49,7 @@ class _Wait(Protocol):
 
 
 class _Node(Protocol):
-    """What a context knows of a node."""
+    """The part of a node that a context uses."""
 
     def destroy_node(self) -> None:
         """Leave the graph."""

@@ -147,7 +147,7 @@ class EventHandler(Waitable):
         super()._close()
 
 
-# Lyrical has it no longer.
+# Lyrical no longer has it.
 if not since(LYRICAL):
 
     class QoSEventHandler(EventHandler):
@@ -169,7 +169,7 @@ _Wanted = dict["QoSPublisherEventType | QoSSubscriptionEventType", "Callable[[An
 
 
 class _EventCallbacks:
-    """What publishers and subscriptions have in common."""
+    """The common base of the event callbacks of publishers and subscriptions."""
 
     #: How ROS 2 warns of an endpoint that does not match.
     _WARNING = ""

@@ -1,4 +1,4 @@
-"""The executors: one thread, or a pool of threads; and what their waits end with."""
+"""The executors, with one thread or a thread pool, and the exceptions that end their waits."""
 
 from __future__ import annotations
 

@@ -5,7 +5,7 @@
 the endpoints, ``_node/graph.py`` answers questions about other nodes, ``_node/parameters.py`` keeps
 the parameters.
 
-Programs derive from it and add attributes of their own. Therefore, all attributes that ROS 2's
+Programs derive from it and add their own attributes. Therefore, all attributes that ROS 2's
 class does not have (it has ``_logger``, ``_clock`` …) begin with two underscores, or with
 ``_rclpy`` if other modules need them.
 """

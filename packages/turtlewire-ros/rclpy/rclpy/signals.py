@@ -47,7 +47,7 @@ _FROM_HANDLER = 0x80
 
 
 class SignalHandlerOptions(IntEnum):
-    """Which signals shut the contexts down."""
+    """The signals that shut the contexts down."""
 
     NO = 0
     SIGINT = 1

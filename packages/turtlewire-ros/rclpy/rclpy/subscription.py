@@ -51,7 +51,7 @@ class BaseSubscription(ClosingEntity, Generic[MsgT]):
     _WRONG_CALLBACK = f"Subscription {_CALLBACK_SHAPES}"
 
     class CallbackType(Enum):
-        """How many arguments the callback takes."""
+        """The number of arguments that a callback takes."""
 
         MessageOnly = 0
         WithMessageInfo = 1

@@ -26,7 +26,7 @@ __all__ = ["Future", "FutureState", "Task"]
 
 
 class FutureState(Enum):
-    """What can be said of a future."""
+    """The states of a future."""
 
     PENDING = "PENDING"
     CANCELLED = "CANCELLED"
@@ -34,7 +34,7 @@ class FutureState(Enum):
 
 
 class _TaskRunner(Protocol):
-    """What runs done-callbacks: an executor."""
+    """The part of an executor that runs done-callbacks."""
 
     def create_task(self, callback: Callable[..., Any], *args: Any) -> Any:
         """Run ``callback(*args)`` soon."""

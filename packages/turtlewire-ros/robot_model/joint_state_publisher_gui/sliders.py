@@ -19,7 +19,7 @@ _SWEEP_S = 6.0
 
 
 class Snapshot(NamedTuple):
-    """What the page shows.
+    """The state of the sliders that the page shows.
 
     Attributes:
         version: Changes with the description.

@@ -1,4 +1,4 @@
-"""When joints were published last, which decides whether a joint state is published."""
+"""The last publish time of each joint, which decides if a joint state is published."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``check_urdf FILE``: whether a file is a URDF, and its tree of links."""
+"""``check_urdf FILE``: checks a URDF and prints its tree of links."""
 
 from __future__ import annotations
 

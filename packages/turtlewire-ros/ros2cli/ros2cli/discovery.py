@@ -1,4 +1,4 @@
-"""Joins the domain for as long as it takes to discover its nodes."""
+"""Joins the domain until its nodes are discovered."""
 
 from __future__ import annotations
 

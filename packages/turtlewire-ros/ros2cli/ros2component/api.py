@@ -1,4 +1,4 @@
-"""Components: which there are, and those in containers."""
+"""Components: installed ones, and those in containers."""
 
 from __future__ import annotations
 
@@ -212,7 +212,7 @@ def add_component_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run_standalone_container(*, container_node_name: str) -> subprocess.Popen[bytes]:
-    """Start a container in a process of its own.
+    """Start a container in a separate process.
 
     Args:
         container_node_name: Its name.

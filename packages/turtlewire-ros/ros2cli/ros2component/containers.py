@@ -1,4 +1,4 @@
-"""Talking to containers of nodes (components)."""
+"""Calls to containers of nodes (components)."""
 
 from __future__ import annotations
 

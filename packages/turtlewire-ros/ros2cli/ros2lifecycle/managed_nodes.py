@@ -1,4 +1,4 @@
-"""Talking to the lifecycle services of nodes."""
+"""Calls to the lifecycle services of nodes."""
 
 from __future__ import annotations
 

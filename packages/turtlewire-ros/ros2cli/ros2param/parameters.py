@@ -1,4 +1,4 @@
-"""Talking to the parameter services of a node."""
+"""Calls to the parameter services of a node."""
 
 from __future__ import annotations
 

@@ -79,7 +79,7 @@ class Player:
     def play(
         self, storage_options: StorageOptions | None = None, play_options: PlayOptions | None = None
     ) -> bool:
-        """Start the playback; without a bag of its own, play one to the end.
+        """Start the playback; without its own bag, play one to the end.
 
         The playback of a bag that is given here ends with the bag, by `cancel`, and in the main
         thread by SIGINT or SIGTERM.

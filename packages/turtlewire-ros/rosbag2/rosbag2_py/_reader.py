@@ -193,7 +193,7 @@ class SequentialReader:
 
         Returns:
             Whether that order is possible. Messages cannot be sorted by their publication, and
-            sqlite3 bags have no order of their own, as in ROS 2; the order stays as it was then.
+            sqlite3 bags do not define an order, as in ROS 2; the order stays as it was then.
         """
         bag = self._opened()
         by_file = order.sort_by is ReadOrderSortBy.File
@@ -216,7 +216,7 @@ class SequentialReader:
 
 
 class SequentialCompressionReader(SequentialReader):
-    """The same for compressed bags; every reader here decompresses."""
+    """A `SequentialReader` under the name for compressed bags; every reader decompresses."""
 
 
 def _matches(pattern: str, name: str) -> bool:

@@ -130,7 +130,7 @@ def _run(
 
     thread = threading.Thread(target=play_all, name="bag-player", daemon=True)
     thread.start()
-    # On a thread of its own: a burst waits for the player, and this thread for `stop`.
+    # On its own thread: a burst waits for the player, and this thread for `stop`.
     starter = threading.Thread(target=first, args=(player,), name="bag-burst", daemon=True)
     starter.start()
     stop.get()

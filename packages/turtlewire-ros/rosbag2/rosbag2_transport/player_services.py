@@ -1,4 +1,4 @@
-"""The services and the topic by which other nodes see and steer a player."""
+"""The services and the topic through which other nodes monitor and control a player."""
 
 from __future__ import annotations
 

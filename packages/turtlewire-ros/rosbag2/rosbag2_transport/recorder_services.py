@@ -1,4 +1,4 @@
-"""The services and the topic by which other nodes see and steer a recorder."""
+"""The services and the topic through which other nodes monitor and control a recorder."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Fills messages from dictionaries, which `ros2 topic pub` and its like read from YAML."""
+"""Fills messages from dictionaries; `ros2 topic pub` and similar verbs read them from YAML."""
 
 from __future__ import annotations
 

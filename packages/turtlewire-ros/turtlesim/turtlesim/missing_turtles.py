@@ -1,4 +1,4 @@
-"""Turtles that are referenced, by subscribers or publishers, but were never spawned."""
+"""Finds turtles whose topics have publishers or subscriptions, but that were never spawned."""
 
 from __future__ import annotations
 

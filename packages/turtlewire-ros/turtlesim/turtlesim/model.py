@@ -94,7 +94,7 @@ class Stroke(NamedTuple):
 
 
 class TurtleTick(NamedTuple):
-    """What one tick did to one turtle.
+    """The results of one tick of a turtle.
 
     Attributes:
         turtle: The turtle.
@@ -117,7 +117,7 @@ class TurtleTick(NamedTuple):
 
 
 class RotationState(Enum):
-    """How far a rotation has come."""
+    """The progress of a rotation."""
 
     ACTIVE = "active"
     SUCCEEDED = "succeeded"
@@ -148,7 +148,7 @@ class Rotation:
 
 
 class Turtle:
-    """One turtle. Its attributes are its state between two ticks; see the module's text for units.
+    """A turtle. The attributes are its state between two ticks, in the units of this module.
 
     Attributes:
         name: Name, unique in its world.

@@ -40,7 +40,7 @@ _BACKGROUND = {"r": ("Red", 0x45), "g": ("Green", 0x56), "b": ("Blue", 0xFF)}
 
 
 class TurtlesimNode(CppNode):
-    """One simulator, which moves its turtles every 16 ms of its node's clock.
+    """A simulator, which moves its turtles every 16 ms of the node's clock.
 
     Args:
         headless: Whether to serve no page.

@@ -1,8 +1,8 @@
 """One display of one page: messages of a topic in, packets out, each where its frame was then.
 
-A message is shown when its frame can be transformed into the fixed frame at its stamp, as tf2's
-message filter has it: what comes before its transforms waits for them, what is older than all of
-them is dropped, and if too many wait, the oldest is dropped. The status says why.
+A message is shown when its frame can be transformed into the fixed frame at its stamp, as in tf2's
+message filter: a message that arrives before its transforms waits for them, one that is older than
+all of them is dropped, and if too many wait, the oldest is dropped. The status gives the reason.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ _NO_MESSAGE = Status("warn", "No messages received")
 
 
 class Base:
-    """What poses refer to: the frame, what is subtracted from its coordinates, and the buffer.
+    """The reference of poses: a frame, the origin subtracted from its coordinates, and a buffer.
 
     With ``own_frames``, each message is shown in its own frame, because there are no transforms.
     """

@@ -1,4 +1,4 @@
-"""All frames as a page draws them: in one frame, at one time, as one array."""
+"""The poses of all frames in one frame, at one time, as one array, for the page."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ FRAME_TIMEOUT_S = 15.0
 
 
 class TreeStructure(NamedTuple):
-    """Which frames there are; it changes rarely.
+    """The frames and their parents; they change rarely.
 
     Attributes:
         version: Counts changes.

@@ -1,4 +1,4 @@
-"""The wire as a source: frames from ``/tf`` and ``/tf_static``, messages of any topic."""
+"""The network as a source: frames from ``/tf`` and ``/tf_static``, messages of any topic."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ _MOST_PUBLISHERS = 16
 
 
 class LiveSource:
-    """What is on the wire of this process's domain.
+    """The live frames and messages of this process's domain.
 
     Args:
         context: The participant to use; None joins the domain of the environment.

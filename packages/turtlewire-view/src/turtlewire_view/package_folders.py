@@ -1,4 +1,4 @@
-"""Where packages lie: as the user says, around a URDF file, or in the ament index."""
+"""Finds packages: named by the user, around a URDF file, or in the ament index."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What pages ask for once: publish with a tool, save a view, load one."""
+"""Single requests of pages: publish with a tool, save or load a view."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One parameter of one node, asked through the node's parameter service, as ``ros2 param get``."""
+"""Reads one parameter of one node through its parameter service, like ``ros2 param get``."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ _MOST_NAMED = 5
 class ParameterWatch:
     """Asks for a text parameter when its node is there, comes again or says that it has changed.
 
-    A thread of its own waits for the responses and gives the answers, without any lock held.
+    A separate thread waits for the responses and reports them, without holding a lock.
 
     Args:
         context: The participant.

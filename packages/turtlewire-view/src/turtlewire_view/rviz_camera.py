@@ -1,4 +1,4 @@
-"""The camera of a ``.rviz`` file, ``Views/Current``: RViz's kinds as the page's two."""
+"""The camera of a ``.rviz`` file, ``Views/Current``: converts RViz's kinds to the page's two."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _NEAREST_M, _FARTHEST_M = 1e-3, 1e7
 
 
 class Camera(TypedDict):
-    """How a scene is looked at.
+    """The camera of a view.
 
     Attributes:
         kind: ``orbit``, or ``top`` for a picture from above.

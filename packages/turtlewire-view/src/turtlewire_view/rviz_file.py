@@ -1,8 +1,8 @@
-"""Views as RViz saves them, ``.rviz`` files: read for what the page has.
+"""Reads ``.rviz`` files, the views that RViz saves, as far as the page supports them.
 
-A view is what the page keeps: the fixed frame, what of the frames is drawn, and displays with
-kind, topic and options; :mod:`turtlewire_view.rviz_writing` writes them. Which option of RViz is
-which of the page's stands in :mod:`turtlewire_view.rviz_options`.
+A view consists of the fixed frame, the visible parts of frames, and displays with kind, topic and
+options. :mod:`turtlewire_view.rviz_writing` writes views, and :mod:`turtlewire_view.rviz_options`
+maps RViz's options to the page's.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Where the view gets its frames and messages from: the wire, or a bag."""
+"""The source of the view's frames and messages: the network, a bag, a buffer or a robot."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class ParameterAnswer(NamedTuple):
 
 
 class TimelineState(NamedTuple):
-    """What the time bar shows; times in seconds, None if unknown.
+    """The state of the time bar; times in seconds, None if unknown.
 
     Attributes:
         now: The time that is shown.

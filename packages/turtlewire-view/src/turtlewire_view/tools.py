@@ -1,4 +1,4 @@
-"""What the page's tools publish: RViz's topics, types and covariance."""
+"""The messages of the page's tools, with RViz's topics, types and covariance."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _DEVIATION_XY, _DEVIATION_YAW = 0.5, math.pi / 12
 
 
 class ToolMessage(NamedTuple):
-    """What to publish."""
+    """The message that a tool publishes."""
 
     topic: str
     type_name: str

@@ -1,4 +1,4 @@
-"""The page's data about each frame, and about one frame as another sees it."""
+"""The page's data about each frame, and the pose of one frame in another."""
 
 from __future__ import annotations
 

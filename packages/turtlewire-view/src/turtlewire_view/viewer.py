@@ -1,4 +1,4 @@
-"""The view: a page for any number of browsers, fed from one source."""
+"""The view: a page for any number of browsers, with data from one source."""
 
 from __future__ import annotations
 
@@ -234,7 +234,7 @@ class Viewer:
             self._work_for_all()
 
     def _work_for_all(self) -> None:
-        """In a method of its own: the waiting thread must not hold on to pages that have gone."""
+        """Update all pages. A separate method, so that no local keeps closed pages alive."""
         with self._lock:
             sessions = list(self._sessions)
         for session in sessions:

@@ -17,7 +17,7 @@
         ├── InvalidArgumentException  an empty frame id, or one that starts with '/'
         └── TimeoutException          a remote buffer did not answer in time
 
-``str(error)`` is the text that ROS 2 defines, if it defines one. Our advice is in ``error.hint``
+``str(error)`` is ROS 2's text, if ROS 2 defines one. Our advice is in ``error.hint``
 (an empty string when there is nothing to add); tracebacks show it as a note on Python 3.11 and
 later.
 """

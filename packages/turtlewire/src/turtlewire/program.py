@@ -1,7 +1,7 @@
-"""Ends a program as Unix tools end when their output cannot be written.
+"""Ends a program as Unix tools do when they cannot write their output.
 
-``git``, ``ls`` and ``cat`` end without a text when the reader of their output, such as ``head``,
-has closed the pipe: SIGPIPE ends them, for which a shell shows the status 141. When the disk is
+``git``, ``ls`` and ``cat`` end silently when the reader of their output, such as ``head``, has
+closed the pipe: SIGPIPE ends them, and a shell shows the status 141. When the disk is
 full, they print one line. Python ignores SIGPIPE, prints a traceback, and "Exception ignored in …"
 with the status 120 for what is in its buffers at the exit.
 """

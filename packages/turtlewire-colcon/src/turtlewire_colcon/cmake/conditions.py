@@ -47,7 +47,7 @@ def is_false(text: str) -> bool:
 
 
 class Surroundings(Protocol):
-    """What a condition asks about: the interpreter."""
+    """The part of the interpreter that conditions query."""
 
     variables: dict[str, str]
     environment: Mapping[str, str]

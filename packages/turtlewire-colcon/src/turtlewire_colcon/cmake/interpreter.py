@@ -134,7 +134,7 @@ class Interpreter:
 
     @contextmanager
     def scope(self, **variables: str) -> Iterator[None]:
-        """A scope of its own, with further variables."""
+        """Open a scope with further variables."""
         self._outer.append(self.variables)
         self.variables = {**self.variables, **variables}
         try:

@@ -1,4 +1,4 @@
-"""What a package installs, generates and tests, as its CMakeLists.txt says."""
+"""The files that a package installs, its interfaces and its tests, by its CMakeLists.txt."""
 
 from __future__ import annotations
 
@@ -143,7 +143,7 @@ class PlannedTest(NamedTuple):
         environment: Variables set for it.
         folder: Where it runs.
         timeout: Seconds.
-        isolated: Whether it runs in a ROS domain of its own.
+        isolated: Whether it runs in its own ROS domain.
     """
 
     name: str
@@ -157,7 +157,7 @@ class PlannedTest(NamedTuple):
 
 @dataclass
 class Plan:
-    """What a package installs, generates and tests.
+    """The files, interfaces and tests of a package.
 
     Attributes:
         name: Name of the project.

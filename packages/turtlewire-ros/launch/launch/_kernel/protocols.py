@@ -1,6 +1,7 @@
 """Protocols of the parts of a launch, as the other parts see them.
 
-``Context_contra`` is the context that they are handed; it stands above them, so it is a parameter.
+``Context_contra`` is the type of the context that they get; it is a type parameter because its
+module is in a higher layer.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""The common parts of actions that set, extend and unset named texts.
+"""The common parts of actions that set, extend and unset variables.
 
-The named texts of a launch are its environment variables and its launch configurations.
+The variables of a launch are its environment variables and its launch configurations.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Plain text as a substitution; it is found as ``launch.substitutions.TextSubstitution``."""
+"""Plain text as a substitution; import it as ``launch.substitutions.TextSubstitution``."""
 
 from __future__ import annotations
 

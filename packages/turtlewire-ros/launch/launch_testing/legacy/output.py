@@ -1,4 +1,4 @@
-"""Tests and filters of what processes write, for `LaunchTestService.add_output_test`."""
+"""Tests and filters of the output of processes, for `LaunchTestService.add_output_test`."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ __all__ = ["ProcessProxy", "launch_process"]
 
 
 class ProcessProxy:
-    """What a test sees of a process.
+    """A test's view of a process.
 
     Args:
         process_action: The action that runs it.

@@ -1,4 +1,4 @@
-"""What follows the name of the distribution, each name in a process of its own."""
+"""What follows the name of the distribution, each name in its own process."""
 
 from __future__ import annotations
 

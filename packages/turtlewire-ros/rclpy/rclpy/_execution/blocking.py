@@ -1,4 +1,4 @@
-"""Blocking for a response, without the deadlocks that lie in wait there."""
+"""Blocks until a response arrives, and avoids or reports the deadlocks that this can cause."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _PATIENCE_S = 1.0
 
 
 class BlockingCall(NamedTuple):
-    """What is waited for, and where.
+    """A service call that blocks its thread until the response arrives.
 
     Attributes:
         service: Full name of the service.

@@ -1,7 +1,7 @@
 """What an executor serves: subscriptions, timers, services, clients, guard conditions, waitables.
 
-Programs derive from some of these classes, so that all names which ROS 2 does not define begin with
-an underscore; within the package, the scheduler uses them.
+Programs derive from some of these classes. Therefore all names that ROS 2 does not define begin
+with an underscore, although the scheduler uses them.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ Work = tuple["Callable[..., Any]", "tuple[Any, ...]"]
 
 
 class EntityHost(Protocol):
-    """What entities, and callbacks that block, need of the executor; the scheduler fulfils it.
+    """The part of an executor that entities and blocking callbacks use: its scheduler.
 
     Attributes:
         wait: Where entities report that they are ready.
@@ -222,7 +222,7 @@ class ClosingEntity(Entity):
 
 
 class _Owner(Protocol):
-    """What an entity is part of."""
+    """The owner of an entity: a node or a waitable."""
 
     def _work_of(self, part: Entity) -> Work | None:
         """Return the work to run when a part is ready."""

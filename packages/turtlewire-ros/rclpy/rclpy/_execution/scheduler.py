@@ -2,8 +2,8 @@
 
 One wait serves everything. The middleware's wait set holds the subscriptions, clients and services,
 and is notified once when one is added or removed; the earliest timer gives the wait's limit; a
-guard condition, a finished future or another thread ends the wait. Nothing is collected again for a
-pass, and nothing polls: an idle executor does not run at all.
+guard condition, a finished future or another thread ends the wait. The scheduler neither polls nor
+rebuilds its wait set: an idle executor does not run at all.
 
 Within one cycle the order is that of ROS 2: unfinished tasks (the newest first), the waitables of
 all nodes, then node by node its timers, subscriptions, guard conditions, clients and services.
@@ -278,7 +278,7 @@ class Scheduler:
         if not entity._GATED:
             return
         entity.callback_group.ending_execution(entity)
-        # A callback of this group may have freed another one: programs write groups of their own.
+        # A callback of this group may have freed another one: programs define their own groups.
         self.resume_paused()
         entity.callback_group._rclpy_wake_schedulers()
 

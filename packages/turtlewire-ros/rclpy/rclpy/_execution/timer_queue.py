@@ -1,4 +1,4 @@
-"""The timers of an executor, ordered by the moment at which they are due."""
+"""The timers of an executor, ordered by the time at which they are due."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an executor waits for: endpoints with something to take, and timers that are due."""
+"""The wait of an executor: for endpoints with messages, and for timers."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["ExecutorWait"]
 
 
 class _Ranked(Protocol):
-    """What can be reported as ready."""
+    """An object that the wait can report as ready."""
 
     _rank: tuple[int, int, int]
 

@@ -1,4 +1,4 @@
-"""What all nodes have: names, a clock, a logger, parameters, and a view of the graph."""
+"""The common base of all nodes: names, a clock, a logger, parameters, and a view of the graph."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def _rosout_qos(profile: QoSProfile | int) -> QoS:
 
 
 class BaseNode:
-    """What :class:`rclpy.node.Node` and :class:`rclpy.experimental.AsyncNode` have in common.
+    """The common base of :class:`rclpy.node.Node` and :class:`rclpy.experimental.AsyncNode`.
 
     Args:
         clock: Its clock, of ROS time. :class:`rclpy.node.Node` describes the other arguments.

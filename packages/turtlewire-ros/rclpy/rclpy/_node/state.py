@@ -1,4 +1,4 @@
-"""The core of a node: what its endpoints, parameters and services share of it."""
+"""The state of a node that its endpoints, parameters and services share."""
 
 from __future__ import annotations
 

@@ -55,14 +55,14 @@ _DOES_NOTHING = "Not handling nor executing the goal, this server will do nothin
 
 
 class GoalResponse(Enum):
-    """What a goal callback decides."""
+    """The decision of a goal callback."""
 
     REJECT = 1
     ACCEPT = 2
 
 
 class CancelResponse(Enum):
-    """What a cancel callback decides."""
+    """The decision of a cancel callback."""
 
     REJECT = 1
     ACCEPT = 2

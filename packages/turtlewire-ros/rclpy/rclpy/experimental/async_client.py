@@ -23,7 +23,7 @@ __all__ = ["AsyncClient"]
 class AsyncClient(AsyncEndpoint, BaseClient[SrvT_co]):
     """Calls a service; made by :meth:`AsyncNode.create_client`.
 
-    Nothing has a timeout of its own: use ``async with asyncio.timeout(…)``.
+    No method has its own timeout: use ``async with asyncio.timeout(…)``.
 
     Attributes:
         srv_type: The service class.

@@ -2,10 +2,10 @@
 
 The user asked the program to end, so its position does not matter, even during imports. The exit
 status stays that of an interrupted program. The same goes for threads that spin:
-``ExternalShutdownException`` is how they learn of the signal, not a fault. An unreadable command
-line is reported in one line, and so are settings with which no context can be opened. Where Python
-drops exceptions, within a destructor or a callback of a weak reference (at the end of each import
-there is one), Ctrl-C is raised again right afterwards.
+``ExternalShutdownException`` tells them that the program ends, and is not an error. An unreadable
+command line is reported in one line, and so are settings with which no context can be opened. Where
+Python drops exceptions, within a destructor or a callback of a weak reference (at the end of each
+import there is one), Ctrl-C is raised again right afterwards.
 """
 
 from __future__ import annotations
@@ -108,7 +108,7 @@ def _raise_again_after(frame_guard: set[signal.Signals]) -> None:
     in Python would itself be the first to be interrupted. :func:`next` ignores the dead reference,
     which is its default, and calls ``interrupt_main``.
     """
-    global _guard_reference
+    global _guard_reference  # noqa: PLW0603 - there is one in the process
     call = functools.partial(next, map(_thread.interrupt_main, (SIGINT,)))
     _guard_reference = weakref.ref(frame_guard, call)
 

@@ -1,4 +1,4 @@
-"""Where log records go.
+"""The outputs of log records.
 
 The console, a file, and ``/rosout`` through the sink of the node that owns the logger.
 

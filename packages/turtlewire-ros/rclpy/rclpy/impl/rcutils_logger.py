@@ -50,7 +50,7 @@ class _SystemClock:
 class LoggingFilter:
     """Decides which messages of a calling line are written.
 
-    A program can enter classes of its own into :data:`supported_filters`.
+    A program can add its own classes to :data:`supported_filters`.
 
     Attributes:
         params: The keywords that ask for it, with their defaults; None marks one that is required.
@@ -181,7 +181,7 @@ class _Place(NamedTuple):
 
 
 class CallerId(_Place):
-    """Where in a program a message is logged: the line, and the instruction in it.
+    """The place in a program that logs a message: the line, and the instruction in it.
 
     Args:
         frame: None takes the nearest frame of another file.
@@ -197,7 +197,7 @@ class CallerId(_Place):
 
 
 class _CallSite:
-    """What one line of a program asks for; it has to stay the same from call to call."""
+    """The filters that one line of a program requests; they must not change between calls."""
 
     def __init__(self, severity: int, name: str, options: dict[str, Any]) -> None:
         self.severity = severity
@@ -297,7 +297,7 @@ class RcutilsLogger:
         """Log with severity WARN."""
         return log_levels.effective(self.name) <= _WARN and self._log(message, _WARN, kwargs)
 
-    # Lyrical has it no longer.
+    # Lyrical no longer has it.
     if not since(LYRICAL):
 
         def warn(self, message: Any, **kwargs: Any) -> bool:

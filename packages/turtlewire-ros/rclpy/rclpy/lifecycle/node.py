@@ -1,4 +1,4 @@
-"""Managed nodes."""
+"""Managed (lifecycle) nodes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a command of ``ros2`` is, and how a command offers its verbs."""
+"""The base of the commands of ``ros2``, and the lookup of their verbs."""
 
 from __future__ import annotations
 

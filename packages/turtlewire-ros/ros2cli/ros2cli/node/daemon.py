@@ -1,7 +1,7 @@
 """ROS 2's daemon, which keeps the graph for other commands: here it never runs.
 
-Each command discovers the nodes by itself, in about the time in which a daemon would answer.
-Programs that ask for the daemon learn that none runs, and use a direct node as they do with
+Each command discovers the nodes itself, in about the time that a daemon would take to answer.
+Programs that ask for the daemon are told that none runs, and use a direct node as they do with
 ``--no-daemon``.
 """
 

@@ -19,7 +19,7 @@ SKIP_TOPICS = ["/parameter_events", "/rosout"]
 
 
 class Counts(NamedTuple):
-    """How many endpoints of both kinds a name has.
+    """The numbers of endpoints of both kinds with a name.
 
     Attributes:
         name: Name of the topic, service or action.
@@ -33,7 +33,7 @@ class Counts(NamedTuple):
 
 
 class GraphSnapshot(NamedTuple):
-    """What was discovered.
+    """The endpoints that were discovered.
 
     Attributes:
         topics: All topics except `SKIP_TOPICS`.

@@ -64,7 +64,7 @@ def differences(case, environment=None):
 
 
 def differences_alone(case):
-    """In a domain of its own: the nodes of several cases have the same names."""
+    """In its own domain: the nodes of several cases have the same names."""
     with reserved_domain() as domain:
         return differences(case, {"ROS_DOMAIN_ID": str(domain)})
 

@@ -1,4 +1,4 @@
-"""The points of a PointCloud2 as a view of its bytes, whatever its fields and paddings are."""
+"""The points of a PointCloud2 as a view of its bytes, for any fields and padding."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Colours of points: from their values over RViz's rainbow, from one channel, or all the same."""
+"""Colours of points: by value over RViz's rainbow, from one channel, or one colour for all."""
 
 from __future__ import annotations
 

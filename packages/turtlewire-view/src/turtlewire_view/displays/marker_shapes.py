@@ -1,4 +1,4 @@
-"""One Marker message as what the page draws, with RViz's rules of what is wrong with it."""
+"""Converts a Marker message to shapes of the page, with RViz's checks."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ _LARGEST_SCALE = 1e9
 
 
 class MarkerShape(NamedTuple):
-    """What is sent of a marker.
+    """The data of a marker that the page gets.
 
     Attributes:
         header: Shape, pose, scale, colour and what else the shape needs.

@@ -1,4 +1,4 @@
-"""What all clients share: topics, services, parameters, connections and time."""
+"""The state that all clients share: topics, services, parameters, connections and time."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ __all__ = ["Bridge", "ConnectedClient", "Log"]
 
 
 class Log(Protocol):
-    """Where lines for the server's user go; a ``logging.Logger`` is one, and rclpy's, too."""
+    """A logger for the server's user: a ``logging.Logger``, or rclpy's."""
 
     def info(self, message: str, /) -> Any:
         """Tell."""

@@ -39,7 +39,7 @@ class _Connection:
 
 
 class Caller:
-    """Calls services; for the loop's thread. A thread of its own waits for responses.
+    """Calls services; for the loop's thread. A separate thread waits for responses.
 
     Args:
         context: The participant.

@@ -1,4 +1,4 @@
-"""Attachments and metadata records of MCAP files, which stand beside the messages."""
+"""Attachments and metadata records of MCAP files, which are stored with the messages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The files that a bag consists of: their kinds, names and order, and what they hold together."""
+"""The files of a bag: their kinds, names, order and common metadata."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Finds the latched messages that a part of a bag needs to be usable alone."""
+"""Finds the latched messages that a part of a bag needs."""
 
 from __future__ import annotations
 

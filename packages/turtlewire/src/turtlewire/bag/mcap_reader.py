@@ -1,7 +1,8 @@
 """Reads one MCAP file: its definitions, its blocks of records, and the messages in them.
 
 A file that was closed ends with a summary that says where each chunk lies. A file whose writer was
-killed, or that was written without an index, is walked from the start; all that is whole is read.
+killed, or that was written without an index, is walked from the start; all intact messages are
+read.
 """
 
 from __future__ import annotations

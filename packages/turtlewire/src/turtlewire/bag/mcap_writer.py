@@ -1,6 +1,6 @@
 """Writes one MCAP file in chunks, as rosbag2 does.
 
-What was flushed survives a process that is killed: chunks are whole records, and a reader walks a
+Flushed data survives if the process is killed: chunks are complete records, and a reader walks a
 file that has no summary.
 """
 

@@ -2,7 +2,7 @@
 
 Source: rosbag2 (Jazzy, version 9). Versions differ in the keys that exist and in how the QoS of the
 publishers is written: a text that holds YAML up to version 8, plain YAML since; numbers for the
-policies up to 8, words since. The content decides which it is, as in rosbag2.
+policies up to 8, words since. The content determines the form, as in rosbag2.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What a bag holds, topic by topic: counts, times, sizes, definitions."""
+"""Describes the contents of a bag, topic by topic: counts, times, sizes, definitions."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class TopicOverview:
 
 @dataclass
 class BagOverview:
-    """What a bag holds.
+    """The contents of a bag.
 
     Attributes:
         path: The folder or file.

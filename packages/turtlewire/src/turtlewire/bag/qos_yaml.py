@@ -1,7 +1,7 @@
 """The QoS of a recorded topic as rosbag2 writes it to YAML, and back.
 
-Up to metadata version 8 the policies are numbers of rmw, since version 9 words. Which of both a
-profile uses shows its ``history``, as in rosbag2.
+Up to metadata version 8 the policies are numbers of rmw, since version 9 words. The ``history`` of
+a profile decides which of the two it uses, as in rosbag2.
 """
 
 from __future__ import annotations

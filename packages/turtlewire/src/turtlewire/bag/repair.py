@@ -1,6 +1,6 @@
-"""Makes a damaged file of a bag whole: what can be read of it, in a new file.
+"""Repairs a damaged file of a bag: copies the readable messages to a new file.
 
-Other programs do not read an MCAP file without its end, nor a database that was cut.
+Other programs cannot read an MCAP file without its end, or a truncated database.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Turn definitions of messages from ROS 1 into definitions of ROS 2.
 
-``time``, ``duration`` and ``Header`` become types of their own, and texts get quotes. Names stay as
+``time``, ``duration`` and ``Header`` become ROS 2's types, and strings get quotes. Names stay as
 they are, except the names of constants, which ROS 2 demands in capitals.
 """
 

@@ -1,7 +1,7 @@
 """Reads one ``.bag`` file of ROS 1 (format 2.0): its connections, chunks and messages.
 
-A bag that was closed ends with its connections and the times of each chunk. One whose recorder was
-killed has no end and is walked from the start; all that is whole is read.
+A bag that was closed ends with its connections and the times of each chunk. A bag whose recorder
+was killed has no end and is walked from the start; all intact messages are read.
 """
 
 from __future__ import annotations

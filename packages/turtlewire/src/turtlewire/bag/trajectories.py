@@ -1,4 +1,4 @@
-"""Trajectories that a bag holds as topics: odometry and poses."""
+"""Trajectories from the topics of a bag: odometry and poses."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the transforms of a bag are like, and what is wrong with them."""
+"""Statistics and problems of the transforms of a bag."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class NewParent(NamedTuple):
 
 @dataclass(repr=False)
 class TransformReport:
-    """What was found in a bag; printed, it is a table of links and a list of what looks wrong.
+    """The transforms of a bag. Printed, it is a table of links and a list of problems.
 
     Attributes:
         name: Name of the bag.
@@ -169,7 +169,7 @@ def _note_parents(buffer: BaseBuffer, report: TransformReport, link: Link) -> No
 
 
 def group_jumps(jumps: list[tuple[int, str, int]]) -> list[Jump]:
-    """One jump for all frames that fall back together.
+    """Merge the jumps of frames that fall back together.
 
     Args:
         jumps: Log time, child frame and how far back, of each frame, in the order of the file.

@@ -1,7 +1,8 @@
 """Reads the transforms of a bag into a buffer.
 
 The bytes of the messages go straight into the buffer. Chunks without transforms are skipped by
-their index, and a second thread decompresses the next chunk while the buffer takes the last one.
+their index, and a second thread decompresses the next chunk while the buffer stores the previous
+one.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Types as a bag defines them, and their messages read as ours."""
+"""Types as a bag defines them; converts their messages to ours."""
 
 from __future__ import annotations
 

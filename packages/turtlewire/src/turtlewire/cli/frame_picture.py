@@ -74,7 +74,7 @@ class Picture(NamedTuple):
     missing: str = ""
 
     def as_json(self) -> str:
-        """In one line; roots have null as parent."""
+        """Return the tree as one line of JSON; the parent of a root is null."""
         frames = [
             {
                 "frame": row.frame,
@@ -160,7 +160,7 @@ def _walk(tree: FrameTree, top: str | None) -> Iterator[tuple[str, str]]:
 
 
 def _by_name(frames: Iterable[str]) -> list[str]:
-    """In the order of names, ``turtle2`` before ``turtle10``."""
+    """Sort by name, ``turtle2`` before ``turtle10``."""
     return sorted(frames, key=lambda frame: (_natural(frame), frame))
 
 

@@ -1,4 +1,4 @@
-"""Where a trajectory on the command line comes from: a file, a bag's topic or its transforms."""
+"""Reads the trajectories of a command line: from a file, a bag's topic or its transforms."""
 
 from __future__ import annotations
 

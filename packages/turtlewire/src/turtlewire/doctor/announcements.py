@@ -1,4 +1,4 @@
-"""How DDS participants announce themselves: reads their packets, and writes a question to them.
+"""The announcements of DDS participants: reads their packets, and writes queries to them.
 
 A participant names the addresses at which it receives, each with its kind of transport (SPDP of
 DDSI-RTPS, 8.5.3 and 9.6.3). Cyclone DDS does not pass them on.
@@ -39,7 +39,7 @@ _SHARED_MEMORY = 16
 
 
 class Participant(NamedTuple):
-    """What a participant announces.
+    """The announcement of a participant.
 
     Attributes:
         prefix: The first 12 bytes of the gids of all its endpoints.

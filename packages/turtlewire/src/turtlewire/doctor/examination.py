@@ -1,4 +1,4 @@
-"""Examines the setup, the graph and the transforms, and says what is wrong and what to do."""
+"""Examines the setup, the graph and the transforms, and reports problems with advice."""
 
 from __future__ import annotations
 

@@ -1,7 +1,8 @@
 """Processes of this host whose participants on Fast DDS receive over shared memory.
 
-Participants that receive over nothing else open no port, so nobody can ask them. But Fast DDS names
-its segments in ``/dev/shm`` after the ports that it would open, and each domain has its own ports.
+Participants that receive only over shared memory open no port, so they cannot be queried. But Fast
+DDS names its segments in ``/dev/shm`` after the ports that it would open, and each domain has its
+own ports.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
-"""Transforms that are missing from a steady rhythm: lost on the way, or skipped.
+"""Finds transforms that are missing from a periodic series: lost in transit, or skipped.
 
-A broadcaster with a timer stamps its transforms one period apart. Where some of them get lost, each
-at random, the steps between the rest are multiples of that period, and their lengths follow the
-geometric distribution. Three other rhythms look different, and are not loss: a broadcaster that has
-no period, one that is held up now and then (few gaps, and long ones), and one whose clock ticks
+A broadcaster with a timer stamps its transforms one period apart. If some of them get lost, each at
+random, the steps between the rest are multiples of that period, and their lengths follow the
+geometric distribution. Three other patterns look different, and are not loss: a broadcaster that
+has no period, one that is delayed from time to time (few but long gaps), and one whose clock ticks
 faster than it publishes (all steps nearly as long).
 """
 
@@ -34,7 +34,7 @@ _MUCH = 0.4
 
 
 class Gaps(NamedTuple):
-    """What is missing.
+    """The transforms that are missing from a series.
 
     Attributes:
         share: The part that is missing, 0 to 1.

@@ -3,7 +3,7 @@
 Real modules with type stubs, no compiler, no import hook.
 
 The package consists of ``__init__.py``, one module for each of ``msg``, ``srv`` and ``action``,
-their stubs, and a copy of the definitions, which the classes are made of at first access.
+their stubs, and a copy of the definitions, from which the classes are created at first access.
 """
 
 from __future__ import annotations

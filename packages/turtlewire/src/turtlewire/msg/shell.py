@@ -1,4 +1,4 @@
-"""What the modules of interface packages (``geometry_msgs.msg``) consist of: lazy classes."""
+"""Lazy classes: the content of modules such as ``geometry_msgs.msg``."""
 
 from __future__ import annotations
 

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from turtlewire.tf.datetimes import Span, Stamp
 
     class Closes(Protocol):
-        """What a connection closes with itself."""
+        """An object that a connection closes."""
 
         def close(self) -> None:
             """Leave the network."""

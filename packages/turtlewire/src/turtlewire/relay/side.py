@@ -28,7 +28,7 @@ _NAME = "_turtlewire_relay"
 
 
 class Seen(NamedTuple):
-    """What one end's graph shows at one moment.
+    """A snapshot of one end's graph.
 
     Attributes:
         nodes: All nodes.
@@ -45,7 +45,7 @@ class Seen(NamedTuple):
 
 
 class Side:
-    """One end.
+    """One end of a relay.
 
     Attributes:
         end: The network.

@@ -1,4 +1,4 @@
-"""The transform buffer of programs: the chosen core, with what Python adds to it."""
+"""The transform buffer for programs: the chosen core with methods in Python."""
 
 from __future__ import annotations
 

@@ -2,10 +2,10 @@
 
 The bytes of each ``TFMessage`` go into the buffer as they are, on a thread of the wire.
 
-No message object is made and no executor takes part, so a lookup may wait for data wherever it is
-called. All buffers of one context that listen to a topic share one subscription, and each keeps its
-own store. With the compiled core Python is asked once for the name of each publisher, and gets
-malformed messages: all others go the short way, through an ``Intake``.
+No message object or executor is involved, so a lookup may wait for data wherever it is called. All
+buffers of one context that listen to a topic share one subscription, and each keeps its own data.
+With the compiled core, Python only looks up the name of each publisher once and handles malformed
+messages: native code, an ``Intake``, stores all others.
 """
 
 from __future__ import annotations
@@ -208,7 +208,7 @@ def _most_kept(qos: QoS) -> int:
 
 
 class _Channel:
-    """One subscription that feeds several buffers. It belongs to the node of the first of them."""
+    """A subscription that fills several buffers. It belongs to the node of the first one."""
 
     def __init__(self, topic: str, qos: QoS, *, static: bool) -> None:
         self._topic = topic
@@ -317,7 +317,7 @@ class TransformListener:
     Args:
         buffer: What to fill.
         node: Whose subscription it is in the graph; close the listener before the node. None makes
-            a node of its own.
+            its own node.
         context: The participant that ``node`` belongs to; None joins the domain of the environment.
         topic: Fully qualified name of the topic of changing transforms; None listens to static ones
             only.

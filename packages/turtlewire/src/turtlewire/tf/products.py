@@ -1,4 +1,4 @@
-"""Operators of transforms, for both cores: products, and interpolation."""
+"""Operators of transforms, for both cores: products and interpolation."""
 
 from __future__ import annotations
 

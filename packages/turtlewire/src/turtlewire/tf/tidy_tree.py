@@ -1,6 +1,6 @@
 """Positions of the nodes of a drawn tree.
 
-Children stand beside each other, centred below their parent, and subtrees as close as possible.
+Children are side by side, centred below their parent, and subtrees are as close as possible.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
 """Trajectories in files: TUM, KITTI, EuRoC and CSV.
 
-Stamps are written and read as integers (``seconds.nanoseconds``), so that no nanosecond is lost:
-a double holds the seconds since 1970 only to 0.24 microseconds. Numbers are written so that they
-read back as the same doubles. The formats do not store gaps: `Trajectory.load`
-derives them from pauses. Repeated stamps and quaternions of another length than 1 are accepted, and
-a remark says what was done about them.
+Stamps are written and read as integers (``seconds.nanoseconds``), so that no nanosecond is lost: a
+double holds the seconds since 1970 only to 0.24 microseconds. Numbers are written so that reading
+them gives the same doubles. The formats do not store gaps: `Trajectory.load` derives them from
+pauses. Repeated stamps and quaternions that are not unit quaternions are accepted; a remark reports
+the correction.
 """
 
 from __future__ import annotations

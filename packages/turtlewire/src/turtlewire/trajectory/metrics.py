@@ -1,4 +1,4 @@
-"""PoseErrors of an estimated trajectory against a reference: APE, RPE and their statistics.
+"""Errors of an estimated trajectory against a reference: APE, RPE and their statistics.
 
 Source: Sturm et al., "A Benchmark for the Evaluation of RGB-D SLAM Systems", IROS 2012; names and
 definitions of the variants are the program evo's, so that figures can be compared.

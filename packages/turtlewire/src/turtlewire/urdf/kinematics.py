@@ -1,4 +1,4 @@
-"""Forward kinematics: where all links are, for many joint states at once."""
+"""Forward kinematics: the poses of all links, for many joint states at once."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Reads a URDF with the rules and the error texts of urdfdom, and says where an error is."""
+"""Reads a URDF with urdfdom's rules and error texts, and reports the positions of errors."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether links and joints are one tree, with urdfdom's texts and order of checks."""
+"""Checks that links and joints form a tree, with urdfdom's texts and order of checks."""
 
 from __future__ import annotations
 

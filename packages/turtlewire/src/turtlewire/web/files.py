@@ -1,7 +1,7 @@
-"""What a page consists of: its files, known by their paths when the server starts, and the headers.
+"""The files of a page, found when the server starts, and the headers of its responses.
 
-A page may hold import maps, ``<script type="importmap">``: the only scripts that must stand in the
-page itself. The policy allows them by their hashes.
+A page may hold import maps, ``<script type="importmap">``: the only scripts that must be inline.
+The policy allows them by their hashes.
 """
 
 from __future__ import annotations

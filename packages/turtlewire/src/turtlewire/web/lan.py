@@ -1,7 +1,7 @@
-"""A page for other devices of the network, on purpose: its token, its addresses, its QR code.
+"""Serves a page to other devices of the network: its token, its addresses, its QR code.
 
-The token stands in the path of the page's address, so files, WebSocket and reloads carry it without
-a cookie, which other servers of this computer would get as well.
+The token is part of the path of the page's address, so files, WebSocket and reloads carry it
+without a cookie, which other servers of this computer would get as well.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Calls of other threads on the thread of an asyncio loop."""
+"""Calls from other threads to the thread of an asyncio loop."""
 
 from __future__ import annotations
 

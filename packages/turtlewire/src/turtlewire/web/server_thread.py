@@ -1,4 +1,4 @@
-"""A thread that serves WebSockets and ends in time, whatever its clients do."""
+"""A thread that serves WebSockets and stops promptly, whatever its clients do."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """The contract of a middleware: bytes in, bytes out, QoS, names and the graph. No messages.
 
-A middleware implements the abstract classes below; everything above it (rclpy, the TF listener, the
-command line) uses nothing else. Topic and service names are fully qualified ROS names
+A middleware implements the abstract classes below; the code above it (rclpy, the TF listener, the
+command line) uses only these. Topic and service names are fully qualified ROS names
 (``/turtle1/pose``); a middleware mangles them itself. ``cdr`` always means a serialized message
 with its four encapsulation bytes (``00 01 00 00``).
 
@@ -319,7 +319,7 @@ class Node(Entity):
 
 
 class Graph(ABC):
-    """What this process knows of all nodes and endpoints, its own included."""
+    """The nodes and endpoints that this process has discovered, and its own."""
 
     @abstractmethod
     def nodes(self) -> list[NodeInfo]:
@@ -387,11 +387,11 @@ class Graph(ABC):
 
     @abstractmethod
     def hurry(self) -> None:
-        """From now on, ask the peers that keep silent, instead of waiting for them to repeat.
+        """Query peers that have not announced anything, instead of waiting for them to repeat.
 
-        It is for short-lived programs: beside Fast DDS the graph is complete in a few dozen
-        milliseconds instead of four seconds, but every process of the domain sees a participant
-        come and go.
+        It is for short-lived programs: with nodes on Fast DDS, the graph is complete in a few
+        dozen milliseconds instead of four seconds, but every process of the domain sees a
+        participant come and go.
         """
 
     @abstractmethod

@@ -1,4 +1,4 @@
-"""Mistakes that the graph shows: two types on one topic or service, two nodes of one name."""
+"""Finds conflicts in the graph: two types on one topic or service, two nodes with one name."""
 
 from __future__ import annotations
 
@@ -132,7 +132,7 @@ class NodeNames:
             self._warn(name)
 
     def gone(self, participant: bytes) -> None:
-        """Another participant has left."""
+        """Forget a participant that has left."""
         self._others.pop(participant, None)
 
     def own(self, name: str) -> None:

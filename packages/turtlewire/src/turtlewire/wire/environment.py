@@ -1,4 +1,4 @@
-"""The environment variables that decide whom a process talks to, read as ROS 2 reads them."""
+"""The environment variables of discovery, read as in ROS 2."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ MAX_DOMAIN_ID = 232
 
 
 class Range(Enum):
-    """How far a process looks for others (``ROS_AUTOMATIC_DISCOVERY_RANGE``)."""
+    """The range of discovery (``ROS_AUTOMATIC_DISCOVERY_RANGE``)."""
 
     LOCALHOST = "LOCALHOST"
     SUBNET = "SUBNET"

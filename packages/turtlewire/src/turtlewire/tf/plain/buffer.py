@@ -1,4 +1,4 @@
-"""The public class: data in, questions and descriptions, as the compiled core has them."""
+"""The public class, with the methods of the compiled core."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One link of the tree: how a child frame lies in its parent, over time or forever."""
+"""A link of the tree: the pose of a child frame in its parent, over time or static."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class PoseSample(NamedTuple):
 
 
 class LinkSamples:
-    """What is known of one child frame: a static pose, or samples in order of time.
+    """The data of one child frame: a static pose, or samples in order of time.
 
     Samples of one stamp are in order of arrival.
     """

@@ -29,7 +29,7 @@ ANNOUNCEMENT_INTERVAL_NS = 20_000_000
 
 
 class NodeRecord:
-    """What is announced of one node.
+    """The announcement of one node.
 
     Its owner adds and removes gids and then calls :meth:`Announcer.changed`.
     """

@@ -1,4 +1,4 @@
-"""Cyclone's configuration for a domain, made from what the environment says about discovery."""
+"""Cyclone's configuration for a domain, from the environment variables of discovery."""
 
 from __future__ import annotations
 

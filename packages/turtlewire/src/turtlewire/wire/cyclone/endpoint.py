@@ -1,6 +1,6 @@
-"""What publishers and subscriptions have in common.
+"""The common base of publishers and subscriptions.
 
-A place in the graph, and statuses that change.
+It has an identity in the graph, and statuses that change.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ __all__ = [
 
 
 class EndpointSpec(NamedTuple):
-    """What to create.
+    """The specification of a new endpoint.
 
     Attributes:
         name: ROS name of the topic or service, for messages to people.
@@ -67,7 +67,7 @@ class EndpointSpec(NamedTuple):
 
 
 class StatusSource(NamedTuple):
-    """Where the counters of an event come from.
+    """The source of an event's counters.
 
     The status bit, the function that reads and resets them, and their translation.
     """

@@ -1,6 +1,6 @@
-"""The graph as this participant sees it.
+"""This participant's view of the graph.
 
-Cyclone's builtin topics, and the ``ros_discovery_info`` of the others.
+It comes from Cyclone's builtin topics and the ``ros_discovery_info`` of other participants.
 """
 
 from __future__ import annotations

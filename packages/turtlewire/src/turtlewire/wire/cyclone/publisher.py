@@ -1,4 +1,4 @@
-"""Bytes to a DDS writer."""
+"""Publishers: write bytes to a DDS writer."""
 
 from __future__ import annotations
 

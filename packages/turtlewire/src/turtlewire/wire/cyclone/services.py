@@ -1,6 +1,6 @@
 """Services in the layout of rmw_cyclonedds and in that of Fast DDS.
 
-On rmw_cyclonedds, the user data of endpoints says which reader and writer belong together.
+On rmw_cyclonedds, the user data of endpoints links the reader and the writer of a service.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Messages into a writer: by native code, or through ctypes without it."""
+"""Writes messages to a writer, by native code or through ctypes."""
 
 from __future__ import annotations
 

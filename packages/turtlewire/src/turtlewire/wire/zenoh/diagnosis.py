@@ -1,4 +1,4 @@
-"""Why a session cannot be opened: Zenoh says "Timeout!" for every reason.
+"""Explains why a session cannot be opened, because Zenoh only says "Timeout!".
 
 Each address is tried again with Python's own sockets and TLS, and the same certificates.
 """
@@ -69,7 +69,7 @@ _VERIFIED = {
 
 
 class ConnectFault(NamedTuple):
-    """What keeps a session from an address.
+    """The reason why a session cannot connect to an address.
 
     Attributes:
         text: What is wrong.

@@ -45,7 +45,7 @@ class Matching(Protocol):
         """An endpoint of the other kind and the same key is there."""
 
     def part(self, partner: Token) -> None:
-        """It is not there any more."""
+        """Forget a partner that has left."""
 
 
 class ZenohGraph(GraphView):
