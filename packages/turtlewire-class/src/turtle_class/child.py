@@ -34,7 +34,7 @@ def main(arguments: list[str]) -> None:
     lesson = load_lesson(lesson_folder)
     files = {file: (folder / file).read_text(encoding="utf-8") for file in lesson.files}
     with hidden(), os.fdopen(os.dup(1), "w", encoding="utf-8") as output:
-        os.dup2(2, 1)  # what nodes print belongs to the log
+        os.dup2(2, 1)  # the output of nodes goes to the log
 
         def tell(**facts: Any) -> None:
             output.write(json.dumps(facts) + "\n")

@@ -138,7 +138,7 @@ def show(domains: str, roster: Path | None, port: int | None, *, lan: bool) -> N
     from turtle_class.roster import read_roster, seats_of_domains
 
     seats = seats_of_domains(domains) if roster is None else read_roster(roster)
-    # What follows takes longer to import, and an invalid roster is reported immediately.
+    # The next imports are slow, and an invalid roster is reported before them.
     from turtle_class.show import ClassPage
     from turtlewire.errors import WireError
     from turtlewire.web.desktop import open_browser, wanted_lan

@@ -32,7 +32,7 @@ __all__ = ["DomainWatch"]
 
 _POSE = "turtlesim/msg/Pose"
 _POSE_NUMBERS = struct.Struct("<5f")
-#: More are not drawn, and longer names not shown: a student may make thousands.
+#: Further turtles are not drawn, and longer names not shown: a student may spawn thousands.
 _MOST_TURTLES, _MOST_NODES, _LONGEST_NAME = 12, 20, 80
 _STALE_S = 3.0
 #: A tree of more frames, or with longer names in all, is not kept: a program that makes up a name

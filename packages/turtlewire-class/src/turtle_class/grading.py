@@ -98,7 +98,7 @@ def grade_all(
         domain = domains.get()
         try:
             return runner.run(exercise, student / exercise.name, domain)
-        except Exception as error:  # noqa: BLE001 - the others get their results all the same
+        except Exception as error:  # noqa: BLE001 - the others still get their results
             return _ungraded(exercise, error)
         finally:
             domains.put(domain)
@@ -119,10 +119,10 @@ def grade_all(
             }
             for number, _ in enumerate(as_completed(work.values()), 1):
                 tell(f"{number} of {len(work)} graded")
-        finally:  # after Ctrl-C, what has not begun does not begin
+        finally:  # after Ctrl-C, no further exercise starts
             pool.shutdown(wait=False, cancel_futures=True)
             runner.stop()
-    if interrupted.is_set():  # a child that was stopped says nothing of what it graded
+    if interrupted.is_set():  # a stopped child has reported no results
         raise KeyboardInterrupt
     slugs = _slugs(students)
     return [

@@ -95,7 +95,7 @@ def _groups_below() -> set[int]:
         try:
             with open(f"/proc/{name}/stat", "rb") as file:
                 _, parent, pgrp = file.read().rpartition(b")")[2].split()[:3]
-        except OSError:  # it has ended meanwhile
+        except OSError:  # it has already ended
             continue
         below.setdefault(int(parent), []).append((int(name), int(pgrp)))
     groups: set[int] = set()

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Exercise", "FramePlace", "NotYet", "exercise_of", "programs_here", "start_program"]
 
-#: Simulated time at the start [s]: what is asked about the past of a moment ago has an answer.
+#: Simulated time at the start [s], so that lookups of the recent past have an answer.
 _BEGIN = 100.0
 _NO_MAIN = "Keep the function main() at the end of the file: `ros2 run` also calls it."
 

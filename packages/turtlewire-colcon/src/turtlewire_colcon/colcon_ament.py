@@ -44,7 +44,7 @@ __all__ = [
     "UnreadablePackageBuild",
 ]
 
-_TYPE = "ros.turtlewire_ament"  # "ros." has colcon-ros read the dependencies in package.xml
+_TYPE = "ros.turtlewire_ament"  # "ros." makes colcon-ros read the dependencies in package.xml
 _UNREADABLE_TYPE = "turtlewire.unreadable"
 _COMPILES = re.compile(
     r"^\s*(?:add_executable|pybind11_add_module|rclcpp_components_register_nodes?"

@@ -146,7 +146,7 @@ def _install(
     installer.install()
     for line in installer.warnings:
         warn(line)
-    # Without it colcon takes a venv in a workspace for sources.
+    # Without it, colcon treats a venv in a workspace as sources.
     (prefix / "share" / plan.name / "COLCON_IGNORE").touch()
     return plan
 

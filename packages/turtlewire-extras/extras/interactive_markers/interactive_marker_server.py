@@ -71,7 +71,7 @@ class InteractiveMarkerServer:
         self.namespace = namespace
         self.seq_num = 0
         self._lock = threading.Lock()
-        # The markers as views have them, and as they will have them; none is changed in place.
+        # The markers as views show them, and after pending updates; none is changed in place.
         self._shown: dict[str, InteractiveMarker] = {}
         self._wanted: dict[str, InteractiveMarker] = {}
         # The names of the markers in which these differ; False if only in the pose.

@@ -62,7 +62,7 @@ async def run(node: MinimalActionClientAsyncIO) -> None:
     if sending.done():
         rclpy.shutdown()
         await sending
-    # If it is not done, nobody spins any more, so no answer can come.
+    # If it is not done, the node no longer spins, so no answer can arrive.
     sending.cancel()
     await spinning
 

@@ -94,7 +94,7 @@ class DelayStatistics:
                 _, of_frame = self._frames.get(transform.child_frame_id, (gid, Delays()))
                 of_frame.add(delay)
                 self._frames[transform.child_frame_id] = (gid, of_frame)
-            delays.add(of_message.mean)  # as ROS 2: a broadcaster's figures count messages
+            delays.add(of_message.mean)  # as in ROS 2, a broadcaster's statistics count messages
 
     def _name(self, gid: bytes) -> str:
         """Return the node of a publisher, whose first message may arrive before it is known."""

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["ChildProcess", "escalate", "stdin_is_terminal"]
 
-# A grandchild may hold the pipes open; the child's own output is there at once.
+# A grandchild may hold the pipes open; the child's own output has already arrived.
 _DRAIN_S = 0.5
 _SIGKILL = getattr(signal, "SIGKILL", signal.SIGTERM)  # Windows has none
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Parser"]
 
-# Aliases let a few lines stand for billions of elements; real launch files have far fewer.
+# With aliases, a few lines can expand to billions of elements; real launch files have far fewer.
 _MOST_ELEMENTS = 100_000
 
 
@@ -64,7 +64,7 @@ def _loader() -> Any:
     def mapping(loader: Any, node: Any) -> Iterator[_Mapping]:
         made = _Mapping()
         made.line = node.start_mark.line + 1
-        # Before it is filled, because an alias in it may stand for itself.
+        # Before it is filled, because it may contain an alias of itself.
         yield made
         made.update(loader.construct_mapping(node))
 

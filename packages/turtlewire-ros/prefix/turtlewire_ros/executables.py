@@ -42,7 +42,7 @@ def is_python_script(path: str) -> bool:
     """Return True if the first line of the file is a shebang that names a Python."""
     try:
         with open(path, "rb") as file:
-            first_line = file.readline(512)  # a binary may have no line feed for megabytes
+            first_line = file.readline(512)  # a binary may contain megabytes without a line feed
     except OSError:
         return False
     return first_line.startswith(b"#!") and b"python" in first_line

@@ -48,7 +48,7 @@ class ProcessFamily:
                 stdin=subprocess.PIPE,
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
-                # Ctrl-C, a hang-up and signals to the process group are not meant for it.
+                # The guardian must ignore Ctrl-C, hang-ups and signals to the process group.
                 start_new_session=True,
             )
 

@@ -71,7 +71,7 @@ def _signal_and_wait(processes: list[int], number: signal.Signals) -> None:
     waiting = set()
     for process in processes:
         try:
-            # A handle, because another process may get the number when this one has ended.
+            # A handle, because another process may reuse the id after this one has ended.
             handle = os.pidfd_open(process)
         except ProcessLookupError:
             continue

@@ -151,12 +151,12 @@ class BaseClient(IntrospectedEndpoint, Generic[SrvT_co]):
             with self._lock:
                 future = self._pending.pop(sequence_number, None)
             if future is None:
-                # The program has given the request up.
+                # The program has abandoned the request.
                 return None
             try:
                 response = deserialize(self.srv_type.Response, cdr)
             except CdrError as error:
-                # It is the caller's error; raised here, it would end the spin.
+                # The caller's future gets the error; raised here, it would end the spin.
                 return future.set_exception, (error,)
             if self._events is not None:
                 self._events.publish(

@@ -117,7 +117,7 @@ class Context:
                 # The settings are at fault: the excepthook shows one line instead of a traceback.
                 error.is_of_environment = True
                 raise
-            # Discovery begins here, so that the first question about the graph finds answers.
+            # Discovery begins here, so that the first query of the graph finds other nodes.
             _ = self._wire.graph
             self._valid = True
             _open_contexts.add(self)
@@ -300,7 +300,7 @@ class Context:
             raise TypeError("callback should be a callable, got {}", type(callback))
         with self._lock:
             if self._valid:
-                # Executors and sleeps come and go: references to finished ones must not pile up.
+                # Executors and sleeps end: references to finished ones must not accumulate.
                 self._callbacks = [
                     reference for reference in self._callbacks if reference() is not None
                 ]

@@ -205,7 +205,7 @@ class _EventCallbacks:
         if (
             self.incompatible_qos is None
             and self.use_default_callbacks
-            # On Zenoh everything matches, so the handler would cost and never be called.
+            # On Zenoh all endpoints match, so the handler would only cost time.
             and EventKind.INCOMPATIBLE_QOS in endpoint._core.context.wire.events
         ):
             warn = self._warn_of_incompatible_qos(topic_name, get_logger(endpoint.logger_name))

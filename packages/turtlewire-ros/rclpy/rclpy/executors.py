@@ -172,7 +172,7 @@ class Executor:
             while self._context.ok() and not scheduler.is_shutdown:
                 self.spin_once()
         except ExternalShutdownException:
-            if not self._context.ended_at_exit:  # in a daemon thread, nothing is left to notify
+            if not self._context.ended_at_exit:  # in a daemon thread at exit, no wait is left
                 raise
         finally:
             self._spins.pop()

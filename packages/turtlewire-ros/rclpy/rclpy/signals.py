@@ -104,7 +104,7 @@ class _Watcher:
             for byte in os.read(self._read_fd, 64):
                 if byte == _STOP:
                     return
-                # Only bytes of the C handler also belong to the descriptor's previous owner.
+                # The descriptor's previous owner also gets the bytes of the C handler.
                 if not byte & _FROM_HANDLER:
                     self._forward(byte)
                 if byte & ~_FROM_HANDLER in self._previous:
@@ -128,8 +128,8 @@ class _Watcher:
 
     def _handle(self, signum: int, frame: FrameType | None) -> None:
         """Runs in the main thread, after the C handler has written to the pipe."""
-        excepthooks.note_signal()  # the thread may be slower
-        if self._write_fd >= 0:  # again: someone may have taken the wake-up descriptor from us
+        excepthooks.note_signal()  # because the thread may be slower
+        if self._write_fd >= 0:  # in case another library replaced the wake-up descriptor
             os.write(self._write_fd, bytes([signum | _FROM_HANDLER]))
         if signum == signal.SIGINT:
             is_shut_down = self._write_fd < 0

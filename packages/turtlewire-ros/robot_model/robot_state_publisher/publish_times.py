@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 __all__ = ["PublishTimes"]
 
-_MOST_NAMES = 10_000  # beyond it, publishers invent names
+_MOST_NAMES = 10_000  # with more joints than this, the names are made up
 
 
 class PublishTimes:

@@ -76,7 +76,7 @@ def _size(value: Any, known: dict[int, float]) -> float:
     if not isinstance(value, (dict, list)):
         return 1
     if id(value) not in known:
-        known[id(value)] = float("inf")  # what contains itself has no end
+        known[id(value)] = float("inf")  # a value that contains itself is infinite
         known[id(value)] = 1 + sum(_size(part, known) for part in parts)
     return known[id(value)]
 

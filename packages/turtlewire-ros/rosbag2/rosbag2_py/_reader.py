@@ -95,7 +95,7 @@ class SequentialReader:
         self._position_ns = position_ns
         names = [name for name, topic in bag.topics.items() if self._passes(topic)]
         if self._order.reverse:
-            # Without a seek the reader stands at the first message, before which no other lies.
+            # Without a seek, the reader is at the first message, and none precedes it.
             before = bag.messages(names, end_ns=position_ns)
             # The engine reads forwards only.
             self._messages = reversed(list(before))

@@ -216,7 +216,7 @@ class BagPlayer:
             self._outputs.publish(message)
         messages = self._bag.messages(self._topics, start_ns=time_ns)
         self._source = ReadAhead(messages, self._options.read_ahead_queue_size)
-        self._source.wait_until_ready()  # or the first messages would be late
+        self._source.wait_until_ready()  # otherwise, the first messages would be late
         # Last, so that time begins when the messages are ready.
         self.clock.jump(time_ns)
 

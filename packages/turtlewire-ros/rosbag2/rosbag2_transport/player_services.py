@@ -84,7 +84,7 @@ class PlayerServices:
         return response
 
     def _play(self, _request: Any, response: Any) -> Any:
-        # It plays: when it has ended, so has its node.
+        # Always playing, because the node ends with the playback.
         warning = "Trying to play() while in playback, dismissing request."
         self._node.get_logger().warning(warning)
         response.success = False

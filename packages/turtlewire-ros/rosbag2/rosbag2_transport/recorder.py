@@ -74,7 +74,7 @@ class BagRecorder:
         self._refused: set[str] = set()
         self._known_publishers: set[bytes] = set()
         self._latched: list[tuple[str, bytes, int]] = []
-        self._taking = threading.Lock()  # guards taking, the pause and what waits for its end
+        self._taking = threading.Lock()  # guards taking, the pause and messages held during it
         self._is_closed = False
         self._paused = options.start_paused
         self._stopped = threading.Event()

@@ -87,7 +87,7 @@ class _Filler:
         return value if type(value) is type(current) else type(current)(value)
 
     def _message(self, type_: NamespacedType, value: Any) -> Any:
-        # A message is taken as it is, so that a caller may nest messages in dictionaries.
+        # Messages are accepted unchanged, so that callers may nest them in dictionaries.
         if getattr(value, "_TYPE_NAME", None) == type_.full_name:
             return value
         message = get_message(type_.full_name)()

@@ -69,7 +69,7 @@ class Pen(NamedTuple):
 
 # The original's.
 DEFAULT_PEN = Pen(0xB3, 0xB8, 0xFF, 3)
-#: Stands for the end of a command whose first tick is still to come.
+#: The end time of a command whose first tick is still to come.
 _NEW_COMMAND = -math.inf
 
 

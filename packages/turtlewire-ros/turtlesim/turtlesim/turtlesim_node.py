@@ -208,7 +208,7 @@ class TurtlesimNode(CppNode):
             endpoints = self._endpoints_of[turtle.name]
             if endpoints.pose_listeners:
                 endpoints.publish_pose(tick.poses[k].tolist())
-            if endpoints.color_listeners:  # it sees what those before it have drawn in this tick
+            if endpoints.color_listeners:  # it sees lines of earlier turtles
                 before = int(tick.movers.searchsorted(k))
                 self._path.draw_lines(tick.lines[drawn:before], tick.pens[drawn:before])
                 drawn = before

@@ -52,7 +52,7 @@ if TYPE_CHECKING:
     from turtlewire_view.live import LiveSource
     from turtlewire_view.viewer import Viewer
 
-#: Loaded when they are used: the command line reads its options, and a live view no bag, without.
+#: Loaded at first use: parsing a command line needs none of them, and a live view needs no bag.
 _MODULES = {
     "BagSource": "bag_source",
     "BufferSource": "buffer_source",

@@ -19,7 +19,7 @@ __all__ = ["FRAME_TIMEOUT_S", "FrameScene", "Frames", "TreeStructure"]
 #: Beyond this distance from the origin [m], 32-bit coordinates would be wrong by a millimetre.
 _FAR_M = 10_000.0
 _ORIGIN_STEP_M = 1_000.0
-#: What is farther than the sun is a mistake, and cannot be drawn.
+#: A frame that is farther away than the sun is a mistake, and cannot be drawn.
 _FARTHEST_M = 1.5e11
 #: How long RViz shows a frame that gets no newer data [s].
 FRAME_TIMEOUT_S = 15.0
@@ -165,7 +165,7 @@ class FrameScene:
         try:
             names, found, times_ns = buffer.lookup_all(target, stamp_ns)
         except TransformException:
-            return  # a frame that has only been a name until now
+            return  # until now, the frame was only a name
         former, rows = self._rows.get(target, (None, None))
         if rows is None or names != former:
             rows = np.array([self._index.get(name, -1) for name in names], np.intp)
@@ -207,7 +207,7 @@ def _in_order(tree: FrameTree) -> tuple[list[str], list[int], list[str]]:
             members.append(frame)
             waiting += reversed(tree.children[frame])
         found.append((root, members))
-    found.sort(key=lambda each: -len(each[1]))  # stable: the one that came first leads its equals
+    found.sort(key=lambda each: -len(each[1]))  # stable, so the first of equal ones stays first
     names = [name for _, members in found for name in members]
     trees = [number for number, (_, members) in enumerate(found) for _ in members]
     return names, trees, [root for root, _ in found]

@@ -39,7 +39,7 @@ __all__ = [
 _HISTORY_NS = 60 * 10**9
 #: Robots have a few hundred frames. With 5,000, the server uses a fifth of a core for each page.
 MAX_FRAMES = 5_000
-#: Stamps below are of a simulation, and no system time [ns].
+#: Smaller stamps are simulated time, not system time [ns].
 _WALL_TIME_FROM_NS = 10**18
 _NODE_NAME = "turtlewire_view_{}"
 _DEPTH = 100
@@ -299,7 +299,7 @@ class _FittedSubscription:
             reliability=Reliability.BEST_AVAILABLE,
             durability=Durability.BEST_AVAILABLE,
         )
-        # Without publishers the best of all would match none that is less.
+        # Without publishers, the strictest QoS would not match weaker publishers.
         return fit_subscription(wanted, offered or [QoS(reliability=Reliability.BEST_EFFORT)])
 
 

@@ -107,7 +107,7 @@ class ParameterWatch:
         request = self._interface.Request(names=[self._parameter])
         try:
             self._asked = self._client.send_request(msg.serialize(request))
-        except UncallableServiceError as error:  # such a server has just come
+        except UncallableServiceError as error:  # this server has just appeared
             self._answers.append(ParameterAnswer(problem=error.in_one_line()))
             self._wait_set.wake()
 
@@ -151,7 +151,7 @@ class ParameterWatch:
     def _responses(self, client: Client) -> list[tuple[int, bytes]]:
         try:
             return client.take()
-        except WireError:  # the wire has been closed under it
+        except WireError:  # the context has been closed in the meantime
             self._is_closed = True
             return []
 

@@ -9,7 +9,7 @@ from typing import Any, TypedDict
 __all__ = ["Camera", "camera_from", "camera_properties", "is_camera"]
 
 _FIXED_FRAME = "<Fixed Frame>"
-#: Kinds of RViz that look at a point; the others stand somewhere and look around.
+#: Kinds of RViz that look at a point; the others are at a position and look around.
 _ORBITS = ("Orbit", "XYOrbit", "ThirdPersonFollower")
 _TOP = "TopDownOrtho"
 _DISTANCE, _ANGLE, _SCALE = 10.0, math.pi / 4, 10.0  # RViz's own defaults

@@ -150,7 +150,7 @@ def read_rviz(text: str) -> SavedView:
             refused += [f"{name}: {problem}" for problem in problems]
         else:
             others.append(name or "a display without a class")
-    # RViz's "<Fixed Frame>" stands in options of frames; as the fixed frame it says nothing.
+    # "<Fixed Frame>" is a value of RViz's frame options; as the fixed frame it has no meaning.
     own = isinstance(fixed, str) and not fixed.startswith("<")
     token = hashlib.sha256(text.encode(errors="replace")).hexdigest()[:16]
     unread = _unread(others, refused)

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 __all__ = ["Viewer"]
 
 _PAGE = Path(__file__).parent / "page"
-#: Pictures a second, at most, and one a second when nothing happens: ages go on.
+#: Shortest time between pictures, and the time if nothing changes but the ages [s].
 _FRAME_S, _IDLE_S = 1 / 30, 1.0
 _MOST_DOCUMENTS = 16
 
@@ -179,7 +179,7 @@ class Viewer:
         topics = sorted(self.source.topics(), key=lambda each: each.publishers)
         types_there = {each.name: each.type_name for each in topics}  # what is published counts
         of_kind = {each: shows for each, shows in display_types().items() if shows.kind == kind}
-        asked = options.get("message_type")  # a file knows it before the topic is there
+        asked = options.get("message_type")  # a file names it before the topic exists
         if not isinstance(asked, str) or asked not in of_kind:
             asked = next(iter(of_kind), "")
         type_name = types_there.get(topic) or asked

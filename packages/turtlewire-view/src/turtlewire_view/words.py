@@ -13,7 +13,7 @@ __all__ = ["transform_in_words"]
 _NOTHING_M = 0.005
 _NOTHING_DEG = 0.5
 _DIRECTIONS = (("ahead", "behind"), ("to the left", "to the right"), ("above", "below"))
-#: After these no "of" stands before the name.
+#: Words that are not followed by "of".
 _WITHOUT_OF = ("behind", "above", "below")
 
 

@@ -61,7 +61,7 @@ _HOMES = {
     "connect": "turtlewire.net",
     "show": "turtlewire.viewing",
 }
-#: Found without an import of their own.
+#: Modules that are attributes without a separate import.
 _MODULES = {"bag", "errors", "geometry", "msg", "testing", "trajectory", "urdf", "wire"}
 
 

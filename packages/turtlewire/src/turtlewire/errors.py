@@ -280,7 +280,7 @@ class LookupException(TransformException):
         if not names:
             why_empty = getattr(self._buffer, "_why_empty", None)  # a core alone has none
             return str(why_empty()) if why_empty else "No transform was set yet."
-        # 'turtle1' and 'turtle2' are two things, of which one may not have been spawned yet.
+        # 'turtle1' and 'turtle2' are different turtles; one may not have been spawned yet.
         others = [name for name in names if name.strip(digits) != frame.strip(digits)]
         near = difflib.get_close_matches(frame, others, 3, 0.5)
         if near:

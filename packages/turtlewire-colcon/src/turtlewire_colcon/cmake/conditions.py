@@ -209,7 +209,7 @@ def note_match(variables: dict[str, str], match: re.Match[str] | None) -> None:
 
 
 def _version(text: str) -> tuple[int, ...]:
-    start = re.match(r"\d+(?:\.\d+)*", text)  # what follows does not count
+    start = re.match(r"\d+(?:\.\d+)*", text)  # the rest is not evaluated
     numbers = [int(part) for part in start[0].split(".")] if start else []
     while numbers and numbers[-1] == 0:
         numbers.pop()

@@ -109,7 +109,7 @@ class Interpreter:
                     break
 
     def run_text(self, text: str, place: SourcePosition) -> None:
-        """Run commands that stand in a string."""
+        """Run the commands in a string."""
         self._call_body(build_tree(parse_commands(text, place.file)), "return")
 
     def knows(self, name: str) -> bool:

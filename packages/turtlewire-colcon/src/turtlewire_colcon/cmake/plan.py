@@ -52,7 +52,7 @@ class Install(NamedTuple):
 
     Attributes:
         kind: ``DIRECTORY``, ``FILES`` or ``PROGRAMS``.
-        sources: Paths. A directory that ends with ``/`` stands for its contents.
+        sources: Paths. A directory that ends with ``/`` means its contents.
         destination: Where they go, relative to the prefix.
         place: Where the command stands.
         rename: Name of the installed file, or empty.

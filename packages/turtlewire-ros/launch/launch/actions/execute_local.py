@@ -276,7 +276,7 @@ class ExecuteLocal(ProcessAction):
         return await ChildProcess.start(
             self.command(),
             cwd=description.final_cwd,
-            # Without it, what a Python node prints would only be seen when it has ended.
+            # Without it, the output of a Python node would only appear after its end.
             env=context.marked_environment({"PYTHONUNBUFFERED": "1", **description.final_env}),
             shell=self._shell,
             inherit_stdin=emulate_tty and not context.noninteractive and stdin_is_terminal(),

@@ -76,7 +76,7 @@ class EntityHost(Protocol):
     def next(
         self, timeout_ns: int | None, condition: Callable[[], bool] | None = None
     ) -> tuple[Entity | Task[Any], Work | None]:
-        """Wait for the next thing to run."""
+        """Wait for the next callback to run."""
         ...
 
     def execute(self, source: Entity | Task[Any], work: Work | None) -> None:
@@ -162,7 +162,7 @@ class Entity:
         """
         if self._destroyed:
             return
-        # First: from here on no executor adopts it, and attaching it may fail silently.
+        # First: from now on no executor adopts the entity, and attaching it may fail silently.
         self._destroyed = True
         host = self._serving_host()
         if host is not None:
@@ -173,7 +173,7 @@ class Entity:
             self._on_destroy(self)
 
     def _close(self) -> None:
-        """Release what it holds on the wire."""
+        """Release the entity's objects of the middleware."""
 
     def _attach(self, host: EntityHost) -> None:
         """Start to report readiness to ``host``."""

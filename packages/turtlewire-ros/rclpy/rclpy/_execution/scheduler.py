@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Scheduler"]
 
-#: A spin within a callback that finds nothing to do for so long is warned of.
+#: Idle time after which a spin within a callback logs a warning.
 _PATIENCE_NS = 1_000_000_000
 
 
@@ -100,7 +100,7 @@ class Scheduler:
             entity._leave(self)
 
     def _listen_to(self, entity: Entity, attach: Callable[[EntityHost], None]) -> None:
-        """Attach an entity; another thread may destroy it or shut things down at this moment."""
+        """Attach an entity; another thread may destroy it, or shut down, at this moment."""
         try:
             attach(self)
         except WireError:
@@ -125,12 +125,12 @@ class Scheduler:
         if self._collecting or not self.is_spun_by_this_thread():
             self.wake()
 
-    # Finding the next thing to run
+    # Finding the next callback to run
 
     def spin_once(
         self, timeout_ns: int | None, condition: Callable[[], bool] | None = None
     ) -> None:
-        """Wait for the next thing to run, and run it; raises as :meth:`next`.
+        """Wait for the next callback, and run it; raises as :meth:`next`.
 
         Raises:
             RuntimeError: Another thread spins.
@@ -156,7 +156,7 @@ class Scheduler:
     def next(
         self, timeout_ns: int | None, condition: Callable[[], bool] | None = None
     ) -> tuple[Entity | Task[Any], Work | None]:
-        """Wait for the next thing to run, and claim its callback group.
+        """Wait for the next callback to run, and claim its callback group.
 
         Raises:
             ConditionReachedException: ``condition()`` is true.
@@ -264,13 +264,13 @@ class Scheduler:
     def _pause(self, entity: Entity) -> None:
         # With the lock: a thread that ends its callback may resume the entity at any moment.
         with self.lock:
-            if entity not in self._served:  # released since its group was looked at
+            if entity not in self._served:  # the group was released after the check above
                 return
             self._paused.add(entity)
             entity.callback_group._rclpy_note_wait(self)
             entity._pause(self)
             self._self_waits.held_up(entity, list(self._holders.values()), self._served)
-        if self.may_run(entity):  # it became free before it was in the list
+        if self.may_run(entity):  # the group became free before the entity was in the list
             self._resume(entity)
 
     def _release_group(self, entity: Entity) -> None:
@@ -349,7 +349,7 @@ class Scheduler:
             yield
         finally:
             self._response_awaited = outer
-            # Within the block, `may_run` was False for every entity.
+            # During the block, `may_run` returned False for every entity.
             self.resume_paused()
 
     def holds_up(self, service: str) -> bool:

@@ -46,7 +46,7 @@ class TimerQueue(Generic[T]):
                 self._sweep()
                 return
             ticket = self._tickets[timer] = next(self._next_ticket)
-            # The ticket also decides between equal times, because timers have no order.
+            # The ticket orders timers with equal times, because timers cannot be compared.
             entry = (time.monotonic_ns() + delay_ns, ticket, timer)
             heapq.heappush(self._heap, entry)
             self._sweep()

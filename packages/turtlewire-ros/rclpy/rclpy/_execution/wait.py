@@ -82,7 +82,7 @@ class ExecutorWait(Generic[T]):
         Returns:
             What is ready, in ROS 2's order.
         """
-        # The wire still gets a look: what is ready there belongs to the same cycle.
+        # The middleware is still checked: its ready entities belong to the same cycle.
         if self._notified:
             timeout_ns = 0
         else:

@@ -195,7 +195,7 @@ class BaseNode:
         """Return the fully qualified name of a service, remapped unless ``only_expand``."""
         return self._rclpy_endpoints.names.resolve_service(service, only_expand=only_expand)
 
-    # What each kind of node makes in its own way
+    # Implemented by each kind of node
 
     def get_clock(self) -> BaseClock:
         """Return its clock."""
@@ -518,7 +518,7 @@ def _arguments(
     from rclpy.impl.arguments import Arguments
 
     component = component_arguments.get()
-    if component is not None:  # the container's command line is not the component's
+    if component is not None:  # a component does not use the container's command line
         # Once, because a component may create further nodes.
         component_arguments.set(None)
         return Arguments.parse_local(component)

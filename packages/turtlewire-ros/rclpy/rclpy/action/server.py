@@ -382,7 +382,7 @@ class ActionServer(IntrospectedAction, Waitable):
             self._expiry.cancel()
             return
         expires_ns = first_end_ns + self._result_timeout_ns
-        if expires_ns != self._expires_ns:  # for most goals that end, the timer is set already
+        if expires_ns != self._expires_ns:  # usually, the timer is already set when a goal ends
             self._expires_ns = expires_ns
             self._expiry.timer_period_ns = max(0, expires_ns - self._now_ns())
             self._expiry.reset()

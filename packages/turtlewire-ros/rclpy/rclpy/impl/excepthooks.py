@@ -58,7 +58,7 @@ def take_dropped() -> bool:
 
 
 def _hook(kind: type[BaseException], value: BaseException, traceback: TracebackType | None) -> None:
-    if hasattr(sys, "ps1"):  # at a prompt, the traceback says what was interrupted
+    if hasattr(sys, "ps1"):  # at a prompt, the traceback shows the interrupted line
         _previous_hook(kind, value, traceback)
     elif getattr(value, "is_of_command_line", False) or _is_of_the_command_line(traceback):
         _previous_hook(kind, value.with_traceback(None), None)
@@ -113,6 +113,6 @@ def _raise_again_after(frame_guard: set[signal.Signals]) -> None:
     _guard_reference = weakref.ref(frame_guard, call)
 
 
-explain_missing_modules()  # before `install`, whose hook calls the one that it finds
+explain_missing_modules()  # before `install`, whose hook calls the previous hook
 sys.unraisablehook = _unraisable_hook
 install()  # at once: most of what a node does in its first moments is importing

@@ -139,7 +139,7 @@ class SkipFirst(LoggingFilter):
         return bool(skipped)
 
 
-#: Asked in this order; the next filter does not see a message that one holds back.
+#: The filters are called in this order; a filter does not see messages that an earlier one drops.
 supported_filters: OrderedDict[str, type[LoggingFilter]] = OrderedDict(
     throttle=Throttle, skip_first=SkipFirst, once=Once
 )
@@ -319,7 +319,7 @@ class RcutilsLogger:
         caller = CallerId()
         site = self._call_sites.get(caller)
         if site is None:
-            # Another thread may have entered the line since the look.
+            # Another thread may have added the line since the check.
             site = self._call_sites.setdefault(caller, _CallSite(severity, name, options))
         else:
             site.check(severity, name, options)

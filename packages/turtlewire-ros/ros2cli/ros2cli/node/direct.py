@@ -66,7 +66,7 @@ class DirectNode:
         """Wrap a node that the caller owns and destroys.
 
         Args:
-            node: A node of rclpy, or a thing with one in its attribute ``node``.
+            node: A node of rclpy, or an object whose attribute ``node`` is one.
         """
         # Without the constructor, which would make a node.
         direct = DirectNode.__new__(DirectNode)
@@ -209,7 +209,7 @@ class DirectNode:
         """
         if not self.wait_for(lambda: future.done() or not is_served(), timeout, future):
             raise TimeoutError(f"no answer within {timeout} s")
-        if not future.done():  # its last answer may still be on its way
+        if not future.done():  # its last answer may still be in transit
             with suppress(TimeoutError):
                 return self.result(future, _LAST_ANSWER_S)
             raise RuntimeError(f"The server of {server} ended before it answered")

@@ -13,7 +13,7 @@ __all__ = ["LocalXMLRPCServer", "get_local_ipaddrs"]
 class LocalXMLRPCServer(SimpleXMLRPCServer):
     """A server of remote calls that refuses requests of other hosts."""
 
-    # Two servers must not share a port: the second would seem to work, and never be asked.
+    # Two servers must not share a port: the second would seem to work, but get no requests.
     allow_reuse_address = False
 
     def verify_request(self, request: Any, client_address: Any) -> bool:  # noqa: ARG002

@@ -220,7 +220,7 @@ def _called(group: str, function: Callable[[Any], _T]) -> Iterator[_T]:
     for name, extension in instantiate_extensions(group, unique_instance=True).items():
         try:
             returned = function(extension)
-        # Another's code may fail in any way; the other extensions still work.
+        # Code of other packages may raise any error; the other extensions still work.
         except Exception as error:  # noqa: BLE001, PERF203
             tell(f"Failed to call '{group}' extension '{name}': {type(error).__name__}: {error}")
         else:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = ["PointsDisplay", "moved"]
 
-#: More messages than this are not kept, whatever the decay time is.
+#: At most this many messages are kept, for any decay time.
 _MOST_KEPT = 1000
 
 

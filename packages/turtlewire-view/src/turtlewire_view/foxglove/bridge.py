@@ -189,7 +189,7 @@ class Bridge:
                 client.outbox.send(protocol.text("parameterValues", parameters=wanted))
 
     def _tell_time(self, time_ns: int) -> None:
-        """On a thread of the wire."""
+        """Send a new time to the clients; runs on a thread of the middleware."""
         if "time" in self.options.capabilities:
             frame = protocol.time_data(time_ns)
             for client in self._everybody:

@@ -126,7 +126,7 @@ class Caller:
         return self._connections[key]
 
     def _take(self) -> None:
-        """On the thread that waits for responses."""
+        """Take responses; runs on the thread that waits for them."""
         while not self._is_closed:
             for client in self._wait_set.wait():
                 if isinstance(client, Client):

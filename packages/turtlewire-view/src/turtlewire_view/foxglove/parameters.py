@@ -206,7 +206,7 @@ class ParameterEvents:
             self._subscription = None
 
     def _receive(self, cdr: bytes, _info: MessageInfo) -> None:
-        """On a thread of the wire."""
+        """Pass an event to the loop; runs on a thread of the middleware."""
         self._calls.soon(self._read, cdr)
 
     def _read(self, cdr: bytes) -> None:

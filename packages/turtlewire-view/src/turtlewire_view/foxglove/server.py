@@ -39,7 +39,7 @@ _LARGEST_MESSAGE = 64 << 20
 _PING_TIMEOUT = 120
 #: Number of frames to send to one client before the next client's turn.
 _TURN = 64
-#: What comes closer together than this is sent together: a wake-up costs more than a frame [s].
+#: Messages within this time are sent together: a wake-up costs more than a frame [s].
 _REST = 0.004
 #: Origins and hosts that are warned of; further ones are refused in silence.
 _MOST_WARNINGS = 20

@@ -60,7 +60,7 @@ def file_name(folder: str, number: int, ros_distro: str) -> str:
     base = os.path.basename(folder)
     if ros_distro != str(LYRICAL):
         return f"{base}_{number}"
-    # A folder that `ros2 bag record` names ends in a time, which the file has by itself.
+    # Folders named by `ros2 bag record` end with a time, which the file name adds itself.
     return f"{number}_{_TIME.sub('', base)}_{time.strftime('%Y_%m_%d-%H_%M_%S')}"
 
 

@@ -278,7 +278,7 @@ class McapWriter:
                 while rest:
                     rest = rest[self._file.write(rest) :]
         except OSError:
-            # Half a chunk would not hurt a reader, but the room that it takes may be the last.
+            # Readers ignore half a chunk, but it may fill the rest of the disk.
             self._file.truncate(self.file_bytes)
             self._file.seek(self.file_bytes)
             raise

@@ -76,7 +76,7 @@ class Bag:
         path: The folder or file.
         metadata: What it holds; computed from the files where ``metadata.yaml`` is missing.
         problems: What is damaged or missing, one sentence each with file and position. What can be
-            read is read all the same; `messages` raises a `BagError` at its end if a chunk in the
+            read is still read; `messages` raises a `BagError` at its end if a chunk in the
             middle was damaged.
     """
 

@@ -33,7 +33,7 @@ def _line(line: str) -> str:
     type_ = _TYPES.get(type_, type_)
     if not equals:
         return f"{type_}{array or ''} {name}"
-    if type_ == "string":  # all of the line is its value, '#' included
+    if type_ == "string":  # the value is the rest of the line, including '#'
         quoted = value.strip().replace("\\", "\\\\").replace('"', '\\"')
         return f'string {name.upper()}="{quoted}"'
     value = without_comment(value).strip()

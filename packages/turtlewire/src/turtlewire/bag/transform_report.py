@@ -185,7 +185,7 @@ def group_jumps(jumps: list[tuple[int, str, int]]) -> list[Jump]:
 
 
 def _publishers(count: int) -> str:
-    if not count:  # the recorder noted no QoS, as older ones do not
+    if not count:  # older recorders do not store the QoS
         return "publishers unknown"
     return "1 publisher" if count == 1 else f"{count} publishers"
 

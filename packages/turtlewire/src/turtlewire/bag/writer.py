@@ -58,7 +58,7 @@ __all__ = ["BagWriter"]
 _LAST_TIMES = {"mcap": (1 << 64) - 1, "sqlite3": (1 << 63) - 1}
 
 
-# Weak: a writer that nobody holds any more is finished by its `__del__`.
+# Weak, because `__del__` finishes a writer without references.
 _open_writers: WeakSet[BagWriter] = WeakSet()
 
 
@@ -180,7 +180,7 @@ class BagWriter:
         _open_writers.add(self)
 
     def __del__(self) -> None:
-        if self._process == os.getpid():  # a fork's copy must not write to the file
+        if self._process == os.getpid():  # a copy in a forked process must not write to the file
             self.close()
 
     def __enter__(self) -> Self:

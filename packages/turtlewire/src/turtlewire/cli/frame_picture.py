@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Picture", "Row", "take_picture"]
 
-#: Stamps below are of a simulation, and no system time [ns].
+#: Smaller stamps are simulated time, not system time [ns].
 _WALL_TIME_FROM_NS = 1_000_000_000 * 10**9
 #: A link is stale when its newest sample is older than this [s], and than this many periods of its
 #: rate.

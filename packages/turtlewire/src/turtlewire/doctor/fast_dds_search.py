@@ -111,7 +111,7 @@ def _received(asking: socket.socket) -> Iterator[tuple[bytes, str]]:
             datagram, (address, _) = asking.recvfrom(_LARGEST)
         except BlockingIOError:
             return
-        except OSError:  # on Windows, when a question did not reach anybody
+        except OSError:  # on Windows, if a query did not reach any process
             continue
         yield datagram, address
 

@@ -46,7 +46,7 @@ def _names_port(text: str, ports: range) -> bool:
 def _has_udp_port(process: Path, ports: range) -> bool:
     sockets = set()
     for file in (process / "fd").iterdir():
-        with suppress(OSError):  # closed meanwhile
+        with suppress(OSError):  # already closed
             sockets.update(_SOCKET.findall(str(file.readlink())))
     rows = (process / "net" / "udp").read_text("ascii").splitlines()[1:]
     columns = [row.split() for row in rows]

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Gaps", "find_gaps"]
 
-#: With fewer steps, chance looks like a rhythm.
+#: With fewer steps, random steps look periodic.
 _FEWEST_STEPS = 10
 #: Stamps of one moment: what a node publishes in one turn.
 _ONE_MOMENT_NS = 1_000_000
@@ -27,7 +27,7 @@ _LONGEST_SHORTEST = 6
 #: Tolerance of a step, as a fraction of the period; some steps may differ by more.
 _TOLERANCE = 0.2
 _MISFITS = 0.1
-#: Less than this is a broadcaster that was held up for a moment.
+#: A smaller number means that the broadcaster was delayed for a moment.
 _LEAST_SHARE = 0.3
 #: Minimum fraction of what random loss leaves on average: single steps, gaps, and variance.
 _MUCH = 0.4

@@ -213,7 +213,7 @@ class _Encoder:
     def basic(self, type_: BasicType, value: str) -> None:
         code = CODES[type_.typename]
         if code == "?":
-            # `struct` takes the truth of any object; ROS 2 refuses what is neither 0 nor 1.
+            # `struct` accepts any object as a truth value; ROS 2 only accepts 0 and 1.
             flag = self.local(value)
             value = f"{flag} if {flag} is True or {flag} is False else as_bool({flag})"
         self.number(code, value)

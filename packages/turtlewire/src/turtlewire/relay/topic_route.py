@@ -147,10 +147,10 @@ class TopicRoute:
             self._near.forget(self._subscriptions.pop(key))
 
     def _carry(self, kind: _Kind, subscription: Subscription) -> None:
-        """On the thread of the near end."""
+        """Carry messages; runs on the thread of the near end."""
         for cdr, info in subscription.take():
             copy = self._copy_of(info.publisher_gid)
-            # A publisher can match several of our subscriptions: the one of its own kind counts.
+            # A publisher can match several of our subscriptions; only that of its kind counts.
             if copy is None or (copy.kind != kind and copy.kind in self._subscriptions):
                 continue
             converted = cdr if self._convert is None else self._convert(cdr)

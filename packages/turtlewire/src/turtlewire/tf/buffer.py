@@ -86,7 +86,7 @@ class Buffer(BaseBuffer):
     _bag_report: TransformReport
     _hint_if_empty: str  # set by what fills the buffer, else missing
 
-    # Bags and trajectories lie in rooms above the buffer: their code is imported when it is called.
+    # Bags and trajectories belong to higher layers: their code is imported when it is called.
 
     @classmethod
     def from_bag(

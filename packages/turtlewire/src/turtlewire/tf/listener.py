@@ -60,9 +60,9 @@ __all__ = [
     "new_node_name",
 ]
 
-#: Where transforms that change are published.
+#: The topic of transforms that change.
 TOPIC = "/tf"
-#: Where transforms that stay are published, for late joiners as well.
+#: The topic of static transforms, latched for late joiners.
 STATIC_TOPIC = "/tf_static"
 TYPE_NAME = "tf2_msgs/msg/TFMessage"
 QOS = QoS(depth=100)
@@ -96,7 +96,7 @@ class _Arrivals:
 
     def expect(self, call: Callable[[], None], intake: Intake | None) -> None:
         """Call ``call()`` once, after the next message."""
-        # In this order: a message that comes between both steps finds the call.
+        # In this order, so that a message between the two steps finds the callback.
         with self._lock:
             self._calls[call] = None
         if intake is not None:
@@ -154,7 +154,8 @@ class _Feed:
     def members(self, members: tuple[_Member, ...]) -> None:
         self._members = members
         if self.intake is not None:
-            # With any other store among them Python feeds all, so that a message has one way only.
+            # With any other store among them, Python fills all, so that each message takes one
+            # path.
             buffers = tuple(member.store for member in members if type(member.store) is Buffer)
             self.intake.feed(buffers if len(buffers) == len(members) else ())
 

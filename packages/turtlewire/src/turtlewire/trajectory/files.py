@@ -287,7 +287,7 @@ def _read_table(
     with open(path, encoding="utf-8-sig") as file:
         for number, line in enumerate(file, start=1):
             if _is_comment(line) and not (rows and line.strip()[:1].isalpha()):
-                continue  # words are a heading, which has its place above the numbers
+                continue  # words are a heading, which must precede the numbers
             items = line.split(separator)
             try:
                 if len(items) < columns or (exact and len(items) > columns):

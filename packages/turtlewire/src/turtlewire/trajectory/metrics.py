@@ -55,8 +55,8 @@ RELATIONS: dict[Relation, str] = {
 #: Of `rpe`'s ``delta``, in words.
 UNITS: dict[Unit, str] = {"f": "frames", "m": "m", "d": "deg", "r": "rad"}
 
-#: An angle reaches a bound if it is short of it by this share. Three turns by 10 degrees make 30,
-#: however the doubles are rounded; in evo, rounding decides.
+#: An angle also reaches a bound if it is smaller by this fraction. Three turns by 10 degrees make
+#: 30, however the doubles are rounded; in evo, rounding decides.
 _ROUNDING = 1e-9
 
 

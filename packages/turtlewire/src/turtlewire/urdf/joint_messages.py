@@ -163,7 +163,7 @@ def _drive(robot: Description, joint: Joint, drives: dict[str, _Drive | None]) -
     chain = []
     name = joint.name
     while name not in drives:
-        drives[name] = None  # if the chain comes back here, nothing drives it
+        drives[name] = None  # if the chain returns to this joint, no joint drives it
         part = robot.joints.get(name)
         if part is None or part.mimic is None:
             break

@@ -24,7 +24,7 @@ _TOKEN_LENGTH = 16
 #: An address that no computer has (RFC 5737). Connecting a UDP socket to it sends nothing, but
 #: chooses the interface of the default route.
 _ANYWHERE = ("192.0.2.1", 9)
-#: Black on white whatever the terminal's colours are: light codes on dark are not read by all.
+#: Always black on white, because some readers cannot read light codes on dark.
 _QR_COLOURS = "\x1b[38;5;16;48;5;231m"
 _RESET = "\x1b[0m"
 #: Upper and lower module of a character: light or dark.

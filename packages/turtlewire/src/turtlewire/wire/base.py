@@ -434,7 +434,7 @@ class Context(ABC):
         """Call ``call()`` once, when a subscription, client or service has something to take.
 
         It is called at once if there is something already, on any thread, perhaps with locks held:
-        it may only wake something up. This is the way to wait without a thread of one's own.
+        it may only wake a thread. Use it to wait without a separate thread.
 
         Args:
             entity: What to wait for. It has one such call at a time.

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
 
 __all__ = ["EndpointTypes", "NodeNames", "as_compared", "warn_of_types"]
 
-#: The kind of endpoints whose types are compared with one's own. A server has none: its clients
-#: have to use its type.
+#: The kind of endpoints whose types are compared with a new endpoint's. A server is not compared:
+#: its clients have to use its type.
 _OTHER = {"publisher": "subscription", "subscription": "publisher", "client": "service"}
 _NO_MESSAGES = ": no messages get through. Use the topic's type, or another topic name."
 _NO_REQUESTS = ": no requests get through. Use the service's type, or another service name."

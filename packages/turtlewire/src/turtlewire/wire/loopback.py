@@ -36,7 +36,7 @@ def open_sockets() -> dict[str, int]:
         return found
     with suppress(FileNotFoundError):  # no /proc
         for number in os.listdir(_FILES):
-            with suppress(FileNotFoundError):  # closed meanwhile, as the listing itself is
+            with suppress(FileNotFoundError):  # already closed, as the listing itself is
                 name = os.readlink(os.path.join(_FILES, number))
                 if name.startswith("socket:"):
                     found[name] = int(number)

@@ -311,7 +311,7 @@ class Buffer(SharedTree):
         if fixed is not None:
             self._check_names(target, source, fixed, question)
             steps = [(target, fixed, target_stamp), (fixed, source, stamp)]
-        # tf2 goes on behind a cleared static link, and then reports the other half's failure.
+        # tf2 continues past a cleared static link, and then reports the failure of the other half.
         for cleared in reversed([_cleared_static(look, step) for step in steps]):
             if cleared is not None:
                 raise cleared.without_reason()

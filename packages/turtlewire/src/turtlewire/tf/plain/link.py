@@ -146,7 +146,7 @@ class LinkSamples:
         if sample in self.samples[first:end]:
             return True  # tf2 accepts a repetition and stores it once
         if end - first >= MOST_PER_STAMP:
-            # A broadcaster whose clock stands still would fill the memory; the newest value counts.
+            # A broadcaster with a stopped clock would fill the memory; the newest value is kept.
             self.samples[end - 1] = sample
             self.dropped[stamp] = self.dropped.get(stamp, 0) + 1
         else:

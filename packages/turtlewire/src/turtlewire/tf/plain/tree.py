@@ -204,7 +204,7 @@ class Tree:
                 break
             reading = read(link)
             if isinstance(reading, LookupStatus):
-                # Not raised yet: the target's own way up may meet the source's below this link.
+                # Not raised yet: the target's chain may join the source's chain below this link.
                 stopped = self._time_failure(reading, top, link, stamp, target, source)
                 reached = link.newest
                 break

@@ -326,5 +326,5 @@ class CycloneService(TopicService):
             try:
                 self._send(waiting.reply)
             except WireError as error:  # noqa: PERF203 - one client's trouble is not another's
-                if not self.replies.closed:  # another thread may close the service meanwhile
+                if not self.replies.closed:  # another thread may have closed the service
                     warn_once(f"reply {self.service}", str(error))

@@ -97,7 +97,7 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
         )
 
     def _on_sample(self, sample: zenoh.Sample) -> None:
-        """On the subscription's own thread."""
+        """Queue the message; runs on the subscription's own thread."""
         try:
             attachment, cdr = _read(sample)
         except ValueError:
@@ -130,7 +130,7 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
             self._report_lost(missing)
 
     def _report_lost(self, missing: int) -> None:
-        """With the lock held."""
+        """Report lost messages; call with the lock held."""
         self._lost_count += missing
         self._event(EventKind.MESSAGE_LOST).add(EventStatus(self._lost_count, missing))
 
