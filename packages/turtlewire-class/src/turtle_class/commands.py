@@ -48,7 +48,7 @@ def start(folder: Path, names: Sequence[str]) -> None:
     """Write the first files and the texts of exercises into a folder.
 
     Raises:
-        ClassError: No such exercise, or a file is there already.
+        ClassError: No such exercise, or a file exists already.
     """
     wanted = {
         folder / exercise.name / name: text
@@ -61,7 +61,7 @@ def start(folder: Path, names: Sequence[str]) -> None:
     }
     there = [path for path in wanted if path.exists()]
     if there:
-        raise ClassError(f"{printable(str(there[0]))} is there already: nothing was written")
+        raise ClassError(f"{printable(str(there[0]))} exists already; nothing was written")
     for path, text in wanted.items():
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")

@@ -291,7 +291,7 @@ def test_first_files_are_written_once(tmp_path, capsys):
         "exercise.launch.py",
     ]
     assert main(["class", "start", str(folder), "-e", "camera"]) == 2
-    assert "README.md is there already: nothing was written" in capsys.readouterr().err
+    assert "README.md exists already; nothing was written" in capsys.readouterr().err
     assert main(["class", "check", str(folder)]) == 1
 
 

@@ -25,8 +25,8 @@ def main(argv: list[str] | None = None) -> int:
     parser = SuggestingParser(
         prog="python -m turtlewire_colcon.pip_install",
         description="Installs ament_cmake packages of Python, data and interfaces into this "
-        "Python's environment. Each is built after those of them that it needs, and all are "
-        "installed when all are built. `pip uninstall NAME` removes them.",
+        "Python's environment. Each is built after its dependencies among them, and all "
+        "are installed at the end. `pip uninstall NAME` removes them.",
     )
     parser.add_argument("packages", nargs="+", type=Path, metavar="PACKAGE", help="its folder")
     parser.add_argument("--output", type=Path, help="keep the wheels here, and install nothing")

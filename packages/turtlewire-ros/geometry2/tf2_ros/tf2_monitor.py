@@ -142,7 +142,7 @@ def main(args: list[str] | None = None) -> int:
     argv = sys.argv if args is None else args
     options = _parser().parse_args(remove_ros_args(argv)[1:])
     if len(options.frames) not in {0, 2}:
-        print("tf2_monitor: give two frames, or none for all", file=sys.stderr)  # noqa: T201
+        print("tf2_monitor: give two frames, or none to monitor all", file=sys.stderr)  # noqa: T201
         return 1
     rclpy.init(args=argv)
     try:
@@ -171,7 +171,7 @@ def _parser() -> argparse.ArgumentParser:
         nargs="*",
         type=frame_id,
         metavar="FRAME",
-        help="the two frames whose chain to watch; none for all",
+        help="the two ends of the chain to monitor (default: monitor all frames)",
     )
     parser.add_argument(
         "--period",

@@ -104,7 +104,7 @@ class WaitForTopics:
         """
         if topic_name not in dict(self.topic_tuples):
             known = ", ".join(topic for topic, _ in self.topic_tuples)
-            raise KeyError(f"'{topic_name}' is none of the topics: {known}")
+            raise KeyError(f"'{topic_name}' is not one of the topics: {known}")
         with self._changed:
             return list(self._messages.get(topic_name, ()))
 

@@ -104,7 +104,7 @@ def _finish(recording: Recording, writer: BagWriter) -> None:
     failure = recording.failure or failure
     if failure is not None:
         is_whole = os.path.exists(os.path.join(writer.path, METADATA_FILE))
-        remedy = "" if is_whole else "; when there is room, `ros2 bag reindex` makes it a bag"
+        remedy = "" if is_whole else "; free some space, and repair it with `ros2 bag reindex`"
         raise RuntimeError(
             f"Recording stopped: {failure}. What was recorded before is in {writer.path}{remedy}"
         )

@@ -277,7 +277,7 @@ class BagRecorder:
         self._logger.info(f"Overriding subscription profile for {topic}")
         if why := refusal(override, offered):
             self._logger.warning(
-                f"The QoS override for '{topic}' does not fit a publisher, of which nothing is "
+                f"The QoS override for '{topic}' does not match a publisher; its messages are not "
                 f"recorded. {why}"
             )
         return override.to_wire()

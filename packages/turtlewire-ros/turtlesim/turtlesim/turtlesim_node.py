@@ -254,7 +254,7 @@ class TurtlesimNode(CppNode):
         """Add a turtle, and return its name, or an empty string after an error was logged."""
         if not are_finite(x, y, theta):
             self.get_logger().error(
-                f"Cannot spawn a turtle where it is not finite: x={x}, y={y}, theta={theta}"
+                f"Cannot spawn a turtle at a pose that is not finite: x={x}, y={y}, theta={theta}"
             )
             return ""
         turtle = self.world.spawn(x, y, theta, name)

@@ -76,7 +76,7 @@ def _display_of(entry: object) -> SavedDisplay:
             place = entry.get("place")
             place = place if isinstance(place, int) else None
             return SavedDisplay(kind, topic, options, entry.get("visible") is not False, place)
-    raise CommandError("a display must have the texts 'kind' and 'topic', and an object 'options'")
+    raise CommandError("a display must have strings 'kind' and 'topic', and an object 'options'")
 
 
 def _is_number(value: object) -> bool:

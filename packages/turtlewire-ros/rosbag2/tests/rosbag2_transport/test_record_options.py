@@ -248,7 +248,7 @@ def test_simulated_time_splits_compression_and_overrides(peer, bag_verb, tmp_pat
         *("--disable-keyboard-controls", "--max-cache-size", "0", "--log-level", "info"),
     )
     recorder.wait_for(r"\[black_box\]: use_sim_time set, waiting for /clock")
-    recorder.wait_for("The QoS override for '/lossy' does not fit a publisher")
+    recorder.wait_for("The QoS override for '/lossy' does not match a publisher")
     recorder.wait_for("All requested topics are subscribed")
     peer.heard(word)
     peer.heard(clock)

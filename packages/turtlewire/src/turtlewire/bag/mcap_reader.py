@@ -322,8 +322,8 @@ class McapFile:
         except BagError as error:
             lost = len(self._bytes) - reached
             self.problems.append(
-                f"{self.path}: {error}; what lies before it is read, the last {lost:,} bytes only "
-                "as far as whole messages lie in them"
+                f"{self.path}: {error}; all data before it is read, and the intact messages of the "
+                f"last {lost:,} bytes"
             )
             if self._bytes[reached : reached + 1] == _CHUNK:  # whole messages may lie in it
                 rest = len(self._bytes) - reached

@@ -360,7 +360,7 @@ class Bag:
         found, expected = file.counted_messages(), self._expected_counts.get(path, 0)
         if found is not None and found < expected and not file.problems:
             full = os.path.join(self._folder, path)
-            self.complain(f"{full}: {found:,} of {expected:,} messages are found: it is damaged")
+            self.complain(f"{full}: only {found:,} of {expected:,} messages found; it is damaged")
 
     def _open(self, path: str) -> StorageFile:
         plain = self._plain_file(path)

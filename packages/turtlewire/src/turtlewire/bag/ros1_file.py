@@ -241,8 +241,8 @@ class Ros1File:
             lost = len(self._bytes) - position
             self.problems.append(
                 f"{self.path}: the record at byte {position} is cut off or damaged "
-                f"({_text(error)}); what lies before it is read, the last {lost:,} bytes only as "
-                "far as whole messages lie in them"
+                f"({_text(error)}); all data before it is read, and the intact messages of the "
+                f"last {lost:,} bytes"
             )
             with suppress(*_DAMAGE):
                 if self._is_cut(position):

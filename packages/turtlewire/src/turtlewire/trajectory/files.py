@@ -151,7 +151,7 @@ def _read_kitti_alone(path: str | os.PathLike[str]) -> FileContents:
     except ValueError as error:  # they may belong to another sequence
         found, remark = _read_kitti(path), f"times.txt is not used: {error}"
     else:
-        remark = f"{os.fspath(path)}: the times are taken from times.txt in the same folder"
+        remark = f"{os.fspath(path)}: the times come from times.txt in the same folder"
     return found._replace(remarks=(*found.remarks, remark))
 
 
@@ -357,7 +357,7 @@ def _contents(
     remarks = [
         f"{os.fspath(path)}: {count:,} of {len(array):,} {what}"
         for count, what in (
-            (np.count_nonzero(~first), "stamps repeat the one before; the first pose is taken"),
+            (np.count_nonzero(~first), "stamps repeat the previous one; the first pose is used"),
             (np.count_nonzero(np.abs(lengths - 1.0) > _ROUNDING), "quaternions are normalised"),
         )
         if count

@@ -208,7 +208,7 @@ def _rpe_of_distances(
     if relation == "point_distance_error_ratio":
         moved = q > 0
         if not moved.any():
-            raise ValueError("the reference does not move, and the ratio is one of its distances")
+            raise ValueError("no ratio of distances: the reference does not move")
         errors, j = errors[moved] / q[moved] * 100, j[moved]
     return PoseErrors("RPE", relation, errors, j)
 

@@ -29,7 +29,7 @@ _TEXTS = {
 _TURTLESIMS = {"turtlesim", "turtlesim_msgs"}
 _OTHER_DISTRIBUTION = (
     " The two packages belong to different distributions of ROS 2. Type export ROS_DISTRO=lyrical "
-    "in both terminals; both names then stand for the same types."
+    "in both terminals; then both names mean the same types."
 )
 _OF_REQUESTS = {"publisher": "client", "subscription": "service"}
 
