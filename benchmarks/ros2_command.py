@@ -52,7 +52,7 @@ def rows() -> Iterator[Row]:
         }
         environment.pop(
             "PYTHONDONTWRITEBYTECODE", None
-        )  # else every command compiles its modules anew
+        )  # else every command compiles its modules again
         yield Row("the interpreter alone", measured(environment, ["-c", "print('ready')"], "ready"))
         yield Row("ros2 --help", measured(environment, [*ROS2, "--help"], "Commands:"))
         yield Row("ros2 pkg list", measured(environment, [*ROS2, "pkg", "list"], "turtlesim"))

@@ -120,7 +120,7 @@ def describe_function(function):
 
 
 def signature(function):
-    """Parameters with their defaults and without annotations; None where Python cannot tell."""
+    """Parameters with their defaults and without annotations; None where Python cannot know."""
     try:
         found = inspect.signature(function)
     except (ValueError, TypeError):

@@ -81,9 +81,9 @@ def grade_all(
     Args:
         students: Their folders.
         exercises: What is graded.
-        limits: Of each exercise; None takes the usual ones.
+        limits: The limits of each exercise; None uses the defaults.
         tell: Called with the progress after each exercise.
-        jobs: How many run at a time; None takes one for each core.
+        jobs: How many run at a time; None uses one for each core.
 
     Raises:
         KeyboardInterrupt: Ctrl-C. All that ran has been stopped.

@@ -99,7 +99,7 @@ class Runner:
     """Grades exercises, each in its own process; for any number of threads.
 
     Args:
-        limits: What an exercise may use; None takes the usual ones.
+        limits: The resources that an exercise may use; None uses the defaults.
     """
 
     def __init__(self, limits: Limits | None = None) -> None:

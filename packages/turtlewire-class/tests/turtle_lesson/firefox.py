@@ -83,7 +83,7 @@ class Firefox:
             f"const look = () => ({condition}) ? resolve() : requestAnimationFrame(look); look();"
         )
         is_true = False
-        while not is_true:  # where the page is loaded anew meanwhile, its promise is gone
+        while not is_true:  # where the page is reloaded meanwhile, its promise is gone
             with contextlib.suppress(BidiError):
                 is_true = self.evaluate(f"new Promise((resolve) => {{ {look} }}).then(() => true)")
 

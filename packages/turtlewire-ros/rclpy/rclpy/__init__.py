@@ -156,9 +156,9 @@ def init(
     """Join a domain; everything else needs this first.
 
     Args:
-        args: Command line whose ``--ros-args`` apply; None takes ``sys.argv``.
-        context: What to initialize; None takes the default context.
-        domain_id: None takes ``ROS_DOMAIN_ID``, else 0.
+        args: Command line whose ``--ros-args`` apply; None uses ``sys.argv``.
+        context: What to initialize; None uses the default context.
+        domain_id: None uses ``ROS_DOMAIN_ID``, else 0.
         signal_handler_options: Which signals shut down; None: both for the default context, none
             for others.
 
@@ -199,7 +199,7 @@ def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None 
     """Leave the domain.
 
     Args:
-        context: None takes the default context.
+        context: None uses the default context.
         uninstall_handlers: Whether signals get their former handlers back; None: when the default
             context is shut down.
 
@@ -240,7 +240,7 @@ def create_node(
 ) -> Node:
     """Make a node; see :class:`rclpy.node.Node` for the arguments.
 
-    ``rosout_qos_profile`` None takes ROS 2's default.
+    ``rosout_qos_profile`` None uses ROS 2's default.
     """
     from .node import Node
     from .qos import qos_profile_rosout_default
@@ -270,7 +270,7 @@ def spin_once(
 
     Args:
         node: What to serve; when it is in no executor, it is in this one for the time of the call.
-        executor: None takes the global one.
+        executor: None uses the global one.
         timeout_sec: How long to wait; None or negative: without limit, 0: not at all.
     """
     executor = get_global_executor() if executor is None else executor
@@ -288,7 +288,7 @@ def spin(node: Node, executor: Executor | None = None) -> None:
 
     Args:
         node: What to serve; when it is in no executor, it is in this one for the time of the call.
-        executor: None takes the global one.
+        executor: None uses the global one.
 
     Raises:
         KeyboardInterrupt: Ctrl-C, in the main thread.
@@ -315,7 +315,7 @@ def spin_until_future_complete(
     Args:
         node: What to serve; when it is in no executor, it is in this one for the time of the call.
         future: What to wait for.
-        executor: None takes the global one.
+        executor: None uses the global one.
         timeout_sec: None or negative: without limit.
     """
     executor = get_global_executor() if executor is None else executor

@@ -89,10 +89,10 @@ class Context:
         """Join a domain.
 
         Args:
-            args: Command line whose ``--ros-args`` apply to all nodes; None takes ``sys.argv``.
+            args: Command line whose ``--ros-args`` apply to all nodes; None uses ``sys.argv``.
             initialize_logging: Whether log levels of the command line take effect and the log file
                 is opened.
-            domain_id: None takes ``ROS_DOMAIN_ID``, else 0.
+            domain_id: None uses ``ROS_DOMAIN_ID``, else 0.
 
         Raises:
             RuntimeError: The context was initialized before, or the domain id is negative.

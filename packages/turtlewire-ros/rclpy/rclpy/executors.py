@@ -63,7 +63,7 @@ class Executor:
     """Base of the executors. All methods are thread-safe; one thread spins at a time.
 
     Args:
-        context: None takes the default context.
+        context: None uses the default context.
 
     Raises:
         NotInitializedException: The context is not initialized.
@@ -325,9 +325,9 @@ class MultiThreadedExecutor(Executor):
     Exceptions from callbacks propagate out of ``spin``.
 
     Args:
-        num_threads: Size of the pool; None takes the number of processors that this process may
+        num_threads: Size of the pool; None uses the number of processors that this process may
             use.
-        context: None takes the default context.
+        context: None uses the default context.
     """
 
     def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:

@@ -118,7 +118,7 @@ class Node(BaseNode):
 
     Args:
         node_name: Base name (no slashes); ``--ros-args -r __node:=…`` replaces it.
-        context: None takes the default context.
+        context: None uses the default context.
         cli_args: Command line of this node alone; its ``--ros-args`` precede the ones of the
             context.
         namespace: None and "" mean "/"; ``--ros-args -r __ns:=…`` replaces it.
@@ -265,7 +265,7 @@ class Node(BaseNode):
             msg_type: Class of its messages.
             topic: Name of the topic.
             qos_profile: Quality of service, or a history depth.
-            callback_group: For event callbacks; None takes the node's default.
+            callback_group: For event callbacks; None uses the node's default.
             event_callbacks: What to call on events of the quality of service
                 (:class:`rclpy.event_handler.PublisherEventCallbacks`).
             qos_overriding_options: Which policies parameters may override.
@@ -356,7 +356,7 @@ class Node(BaseNode):
             callback: Called with each message, and with a message info when it takes two arguments;
                 may be ``async``.
             qos_profile: Quality of service, or a history depth.
-            callback_group: None takes the node's default.
+            callback_group: None uses the node's default.
             event_callbacks: What to call on events of the quality of service
                 (:class:`rclpy.event_handler.SubscriptionEventCallbacks`).
             qos_overriding_options: Which policies parameters may override.
@@ -397,7 +397,7 @@ class Node(BaseNode):
             srv_type: The service class.
             srv_name: Name of the service.
             qos_profile: Quality of service of requests and responses.
-            callback_group: None takes the node's default.
+            callback_group: None uses the node's default.
 
         Raises:
             InvalidServiceNameException: The name breaks the rules.
@@ -421,7 +421,7 @@ class Node(BaseNode):
             callback: Called with a request and an empty response, returns the response; may be
                 ``async``.
             qos_profile: Quality of service of requests and responses.
-            callback_group: None takes the node's default.
+            callback_group: None uses the node's default.
 
         Raises:
             InvalidServiceNameException: The name breaks the rules.
@@ -443,8 +443,8 @@ class Node(BaseNode):
         Args:
             timer_period_sec: Seconds between calls.
             callback: What to call; may be ``async``.
-            callback_group: None takes the node's default.
-            clock: None takes the node's clock.
+            callback_group: None uses the node's default.
+            clock: None uses the node's clock.
             autostart: False: it starts with :meth:`Timer.reset <rclpy.timer.Timer.reset>`.
         """
         return self._rclpy_endpoints.create_timer(

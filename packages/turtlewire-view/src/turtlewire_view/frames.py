@@ -109,7 +109,7 @@ class FrameScene:
             buffer: The frames.
             fixed: The frame to look from; empty, or one that does not exist, takes the root of the
                 largest tree.
-            stamp_ns: None takes the newest time that each frame has in common with the fixed one. A
+            stamp_ns: None uses the newest time that each frame has in common with the fixed one. A
                 frame whose data end before the stamp stays where it was for as long as RViz shows
                 it.
         """

@@ -52,11 +52,11 @@ class Viewer:
     Args:
         source: Where frames and messages come from; closed with the view.
         fixed_frame: What pages look from first; empty takes the root of the largest tree.
-        port: Preferred TCP port; None takes turtlesim's rule (`TURTLEWIRE_PORT`, 7070).
+        port: Preferred TCP port; None uses turtlesim's rule (`TURTLEWIRE_PORT`, 7070).
         saved: What pages show first, of a ``.rviz`` file.
         lan: Whether to serve all devices of the network (see :mod:`turtlewire.web.lan`).
         embeds: True if pages of this computer, such as notebooks, may embed the page.
-        packages: Where packages with meshes lie; None takes the ament index.
+        packages: Where packages with meshes lie; None uses the ament index.
 
     Attributes:
         url: The page's address.

@@ -134,7 +134,7 @@ constexpr char kMessagesDoc[] =
     "Args:\n"
     "    records: The bytes.\n"
     "    position: Where the first record begins.\n"
-    "    wanted: The channels whose messages are wanted; None takes all.\n"
+    "    wanted: The channels whose messages are wanted; None means all.\n"
     "    into: The list, to which log time, channel, publish time and bytes are appended.\n\n"
     "Returns:\n"
     "    Where the first record begins that is no message or is damaged; else the end.";

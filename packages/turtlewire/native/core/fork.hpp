@@ -4,7 +4,7 @@
 namespace turtlewire {
 
 // An object with a lock. fork() copies only the thread that calls it: a lock that another thread
-// holds at that moment would stay locked in the child for ever, and what it guards half changed. So
+// holds at that moment would stay locked in the child forever, and what it guards half changed. So
 // fork() waits for all these locks first.
 class ForkAware {
  public:

@@ -108,7 +108,7 @@ class Tree {
   Status resolve(std::string_view name, FrameId& id) const;
 
   // -- out
-  // The way from source to target, made anew when the tree has changed; stays valid until the next
+  // The way from source to target, rebuilt when the tree has changed; stays valid until the next
   // change of the tree.
   const Path& path(FrameId target, FrameId source);
   bool is_current(const Path& path) const { return path.version == version_; }

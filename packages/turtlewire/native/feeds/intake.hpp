@@ -62,7 +62,7 @@ class Intake final : public ForkAware {
  private:
   static constexpr std::chrono::seconds kRoomPeriod{1};
   static constexpr std::size_t kMostPublishers =
-      1000;  // they come and go; beyond it, all are introduced anew
+      1000;  // they come and go; beyond it, all are introduced again
   struct Publisher {
     std::string gid, name;
   };
@@ -79,7 +79,7 @@ class Intake final : public ForkAware {
   TfMessage message_;
   Backlog backlog_;
   bool news_ = false;
-  std::uint64_t stored_ = 0;  // messages, without those that were kept back for good
+  std::uint64_t stored_ = 0;  // messages, without those that were kept back permanently
   bool expecting_ = false;    // the next message is expected
   bool expected_came_ = false;
   std::chrono::steady_clock::time_point next_told_of_room_{};

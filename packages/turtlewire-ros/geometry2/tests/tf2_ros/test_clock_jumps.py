@@ -1,4 +1,4 @@
-"""A simulated world that is killed and begins anew, earlier.
+"""A simulated world that is killed and restarts, earlier.
 
 The server, the client, filters and tools, each in its own process.
 """

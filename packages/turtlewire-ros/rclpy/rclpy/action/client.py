@@ -128,7 +128,7 @@ class ActionClient(IntrospectedAction, Waitable, Generic[ActionT_co]):
         node: The node that owns it.
         action_type: The action class.
         action_name: Name of the action.
-        callback_group: Of feedback callbacks; None takes the node's default.
+        callback_group: Of feedback callbacks; None uses the node's default.
         goal_service_qos_profile: Quality of service of goal requests.
         result_service_qos_profile: Quality of service of result requests.
         cancel_service_qos_profile: Quality of service of cancel requests.
@@ -266,7 +266,7 @@ class ActionClient(IntrospectedAction, Waitable, Generic[ActionT_co]):
             goal: The goal.
             feedback_callback: Called with each feedback message (``.feedback``, ``.goal_id``),
                 except messages sent after the program got the result.
-            goal_uuid: Identifies the goal; None takes a random one.
+            goal_uuid: Identifies the goal; None uses a random one.
 
         Returns:
             A future of a :class:`ClientGoalHandle`.

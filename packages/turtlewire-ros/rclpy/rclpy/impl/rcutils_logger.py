@@ -184,7 +184,7 @@ class CallerId(_Place):
     """The place in a program that logs a message: the line, and the instruction in it.
 
     Args:
-        frame: None takes the nearest frame of another file.
+        frame: None uses the nearest frame of another file.
     """
 
     __slots__ = ()

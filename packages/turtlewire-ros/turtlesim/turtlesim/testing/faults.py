@@ -61,7 +61,7 @@ class Fault:
     """A fault in the transport of transforms. Each subclass changes one property.
 
     Args:
-        frame: The child frame that it is about; None takes all.
+        frame: The child frame that it is about; None means all.
     """
 
     def __init__(self, frame: str | None = None) -> None:
@@ -87,7 +87,7 @@ class Delay(Fault):
 
     Args:
         seconds: How late, in simulated time.
-        frame: The child frame; None takes all.
+        frame: The child frame; None means all.
     """
 
     def __init__(self, seconds: float, frame: str | None = None) -> None:
@@ -103,7 +103,7 @@ class Loss(Fault):
 
     Args:
         share: The part that is lost, 0 to 1.
-        frame: The child frame; None takes all.
+        frame: The child frame; None means all.
         seed: Another number loses others.
     """
 
@@ -141,7 +141,7 @@ class WrongTime(Fault):
     Args:
         seconds: How far the stamps are in the future; below zero: in the past, where they end at
             zero.
-        frame: The child frame; None takes all.
+        frame: The child frame; None means all.
     """
 
     def __init__(self, seconds: float, frame: str | None = None) -> None:
@@ -162,7 +162,7 @@ class MissingStatic(Fault):
     starts.
 
     Args:
-        frame: The child frame; None takes all.
+        frame: The child frame; None means all.
     """
 
     def concerns(self, transform: Any, topic: str) -> bool:

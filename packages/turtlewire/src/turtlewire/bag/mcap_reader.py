@@ -148,7 +148,7 @@ class McapFile:
 
         Args:
             chunk: One of `chunks`.
-            wanted: The channels whose messages are wanted; None takes all.
+            wanted: The channels whose messages are wanted; None means all.
 
         Raises:
             BagError: The chunk is damaged; the messages before the damage were yielded.

@@ -298,7 +298,7 @@ class McapWriter:
             self._file.close()
 
     def abandon(self) -> None:
-        """Close the file as it is: nobody will read it."""
+        """Close the file without completing it, because it will be deleted."""
         self._file.close()
 
     def _end(self) -> None:

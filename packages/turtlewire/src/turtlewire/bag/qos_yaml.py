@@ -61,7 +61,7 @@ def profiles_from_yaml(offered: str | list[dict[str, Any]] | None, where: str) -
 
     Args:
         offered: YAML as text (sqlite3, MCAP, metadata up to version 8) or what it holds; empty or
-            None where the bag does not tell.
+            None where the bag does not say.
         where: Names the place in an error.
 
     Returns:

@@ -199,8 +199,8 @@ class Bag:
         """Yield the messages in order of their log time.
 
         Args:
-            topics: A topic or several; None takes all.
-            types: A message type or several; None takes all.
+            topics: A topic or several; None means all.
+            types: A message type or several; None means all.
             start_ns: The log time from which on messages are taken; None: from the beginning.
             end_ns: The last log time that is taken; None: to the end.
 

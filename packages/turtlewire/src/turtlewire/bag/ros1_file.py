@@ -101,7 +101,7 @@ class Ros1File:
 
         Args:
             chunk: One of `chunks`.
-            wanted: The connections whose messages are wanted; None takes all.
+            wanted: The connections whose messages are wanted; None means all.
 
         Raises:
             BagError: The chunk is damaged; the messages before the damage were yielded.

@@ -133,7 +133,7 @@ class SqliteWriter:
             self._database.close()
 
     def abandon(self) -> None:
-        """Close the file as it is: nobody will read it."""
+        """Close the file without completing it, because it will be deleted."""
         self._database.close()
 
     def _merge_log(self) -> None:

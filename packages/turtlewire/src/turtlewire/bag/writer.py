@@ -224,7 +224,7 @@ class BagWriter:
             type_name: ``"tf2_msgs/msg/TFMessage"``.
             qos: What its publishers offer.
             hash_of_type: ``"RIHS01_…"``; None computes it from the definition.
-            definition: Encoding and text of the type's definition; None takes the known type's.
+            definition: Encoding and text of the type's definition; None uses the known type's.
 
         Raises:
             BagError: The topic has another type already, or the type name is invalid.

@@ -125,7 +125,7 @@ def take_picture(buffer: Buffer, wall_ns: int, top: str | None = None) -> Pictur
     Args:
         buffer: What to look at.
         wall_ns: System time.
-        top: Take only this frame and those below it; None takes all.
+        top: Take only this frame and those below it; None means all.
     """
     tree = read_frame_tree(buffer)
     links = {link.child_frame: link for link in buffer.links() if link.samples}

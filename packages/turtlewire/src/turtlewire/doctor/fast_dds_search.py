@@ -53,7 +53,7 @@ class FastDdsSearch:
         return self
 
     def __exit__(self, *_: object) -> None:
-        """Take the question back, so that nobody remembers it."""
+        """Withdraw the query, so that participants forget it."""
         for asking, question in self._sockets:
             self._send(asking, question.withdrawal())
         self._open.close()

@@ -50,9 +50,9 @@ def open_context(
     """Join a domain.
 
     Args:
-        domain_id: None takes ``ROS_DOMAIN_ID``, or 0.
+        domain_id: None uses ``ROS_DOMAIN_ID``, or 0.
         middleware: ``rmw_cyclonedds_cpp`` (Cyclone DDS), ``rmw_zenoh_cpp`` (Zenoh) or ``local``
-            (inside this process); None takes :func:`.environment.middleware_name`.
+            (inside this process); None uses :func:`.environment.middleware_name`.
         enclave: The enclave of the first nodes. A participant of DDS announces it from the start.
 
     Raises:

@@ -239,7 +239,7 @@ class CycloneService(TopicService):
         return requests
 
     def _warn_unidentified(self) -> None:
-        """Say that a request may have another layout; nobody waits for its response."""
+        """Warn that a request may have another layout; no client waits for the response."""
         warn_once(
             f"{self.service} request unidentified",
             f"dropped a request of service {self.service}: its client has left, before it was "

@@ -1,4 +1,4 @@
-// Files of meshes: STL, DAE, OBJ, GLB; a box stands for what cannot be loaded.
+// Files of meshes: STL, DAE, OBJ, GLB; a box replaces a mesh that cannot be loaded.
 
 import {
   Box3, BoxGeometry, EdgesGeometry, Group, LineBasicMaterial, LineSegments, LoadingManager, Mesh,
@@ -61,7 +61,7 @@ export async function loadMesh(mesh, bytes = null) {
   return { object: copyOf(object), ...rest };
 }
 
-/** A box of wires in place of a mesh. */
+/** A wireframe box in place of a mesh. */
 export function makePlaceholder() {
   const box = new BoxGeometry(PLACEHOLDER_SIZE, PLACEHOLDER_SIZE, PLACEHOLDER_SIZE);
   const edges = new EdgesGeometry(box);
