@@ -172,7 +172,7 @@ class Program:
         return "\n".join(line for _, line in self.lines)
 
     def wait_for(self, pattern, count=1, timeout=120):
-        """The first `count` matches of a regular expression, as soon as they are there."""
+        """Return the first `count` matches of a regular expression, as soon as they arrive."""
 
         def found():
             return [match for _, line in list(self.lines) if (match := re.search(pattern, line))]
@@ -194,7 +194,7 @@ class Program:
         os.killpg(self.process.pid, signum)
 
     def wait(self, timeout=120):
-        """Its exit status, after everything that it printed has been read."""
+        """Return the exit status, after reading all output."""
         status = self.process.wait(timeout)
         self._reader.join(timeout)
         return status

@@ -122,7 +122,7 @@ def run_tests(place: OtherSystem) -> None:
 
 
 def run_demo(place: OtherSystem) -> None:
-    """One turtle follows the other on each middleware, with this Debian's library of DDS."""
+    """Run the follow demo on each middleware, with this Debian's DDS library."""
     for middleware in MIDDLEWARES:
         environment = dict(os.environ)
         if not place.emulated:  # the emulator looks below the root by itself

@@ -70,7 +70,7 @@ def main() -> int:
 
 
 def release(versions: tuple[str, ...], machines: tuple[str, ...], *, dirty: bool) -> None:
-    """All steps, into an empty build/release."""
+    """Run all steps, into an empty build/release."""
     number = version_of_all()
     if not dirty and output("git", "status", "--porcelain", "--untracked-files=no"):
         raise ReleaseError("there are changes that are not committed (--dirty builds them as well)")

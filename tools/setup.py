@@ -118,7 +118,7 @@ def bring_up_to_date(stamp: dict[str, Any], wanted: dict[str, Any]) -> None:
         with stage(f"adding the packages for {', '.join(added)}"):
             install(wanted["extras"], only_extras=True)
     if stamp.get("core") != wanted["core"]:
-        # An interrupted run goes on from here.
+        # An interrupted run continues from here.
         STAMP.write_text(json.dumps({**wanted, "core": None}), encoding="utf-8")
         provide_core(wanted["core"])
     noted = {**wanted, "has_core": CORE.exists()}
@@ -190,7 +190,7 @@ def run(arguments: list[str]) -> int:
         say(str(error))
         return 1
     except KeyboardInterrupt:
-        say("interrupted; the next run goes on")
+        say("interrupted; the next run continues")
         return 130
     return 0
 

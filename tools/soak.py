@@ -92,7 +92,7 @@ class Resident:
         return found
 
     def thirds(self) -> list[MemorySample]:
-        """For each third of the run the least memory, and the fewest descriptors and threads.
+        """Return the minimum memory, descriptors and threads in each third of the run.
 
         The minimum leaves out what visitors and full receive buffers need for a while.
         """
@@ -256,7 +256,7 @@ def wait_for_page(simulator: Resident, log_path: Path) -> str:
         match = re.search(r"http://127\.0\.0\.1:\d+/", log_path.read_text())
         if match:
             return match[0]
-        time.sleep(0.2)  # a file does not tell when it grows
+        time.sleep(0.2)  # a file does not notify when it grows
     raise SystemExit(f"[soak] the simulator did not start: see {log_path}")
 
 

@@ -651,7 +651,7 @@ def test_ctrl_c_while_pip_runs_is_one_line(run, tmp_path):
     program.wait_for("pip runs")
     program.type("\x03")
     assert program.wait() == 130
-    assert "[setup] interrupted; the next run goes on" in program.text
+    assert "[setup] interrupted; the next run continues" in program.text
     assert "Traceback" not in program.text
     assert program.survivors() == []
 

@@ -81,7 +81,7 @@ class ChildProcess:
 
     @property
     def pid(self) -> int:
-        """Its process id."""
+        """The process id."""
         return self._transport.get_pid()
 
     @property

@@ -84,7 +84,7 @@ class Executor:
 
     @property
     def context(self) -> Context:
-        """Its context."""
+        """The context of the executor."""
         return self._context
 
     def __enter__(self) -> Self:

@@ -211,37 +211,37 @@ class Node(BaseNode):
 
     @property
     def publishers(self) -> Iterator[Publisher[Any]]:
-        """Its publishers."""
+        """The publishers of the node."""
         yield from self._rclpy_endpoints.of(Publisher)
 
     @property
     def subscriptions(self) -> Iterator[Subscription[Any]]:
-        """Its subscriptions."""
+        """The subscriptions of the node."""
         yield from self._rclpy_endpoints.of(Subscription)
 
     @property
     def clients(self) -> Iterator[Client[Any]]:
-        """Its service clients."""
+        """The service clients of the node."""
         yield from self._rclpy_endpoints.of(Client)
 
     @property
     def services(self) -> Iterator[Service[Any]]:
-        """Its services."""
+        """The services of the node."""
         yield from self._rclpy_endpoints.of(Service)
 
     @property
     def timers(self) -> Iterator[Timer]:
-        """Its timers."""
+        """The timers of the node."""
         yield from self._rclpy_endpoints.of(Timer)
 
     @property
     def guards(self) -> Iterator[GuardCondition]:
-        """Its guard conditions."""
+        """The guard conditions of the node."""
         yield from self._rclpy_endpoints.of(GuardCondition)
 
     @property
     def waitables(self) -> Iterator[Waitable]:
-        """Its waitables: actions, and what programs add."""
+        """The waitables of the node: actions, and waitables that programs add."""
         from .waitable import Waitable
 
         yield from self._rclpy_endpoints.of(Waitable)

@@ -99,7 +99,7 @@ class _Component:
             self._executor.spin()
         except (ExternalShutdownException, ShutdownException):
             pass
-        except Exception:  # noqa: BLE001  the other components of the process go on
+        except Exception:  # noqa: BLE001  the other components keep running
             if self.node.context.ok():  # otherwise, it failed because the process is ending
                 self.node.get_logger().fatal(
                     f"The component ends because a callback failed:\n{traceback.format_exc()}"

@@ -47,7 +47,7 @@ class PlayerServices:
             node.create_service(type_, f"~/{name}", callback)
 
     def _report_split(self, message: BagMessage) -> None:
-        """Report when the playback goes on to the next file."""
+        """Report when the playback continues with the next file."""
         following = self._file + 1
         while following < len(self._files) and message.log_time_ns >= self._files[following][0]:
             closed, opened = self._files[self._file][1], self._files[following][1]

@@ -195,7 +195,7 @@ class Turtle:
 
     @property
     def pose(self) -> TurtlePose:
-        """Its pose and the velocities of the last command."""
+        """The pose of the turtle, and the velocities of the last command."""
         state = (self.x, self.y_down, self.theta, self.forward, self.lateral, self.turning)
         return TurtlePose._make(published(state))
 
@@ -401,7 +401,7 @@ class World:
 
     def _next_name(self) -> str:
         while True:
-            # As in the original, the count goes on after a kill: no name is given twice until a
+            # As in the original, the count continues after a kill: no name is given twice until a
             # reset.
             self._named += 1
             name = f"turtle{self._named}"

@@ -189,7 +189,7 @@ class HasHistory(Protocol):
 
     @property
     def buffer(self) -> Buffer:
-        """Its frames."""
+        """The buffer with the frames."""
         ...
 
     @property
@@ -213,7 +213,7 @@ class LiveTimeline:
         return self._kept or self._source.buffer
 
     def stamp_ns(self) -> int | None:
-        """None while it follows the source."""
+        """The time that the page shows; None while it follows the source."""
         return self._stamp_ns
 
     def state(self) -> TimelineState:

@@ -93,7 +93,7 @@ class Timeline(Protocol):
         ...
 
     def play(self) -> None:
-        """Let the time go on: a bag from where it is, the wire from now."""
+        """Resume: a bag from its current time, the network from now."""
         ...
 
     def seek(self, stamp_ns: int) -> None:
@@ -125,7 +125,7 @@ class Source(Protocol):
 
     @property
     def buffer(self) -> Buffer:
-        """Its frames."""
+        """The buffer with the frames."""
         ...
 
     def now_ns(self) -> int:

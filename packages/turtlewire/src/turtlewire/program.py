@@ -33,8 +33,8 @@ def program(main: Callable[_Arguments, _Status]) -> Callable[_Arguments, _Status
 
     If stdout cannot be written, the write raises ``SystemExit``, so that ``main`` cleans up: with
     the status 141 and no text if the reader of a pipe has closed it, else with the status 1 and one
-    line on stderr. If no one reads stderr, the status is also 141, but ``main`` goes on: log lines
-    that no one reads must not end a node.
+    line on stderr. If no one reads stderr, the status is also 141, but ``main`` continues: log
+    lines that no one reads must not end a node.
 
     Nothing changes if stdout is not the one of the process, as in tests that capture it.
     """

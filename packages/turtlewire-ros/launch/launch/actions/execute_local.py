@@ -152,11 +152,11 @@ class ExecuteLocal(ProcessAction):
         return self._sigkill_timeout
 
     def get_stdout(self) -> bytes:
-        """Its output to stdout; kept only with ``cached_output``."""
+        """The stdout of the process; kept only with ``cached_output``."""
         return self._output.kept(1)
 
     def get_stderr(self) -> bytes:
-        """Its output to stderr; kept only with ``cached_output``."""
+        """The stderr of the process; kept only with ``cached_output``."""
         return self._output.kept(2)
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:

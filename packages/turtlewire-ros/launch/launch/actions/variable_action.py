@@ -42,7 +42,7 @@ class VariableAction(Action):
 
     @property
     def name(self) -> list[Substitution]:
-        """Its name."""
+        """The name of the variable."""
         return self._name
 
     def variables(self, context: LaunchContext) -> MutableMapping[str, str]:
@@ -76,7 +76,7 @@ class SetVariableAction(VariableAction):
 
     @property
     def value(self) -> list[Substitution]:
-        """Its value."""
+        """The value of the variable."""
         return self._value
 
     def execute(self, context: LaunchContext) -> None:

@@ -81,7 +81,7 @@ class ProcessProxy:
 
     @property
     def exit_code(self) -> int | None:
-        """Its exit code, None before its end."""
+        """The exit code of the process; None while it runs."""
         return self._proc_info[self._action].returncode if self.terminated else None
 
     @property

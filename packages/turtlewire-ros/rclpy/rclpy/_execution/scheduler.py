@@ -135,7 +135,7 @@ class Scheduler:
         Raises:
             RuntimeError: Another thread spins.
         """
-        # A callback may spin its own executor: the outer spin goes on afterwards.
+        # A callback may spin its own executor: the outer spin continues afterwards.
         outer, me = self._spinning_thread, threading.get_ident()
         if outer is not None and outer != me:
             raise RuntimeError("Executor is already spinning")
@@ -274,7 +274,7 @@ class Scheduler:
             self._resume(entity)
 
     def _release_group(self, entity: Entity) -> None:
-        """Give the group back, and let the entities go on that waited for it."""
+        """Release the group, and resume the entities that waited for it."""
         if not entity._GATED:
             return
         entity.callback_group.ending_execution(entity)

@@ -169,7 +169,7 @@ class BaseNode:
 
     @property
     def context(self) -> Context:
-        """Its context."""
+        """The context of the node."""
         return self._context
 
     @property

@@ -53,7 +53,7 @@ def flat(count: int, color: tuple[int, int, int]) -> NDArray[np.uint8]:
 
 
 def _rainbow(place: NDArray[np.float64]) -> NDArray[np.uint8]:
-    """From violet at 0 over blue and green to red at 1."""
+    """Return RViz's rainbow: violet at 0, then blue and green, red at 1."""
     scaled = place * 5 + 1
     segment = np.floor(scaled).astype(np.int64)
     rest = scaled - segment

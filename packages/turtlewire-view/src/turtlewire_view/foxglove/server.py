@@ -124,7 +124,7 @@ class FoxgloveServer:
         return None
 
     def _refusal(self, headers: Headers) -> str | None:
-        """Why a request is refused, which is also warned of; None if it is allowed.
+        """Return why a request is refused, and log a warning; None if it is allowed.
 
         Other computers' names are checked on loopback only: elsewhere, everybody who reaches the
         server is served, and under whatever name it has there.

@@ -226,7 +226,7 @@ class McapFile:
         return True
 
     def _summary_is_complete(self) -> bool:
-        """Return True if it tells all that is needed: writers may leave out each kind of record."""
+        """Return True if the summary is complete: writers may omit each kind of record."""
         used = self.statistics.channel_counts.keys()
         return (
             self._has_statistics

@@ -76,8 +76,8 @@ class BagOverview:
 def describe_bag(path: str | os.PathLike[str]) -> BagOverview:
     """Return what a bag holds.
 
-    The message indexes of MCAP files and the rows of sqlite3 files tell the sizes. Other files are
-    read to their end.
+    The message indexes of MCAP files and the rows of sqlite3 files contain the sizes. Other files
+    are read to their end.
 
     Args:
         path: The bag; see `open_bag`.

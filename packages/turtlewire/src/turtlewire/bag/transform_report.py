@@ -139,7 +139,7 @@ class TransformReport:
 
 
 def describe(buffer: BaseBuffer, report: TransformReport) -> None:
-    """Add to the report what the filled buffer tells."""
+    """Add the statistics of the filled buffer to the report."""
     report.links = links(buffer)
     report.conflicts = conflicts(buffer)
     often = set(report.two_parents)

@@ -46,7 +46,7 @@ _CONTINUE = "continue"
 
 
 class ScrollKeys:
-    """No keys: for a program whose input is not its own terminal."""
+    """The base without keys, for a program whose input is not its terminal."""
 
     def read(self, seconds: float) -> str:
         """Return the name of the next key, or an empty string after a number of seconds."""

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
         @property
         def translation(self) -> Vector:
-            """In metres."""
+            """The translation, in metres."""
             ...
 
         @property

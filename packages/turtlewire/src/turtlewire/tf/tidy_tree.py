@@ -65,7 +65,7 @@ def _parents_first(roots: Sequence[str], children: Mapping[str, Sequence[str]]) 
 def _side_by_side(
     outlines: list[list[tuple[float, float]]], gap: float
 ) -> tuple[list[tuple[float, float]], list[float]]:
-    """One outline around all, and where the top node of each stands in it."""
+    """Return the common outline, and the position of each top node in it."""
     merged: list[tuple[float, float]] = []
     places: list[float] = []
     for outline in outlines:

@@ -327,7 +327,7 @@ def _turned(first: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray[
 def _distance_pairs(
     along: NDArray[np.float64], delta: float, tolerance: float
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """For each row the later one whose distance is nearest to ``delta``, if it is near enough.
+    """Return for each row the later one whose distance is nearest to ``delta``, if near enough.
 
     Of several as near the first is taken.
     """

@@ -175,7 +175,7 @@ def _over_time(
     labels: list[str],
     values_of: Callable[[Drawable], Numbers],
 ) -> Plot:
-    """One row for each column of the values."""
+    """Draw one row for each column of the values."""
     shown = [
         (name, each, colour) for (name, each), colour in zip(named.items(), colours(), strict=False)
     ]

@@ -208,7 +208,7 @@ class Trajectory:
 
     @property
     def duration_ns(self) -> int:
-        """From the first to the last pose."""
+        """The time from the first to the last pose."""
         return int(self.stamps_ns[-1] - self.stamps_ns[0]) if len(self) else 0
 
     @property

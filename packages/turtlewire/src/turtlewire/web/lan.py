@@ -43,7 +43,7 @@ def new_token() -> str:
 def path_below(token: str, path: str) -> str | None:
     """The path behind ``/token``, empty if nothing follows; None if it begins with another word.
 
-    The time of the comparison tells nothing of the token.
+    The comparison takes constant time, which reveals nothing about the token.
     """
     import hmac
 

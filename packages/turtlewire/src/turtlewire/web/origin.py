@@ -18,7 +18,7 @@ _LOOPBACK_NAMES = frozenset({"localhost", "[::1]"})
 
 
 def refusal(hosts: list[str], origins: list[str], *, lan: bool = False) -> str | None:
-    """Why a request is refused, as one sentence, or None if it is allowed.
+    """Return why a request is refused, as one sentence, or None if it is allowed.
 
     Args:
         hosts: All ``Host`` headers. Any port is allowed, as a forwarded port has another number.

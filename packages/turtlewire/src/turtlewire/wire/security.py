@@ -34,7 +34,7 @@ _REFUSED = (
     "does not start"
 )
 REMEDY = (
-    "For encryption, use Zenoh with TLS (docs/how-to/secure_networks.md). With it, or to go on "
+    "For encryption, use Zenoh with TLS (docs/how-to/secure_networks.md). With it, or to run "
     f"without security, unset {_ENABLE}."
 )
 

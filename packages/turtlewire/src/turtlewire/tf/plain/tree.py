@@ -153,10 +153,12 @@ class Tree:
 
         Args:
             target: The frame in which the answer is expressed.
-            source: The frame whose pose is asked for.
-            stamp: The time; None: the latest common time. An answer without a time is static.
-            question: Who asks; tf2 words its reasons by it.
-            beyond: How far outside of a link's data its motion is taken to go on; never in tf2.
+            source: The frame whose pose is requested.
+            stamp: The time; None requests the latest common time. A result without a time is
+                static.
+            question: The method that asks; tf2's reasons depend on it.
+            beyond: How far outside of a link's data its motion is extrapolated; tf2 never does
+                this.
         """
         if target == source:
             link = self.links.get(target)

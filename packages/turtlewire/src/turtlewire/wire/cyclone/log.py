@@ -106,7 +106,7 @@ class CycloneLog:
         libc = ctypes.CDLL(None)
         try:
             self._stderr = ctypes.c_void_p.in_dll(libc, _STDERR[sys.platform])
-        except ValueError:  # a C library of another kind: Cyclone goes on writing on stderr
+        except ValueError:  # another C library: Cyclone keeps writing to stderr
             return
         self._read_end, self._write_end = os.pipe()
         # Lines are lost when the pipe is full: a thread of Cyclone's must not wait for one of ours,

@@ -52,7 +52,7 @@ __all__ = ["CycloneClient", "CycloneService", "format_service_id"]
 #: How long a response waits for the client's end of the reply topic to be discovered.
 _PATIENCE_NS = 1_000_000_000
 _KNOWN_CLIENTS = 1000
-#: The bit of the last byte of a GUID that tells readers from writers.
+#: The bit of the last byte of a GUID that distinguishes readers from writers.
 _READER = 4
 
 
@@ -305,7 +305,7 @@ class CycloneService(TopicService):
         return client in self._reachable
 
     def matched(self) -> None:
-        """On the reader thread: the matching subscriptions of the reply topic are others now."""
+        """Handle a change of the reply topic's subscriptions; runs on the reader thread."""
         if self._waiting:
             self.send_waiting()
 

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
             ...
 
         def close(self) -> None:
-            """To be called before the DDS writer is deleted: the type goes with it."""
+            """Close the native writer; call this before the DDS writer and its type are deleted."""
             ...
 
 

@@ -88,7 +88,7 @@ class _Address(NamedTuple):
 
 
 def fault_of(configuration: zenoh.Config, reason: str) -> ConnectFault:
-    """Why a session cannot be opened, for which Zenoh gives a ``reason``."""
+    """Return why a session cannot be opened, given Zenoh's ``reason``."""
     if not re.match("Unable to connect|Timeout", reason, re.IGNORECASE):
         return ConnectFault(reason, _ORIGIN)
     addresses = list(_flat(_value(configuration, "connect/endpoints")))

@@ -49,7 +49,7 @@ class Matching(Protocol):
 
 
 class ZenohGraph(GraphView):
-    """Collects tokens, and tells this context's endpoints who matches.
+    """Collects tokens, and notifies this context's endpoints of matches.
 
     Attributes:
         lock: Guards all of it.
