@@ -27,7 +27,7 @@ nb::object bytes_of(std::span<const unsigned char> data) {
                                            static_cast<Py_ssize_t>(data.size())));
 }
 
-// Whether the channel of a record is wanted; neighbours often have the same.
+// Whether the channel of a record is requested; consecutive records often have the same channel.
 class Wanted {
  public:
   explicit Wanted(nb::handle channels) : channels_(channels) {}

@@ -1,4 +1,4 @@
-// What must be done with locks when a program calls fork().
+// Handles locks when a program calls fork().
 #pragma once
 
 namespace turtlewire {
@@ -8,7 +8,7 @@ namespace turtlewire {
 // fork() waits for all these locks first.
 class ForkAware {
  public:
-  // In which order the locks are taken, when a thread takes several.
+  // The order in which a thread acquires several locks.
   enum class Order { outer, inner };
 
   virtual void before_fork() = 0;                       // takes the lock
@@ -18,8 +18,8 @@ class ForkAware {
   ~ForkAware() = default;
 };
 
-// Has fork() call the functions of an object for as long as this lives. Make it the last member, so
-// that it ends before the lock does.
+// Registers an object's functions with fork() for its own lifetime. Make it the last member, so
+// that it is destroyed before the lock.
 class ForkRegistration {
  public:
   ForkRegistration(ForkAware& object, ForkAware::Order order);

@@ -1,4 +1,4 @@
-// Feeds buffers with messages on whatever thread brings them, and keeps back those that need more
+// Fills buffers with messages on any receiving thread, and keeps back those that need more
 // than that.
 #pragma once
 
@@ -45,7 +45,7 @@ class Intake final : public ForkAware {
   // that need Python. Those before them that do not need it any more are stored. `former` is what
   // the last call returned, if an introduction may have changed the need.
   std::deque<WaitingMessage> take(std::deque<WaitingMessage> former = {});
-  // Whether a buffer that somebody listens to has got data since the last time.
+  // Whether a buffer with change listeners has received data since the last time.
   bool take_news();
 
   void before_fork() override { mutex_.lock(); }
