@@ -1,4 +1,4 @@
-"""What the chaos tests share: programs in separate processes, and how they may end.
+"""Common parts of the chaos tests: programs in separate processes, and how they may end.
 
 Chaos tests are slow tests. Whatever happens to a process (kills, limits, a full disk, hostile
 peers, a clock that jumps), it goes on, or it ends with a line that says why: it never crashes,

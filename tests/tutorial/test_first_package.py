@@ -1,4 +1,4 @@
-"""docs/how-to/first_package.md does what it says, typed from top to bottom."""
+"""The commands of docs/how-to/first_package.md, typed from top to bottom."""
 
 from __future__ import annotations
 

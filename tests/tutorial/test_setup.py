@@ -1,4 +1,4 @@
-"""What scripts/setup installs, compiles and leaves as it is, and what it prints."""
+"""scripts/setup: installing, compiling, unchanged parts, and output."""
 
 from __future__ import annotations
 
@@ -278,7 +278,7 @@ def test_a_script_refuses_a_word_that_it_does_not_know(tmp_path, command, told):
 
 
 class TestPip:
-    """Where the pip in .venv comes from."""
+    """The source of the pip in .venv."""
 
     @pytest.fixture
     def venv(self, module, monkeypatch):

@@ -1,4 +1,4 @@
-"""Grading: whatever a student hands in, the others get their results, and nothing is left."""
+"""Grading: any submission leaves the results of the others intact, and no process behind."""
 
 from __future__ import annotations
 

@@ -67,7 +67,7 @@ class Firefox:
         self._ask("browsingContext.navigate", context=self._context, url=url, wait="complete")
 
     def evaluate(self, expression):
-        """Value of a JavaScript expression, awaited, as JSON can tell it."""
+        """Return the awaited value of a JavaScript expression, as far as JSON can hold it."""
         answer = self._ask(
             "script.evaluate",
             expression=f"(async () => JSON.stringify(await ({expression})))()",

@@ -1,4 +1,4 @@
-"""What the doctor finds, on graphs and traffic made for it."""
+"""Findings of the doctor on artificial graphs and traffic."""
 
 from __future__ import annotations
 

@@ -48,7 +48,7 @@ def grid(seed, count=60):
 
 
 def flipped(trajectory):
-    """The same rotations with other signs."""
+    """Return the same rotations with flipped signs."""
     poses = trajectory.poses.copy()
     poses[::3, 3:] *= -1
     return Trajectory(trajectory.stamps_ns, poses)

@@ -25,7 +25,7 @@ def test_a_datagram_that_the_network_refuses_is_explained():
 
 
 def test_cyclone_log_of_a_domain_goes_into_the_pipe():
-    """In a separate process.
+    """Runs in a separate process.
 
     Cyclone keeps the first stderr that it sees for what belongs to no domain.
     """

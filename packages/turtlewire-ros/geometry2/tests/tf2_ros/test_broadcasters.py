@@ -1,4 +1,4 @@
-"""Both broadcasters, and that no static transform is ever lost."""
+"""Both broadcasters; static transforms are never lost."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ LONG = Duration(seconds=60)
 
 @pytest.fixture
 def heard(make_node):
-    """What a listener hears that comes when it is called."""
+    """Return a function that starts a listener and returns its buffer."""
 
     def listen():
         buffer = Buffer()

@@ -1,4 +1,4 @@
-"""How nodes are started: names, parameters, remappings and what a scope adds to them."""
+"""Starting nodes: names, parameters, remappings and additions of the scope."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Filters one behind the other."""
+"""Sequences of filters."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Every option of `ros2 bag record`: what is chosen, told, split, compressed and stored."""
+"""Every option of `ros2 bag record`: topics, messages, splitting, compression, storage."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the page looks like, against pictures and boxes that were looked at.
+"""The appearance of the page, compared with reviewed pictures and boxes.
 
 ``TURTLEWIRE_WRITE_GOLDEN=1`` rewrites them.
 

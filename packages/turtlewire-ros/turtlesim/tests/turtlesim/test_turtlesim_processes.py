@@ -254,7 +254,7 @@ def terminal():
 
 
 def follows(command, poses):
-    """Whether the turtle moved as it was told; poses show the speed, not its sign."""
+    """Return True if the turtle moved as commanded; poses show the speed, not its sign."""
     wanted = (abs(command.linear.x), command.angular.z)
     return any((pose.linear_velocity, pose.angular_velocity) == wanted for pose in poses)
 
