@@ -36,7 +36,7 @@ from turtlewire.wire import environment
 from turtlewire.wire.environment import is_installed
 name = environment.middleware_name()
 library = environment.middleware_library(name)
-reason = "" if "the cyclonedds wheel" in library else f", which stands on {library}"
+reason = "" if "the cyclonedds wheel" in library else f", which uses {library}"
 if not is_installed("rmw_cyclonedds_cpp"):
     reason = f". {environment.NO_CYCLONE}"
 print(f"middleware {name}{reason}" if is_installed(name) else "only the transform buffer")

@@ -105,7 +105,7 @@ def version_of(text: str) -> tuple[int, ...]:
 
 
 def install(extras: Sequence[str], *, only_extras: bool) -> None:
-    """Install our distributions editable, unless they are there, and the extras."""
+    """Install our distributions editable, unless they are installed, and the extras."""
     workspace = "[workspace]" if "workspace" in extras else ""
     # A distribution whose folder was deleted is left out.
     words = [f"turtlewire-colcon{workspace}" if COLCON.is_dir() else "turtlewire"]

@@ -82,7 +82,7 @@ class DomainWatch:
         self._context.close()
 
     def picture(self, *, fresh: bool) -> dict[str, Any]:
-        """Return the state as JSON values; ``fresh`` looks at the tree of frames, too."""
+        """Return the state as JSON values; ``fresh`` also reads the tree of frames."""
         if self._changed.is_set():
             self._changed.clear()
             self._take_graph()

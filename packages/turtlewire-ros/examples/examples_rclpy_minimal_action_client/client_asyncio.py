@@ -23,7 +23,7 @@ class MinimalActionClientAsyncIO(Node):
         self._client = ActionClient(self, Fibonacci, "fibonacci")
 
     def wait_for_server(self) -> None:
-        """Wait until the server is there."""
+        """Wait until the server is available."""
         self.get_logger().info("Waiting for action server...")
         if not self._client.wait_for_server():
             raise ExternalShutdownException

@@ -269,7 +269,7 @@ def spin_once(
     """Wait for one callback of ``node`` and run it.
 
     Args:
-        node: What to serve; when it is in no executor, it is in this one for the time of the call.
+        node: The node to spin; if it has no executor, it is in this one during the call.
         executor: None uses the global one.
         timeout_sec: How long to wait; None or negative: without limit, 0: not at all.
     """
@@ -287,14 +287,14 @@ def spin(node: Node, executor: Executor | None = None) -> None:
     """Run the callbacks of ``node`` until its context is shut down.
 
     Args:
-        node: What to serve; when it is in no executor, it is in this one for the time of the call.
+        node: The node to spin; if it has no executor, it is in this one during the call.
         executor: None uses the global one.
 
     Raises:
         KeyboardInterrupt: Ctrl-C, in the main thread.
         ExternalShutdownException: SIGTERM, or another thread shut the context of a given executor
             down.
-        Exception: What a callback raised.
+        Exception: A callback raised it.
     """
     executor = get_global_executor() if executor is None else executor
     added = executor.add_node(node)
@@ -313,8 +313,8 @@ def spin_until_future_complete(
     It also ends when the context is shut down.
 
     Args:
-        node: What to serve; when it is in no executor, it is in this one for the time of the call.
-        future: What to wait for.
+        node: The node to spin; if it has no executor, it is in this one during the call.
+        future: The future to wait for.
         executor: None uses the global one.
         timeout_sec: None or negative: without limit.
     """

@@ -94,7 +94,7 @@ class EventHandler(Waitable):
 
     Args:
         callback_group: Of the callback.
-        callback: What to call.
+        callback: Function to call.
         event_type: Which event.
         parent_impl: The publisher or subscription, or its handle.
 

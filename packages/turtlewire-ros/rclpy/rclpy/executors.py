@@ -163,7 +163,7 @@ class Executor:
             ExternalShutdownException: The context was shut down by a signal, or by another thread
                 while it waited.
             KeyboardInterrupt: Ctrl-C, in the main thread.
-            Exception: What a callback raised.
+            Exception: A callback raised it.
         """
         scheduler = self._rclpy_scheduler
         outer, scheduler.serves_endlessly = scheduler.serves_endlessly, True
@@ -194,7 +194,7 @@ class Executor:
 
         Raises:
             ExternalShutdownException: The context was shut down.
-            Exception: What a callback raised.
+            Exception: A callback raised it.
         """
         self._spin_once(timeout_sec)
 

@@ -266,7 +266,7 @@ class Node(BaseNode):
             topic: Name of the topic.
             qos_profile: Quality of service, or a history depth.
             callback_group: For event callbacks; None uses the node's default.
-            event_callbacks: What to call on events of the quality of service
+            event_callbacks: Functions to call on events of the quality of service
                 (:class:`rclpy.event_handler.PublisherEventCallbacks`).
             qos_overriding_options: Which policies parameters may override.
             publisher_class: Class to instantiate.
@@ -357,7 +357,7 @@ class Node(BaseNode):
                 may be ``async``.
             qos_profile: Quality of service, or a history depth.
             callback_group: None uses the node's default.
-            event_callbacks: What to call on events of the quality of service
+            event_callbacks: Functions to call on events of the quality of service
                 (:class:`rclpy.event_handler.SubscriptionEventCallbacks`).
             qos_overriding_options: Which policies parameters may override.
             raw: Whether the callback gets the serialized bytes.
@@ -442,7 +442,7 @@ class Node(BaseNode):
 
         Args:
             timer_period_sec: Seconds between calls.
-            callback: What to call; may be ``async``.
+            callback: Function to call; may be ``async``.
             callback_group: None uses the node's default.
             clock: None uses the node's clock.
             autostart: False: it starts with :meth:`Timer.reset <rclpy.timer.Timer.reset>`.
@@ -514,8 +514,8 @@ class Node(BaseNode):
         self._rclpy_core.close()
 
     def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
-        """Block until a node is there, at most ``timeout`` seconds (negative: no limit).
+        """Block until a node exists, at most ``timeout`` seconds (negative: no limit).
 
-        Return True if it is there.
+        Return True if it exists.
         """
         return self._rclpy_graph.wait_for_node(fully_qualified_node_name, timeout)

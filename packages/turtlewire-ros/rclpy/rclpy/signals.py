@@ -90,7 +90,7 @@ class _Watcher:
         """Put the former handlers back, end the thread and join it."""
         for signum, previous in self._previous.items():
             if signal.getsignal(signum) == self._handle and not self._is_needed_for(signum):
-                # None stands for a handler that was not installed from Python.
+                # None means a handler that was not installed from Python.
                 signal.signal(signum, previous if previous is not None else signal.SIG_DFL)
         signal.set_wakeup_fd(self._previous_wakeup_fd)
         write_fd, self._write_fd = self._write_fd, -1

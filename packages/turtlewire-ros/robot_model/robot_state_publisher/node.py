@@ -62,7 +62,7 @@ class StartError(RuntimeError):
     """The node cannot start; the text is ROS 2's.
 
     Attributes:
-        hint: What to do; may be empty.
+        hint: Advice; may be empty.
     """
 
     def __init__(self, text: str, hint: str = "") -> None:

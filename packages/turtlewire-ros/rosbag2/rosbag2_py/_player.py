@@ -32,7 +32,7 @@ class Player:
     Args:
         storage_options: The bag, or a list with one bag; or the log level, as in the first
             releases of Jazzy.
-        play_options: What is played, and how.
+        play_options: Options of the playback.
         log_level: ``debug``, ``info``, ``warn``, ``error`` or ``fatal``.
         node_name: Name of the player's node.
 

@@ -34,7 +34,7 @@ class Recorder:
 
     Args:
         storage_options: The bag; or the log level, as in the first releases of Jazzy.
-        record_options: What is recorded.
+        record_options: Options of the recording.
         log_level: ``debug``, ``info``, ``warn``, ``error`` or ``fatal``.
         node_name: Name of the recorder's node.
 

@@ -38,7 +38,7 @@ def play(path: str, options: PlayOptions, stop: queue.SimpleQueue[None]) -> None
 
     Args:
         path: The bag.
-        options: What is played, and how.
+        options: Options of the playback.
         stop: Ends the playback.
 
     Raises:
@@ -52,7 +52,7 @@ def burst(path: str, options: PlayOptions, stop: queue.SimpleQueue[None], count:
 
     Args:
         path: The bag.
-        options: What is played, and how.
+        options: Options of the playback.
         stop: Ends the playback.
         count: How many messages; 0 for all.
 
@@ -92,7 +92,7 @@ def served_player(
 
     Args:
         path: The bag.
-        options: What is played, and how.
+        options: Options of the playback.
         node_name: Name of the node.
 
     Raises:

@@ -42,7 +42,7 @@ class BagPlayer:
     Args:
         node: The node whose publishers it uses.
         path: The bag.
-        options: What is played, and how.
+        options: Options of the playback.
 
     Attributes:
         changed: Guards everything; notified after each command.

@@ -21,7 +21,7 @@ class PlayerServices:
 
     Args:
         node: The player's node.
-        player: What is steered.
+        player: The player to control.
     """
 
     def __init__(self, node: Node, player: BagPlayer) -> None:

@@ -44,7 +44,7 @@ def record(
 
     Args:
         make_writer: Makes the bag, which is closed at the end; called when all else is there.
-        options: What is recorded.
+        options: Options of the recording.
         stop: Ends the recording.
         node_name: Name of the recorder's node.
         cache_bytes: How many bytes may wait for the disk; 0 for no limit.

@@ -47,7 +47,7 @@ class BagRecorder:
     Args:
         node: The node whose subscriptions it uses.
         recording: The bag.
-        options: What is recorded.
+        options: Options of the recording.
         static: Types of the topics that are subscribed to at once, by topic.
 
     Raises:

@@ -22,7 +22,7 @@ class RecorderServices:
 
     Args:
         node: The recorder's node.
-        recorder: What is steered.
+        recorder: The recorder to control.
         recording: The bag.
         snapshot: Whether there is a service that takes a snapshot.
     """

@@ -64,7 +64,7 @@ class IdlFile:
 
     Attributes:
         locator: Where it is.
-        content: What it holds.
+        content: The content of it.
     """
 
     __slots__ = ("content", "locator")

@@ -29,8 +29,8 @@ def set_message_fields(
     Args:
         msg: The message; what ``values`` does not name stays.
         values: Values by field name, nested dictionaries for nested messages.
-        expand_header_auto: Let ``"auto"`` stand for a header with the time of publishing.
-        expand_time_now: Let ``"now"`` stand for the time of publishing.
+        expand_header_auto: Replace ``"auto"`` by a header with the time of publishing.
+        expand_time_now: Replace ``"now"`` by the time of publishing.
 
     Returns:
         The ``builtin_interfaces/msg/Time`` objects in the message that await the time of

@@ -67,7 +67,7 @@ class AsyncClient(AsyncEndpoint, BaseClient[SrvT_co]):
         return response
 
     async def wait_for_service(self, *, check_interval: float = 0.1) -> None:  # noqa: ARG002
-        """Wait until a server is there.
+        """Wait until a server is available.
 
         Args:
             check_interval: Ignored, because nothing polls: changes of the graph end the wait.

@@ -340,7 +340,7 @@ class RcutilsLogger:
 
 def _encodable(text: str) -> str:
     """Escape lone surrogates, so that every output accepts the text."""
-    # They stand for undecodable bytes, for example of a file name.
+    # They represent undecodable bytes, for example of a file name.
     return text if text.isascii() else text.encode(errors="backslashreplace").decode()
 
 

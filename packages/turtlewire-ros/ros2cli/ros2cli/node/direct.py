@@ -156,7 +156,7 @@ class DirectNode:
     def wait_for_server(
         self, service: str, is_ready: Callable[[], bool], timeout: float | None = None
     ) -> bool:
-        """Wait until the server of a service is there.
+        """Wait until the server of a service is available.
 
         Args:
             service: Fully qualified name of the service.
@@ -200,7 +200,7 @@ class DirectNode:
             future: The answer to come.
             server: Name of the server for the error, for example ``service '/spawn'``.
             is_served: Whether it is still there; asked at every change of the graph.
-            timeout: Seconds to wait; None waits as long as the server is there.
+            timeout: Seconds to wait; None waits while the server exists.
 
         Raises:
             KeyboardInterrupt: At Ctrl-C.

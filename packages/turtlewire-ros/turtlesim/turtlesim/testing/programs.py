@@ -22,7 +22,7 @@ class ProgramError(RuntimeError):
     """A program cannot take part in a simulation.
 
     Attributes:
-        hint: What to do.
+        hint: Advice.
     """
 
     def __init__(self, text: str, hint: str) -> None:

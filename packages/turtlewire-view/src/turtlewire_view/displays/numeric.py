@@ -100,7 +100,7 @@ def pose_rows(
 def rows_within(rows: NDArray[np.float64], bound: float = LARGEST) -> NDArray[np.bool_]:
     """Return for each row if all its numbers are finite and smaller than ``bound``."""
     with np.errstate(invalid="ignore"):
-        within: NDArray[np.bool_] = np.all(np.abs(rows) < bound, axis=1)  # false for NaN, too
+        within: NDArray[np.bool_] = np.all(np.abs(rows) < bound, axis=1)  # also false for NaN
     return within
 
 

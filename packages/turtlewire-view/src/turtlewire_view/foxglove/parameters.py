@@ -51,7 +51,7 @@ class Parameters:
         Those that are not set are left out.
 
         Args:
-            names: Their names, ``/node.name``; none stands for all parameters of all nodes.
+            names: Their names, ``/node.name``; none means all parameters of all nodes.
         """
         if names:
             values, problems = await self._values(names)

@@ -34,7 +34,7 @@ class FastDdsSearch:
 
     Args:
         domain_id: The domain.
-        wide: Whether to ask other hosts, too.
+        wide: Whether to ask other hosts as well.
     """
 
     def __init__(self, domain_id: int, *, wide: bool) -> None:

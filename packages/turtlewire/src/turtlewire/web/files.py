@@ -74,7 +74,7 @@ def find_files(root: Path, prefix: str = "/") -> dict[str, File]:
 
 
 def policy(files: Mapping[str, File], sources: Mapping[str, str]) -> str:
-    """The ``Content-Security-Policy`` of a page; ``{host}`` stands for the request's ``Host``.
+    """The ``Content-Security-Policy`` of a page; ``{host}`` is replaced by the request's ``Host``.
 
     Args:
         files: The page's files; the import maps of those in HTML are allowed.

@@ -219,7 +219,7 @@ class Client(Entity):
 
     @abstractmethod
     def is_ready(self) -> bool:
-        """Return True if a server is there that gets a request and whose response arrives here."""
+        """Return True if a server is available that receives requests and can answer them."""
 
 
 class Service(Entity):

@@ -115,7 +115,7 @@ def compares_qos() -> bool:
 
 
 def is_installed(middleware: str) -> bool:
-    """Return True if the library that a middleware stands on is there."""
+    """Return True if the library of a middleware is installed."""
     if middleware == "rmw_cyclonedds_cpp":
         # What is loaded stays: it needs no file, of which a process may have no more left.
         return _CYCLONE in sys.modules or find_libddsc().library is not None

@@ -211,7 +211,7 @@ class Buffer(SharedTree):
             self._tree.rules = rules_of(year)
 
     def _latest_common_time(self, target_frame: str, source_frame: str) -> int:
-        """ROS 2's question; its time 0 stands for static links."""
+        """ROS 2's question; its time 0 means static links."""
         check_frames(target_frame=target_frame, source_frame=source_frame)
         with self._lock:
             try:

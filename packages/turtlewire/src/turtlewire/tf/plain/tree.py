@@ -112,7 +112,7 @@ class Tree:
             link.rename_sender(name, shown)
 
     def remove(self, children: Iterable[str]) -> list[str]:
-        """Forget links, and the names that then stand for nothing; the children that had a link."""
+        """Forget links, and names that are then unused; returns the children that had a link."""
         removed = {child: link for child in children if (link := self.links.pop(child, None))}
         if removed:
             self.is_full = False

@@ -49,7 +49,7 @@ class _Domains:
         self._keeps_library = False
 
     def join(self, domain_id: int) -> None:
-        """Make the domain, unless it is there."""
+        """Make the domain, unless it exists."""
         with self._lock:
             self._notice_fork()
             if not self._users.get(domain_id):

@@ -71,7 +71,7 @@ class ZenohGraph(GraphView):
         self._is_complete = False
 
     def start(self, session: zenoh.Session, threads: CallbackThreads) -> None:
-        """Collect the tokens that are there, and from now on."""
+        """Collect existing and future tokens."""
         self._session_id = str(session.zid())
         liveliness, key = session.liveliness(), graph_key(self._domain_id)
         self._subscriber = threads.declare(
