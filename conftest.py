@@ -1,7 +1,7 @@
-"""What all tests share.
+"""Fixtures and helpers of all tests.
 
-Every test process gets a domain, a log directory and a loopback-only range of its own; children
-inherit them. The fixture ``run`` starts programs in processes of their own; ``ros2_launch`` does so
+Every test process gets its own domain, log directory and loopback-only range; children
+inherit them. The fixture ``run`` starts programs in separate processes; ``ros2_launch`` does so
 with launch files, ``launch`` runs entities of launch files in the test's process.
 """
 
@@ -137,9 +137,9 @@ os._exit(os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) & 255)
 
 
 class Program:
-    """A process in a session of its own, and what it prints, line by line with the time of arrival.
+    """A process in a separate session, and what it prints, line by line with the time of arrival.
 
-    With `terminal` it runs in a terminal of its own; :meth:`type` are the keys.
+    With `terminal` it runs in its own terminal; :meth:`type` presses keys.
     """
 
     def __init__(self, *command, environment=None, cwd=None, terminal=False):
@@ -172,7 +172,7 @@ class Program:
         return "\n".join(line for _, line in self.lines)
 
     def wait_for(self, pattern, count=1, timeout=120):
-        """The first `count` matches of a regular expression, as soon as they are there."""
+        """Return the first `count` matches of a regular expression, as soon as they arrive."""
 
         def found():
             return [match for _, line in list(self.lines) if (match := re.search(pattern, line))]
@@ -194,7 +194,7 @@ class Program:
         os.killpg(self.process.pid, signum)
 
     def wait(self, timeout=120):
-        """Its exit status, after everything that it printed has been read."""
+        """Return the exit status, after reading all output."""
         status = self.process.wait(timeout)
         self._reader.join(timeout)
         return status
@@ -373,7 +373,7 @@ def launch(capsys, monkeypatch, tmp_path):
 
 @pytest.fixture
 def ros2_launch(run, tmp_path):
-    """Runs `ros2 launch` on a launch file in a process of its own."""
+    """Runs `ros2 launch` on a launch file in a separate process."""
 
     def start(content, *arguments, name="test.launch.py", **options):
         (tmp_path / name).write_text(content)

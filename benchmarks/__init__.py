@@ -1,1 +1,1 @@
-"""Measurements against rivals, as ratios of one run: ``scripts/bench``."""
+"""Benchmarks against rivals, as ratios within one run: ``scripts/bench``."""

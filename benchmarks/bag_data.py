@@ -1,4 +1,4 @@
-"""Bags and trajectories that all adapters read: made once, by a process of ours."""
+"""Bags and trajectories that all adapters read; one of our processes creates them once."""
 
 import os
 import random

@@ -13,7 +13,7 @@ from benchmarks.rival import run_adapter
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-TITLE = "Bags and trajectories (CPU of the process; peers in processes of their own)"
+TITLE = "Bags and trajectories (CPU of the process; peers in separate processes)"
 
 # what, our case, the peers' case, budget
 CASES = [

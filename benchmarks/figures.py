@@ -31,7 +31,7 @@ class Figure:
 
 @dataclass(frozen=True)
 class Row:
-    """One line: what was measured, our figure, those of rivals, the budget, the machine's floor."""
+    """A row of the table: a measurement, our figure, the rivals', the budget, the floor."""
 
     what: str
     ours: Figure

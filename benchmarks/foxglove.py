@@ -1,6 +1,6 @@
 """`turtlewire foxglove`: CPU of the server for each message, and how soon latched messages come.
 
-The rival is the least that Python can do: a process whose subscription calls an empty function.
+The rival is the minimum for Python: a process whose subscription calls an empty function.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """How cost grows with the number of nodes, topics, frames, turtles … and with the length of a bag.
 
 `scripts/bench growth` prints a row for each size and draws all of them into
-``build/growth.svg``, with logarithmic axes. Each size runs in a process of its own.
+``build/growth.svg``, with logarithmic axes. Each size runs in its own process.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ ENVIRONMENT = {**os.environ, "ROS_DOMAIN_ID": "104", "ROS_AUTOMATIC_DISCOVERY_RA
 
 
 class Quantity(NamedTuple):
-    """What grows, and what is measured of it.
+    """A quantity that grows, and the cost that is measured.
 
     Attributes:
         what: The cost, for the table and the plot.

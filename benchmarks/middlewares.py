@@ -1,4 +1,4 @@
-"""Zenoh beside Cyclone: the same programs on both, in turns, on one host and without a router."""
+"""Zenoh compared with Cyclone: the same programs alternate on one host, without a router."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from benchmarks.figures import Figure, Row
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-TITLE = "Zenoh (ours) beside Cyclone"
+TITLE = "Zenoh (ours) compared with Cyclone"
 ROUNDS = 3
 MIDDLEWARES = {"Zenoh": "rmw_zenoh_cpp", "Cyclone": "rmw_cyclonedds_cpp"}
 ENVIRONMENT = {**os.environ, "ROS_DOMAIN_ID": "103", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}

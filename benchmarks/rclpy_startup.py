@@ -1,4 +1,4 @@
-"""What a node costs before it does anything: start, and rest."""
+"""The cost of an idle node: starting it, and keeping it running."""
 
 from __future__ import annotations
 

@@ -2,8 +2,8 @@
 
 ``bytes to bytes`` is the conversion alone; ``node`` is the whole process with the wire, in which
 the node's subscription, the conversion and the sending are counted. The rival of the conversion is
-its plain-Python twin. That of the node is a process that answers datagrams of the same sizes, by
-two system calls each and nothing else: what the operating system takes of the node's time.
+its plain-Python version. The rival of the node is a process that only answers datagrams of the
+same sizes, with two system calls each: the share of the operating system in the node's time.
 """
 
 from __future__ import annotations

@@ -52,7 +52,7 @@ def rows() -> Iterator[Row]:
         }
         environment.pop(
             "PYTHONDONTWRITEBYTECODE", None
-        )  # else every command compiles its modules anew
+        )  # else every command compiles its modules again
         yield Row("the interpreter alone", measured(environment, ["-c", "print('ready')"], "ready"))
         yield Row("ros2 --help", measured(environment, [*ROS2, "--help"], "Commands:"))
         yield Row("ros2 pkg list", measured(environment, [*ROS2, "pkg", "list"], "turtlesim"))
@@ -112,7 +112,7 @@ def run(environment: dict[str, str], words: list[str], expected: str) -> int:
 
 @contextmanager
 def node(environment: dict[str, str]) -> Iterator[None]:
-    """A node in a process of its own; it ends with its input, which `Popen` closes."""
+    """A node in a separate process; it ends with its input, which `Popen` closes."""
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
     with subprocess.Popen(
         [sys.executable, "-c", NODE], env=environment, text=True, **pipes

@@ -1,4 +1,4 @@
-"""What a turtle costs.
+"""CPU and memory per turtle.
 
 The simulator and the swarm of learning_tf2_py in one process, on the wire, as `swarm.launch.py`
 starts them.

@@ -1,4 +1,4 @@
-"""The 3D view beside 1,000 moving frames at 30 Hz: CPU of the server for each picture.
+"""The 3D view of 1,000 moving frames at 30 Hz: CPU of the server for each picture.
 
 The whole process is counted: receiving and storing the transforms, computing all poses in the fixed
 frame, the rows of the tree once a second, and sending all of it to one page.

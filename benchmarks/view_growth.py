@@ -1,10 +1,10 @@
-"""What `turtlewire view` and its page hold while topics, displays and pages come and go.
+"""Memory of `turtlewire view` and its page while topics, displays and pages come and go.
 
-`python -m benchmarks.view_growth [--minutes M] [--every SECONDS]` prints a line every so often: of
-the server the resident memory, file descriptors and threads; of the page the JavaScript heap after
-a collection, DOM nodes, and what three.js holds on the graphics card. A robot publishes 30 moving
-frames at 30 Hz; each round opens new topics, shows them in the page, tells them to a second page,
-and ends them. The first minute fills the history of frames.
+`python -m benchmarks.view_growth [--minutes M] [--every SECONDS]` prints a line at intervals: the
+resident memory, file descriptors and threads of the server; the JavaScript heap of the page after a
+collection, its DOM nodes, and the objects of three.js on the graphics card. A robot publishes 30
+moving frames at 30 Hz; each round opens new topics, shows them in the page and in a second page,
+and closes them. The first minute fills the history of frames.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """The page of the 3D view with 1,000 frames that all move: time of one picture in the browser.
 
 Headless Chromium without a graphics card, about 1280 x 720 pixels. Each picture takes new poses,
-writes axes, arrows and names, and is drawn until its first pixel can be read. The browser has shown
-the picture before by then: what it costs to lay the page together is not the page's. The rival is
-the empty picture, which is cleared all the same.
+writes axes, arrows and names, and is drawn until its first pixel can be read. By then the
+browser has shown the previous picture, so the cost of compositing is not counted. The rival is
+the empty picture, which is cleared as well.
 
 Two scenes: one tree whose arrows cross the whole picture, and a hundred robots of ten frames each.
 """

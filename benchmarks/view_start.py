@@ -1,6 +1,6 @@
-"""`turtlewire view` beside a robot that runs: from the command to the first picture with frames.
+"""`turtlewire view` of a running robot: time from the command to the first picture with frames.
 
-The browser is open already (headless Chromium without a graphics card) and is told the address as
+The browser is open already (headless Chromium without a graphics card) and gets the address as
 soon as the command prints it. The first row is until the address is printed; the second until the
 page has drawn frames. The rival is a Python that imports numpy and ends.
 """

@@ -1,4 +1,4 @@
-"""The data that every rival gets.
+"""The data for every rival.
 
 A chain of four frames at 1 kHz over ten seconds, all three links moving.
 """

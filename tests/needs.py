@@ -1,4 +1,4 @@
-"""What some tests need that a bare machine does not have; the texts say how to get it."""
+"""Requirements of some tests that a bare machine does not meet, and how to install them."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""What a page must hold for people who see badly or use no mouse, measured in a real browser."""
+"""Accessibility checks of a page, for low vision and keyboards, measured in a real browser."""
 
 from __future__ import annotations
 

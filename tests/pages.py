@@ -38,7 +38,7 @@ DEJAVU_WIDTHS = [1174, 1317]
 
 
 def wait_until(page, check, arg=None):
-    """Whether ``check(arg)``, an async function of the page, becomes true.
+    """Wait until ``check(arg)``, an async function of the page, is true; False after a timeout.
 
     It may return null when it is sure that it never will. A check that never ends counts as false:
     Playwright's ``evaluate`` knows no limit, and its ``wait_for_function`` takes the promise itself

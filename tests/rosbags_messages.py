@@ -56,7 +56,7 @@ def _scalar(name, generator):
 
 
 def write_ros1(path, store, names, *, seed=1, each=3):
-    """Write random messages of the types, ``each`` on a topic of its own; return the raw bytes."""
+    """Write random messages of the types, ``each`` on its own topic; return the raw bytes."""
     generator = random.Random(seed)
     raw = {}
     with Writer(path) as writer:

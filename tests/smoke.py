@@ -1,4 +1,4 @@
-"""What `scripts/smoke` runs with each Python on the installed wheels.
+"""The checks that `scripts/smoke` runs with each Python on the installed wheels.
 
 The imports, a lookup, the commands, the start of the follow demo, exits beside daemon threads.
 

@@ -1,4 +1,4 @@
-"""What ARCHITECTURE.md claims: the directions of imports, the circles that are left, `__all__`.
+"""The claims of ARCHITECTURE.md: directions of imports, remaining import cycles, `__all__`.
 
 `tools/architecture.py` reads the imports, those for type checkers and inside functions included.
 """

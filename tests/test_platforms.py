@@ -1,4 +1,4 @@
-"""Windows and macOS: the lint that looks for what they lack, the console's keys, the demo."""
+"""Windows and macOS: the lint for missing functions, the console's keys, the demo."""
 
 from __future__ import annotations
 
@@ -192,7 +192,7 @@ def table() -> list[tuple[str, str, str, str, str]]:
 
 
 def installed(system: str, machine: str, version: str, interpreter: str) -> set[str]:
-    """What pip installs there, by the markers of pyproject.toml."""
+    """Return the packages that pip installs there, by the markers of pyproject.toml."""
     requirements = pytest.importorskip("packaging.requirements")
     tomllib = pytest.importorskip("tomllib")  # Python 3.11
     project = tomllib.loads((ENGINE / "pyproject.toml").read_text(encoding="utf-8"))["project"]

@@ -1,4 +1,4 @@
-"""What the README says: its Python session is run, its links and its ROS names exist."""
+"""The README: its Python session runs, and its links and ROS names exist."""
 
 from __future__ import annotations
 

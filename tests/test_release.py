@@ -1,4 +1,4 @@
-"""`scripts/release`: what does not take minutes; the rest is tried by releasing."""
+"""`scripts/release`: its fast parts; a release tests the rest."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What mypy --strict says about user code: correct code passes, each wrong line is refused."""
+"""User code under mypy --strict: correct code passes, each wrong line is rejected."""
 
 from __future__ import annotations
 

@@ -40,7 +40,7 @@ class Import(NamedTuple):
 class House:
     """The modules of a checkout and their imports of each other.
 
-    The generated interface packages count as one room and have no modules here.
+    The generated interface packages count as one package and have no modules here.
     """
 
     def __init__(self, root: Path) -> None:

@@ -1,4 +1,4 @@
-"""The rooms and their imports as an SVG picture: a row for each height, arrows only downwards."""
+"""Draws the packages and their imports as SVG: a row for each layer, arrows only downwards."""
 
 from __future__ import annotations
 

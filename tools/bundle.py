@@ -1,4 +1,4 @@
-"""What scripts/bundle does: a folder and a zip for computers without a network."""
+"""The implementation of scripts/bundle: a folder and a zip for computers without a network."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ NAME = "turtlewire-class"
 
 
 class BundleError(Exception):
-    """What keeps the bundle from being made, in one sentence."""
+    """The bundle cannot be built; the text is one sentence."""
 
 
 def main() -> int:

@@ -1,4 +1,4 @@
-"""Figures of the code: circles, rooms, lengths, comments, tests and privates read from outside."""
+"""Figures of the code: import cycles, packages, lengths, comments, tests, uses of private names."""
 
 from __future__ import annotations
 

@@ -1,8 +1,7 @@
 """Fails when a line of a tracked text file is longer than 100 characters.
 
-ruff checks Python only. What may be longer: tables and links in Markdown, outputs of programs
-there, headings that are such outputs, a line that is one word, and a linter's directive at the end
-of a line.
+ruff checks Python only. Exceptions: tables, links and outputs of programs in Markdown, headings
+that are such outputs, a line that is one word, and a linter's directive at the end of a line.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What scripts/demo runs once .venv is there: the tutorial's launch file, with hints."""
+"""The implementation of scripts/demo: runs the tutorial's launch file, with hints."""
 
 from __future__ import annotations
 

@@ -103,7 +103,7 @@ def judge(observer: Observer, launch: Launch) -> str:
 
 
 class Track:
-    """Where a turtle is, and how far it has gone since it was seen first."""
+    """The position of a turtle, and the distance that it has driven since the first pose."""
 
     def __init__(self) -> None:
         self.x = self.y = math.nan

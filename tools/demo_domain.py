@@ -1,4 +1,4 @@
-"""ROS domains of this computer: which are free, and whether a demo runs in one already."""
+"""The ROS domains of this computer: finds free ones, and one in which a demo already runs."""
 
 from __future__ import annotations
 

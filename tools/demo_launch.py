@@ -28,7 +28,7 @@ _PATIENCE_S = 10.0
 
 
 class Launch:
-    """The launched processes, in a session of their own: Ctrl-C reaches only this process.
+    """The launched processes, in a separate session: Ctrl-C reaches only this process.
 
     What they print is shown until :meth:`stop` is called. Interpreters that are stopped while they
     start print tracebacks, which explain nothing; the log files keep them.

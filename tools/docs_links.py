@@ -27,7 +27,7 @@ STYLE_ADDRESS = re.compile(r"""(?:url\(|@import\s+)\s*['"]?([^'")\s;]+)""")
 
 @dataclass
 class Document:
-    """What the check needs of one page."""
+    """The links and anchors of one page."""
 
     anchors: set[str] = field(default_factory=set)
     links: list[str] = field(default_factory=list)

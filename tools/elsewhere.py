@@ -1,8 +1,8 @@
-"""What scripts/elsewhere does: another Debian in build/elsewhere, a venv in it, and trials there.
+"""The implementation of scripts/elsewhere: tries wheels in a venv of another Debian.
 
 Debian's packages are only unpacked. The venv's `python` is a script that starts the other Debian's
-Python, by the emulator or by that Debian's own loader. It is what `sys.executable` tells and the
-commands name, so the processes of the demo run there, too.
+Python, by the emulator or by that Debian's own loader. `sys.executable` and the commands name this
+script, so the processes of the demo also run there.
 """
 
 from __future__ import annotations
@@ -112,7 +112,7 @@ def main() -> int:
 
 
 def run_tests(place: OtherSystem) -> None:
-    """The compiled core is there, and tests pass with it."""
+    """Check that the compiled core exists, and run tests with it."""
     trial = "import platform, turtlewire.tf.buffer as b; print(platform.machine(), b.CORE)"
     told = run(place.python, "-c", trial, what="the import").strip()
     if told != f"{place.machine} native":
@@ -122,7 +122,7 @@ def run_tests(place: OtherSystem) -> None:
 
 
 def run_demo(place: OtherSystem) -> None:
-    """One turtle follows the other on each middleware, with this Debian's library of DDS."""
+    """Run the follow demo on each middleware, with this Debian's DDS library."""
     for middleware in MIDDLEWARES:
         environment = dict(os.environ)
         if not place.emulated:  # the emulator looks below the root by itself

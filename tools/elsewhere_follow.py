@@ -1,8 +1,8 @@
-"""The follow demo without a page: turtle1 is driven in a circle until turtle2 has followed it.
+"""Runs the follow demo without a page: drives turtle1 in a circle until turtle2 has followed it.
 
-Usage: python elsewhere_follow.py MIDDLEWARE [--router], by scripts/elsewhere with another Debian's
-Python; any that has the packages does as well. `--router` puts one of Zenoh in between, on a port
-of its own. The last line says what ran and how far turtle2 went.
+Usage: python elsewhere_follow.py MIDDLEWARE [--router]. scripts/elsewhere runs it with another
+Debian's Python; any Python that has the packages works. `--router` puts a Zenoh router in between,
+on a separate port. The last line says what ran and how far turtle2 went.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""Fills a venv for another Linux than this: wheels, and what they ask for there.
+"""Fills a venv for another Linux: installs wheels and their dependencies.
 
 Usage: python elsewhere_wheels.py WHEELS VENV VERSION MACHINE [PACKAGE…], with `installer` and
-`packaging`; the wheels in the folder WHEELS are ours, and what pip downloads is put beside them.
+`packaging`; the wheels in the folder WHEELS are ours, and downloads of pip are stored next to them.
 """
 
 from __future__ import annotations

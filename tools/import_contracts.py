@@ -1,4 +1,4 @@
-"""Check the contracts of .importlinter with the packages that are in this checkout."""
+"""Checks the contracts of .importlinter with the packages that are in this checkout."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Fetches packages of npm with npm's own client, each once for this user.
 
-An archive is taken only with the hash that ``page/packages.json`` has. Where npm is not
+An archive is accepted only if its hash is the one in ``page/packages.json``. If npm is not
 installed, pip fetches Node.js with npm into ``build/npm-client``: Debian's npm has 360 packages.
 """
 

@@ -1,7 +1,7 @@
 """Fails when ``_native.pyi`` differs from the compiled module.
 
 Names, kinds, parameters and defaults must be the same, and what is public must have a docstring.
-Types are written by hand: those that the module knows (``object``, ``list``) are too wide for mypy.
+Types are written by hand, because the module's own (``object``, ``list``) are too wide for mypy.
 Run by scripts/lint with the Python of .venv; takes the path of a stub.
 """
 

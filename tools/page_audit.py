@@ -62,7 +62,7 @@ SHIFTS = """() => shifts.map(({ value, sources }) => ({
 
 
 class Audit(NamedTuple):
-    """What Lighthouse found.
+    """The findings of Lighthouse.
 
     Attributes:
         scores: Points of 100, by category.
@@ -99,7 +99,7 @@ def lighthouse(url: str) -> Audit:
 
 @contextlib.contextmanager
 def opened(browser: Browser, page: ServedPage, url: str, **options: Any) -> Iterator[Page]:
-    """Open a page in a profile of its own and wait until it shows its content."""
+    """Open a page in its own profile and wait until it shows its content."""
     with contextlib.closing(browser.new_context(**options)) as context:
         shown = context.new_page()
         shown.set_default_timeout(PATIENCE_MS)

@@ -1,7 +1,7 @@
-"""Finds what Windows and macOS do not have, where a user of theirs would meet it.
+"""Finds uses of functions, modules and files that Windows or macOS do not have.
 
-mypy, run for each platform, finds functions that are missing there. This finds what it does not
-know: modules that cannot be imported, and files and programs that are only named in strings.
+mypy, run for each platform, finds functions that are missing there. This tool finds the
+rest: modules that cannot be imported, and files and programs that are only named in strings.
 """
 
 from __future__ import annotations

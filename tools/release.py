@@ -1,6 +1,6 @@
-"""What scripts/release does: sdists, wheels, checks and notes, in build/release.
+"""The implementation of scripts/release: sdists, wheels, checks and notes, in build/release.
 
-`release_wheels` says which wheels there are, `release_checks` what must hold for them. Wheels of
+`release_wheels` defines the wheels, `release_checks` checks them. Wheels of
 other platforms come from .github/workflows/wheels.yml.
 """
 
@@ -70,7 +70,7 @@ def main() -> int:
 
 
 def release(versions: tuple[str, ...], machines: tuple[str, ...], *, dirty: bool) -> None:
-    """All steps, into an empty build/release."""
+    """Run all steps, into an empty build/release."""
     number = version_of_all()
     if not dirty and output("git", "status", "--porcelain", "--untracked-files=no"):
         raise ReleaseError("there are changes that are not committed (--dirty builds them as well)")

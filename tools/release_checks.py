@@ -1,4 +1,4 @@
-"""What must hold for the files of a release: their contents, tags and use."""
+"""Checks the files of a release: their contents, tags and use."""
 
 from __future__ import annotations
 

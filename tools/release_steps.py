@@ -1,4 +1,4 @@
-"""What the parts of scripts/release share: folders, steps that say how long they took, errors."""
+"""The common parts of scripts/release: folders, timed steps, errors."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ WORK = ROOT / "build" / "release"
 
 
 class ReleaseError(Exception):
-    """What keeps this from being a release, in one sentence."""
+    """The release cannot be built; the text is one sentence."""
 
 
 def run(

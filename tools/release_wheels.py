@@ -2,8 +2,8 @@
 
 Each is made from the sdist, so that nothing is missing in it. Free-threaded Pythons, which the
 stable ABI leaves out, get one each. Linux wheels get their manylinux tag from auditwheel, which
-finds the oldest glibc that they run on: build where that is old enough. Those for arm64 are
-compiled on x86-64 by Debian's cross compiler, whose C library is the one of the same Debian.
+finds the oldest glibc that they run on: build on a system whose glibc is old enough. Debian's cross
+compiler builds the wheels for arm64 on x86-64, with the C library of the same Debian.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What scripts/setup does, with a bare python3: without venv package, pip or compiler."""
+"""The implementation of scripts/setup for a bare python3, without venv package, pip or compiler."""
 
 import sys
 
@@ -36,7 +36,7 @@ from turtlewire.wire import environment
 from turtlewire.wire.environment import is_installed
 name = environment.middleware_name()
 library = environment.middleware_library(name)
-reason = "" if "the cyclonedds wheel" in library else f", which stands on {library}"
+reason = "" if "the cyclonedds wheel" in library else f", which uses {library}"
 if not is_installed("rmw_cyclonedds_cpp"):
     reason = f". {environment.NO_CYCLONE}"
 print(f"middleware {name}{reason}" if is_installed(name) else "only the transform buffer")
@@ -100,7 +100,7 @@ def wait_for_turn(folder: Path) -> int:
 
 
 def bring_up_to_date(stamp: dict[str, Any], wanted: dict[str, Any]) -> None:
-    """Make .venv, or what of it is stale, and note what it holds then."""
+    """Create .venv or update its stale parts, and record its contents."""
     started = time.monotonic()
     venv_works = usable(stamp, wanted)
     if not venv_works:
@@ -118,7 +118,7 @@ def bring_up_to_date(stamp: dict[str, Any], wanted: dict[str, Any]) -> None:
         with stage(f"adding the packages for {', '.join(added)}"):
             install(wanted["extras"], only_extras=True)
     if stamp.get("core") != wanted["core"]:
-        # An interrupted run goes on from here.
+        # An interrupted run continues from here.
         STAMP.write_text(json.dumps({**wanted, "core": None}), encoding="utf-8")
         provide_core(wanted["core"])
     noted = {**wanted, "has_core": CORE.exists()}
@@ -190,7 +190,7 @@ def run(arguments: list[str]) -> int:
         say(str(error))
         return 1
     except KeyboardInterrupt:
-        say("interrupted; the next run goes on")
+        say("interrupted; the next run continues")
         return 130
     return 0
 

@@ -1,7 +1,7 @@
-"""How the set-up provides the compiled core: from this user's cache, or by compiling it.
+"""Provides the compiled core for the set-up: from this user's cache, or by compiling it.
 
-The core is one file beside the Python modules. The cache holds it under a key of all that makes it:
-sources, compiler, flags and Python. Another checkout with the same ones does not compile again.
+The core is one file next to the Python modules. The cache stores it under a key of all its inputs:
+sources, compiler, flags and Python. Another checkout with the same inputs does not compile again.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def compiler_version() -> str:
 
 
 def provide_core(key: str) -> None:
-    """Put the compiled core of a key beside the Python modules, or say why it is missing."""
+    """Put the compiled core of a key next to the Python modules, or report why it is missing."""
     CORE.unlink(missing_ok=True)  # one of other sources
     if not key:
         remedy = "install a C++ compiler and Python's headers, then type the same again"

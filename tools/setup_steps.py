@@ -1,4 +1,4 @@
-"""What the set-up prints, and how it runs other programs."""
+"""The output of the set-up, and its calls of other programs."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ def checked(command: list[str], settings: Mapping[str, str] | None = None) -> No
         **(settings or {}),
     }
     with LOG.open("w+", encoding="utf-8", errors="replace") as output:
-        # In a session of its own: Ctrl-C reaches only this program, which stops the whole group.
+        # In a separate session: Ctrl-C reaches only this program, which stops the whole group.
         with subprocess.Popen(
             command,
             env=environment,

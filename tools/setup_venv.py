@@ -1,4 +1,4 @@
-"""How the set-up makes .venv, puts pip into it and installs the packages."""
+"""Creates .venv for the set-up, with pip and the packages."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ def version_of(text: str) -> tuple[int, ...]:
 
 
 def install(extras: Sequence[str], *, only_extras: bool) -> None:
-    """Install our distributions editable, unless they are there, and the extras."""
+    """Install our distributions editable, unless they are installed, and the extras."""
     workspace = "[workspace]" if "workspace" in extras else ""
     # A distribution whose folder was deleted is left out.
     words = [f"turtlewire-colcon{workspace}" if COLCON.is_dir() else "turtlewire"]

@@ -1,6 +1,6 @@
-"""What scripts/soak does once .venv is there.
+"""The implementation of scripts/soak.
 
-Lets a robot's processes run while others come and go, and measures them.
+Runs a robot's processes while other processes start and end, and measures the former.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ END_LIMIT_S = 60
 
 
 class MemorySample(NamedTuple):
-    """What a process holds at a moment."""
+    """The memory, descriptors and threads of a process at a moment."""
 
     memory: int
     descriptors: int
@@ -57,7 +57,7 @@ class Resident:
         )
 
     def sample(self) -> None:
-        """Note what it holds now; nothing of one that has ended."""
+        """Record a sample of the process, unless it has ended."""
         folder = Path(f"/proc/{self.process.pid}")
         try:
             pages = int((folder / "statm").read_text().split()[1])
@@ -92,7 +92,7 @@ class Resident:
         return found
 
     def thirds(self) -> list[MemorySample]:
-        """For each third of the run the least memory, and the fewest descriptors and threads.
+        """Return the minimum memory, descriptors and threads in each third of the run.
 
         The minimum leaves out what visitors and full receive buffers need for a while.
         """
@@ -109,7 +109,7 @@ class Resident:
 
 
 class Visitors:
-    """Processes that come and go, on a thread of their own; one of three is killed."""
+    """Starts and ends processes on a separate thread; kills one of three."""
 
     def __init__(self, page: str, seconds: float, log: IO[str]) -> None:
         self.come = self.killed = 0
@@ -256,7 +256,7 @@ def wait_for_page(simulator: Resident, log_path: Path) -> str:
         match = re.search(r"http://127\.0\.0\.1:\d+/", log_path.read_text())
         if match:
             return match[0]
-        time.sleep(0.2)  # a file does not tell when it grows
+        time.sleep(0.2)  # a file does not notify when it grows
     raise SystemExit(f"[soak] the simulator did not start: see {log_path}")
 
 

@@ -1,4 +1,4 @@
-"""The processes of scripts/soak: those that stay, and visitors that come and go.
+"""The processes of scripts/soak: residents that keep running, and visitors that start and end.
 
 `python tools/soak_actors.py ACTOR [ARGUMENT]`; a visitor's argument is its number.
 """

@@ -1,4 +1,4 @@
-"""The folder of this user in which scripts keep what another checkout can take."""
+"""The user's cache folder, in which scripts store files for other checkouts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Corrects what Sphinx and Furo write for screen readers, and reserves the room of images."""
+"""Corrects what Sphinx and Furo write for screen readers, and reserves the space of images."""
 
 from __future__ import annotations
 

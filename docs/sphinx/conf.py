@@ -1,4 +1,4 @@
-"""How Sphinx makes the site of ``docs/``; `scripts/docs` runs it."""
+"""Sphinx's configuration of the site of ``docs/``; `scripts/docs` runs Sphinx."""
 
 from __future__ import annotations
 

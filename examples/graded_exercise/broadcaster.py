@@ -1,4 +1,4 @@
-"""Given: tells TF where a turtle is."""
+"""Given: broadcasts the frame of a turtle."""
 
 import math
 

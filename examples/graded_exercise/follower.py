@@ -1,4 +1,4 @@
-"""Handed in: drives turtle2 after turtle1."""
+"""The submission: drives turtle2 after turtle1."""
 
 import math
 

@@ -22,7 +22,7 @@ from xml.sax.saxutils import escape
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 _GROUP = "turtlewire.executables."
-#: Where an sdist has what is made of the engine's definitions, which do not come with it.
+#: Folder of an sdist for files generated from the engine's definitions, which it does not contain.
 _SHIPPED_FILES = "interface_files"
 _SHIPPED_MODULES = "interface_modules"
 #: The one package that has both code here and interfaces.
@@ -159,7 +159,7 @@ class PrefixBuildHook(BuildHookInterface):  # type: ignore[type-arg]
             f"share/{name}/package.xml",
             _PACKAGE_XML.format(name=name, version=self.metadata.version, description=description),
         )
-        # Without it colcon takes a venv in a workspace for sources.
+        # Without it, colcon treats a venv in a workspace as sources.
         self._write(f"share/{name}/COLCON_IGNORE", "")
 
     def _add_executable(self, package: str, name: str, target: str) -> None:

@@ -1,4 +1,4 @@
-"""What the chaos tests share: programs in processes of their own, and how they may end.
+"""Common parts of the chaos tests: programs in separate processes, and how they may end.
 
 Chaos tests are slow tests. Whatever happens to a process (kills, limits, a full disk, hostile
 peers, a clock that jumps), it goes on, or it ends with a line that says why: it never crashes,
@@ -21,7 +21,7 @@ FLOOD = 200
 
 @pytest.fixture
 def python(run):
-    """Start Python source in a process of its own, with arguments and `limits` (RLIMIT name: n)."""
+    """Start Python source in a separate process, with arguments and `limits` (RLIMIT name: n)."""
 
     def start(source, *arguments, limits=None, **options):
         head = "".join(

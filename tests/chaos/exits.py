@@ -54,7 +54,7 @@ def batch():
 
 
 def intake():
-    """What the wire's reader thread does for a listener."""
+    """Do what the wire's reader thread does for a listener."""
     from turtlewire._native import Intake
 
     intake = Intake(False, 0, lambda *_: (b"", ""), lambda: None)

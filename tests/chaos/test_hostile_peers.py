@@ -85,7 +85,7 @@ def nonsense(drawn):
 
 
 def say(python, word):
-    """Publish a word on /words from a process of its own, once somebody listens."""
+    """Publish a word on /words from a separate process, once somebody listens."""
     return python(
         """
         import sys

@@ -14,7 +14,7 @@ COUNT = 72
 
 
 def outcomes(program, pattern):
-    """What the lines of all pairs say that match the pattern, by the number of the pair."""
+    """Return the matches of the pattern in the lines of all pairs, by the number of the pair."""
     lines = program.wait_for(rf"^(\d+) {pattern}", count=COUNT)
     return {int(line[1]): line[2] for line in lines}
 

@@ -1,4 +1,4 @@
-"""The how-to page about joints does what it says."""
+"""The examples of the how-to page about joints, run."""
 
 from __future__ import annotations
 

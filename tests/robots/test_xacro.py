@@ -29,7 +29,7 @@ def elements(text):
 
 
 def errors(text):
-    """Without the traceback's lines, which name places of an installation."""
+    """Return the errors without traceback lines, which contain installation paths."""
     return [
         line
         for line in text.splitlines()

@@ -1,4 +1,4 @@
-"""What the site corrects in Sphinx's and Furo's pages, and tables that name their columns."""
+"""Corrections of Sphinx's and Furo's pages, and tables that name their columns."""
 
 from __future__ import annotations
 

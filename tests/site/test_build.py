@@ -1,4 +1,4 @@
-"""`scripts/docs`: what its check of the built pages finds, and what it refuses to replace."""
+"""`scripts/docs`: its check of the built pages, and folders that it does not replace."""
 
 from __future__ import annotations
 

@@ -65,7 +65,7 @@ def buffer():
 
 
 def failures():
-    """What lookups raise, and what is said of transforms that are refused."""
+    """Yield the errors of lookups and the messages about rejected transforms."""
     full, loop = buffer(), turtlewire.Buffer()
     upright = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)
     loop.set_transform("a", "b", SECOND, *upright)
@@ -103,7 +103,7 @@ def failures():
 
 
 def is_raised(text):
-    """Whether one of the failures says it; `…` stands for anything."""
+    """Return True if one of the failures has this text; `…` matches anything."""
     pattern = ".+?".join(re.escape(part) for part in text.split("…"))
     return any(re.search(pattern, said, re.DOTALL) for said in failures())
 
@@ -186,7 +186,7 @@ def test_each_reference_page_names_a_package_that_is_there():
 
 
 def test_the_translation_is_of_the_page():
-    """What is translated of the front page is still there, word for word."""
+    """The translated texts of the front page still exist, word for word."""
     page = " ".join((DOCS / "index.md").read_text(encoding="utf-8").split())
     text = (SITE / "locale/de/LC_MESSAGES/index.po").read_text(encoding="utf-8")
     quoted = r'((?:"(?:[^"\\]|\\.)*"\s*)+)'

@@ -1,4 +1,4 @@
-"""What `scripts/docs --serve` and `scripts/lesson --serve` answer, and to whom."""
+"""Answers of `scripts/docs --serve` and `scripts/lesson --serve`, and allowed clients."""
 
 from __future__ import annotations
 

@@ -43,7 +43,7 @@ def modules(package):
 
 
 def contents(module):
-    """What a module holds that is its own, or that a package hands on."""
+    """Return a module's own members, and names that a package re-exports."""
     package = module.__name__.partition(".")[0]
     listed = getattr(module, "__all__", None) or ()
     exports = hasattr(module, "__path__")
@@ -120,7 +120,7 @@ def describe_function(function):
 
 
 def signature(function):
-    """Parameters with their defaults and without annotations; None where Python cannot tell."""
+    """Parameters with their defaults and without annotations; None where Python cannot know."""
     try:
         found = inspect.signature(function)
     except (ValueError, TypeError):

@@ -22,7 +22,7 @@ GOLDEN = Path(__file__).parents[1] / "golden" / "surface"
 
 @dataclass
 class Comparison:
-    """How many names and members were compared, and those that differ.
+    """The numbers of compared names and members, and the differences.
 
     `differences` maps a dotted name to what differs and the number of entries which that spoils:
     a class that is absent lacks its members, too.
@@ -88,7 +88,7 @@ def same_member(real, here):
 
 
 def fits(real, here):
-    """Whether a call that is written for the one signature works with the other."""
+    """Return True if a call for the one signature also works with the other."""
     if real is None or real.endswith("None") or masked(real) == masked(here):
         return True
     if here is None or "(" not in here or real.startswith("async") != here.startswith("async"):
@@ -138,7 +138,7 @@ def parameters(text):
 
 
 def masked(text):
-    """Without addresses and what else a default's `repr` has of its process."""
+    """Return the `repr` of a default without addresses and other process-specific parts."""
     return re.sub(r"<[^>]*>|(?<=argv=)\[.*\]", "<…>", text or "")
 
 

@@ -1,4 +1,4 @@
-"""docs/how-to/first_package.md does what it says, typed from top to bottom."""
+"""The commands of docs/how-to/first_package.md, typed from top to bottom."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ pytestmark = [
 
 @pytest.fixture
 def bash(run, tmp_path, workspace):
-    """Runs lines in a shell that has sourced `setup.bash`, with a home folder of its own."""
+    """Runs lines in a shell that has sourced `setup.bash`, with its own home folder."""
     tutorial = workspace(LEARNING)
     environment = tutorial | {"HOME": str(tmp_path), "ROS_LOG_DIR": str(tmp_path / "log")}
 

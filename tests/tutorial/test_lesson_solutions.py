@@ -72,7 +72,7 @@ def type_id(name):
 
 
 class Scene:
-    """What a check looks at: the turtles, and TF."""
+    """The state that a check examines: the turtles, and TF."""
 
     def __init__(self, turtles, buffer, launch):
         self.turtles = turtles
@@ -104,7 +104,7 @@ class Scene:
         self.wait_for_gap(lambda gap: gap < 0.1)
 
     def place(self, target, source):
-        """Where `source` is as `target` sees it, as soon as TF knows."""
+        """Return the pose of `source` in `target`, as soon as TF has it."""
         return self.buffer.lookup_transform(target, source, timeout_ns=LONG_NS)
 
     def wait_for_gap(self, is_right, other=(MIDDLE, MIDDLE)):

@@ -60,7 +60,7 @@ def carrot_seen_from_turtle1(turtles):
 
 
 def away(turtles, x, y):
-    """How far turtle2 is from a place [m]."""
+    """Return the distance of turtle2 from a point [m]."""
     turtle2 = turtles.poses.get("turtle2")
     return math.inf if turtle2 is None else math.dist((turtle2.x, turtle2.y), (x, y))
 

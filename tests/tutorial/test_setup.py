@@ -1,4 +1,4 @@
-"""What scripts/setup installs, compiles and leaves as it is, and what it prints."""
+"""scripts/setup: installing, compiling, unchanged parts, and output."""
 
 from __future__ import annotations
 
@@ -278,7 +278,7 @@ def test_a_script_refuses_a_word_that_it_does_not_know(tmp_path, command, told):
 
 
 class TestPip:
-    """Where the pip in .venv comes from."""
+    """The source of the pip in .venv."""
 
     @pytest.fixture
     def venv(self, module, monkeypatch):
@@ -651,7 +651,7 @@ def test_ctrl_c_while_pip_runs_is_one_line(run, tmp_path):
     program.wait_for("pip runs")
     program.type("\x03")
     assert program.wait() == 130
-    assert "[setup] interrupted; the next run goes on" in program.text
+    assert "[setup] interrupted; the next run continues" in program.text
     assert "Traceback" not in program.text
     assert program.survivors() == []
 

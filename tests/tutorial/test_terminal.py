@@ -35,7 +35,7 @@ def why_not():
     ):
         return (
             f"the wheels in {WHEELHOUSE.relative_to(ROOT)} are older than the sources: "
-            "scripts/smoke makes them anew"
+            "scripts/smoke rebuilds them"
         )
     return ""
 

@@ -1,4 +1,4 @@
-"""Installs turtlewire from the wheels beside this file, without a network, and runs the demo.
+"""Installs turtlewire from the wheels next to this file, without a network, and runs the demo.
 
 It needs nothing but a Python for which the folder has wheels: no pip, no venv package of Debian.
 """
@@ -56,7 +56,7 @@ def main() -> int:
 
 
 def unfit() -> str:
-    """Why the wheels do not fit this Python or this system; empty if they do."""
+    """Return why the wheels do not fit this Python or system; empty if they do."""
     pattern = re.compile(r"-cp3(\d+)-(\w+)-([\w.]+)\.whl$")
     names = [pattern.search(path.name) for path in WHEELS.glob("turtlewire-*.whl")]
     found = [(int(name[1]), name[2], name[3]) for name in names if name]

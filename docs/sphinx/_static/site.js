@@ -1,4 +1,5 @@
-// Lets the keyboard reach what scrolls sideways, and names the two columns beside the text.
+// Makes elements that scroll sideways reachable by keyboard, and names the columns next to the
+// text.
 
 const watch = new ResizeObserver((entries) => {
   for (const { target } of entries) {

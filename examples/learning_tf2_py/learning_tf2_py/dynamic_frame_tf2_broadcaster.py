@@ -1,4 +1,4 @@
-"""Moves a carrot around turtle1: a frame whose place in its parent changes with time."""
+"""Moves a carrot around turtle1: a frame whose position in its parent changes over time."""
 
 import math
 

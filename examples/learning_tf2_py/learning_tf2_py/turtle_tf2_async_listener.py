@@ -1,4 +1,4 @@
-"""Drives turtle2 to the target's present place: it awaits the transform and blocks no thread."""
+"""Drives turtle2 to the target's current position; awaiting the transform blocks no thread."""
 
 import rclpy
 from learning_tf2_py.turtle_tf2_listener import FOLLOWER, TurtleListener

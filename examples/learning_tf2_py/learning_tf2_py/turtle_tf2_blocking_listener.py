@@ -1,4 +1,4 @@
-"""Drives turtle2 to the target's present place: the lookup waits until the transform is there."""
+"""Drives turtle2 to the target's current position; the lookup waits for the transform."""
 
 import rclpy
 from learning_tf2_py.turtle_tf2_listener import FOLLOWER, TurtleListener

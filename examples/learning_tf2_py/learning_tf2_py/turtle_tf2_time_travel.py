@@ -1,4 +1,4 @@
-"""Drives turtle2 to turtle1's place of some seconds ago: two frames at two times."""
+"""Drives turtle2 to turtle1's position some seconds ago: two frames at two times."""
 
 import rclpy
 from learning_tf2_py.turtle_tf2_listener import FOLLOWER, TurtleListener

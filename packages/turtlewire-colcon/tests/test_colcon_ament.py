@@ -191,7 +191,7 @@ def test_a_package_without_cmakelists_is_told_in_one_line(workspace):
     folder = workspace / "src/my_interfaces"
     assert (
         f"ERROR:colcon:my_interfaces: there is no {folder}/CMakeLists.txt, which the build_type "
-        "ament_cmake in package.xml asks for\n"
+        "ament_cmake in package.xml requires\n"
     ) in done.stderr
 
 

@@ -1,4 +1,4 @@
-"""How one test of ``colcon test`` runs: its result is in a JUnit file, whatever happens."""
+"""Runs of one test of ``colcon test``: the result is always in a JUnit file."""
 
 from __future__ import annotations
 

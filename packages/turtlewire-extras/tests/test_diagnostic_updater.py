@@ -1,4 +1,4 @@
-"""What a node says of itself on /diagnostics."""
+"""The status of a node on /diagnostics."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ BUTTON_CLICK = InteractiveMarkerFeedback.BUTTON_CLICK
 
 
 class View:
-    """What a 3D view does: it asks for the markers, follows the updates and sends feedback."""
+    """Acts as a 3D view: requests the markers, follows the updates and sends feedback."""
 
     def __init__(self, context):
         self.node = Node("view", context=context)

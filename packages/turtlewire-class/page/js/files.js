@@ -1,4 +1,4 @@
-// Where the files of the page are: beside it on a static host, or unpacked by folder.js.
+// The addresses of the page's files: next to it on a static host, or unpacked by folder.js.
 
 const unpacked = globalThis.unpackedFiles; // { path: blob }
 const published = {};

@@ -1,4 +1,4 @@
-// The page: a lesson's text and files on one side, what they do on the other.
+// The page: a lesson's text and files on one side, the running programs on the other.
 
 import { byId } from "../kit/dom.js";
 import { listenForDriving } from "../turtlesim/controls.js";
@@ -38,7 +38,7 @@ const faultOfOurs = (error) => ({
   hint: "This is a bug in the lesson, not in your code. Click Run to start again.",
 });
 
-/** Why Python was interrupted or started anew, as a mistake; nothing where it was not. */
+/** The mistake to show if Python was interrupted or restarted; otherwise nothing. */
 function reasonOf({ stopped, broken }) {
   if (stopped) return ENDLESS;
   if (!broken) return {};
@@ -151,7 +151,7 @@ class Page {
     else this.#watch.show(message);
   }
 
-  /** Show the mistake of an answer; whether there is one. */
+  /** Show the mistake of an answer; returns true if there is one. */
   #failed({ mistake, stopped, broken, restarted }) {
     if (!mistake && !stopped && !broken) return false;
     const shown = { file: "", line: 0, hint: "", ...mistake, ...reasonOf({ stopped, broken }) };
@@ -270,7 +270,7 @@ async function main() {
   document.body.dataset.loadedMs = Math.round(performance.now() - isLoading);
 }
 
-/** Show that it cannot go on, above everything: on a phone the field is far below. */
+/** Show a fatal error above everything: on a phone the field is far below. */
 function showLost(error) {
   const main = document.querySelector("main");
   main.dataset.state = "shown";

@@ -6,7 +6,7 @@ import { addressOf } from "./files.js";
 // a slow phone is not taken for an endless loop.
 const SHORTEST_MS = 3000;
 const LONGEST_MS = 15_000;
-const MERCY_MS = 2000; // after it was told to stop
+const MERCY_MS = 2000; // after the request to stop
 const LOADING_MS = 120_000;
 const SIGINT = 2;
 
@@ -24,14 +24,14 @@ export class Runtime {
   /**
    * `files`: the address, or the blob, of each file of the page by its path; `handlers`:
    * onStage(name, text) while Python is loaded, onLog({ lines }), onResult(result),
-   * onRestarted() after Python was loaded anew, onLost(error) if that failed.
+   * onRestarted() after Python was reloaded, onLost(error) if that failed.
    */
   constructor(files, handlers) {
     this.#load = { type: "load", files };
     this.#handlers = handlers;
   }
 
-  /** Load Python, or load it anew; requests wait until it is there. */
+  /** Load Python, or reload it; requests wait until it is there. */
   load() {
     this.#loaded = this.#start();
     return this.#loaded;
@@ -51,7 +51,7 @@ export class Runtime {
   /**
    * Ask after all earlier requests are done. The answer has `stopped: true` if it was too slow,
    * `broken` with a text if the code brought Python down, and `restarted: true` if Python had to be
-   * started anew for one of them.
+   * restarted for one of them.
    */
   request(message) {
     const answer = this.#queue.then(() => this.#loaded).then(() => this.#ask(message, this.#limit));
@@ -97,7 +97,7 @@ export class Runtime {
     this.#watch = setTimeout(() => this.#stop(), this.#pending.limit);
   }
 
-  /** Interrupt Python where the page is isolated; otherwise, or if that fails, start it anew. */
+  /** Interrupt Python where the page is isolated; otherwise, or if that fails, restart it. */
   #stop() {
     if (this.#flag && !this.#pending.interrupted) {
       this.#pending.interrupted = true;
@@ -107,7 +107,7 @@ export class Runtime {
     else this.#restart({ stopped: true });
   }
 
-  /** Start Python anew, and answer what was asked at once. */
+  /** Restart Python, and answer what was asked at once. */
   #restart(answer) {
     const { resolve } = this.#pending;
     this.#pending = null;

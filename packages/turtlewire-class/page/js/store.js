@@ -6,7 +6,7 @@ function all() {
   try {
     return JSON.parse(localStorage.getItem(KEY)) ?? {};
   } catch {
-    return {}; // no storage, or somebody else's: begin anew
+    return {}; // no storage, or not ours: start again
   }
 }
 

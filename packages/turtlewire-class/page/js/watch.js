@@ -1,4 +1,4 @@
-// Beside the field: the TF tree, echoes, the log, the doctor, and faults to practise on.
+// Next to the field: the TF tree, echoes, the log, the doctor, and faults for practice.
 
 import { byId } from "../kit/dom.js";
 import { FramesPanel } from "../turtlesim/frames_panel.js";
@@ -114,7 +114,7 @@ export class Watch {
     }
   }
 
-  /** The lesson's two frames are chosen as soon as they are there; then the choice is free. */
+  /** The lesson's two frames are chosen when they appear; then the choice is free. */
   #showFrames(message) {
     this.#frames.show(message);
     for (const [id, frame] of Object.entries(this.#first)) {

@@ -1,4 +1,4 @@
-// Python, in a thread of its own: an endless loop stops this worker, not the page. It is a classic
+// Python, in its own thread: an endless loop stops this worker, not the page. It is a classic
 // script, because Chromium starts no module as a worker where the page was opened as a file.
 
 // Pyodide takes this function for the sign of a worker that cannot import modules; ours can.
@@ -10,12 +10,12 @@ const LOG_MS = 50;
 let python = null;
 let classroom = null;
 let session = null;
-let lines = []; // printed, and not told to the page yet
+let lines = []; // printed, and not sent to the page yet
 let told = 0; // when the last lines were told
 
 const tell = (message, transfer = []) => postMessage(message, transfer);
 
-/** Tell the page what was printed, not too often: a loop prints faster than a page can listen. */
+/** Send printed lines to the page in groups: a loop prints faster than a page can handle. */
 function log(line) {
   lines.push(line);
   if (lines.length >= 2 * MOST_LINES) lines = lines.slice(-MOST_LINES);
@@ -44,7 +44,7 @@ async function load({ files, interruptBuffer }) {
   });
   python.setStdout({ batched: log });
   python.setStderr({ batched: log });
-  python.setStdin({ stdin: () => null }); // nobody can type: the end of the input
+  python.setStdin({ stdin: () => null }); // without a keyboard, the input is empty
   tell({ type: "stage", name: "turtlewire", text: "importing turtlewire …" });
   for (const path of Object.keys(files)) {
     const format = ARCHIVES.exec(path)?.[1];
@@ -57,7 +57,7 @@ async function load({ files, interruptBuffer }) {
   if (interruptBuffer) python.setInterruptBuffer(interruptBuffer);
 }
 
-/** What the page may ask for; each returns the answer. */
+/** The requests that the page may send; each returns the answer. */
 const requests = {
   async load(message) {
     await load(message);

@@ -1,24 +1,24 @@
-"""The classroom: what `turtlewire class` does.
+"""The classroom: the implementation of `turtlewire class`.
 
 =================  ================================================================
-module             what it holds
+module             contents
 =================  ================================================================
 `catalogue`        the exercises: the lessons of the browser tab, and more
-`child`            the checks of one exercise of one student, in a process of their own
-`student`          the student's programs, in another one
-`student_process`  what the checks see of that process
-`bus_link`         topics and services between the two
-`seclusion`        keeps the student's process out of the others
-`supervise`        a script that ends a process and all that it started
+`child`            the checks of one exercise of one student, in a separate process
+`student`          the student's programs, in another process
+`student_process`  that process, as the checks control it
+`bus_link`         topics and services between these two processes
+`seclusion`        isolates the student's process from the others
+`supervise`        a script that ends a process with all its descendants
 `runner`           starts a child with limits and reads its results
 `grading`          all exercises of all students, several at a time
 `junit`            results as JUnit XML
 `pages`            results as pages without JavaScript
-`launch_file`      a launch file for an exercise, for the wire
-`roster`           who is in the class, and in which domain
-`domain_watch`     what is known of one student's domain
+`launch_file`      a launch file that runs an exercise on the network
+`roster`           the names of the students, and their domains
+`domain_watch`     the nodes, turtles and transforms of one student's domain
 `show`             the page with a card for each student; its files are in `page/`
-`class_command`    the words and options of ``turtlewire class``
+`class_command`    the command line of ``turtlewire class``
 `commands`         the verbs that write reports and hand out files
 =================  ================================================================
 """
@@ -27,4 +27,4 @@ __all__ = ["ClassError"]
 
 
 class ClassError(Exception):
-    """What keeps a command from running; the text says what was asked, exists and helps."""
+    """A command cannot run; the text says what was requested, what exists and what to do."""

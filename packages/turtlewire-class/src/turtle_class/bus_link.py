@@ -176,7 +176,7 @@ class FarEnd(_End):
 
     def _apply_message(self, gid: str, cdr: str, *info: Any) -> None:
         subscription = self._told.get(gid)
-        if subscription is not None:  # it may have been closed meanwhile
+        if subscription is not None:  # another thread may have closed it
             sent, received, publisher = info
             about = MessageInfo(sent, received, bytes.fromhex(publisher))
             subscription.receive((base64.b64decode(cdr), about))

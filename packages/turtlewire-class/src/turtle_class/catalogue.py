@@ -23,7 +23,7 @@ _FOLDERS = (
 )
 #: The name of the launch file in the folder of each exercise.
 LAUNCH_FILE = "exercise.launch.py"
-#: What holds in the browser tab only.
+#: Texts that apply only to the browser tab.
 _BROWSER = re.compile(r'<(\w+) class="browser">.*?</\1>', re.DOTALL)
 
 

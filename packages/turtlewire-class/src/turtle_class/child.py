@@ -1,7 +1,7 @@
 """The checks of one exercise of one student: ``python -m turtle_class.child EXERCISE FOLDER``.
 
-It writes each result to stdout as a line of JSON as soon as it is there. The student's code runs in
-a process of its own, which it starts, so that the code reaches neither checks nor results.
+It writes each result to stdout as a line of JSON as soon as it is available. The student's code
+runs in a separate process, which it starts, so that the code reaches neither checks nor results.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def main(arguments: list[str]) -> None:
     lesson = load_lesson(lesson_folder)
     files = {file: (folder / file).read_text(encoding="utf-8") for file in lesson.files}
     with hidden(), os.fdopen(os.dup(1), "w", encoding="utf-8") as output:
-        os.dup2(2, 1)  # what nodes print belongs to the log
+        os.dup2(2, 1)  # the output of nodes goes to the log
 
         def tell(**facts: Any) -> None:
             output.write(json.dumps(facts) + "\n")

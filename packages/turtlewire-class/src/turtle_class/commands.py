@@ -48,7 +48,7 @@ def start(folder: Path, names: Sequence[str]) -> None:
     """Write the first files and the texts of exercises into a folder.
 
     Raises:
-        ClassError: No such exercise, or a file is there already.
+        ClassError: No such exercise, or a file exists already.
     """
     wanted = {
         folder / exercise.name / name: text
@@ -61,7 +61,7 @@ def start(folder: Path, names: Sequence[str]) -> None:
     }
     there = [path for path in wanted if path.exists()]
     if there:
-        raise ClassError(f"{printable(str(there[0]))} is there already: nothing was written")
+        raise ClassError(f"{printable(str(there[0]))} exists already; nothing was written")
     for path, text in wanted.items():
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
@@ -138,7 +138,7 @@ def show(domains: str, roster: Path | None, port: int | None, *, lan: bool) -> N
     from turtle_class.roster import read_roster, seats_of_domains
 
     seats = seats_of_domains(domains) if roster is None else read_roster(roster)
-    # What follows takes longer to import, and an invalid roster is reported immediately.
+    # The next imports are slow, and an invalid roster is reported before them.
     from turtle_class.show import ClassPage
     from turtlewire.errors import WireError
     from turtlewire.web.desktop import open_browser, wanted_lan

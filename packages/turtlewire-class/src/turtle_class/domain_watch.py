@@ -1,7 +1,7 @@
-"""What a page shows of one student's domain: nodes, turtles, transforms, and what is wrong.
+"""The state of one student's domain for the page: nodes, turtles, transforms and problems.
 
-The messages of poses and transforms are not handled in Python: the middleware keeps the newest pose
-of a turtle, and the native buffer takes the transforms. Watching thirty domains is cheap.
+Python does not handle poses and transforms one by one: the middleware keeps the newest pose of a
+turtle, and the native buffer stores the transforms. So thirty domains need little CPU.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ __all__ = ["DomainWatch"]
 
 _POSE = "turtlesim/msg/Pose"
 _POSE_NUMBERS = struct.Struct("<5f")
-#: More are not drawn, and longer names not shown: a student may make thousands.
+#: Further turtles are not drawn, and longer names not shown: a student may spawn thousands.
 _MOST_TURTLES, _MOST_NODES, _LONGEST_NAME = 12, 20, 80
 _STALE_S = 3.0
 #: A tree of more frames, or with longer names in all, is not kept: a program that makes up a name
@@ -82,7 +82,7 @@ class DomainWatch:
         self._context.close()
 
     def picture(self, *, fresh: bool) -> dict[str, Any]:
-        """Return the state as JSON values; ``fresh`` looks at the tree of frames, too."""
+        """Return the state as JSON values; ``fresh`` also reads the tree of frames."""
         if self._changed.is_set():
             self._changed.clear()
             self._take_graph()
@@ -104,7 +104,7 @@ class DomainWatch:
         }
 
     def rest(self) -> None:
-        """No page is open: do not read the transforms until the next picture."""
+        """Stop reading transforms until the next picture, because no page is open."""
         self._listen(False)
 
     def examine(self, ended: threading.Event, seconds: float) -> None:

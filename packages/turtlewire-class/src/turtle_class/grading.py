@@ -29,7 +29,7 @@ _LAST_DOMAIN = 101
 
 
 class GradeReport(NamedTuple):
-    """What a student has reached.
+    """The results of a student.
 
     Attributes:
         student: The name of the student's folder, safe to show.
@@ -74,16 +74,16 @@ def grade_all(
     *,
     jobs: int | None = None,
 ) -> list[GradeReport]:
-    """Grade, each exercise of each student in processes of its own.
+    """Grade each exercise of each student in its own processes.
 
     On Linux, other processes of this user cannot read this one's memory meanwhile.
 
     Args:
         students: Their folders.
         exercises: What is graded.
-        limits: Of each exercise; None takes the usual ones.
+        limits: The limits of each exercise; None uses the defaults.
         tell: Called with the progress after each exercise.
-        jobs: How many run at a time; None takes one for each core.
+        jobs: How many run at a time; None uses one for each core.
 
     Raises:
         KeyboardInterrupt: Ctrl-C. All that ran has been stopped.
@@ -98,7 +98,7 @@ def grade_all(
         domain = domains.get()
         try:
             return runner.run(exercise, student / exercise.name, domain)
-        except Exception as error:  # noqa: BLE001 - the others get their results all the same
+        except Exception as error:  # noqa: BLE001 - the others still get their results
             return _ungraded(exercise, error)
         finally:
             domains.put(domain)
@@ -119,10 +119,10 @@ def grade_all(
             }
             for number, _ in enumerate(as_completed(work.values()), 1):
                 tell(f"{number} of {len(work)} graded")
-        finally:  # after Ctrl-C, what has not begun does not begin
+        finally:  # after Ctrl-C, no further exercise starts
             pool.shutdown(wait=False, cancel_futures=True)
             runner.stop()
-    if interrupted.is_set():  # a child that was stopped says nothing of what it graded
+    if interrupted.is_set():  # a stopped child has reported no results
         raise KeyboardInterrupt
     slugs = _slugs(students)
     return [

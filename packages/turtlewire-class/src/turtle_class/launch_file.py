@@ -1,4 +1,4 @@
-"""A launch file for an exercise: what the checks simulate, on the wire."""
+"""A launch file for an exercise: runs on the network what the checks simulate."""
 
 from __future__ import annotations
 

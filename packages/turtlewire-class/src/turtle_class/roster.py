@@ -1,4 +1,4 @@
-"""Who is in the class: names and ROS domains."""
+"""The students of a class: names and ROS domains."""
 
 from __future__ import annotations
 

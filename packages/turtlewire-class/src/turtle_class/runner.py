@@ -32,7 +32,7 @@ _TOO_LONG = "A callback must return: use a timer instead of a loop or time.sleep
 
 
 class Limits(NamedTuple):
-    """What an exercise may use.
+    """The resources that an exercise may use.
 
     Attributes:
         seconds: Time.
@@ -46,7 +46,7 @@ class Limits(NamedTuple):
 
 
 class CheckResult(NamedTuple):
-    """What a check found.
+    """The result of a check.
 
     Attributes:
         check: What is checked, in words.
@@ -96,10 +96,10 @@ class Outcome(NamedTuple):
 
 
 class Runner:
-    """Grades exercises, each in a process of its own; for any number of threads.
+    """Grades exercises, each in its own process; for any number of threads.
 
     Args:
-        limits: What an exercise may use; None takes the usual ones.
+        limits: The resources that an exercise may use; None uses the defaults.
     """
 
     def __init__(self, limits: Limits | None = None) -> None:

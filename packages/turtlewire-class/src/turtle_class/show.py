@@ -34,7 +34,7 @@ class ClassPage:
 
     Args:
         seats: The students.
-        port: Preferred TCP port; None takes turtlesim's rule (``TURTLEWIRE_PORT``, 7070).
+        port: Preferred TCP port; None uses turtlesim's rule (``TURTLEWIRE_PORT``, 7070).
         lan: Whether to serve all devices of the network.
 
     Attributes:

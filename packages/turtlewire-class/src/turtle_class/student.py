@@ -1,4 +1,4 @@
-"""The student's programs, in a process of their own that knows neither checks nor results.
+"""The student's programs, in a separate process that knows neither checks nor results.
 
 ``python -m turtle_class.student`` reads requests from stdin and answers on stdout, one JSON object
 in each line. Whatever the student's code does to this process, it can only change the messages
@@ -53,7 +53,7 @@ class _ForbiddenError(RuntimeError):
 
 
 class _Programs:
-    """What the requests are about: one simulation after the other."""
+    """The simulations that requests control, one after the other."""
 
     def __init__(self) -> None:
         self._opened = contextlib.ExitStack()

@@ -1,4 +1,4 @@
-"""The process of a student's programs, as the process of the checks sees it."""
+"""Starts and controls the process of a student's programs, from the process of the checks."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class StudentProcess:
         self._process.kill()
         self._process.wait()
         self._answers.close()
-        with contextlib.suppress(OSError):  # what could not be written any more
+        with contextlib.suppress(OSError):  # the rest could not be written
             if self._process.stdin is not None:
                 self._process.stdin.close()
 
@@ -101,7 +101,7 @@ class StudentProcess:
 
     def _ask(self, **request: Any) -> News:
         assert self._process.stdin is not None
-        with contextlib.suppress(OSError):  # it has ended, which the missing answer shows
+        with contextlib.suppress(OSError):  # it has ended, so no answer follows
             self._process.stdin.write(json.dumps(request).encode() + b"\n")
             self._process.stdin.flush()
         line = self._answers.readline(_LONGEST_ANSWER)

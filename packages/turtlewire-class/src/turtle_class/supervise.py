@@ -1,4 +1,4 @@
-"""Runs a command, and ends it and all that it started: a script of its own.
+"""A script that runs a command, and ends it with every process that it started.
 
 ``python supervise.py SECONDS BYTES COMMAND…`` ends when the command ends, when the time is over, or
 when its stdin ends, which happens when the program that started it ends. On Linux it also ends
@@ -95,7 +95,7 @@ def _groups_below() -> set[int]:
         try:
             with open(f"/proc/{name}/stat", "rb") as file:
                 _, parent, pgrp = file.read().rpartition(b")")[2].split()[:3]
-        except OSError:  # it has ended meanwhile
+        except OSError:  # it has already ended
             continue
         below.setdefault(int(parent), []).append((int(name), int(pgrp)))
     groups: set[int] = set()

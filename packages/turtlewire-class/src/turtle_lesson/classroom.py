@@ -1,4 +1,4 @@
-"""What the worker of the page calls: everything as text, by the name of a lesson."""
+"""Functions that the page's worker calls; they take a lesson's name and return text."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A simulation in which the programs of a lesson run; what checks look at."""
+"""A simulation that runs the programs of a lesson and that checks examine."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Exercise", "FramePlace", "NotYet", "exercise_of", "programs_here", "start_program"]
 
-#: Simulated time at the start [s]: what is asked about the past of a moment ago has an answer.
+#: Simulated time at the start [s], so that lookups of the recent past have an answer.
 _BEGIN = 100.0
 _NO_MAIN = "Keep the function main() at the end of the file: `ros2 run` also calls it."
 
@@ -50,7 +50,7 @@ class FramePlace(NamedTuple):
 
 
 class Exercise:
-    """The simulation, the student's files in it, and a TF buffer beside them.
+    """The simulation, the student's files in it, and a TF buffer.
 
     Attributes:
         simulation: Turtlesim and all nodes, in lock-step.

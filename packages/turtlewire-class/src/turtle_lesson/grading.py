@@ -1,4 +1,4 @@
-"""Runs the checks of a lesson: each in a simulation of its own, with the same result every time."""
+"""Runs the checks of a lesson: each in its own simulation, with the same result every time."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ __all__ = ["LessonResult", "check_name", "grade", "grade_as_json"]
 
 
 class LessonResult(NamedTuple):
-    """What a check found.
+    """The result of a check.
 
     Attributes:
         check: What is checked, in words.

@@ -1,4 +1,4 @@
-"""Errors of the student's code: where they are, what they say and what helps."""
+"""Errors of the student's code: position, text and hint."""
 
 from __future__ import annotations
 
@@ -100,7 +100,7 @@ def mistake_of(error: BaseException, files: Collection[str]) -> Mistake:
     else:
         file, line = _place(error, files)
     hint = str(getattr(error, "hint", "")) or _hint_for(text)
-    # The hint is also a note of the error; it stands below the text already.
+    # The hint is also a note of the error, but the text already ends with it.
     text = re.sub(r"^[\w.]+\.(\w+:)", r"\1", text).removesuffix(hint).strip()
     if isinstance(error, TransformException):
         hint = f"{_UNCAUGHT} {hint}".strip()

@@ -1,4 +1,4 @@
-"""What the page shows: a lesson's programs, run step by step and watched."""
+"""A lesson's programs, run step by step for the page."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The solution of a lesson, made from its first files by a diff."""
+"""The solution of a lesson: its starter files with a diff applied."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the page shows beside the field: ``ros2 topic echo``, ``tf2_echo`` and the doctor."""
+"""The page's panels next to the field: ``ros2 topic echo``, ``tf2_echo`` and the doctor."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Submissions of students, some of whom do stupid things."""
+"""Submissions of students, some of which are wrong or hostile."""
 
 from __future__ import annotations
 

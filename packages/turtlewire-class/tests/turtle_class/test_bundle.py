@@ -1,4 +1,4 @@
-"""The folder for a USB stick: made of a wheelhouse, installed and used without a network."""
+"""The folder for a USB stick: built from a wheelhouse, installed and used without a network."""
 
 from __future__ import annotations
 
@@ -67,11 +67,11 @@ def test_without_wheels_it_says_so(tmp_path):
 
 
 def why_not():
-    """Why it cannot be installed here; empty if it can."""
+    """Return why it cannot be installed here; empty if it can."""
     if not list(WHEELHOUSE.glob("turtlewire_class-*.whl")):
         return f"needs wheels in {WHEELHOUSE.relative_to(ROOT)}: scripts/smoke makes them"
     probe = subprocess.run(f"unshare -n {UP}", shell=True, capture_output=True, check=False)
-    return "a network of its own takes root, unshare and ip" if probe.returncode else ""
+    return "a separate network needs root, unshare and ip" if probe.returncode else ""
 
 
 @pytest.mark.slow

@@ -1,4 +1,4 @@
-"""docs/how-to/classroom.md does what it says."""
+"""The commands of docs/how-to/classroom.md, run."""
 
 from __future__ import annotations
 

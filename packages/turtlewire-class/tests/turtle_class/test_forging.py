@@ -1,4 +1,4 @@
-"""Points that students forge: what a submission does to the graders does not make it pass."""
+"""Forged points: a submission that attacks the graders does not pass."""
 
 from __future__ import annotations
 

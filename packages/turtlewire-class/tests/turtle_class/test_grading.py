@@ -1,4 +1,4 @@
-"""Grading: whatever a student hands in, the others get their results, and nothing is left."""
+"""Grading: any submission leaves the results of the others intact, and no process behind."""
 
 from __future__ import annotations
 
@@ -309,7 +309,7 @@ def test_first_files_are_written_once(tmp_path, capsys):
         "exercise.launch.py",
     ]
     assert main(["class", "start", str(folder), "-e", "camera"]) == 2
-    assert "README.md is there already: nothing was written" in capsys.readouterr().err
+    assert "README.md exists already; nothing was written" in capsys.readouterr().err
     assert main(["class", "check", str(folder)]) == 1
 
 

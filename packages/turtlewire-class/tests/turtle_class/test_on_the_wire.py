@@ -39,7 +39,7 @@ HAS_TWO = [name for name in LINKS if name != "camera"]
 
 
 class Wire:
-    """What is heard of the exercise's nodes."""
+    """Collects the messages of the exercise's nodes."""
 
     def __init__(self):
         self.context = open_context()
@@ -63,7 +63,7 @@ class Wire:
         )
 
     def wait_for(self, condition):
-        """With each pose that comes, until the condition holds."""
+        """Wait until the condition holds; it is checked at each pose."""
         with self.more:
             assert self.more.wait_for(condition, 120), self.poses
 

@@ -1,4 +1,4 @@
-"""Who is in the class: ranges of domains and roster files, right and wrong."""
+"""The roster of a class: ranges of domains and roster files, right and wrong."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The page of the class: what it tells of each domain, and that it escapes all of it."""
+"""The page of the class: the state of each domain, all of it escaped."""
 
 from __future__ import annotations
 

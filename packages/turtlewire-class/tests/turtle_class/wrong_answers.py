@@ -1,4 +1,4 @@
-"""What students typically get wrong in the exercises that are not lessons, and the hints."""
+"""Typical mistakes of students in the exercises that are not lessons, and the hints."""
 
 from __future__ import annotations
 

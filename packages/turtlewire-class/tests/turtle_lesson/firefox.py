@@ -67,7 +67,7 @@ class Firefox:
         self._ask("browsingContext.navigate", context=self._context, url=url, wait="complete")
 
     def evaluate(self, expression):
-        """Value of a JavaScript expression, awaited, as JSON can tell it."""
+        """Return the awaited value of a JavaScript expression, as far as JSON can hold it."""
         answer = self._ask(
             "script.evaluate",
             expression=f"(async () => JSON.stringify(await ({expression})))()",
@@ -83,7 +83,7 @@ class Firefox:
             f"const look = () => ({condition}) ? resolve() : requestAnimationFrame(look); look();"
         )
         is_true = False
-        while not is_true:  # where the page is loaded anew meanwhile, its promise is gone
+        while not is_true:  # where the page is reloaded meanwhile, its promise is gone
             with contextlib.suppress(BidiError):
                 is_true = self.evaluate(f"new Promise((resolve) => {{ {look} }}).then(() => true)")
 

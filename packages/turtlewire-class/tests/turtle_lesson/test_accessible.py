@@ -1,4 +1,4 @@
-"""The lesson by keyboard and with a screen reader, and what it tells while it loads."""
+"""The lesson by keyboard and with a screen reader, and its messages while it loads."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the page gets of a lesson that runs, under CPython."""
+"""The data of a running lesson that the page gets, under CPython."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What students typically get wrong, as changes of the solutions, and what the hint must say."""
+"""Typical mistakes of students, as changes of the solutions, and the expected hints."""
 
 from __future__ import annotations
 

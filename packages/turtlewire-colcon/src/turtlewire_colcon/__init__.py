@@ -1,7 +1,7 @@
 """Packages of ament_cmake without CMake: for colcon, and as wheels for pip.
 
 ==============================  ==================================================
-module                          what it holds
+module                          contents
 ==============================  ==================================================
 `colcon_ament`                  ``colcon build`` and ``test`` of ament_cmake packages
 `cmake`                         reads their CMakeLists.txt, without CMake
@@ -9,6 +9,6 @@ module                          what it holds
 `plan_install`                  installs what a CMakeLists.txt names
 `run_test`                      runs one test of ``colcon test``
 `wheel`                         an ament_cmake package as a wheel
-`build_backend`, `pip_install`  two ways to have pip install it
+`build_backend`, `pip_install`  two ways to install it with pip
 ==============================  ==================================================
 """

@@ -1,4 +1,4 @@
-"""A build backend (PEP 517), with which ``pip install ./package`` takes an ament_cmake package.
+"""A build backend (PEP 517), with which ``pip install ./package`` accepts an ament_cmake package.
 
 The package needs a ``pyproject.toml`` of three lines, since pip installs nothing without one::
 

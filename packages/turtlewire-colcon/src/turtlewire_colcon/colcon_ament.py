@@ -1,10 +1,10 @@
-"""Lets ``colcon build`` and ``colcon test`` take ament_cmake packages without CMake.
+"""Makes ``colcon build`` and ``colcon test`` support ament_cmake packages without CMake.
 
 colcon-ros hands every ``ament_cmake`` package to CMake, which needs ament_cmake. Most such packages
-of Python users hold Python, launch files, robot descriptions and interfaces. They get a type here
-whose tasks read their CMakeLists.txt with `turtlewire_colcon.cmake`. Targets that compile C++ are
-left out with a warning; the rest of such a package is installed. Where a real ament_cmake is
-installed, packages with C++ stay with colcon-ros.
+of Python users hold Python, launch files, robot descriptions and interfaces. Here they get a
+package type whose tasks read their CMakeLists.txt with `turtlewire_colcon.cmake`. Targets that
+compile C++ are left out with a warning; the rest of such a package is installed. Where a real
+ament_cmake is installed, packages with C++ stay with colcon-ros.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ __all__ = [
     "UnreadablePackageBuild",
 ]
 
-_TYPE = "ros.turtlewire_ament"  # "ros." has colcon-ros read the dependencies in package.xml
+_TYPE = "ros.turtlewire_ament"  # "ros." makes colcon-ros read the dependencies in package.xml
 _UNREADABLE_TYPE = "turtlewire.unreadable"
 _COMPILES = re.compile(
     r"^\s*(?:add_executable|pybind11_add_module|rclcpp_components_register_nodes?"

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["CONFIG_MARK", "PackageLookup"]
 
-#: First line of the files with which installed packages hand their CMake extras on.
+#: First line of the files in which installed packages list their CMake extras.
 CONFIG_MARK = "# written by turtlewire"
 
 #: Build tools, and what only C++ needs: without a compiled target, nothing depends on them.

@@ -1,8 +1,8 @@
 """``python -m turtlewire_colcon.pip_install PACKAGE…``: pip installs ament_cmake packages.
 
-pip itself refuses folders without pyproject.toml and setup.py, as such packages are, before it asks
-anybody else. Packages that it takes are handed to it as they are, so that all packages of a
-workspace can be named.
+pip refuses folders without pyproject.toml and setup.py before it asks a build backend, and these
+packages have neither. Packages that pip accepts are passed to it unchanged, so you can name all
+packages of a workspace.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ def main(argv: list[str] | None = None) -> int:
     parser = SuggestingParser(
         prog="python -m turtlewire_colcon.pip_install",
         description="Installs ament_cmake packages of Python, data and interfaces into this "
-        "Python's environment. Each is built after those of them that it needs, and all are "
-        "installed when all are built. `pip uninstall NAME` removes them.",
+        "Python's environment. Each is built after its dependencies among them, and all "
+        "are installed at the end. `pip uninstall NAME` removes them.",
     )
     parser.add_argument("packages", nargs="+", type=Path, metavar="PACKAGE", help="its folder")
     parser.add_argument("--output", type=Path, help="keep the wheels here, and install nothing")

@@ -183,7 +183,7 @@ class PlanInstaller:
         fault = CMakeError(install.place, f"install({install.kind}): there is no {path}")
         if not self._plan.compiled:
             raise fault
-        # Headers and libraries of the build folder come from the targets that are left out.
+        # Headers and libraries in the build folder come from targets, which are left out.
         self.warnings.append(str(fault))
 
     def _install(self, install: Install) -> None:

@@ -1,6 +1,6 @@
 """``python -m turtlewire_colcon.run_test``: runs one test of ``colcon test``, with a time limit.
 
-There is a JUnit file afterwards in any case, so that ``colcon test-result`` reports a test that
+It always leaves a JUnit file, so that ``colcon test-result`` reports a test that
 ended too early to write one.
 """
 
@@ -43,7 +43,7 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("--result", type=Path, required=True)
     parser.add_argument("--folder", required=True, help="where it runs; made if it is missing")
     parser.add_argument("--timeout", type=float, required=True)
-    parser.add_argument("--isolated", action="store_true", help="in a ROS domain of its own")
+    parser.add_argument("--isolated", action="store_true", help="in its own ROS domain")
     parser.add_argument("words", nargs="+")
     options = parser.parse_args(argv)
     result: Path = options.result

@@ -1,7 +1,7 @@
 """Builds the wheel of an ament_cmake package without C++, for pip.
 
-What the package installs into a prefix goes into the environment's: a virtual environment with
-turtlewire is a prefix, in which ``ros2 run`` and launch files find the package.
+Files for a prefix go into the environment: a virtual environment with turtlewire is a prefix, in
+which ``ros2 run`` and launch files find the package.
 """
 
 from __future__ import annotations
@@ -146,7 +146,7 @@ def _install(
     installer.install()
     for line in installer.warnings:
         warn(line)
-    # Without it colcon takes a venv in a workspace for sources.
+    # Without it, colcon treats a venv in a workspace as sources.
     (prefix / "share" / plan.name / "COLCON_IGNORE").touch()
     return plan
 

@@ -3,7 +3,7 @@
 OpenCV itself is needed for compressed images, and for Bayer and YUV encodings.
 
 ===========  ======================================================
-module       what it holds
+module       contents
 ===========  ======================================================
 `core`       `CvBridge`
 `encodings`  pixel types by encoding, and OpenCV's type numbers

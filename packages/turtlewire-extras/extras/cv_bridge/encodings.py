@@ -22,7 +22,7 @@ _ROWS = {"nv21": 3 / 2, "nv24": 3}
 
 
 class Encoding(NamedTuple):
-    """What an encoding says of the pixels.
+    """The layout of the pixels in an encoding.
 
     Attributes:
         depth: NumPy's name of the numbers.

@@ -3,7 +3,7 @@
 Component containers load the classes below as ``demo_nodes_cpp::Talker`` and so on.
 
 ======================  ==============================================
-module                  what it holds
+module                  contents
 ======================  ==============================================
 `topics`                ``talker`` and ``listener``
 `services`              ``add_two_ints_server`` and its clients

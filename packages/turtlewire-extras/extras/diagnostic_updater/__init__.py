@@ -1,7 +1,7 @@
 """Publishes the state of a node on ``/diagnostics``.
 
 ====================  ===========================================================
-module                what it holds
+module                contents
 ====================  ===========================================================
 `_status_wrapper`     `DiagnosticStatusWrapper`, which a task fills
 `_tasks`              tasks of functions, of several tasks, and lists of tasks

@@ -1,7 +1,7 @@
 """Markers that users move, and menus on them, in a 3D view such as RViz.
 
 ===========================  ==================================================
-module                       what it holds
+module                       contents
 ===========================  ==================================================
 `interactive_marker_server`  `InteractiveMarkerServer`, which serves the markers
 `menu_handler`               `MenuHandler`, a menu of one or more markers

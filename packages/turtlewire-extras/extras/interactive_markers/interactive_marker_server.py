@@ -55,7 +55,7 @@ class InteractiveMarkerServer:
         feedback_sub_qos: The QoS of the feedback, or its depth.
     """
 
-    #: Stands for all types of feedback that have no callback of their own.
+    #: The key of the callback for all types of feedback without a specific one.
     DEFAULT_FEEDBACK_CALLBACK = 255
 
     def __init__(
@@ -71,7 +71,7 @@ class InteractiveMarkerServer:
         self.namespace = namespace
         self.seq_num = 0
         self._lock = threading.Lock()
-        # The markers as views have them, and as they will have them; none is changed in place.
+        # The markers as views show them, and after pending updates; none is changed in place.
         self._shown: dict[str, InteractiveMarker] = {}
         self._wanted: dict[str, InteractiveMarker] = {}
         # The names of the markers in which these differ; False if only in the pose.

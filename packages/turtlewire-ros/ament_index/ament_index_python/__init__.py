@@ -1,7 +1,7 @@
 """The index of installed packages and their resources.
 
 ==============  =======================================
-module          what it holds
+module          contents
 ==============  =======================================
 `constants`     where the index is
 `cli`           ``ament_index``: resources on the command line

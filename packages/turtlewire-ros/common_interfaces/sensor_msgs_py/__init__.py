@@ -1,7 +1,7 @@
 """Helpers for sensor messages in Python, as ROS 2's package of this name.
 
 ==============  ==================================
-module          what it holds
+module          contents
 ==============  ==================================
 `point_cloud2`  point clouds as arrays, and back
 `numpy_compat`  structured arrays as plain ones

@@ -208,7 +208,7 @@ def create_cloud(
         point_step=structured.dtype.itemsize,
         row_step=structured.dtype.itemsize * width,
         data=data,
-        # As in ROS 2: nobody looks for NaNs in the points.
+        # As in ROS 2, the points are not searched for NaNs.
         is_dense=False,
     )
 

@@ -1,7 +1,7 @@
 """ROS 2's demo nodes in Python: talkers, listeners and services to try the tools on.
 
 ============  ========================================================
-module        what it holds
+module        contents
 ============  ========================================================
 `events`      publishers and subscriptions notified of each other
 `logging`     the services that change the level of a logger

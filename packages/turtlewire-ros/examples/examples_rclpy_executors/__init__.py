@@ -1,7 +1,7 @@
 """ROS 2's examples of executors: several nodes, threads and callback groups in one process.
 
 =======================  ============================================================
-module                   what it holds
+module                   contents
 =======================  ============================================================
 `callback_group`         two timers that exclude each other, on four threads
 `composed`               the talker and the listener on one thread

@@ -39,7 +39,7 @@ class ThrottledCallbackGroup(CallbackGroup):
 
     def beginning_execution(self, entity: Any) -> bool:  # noqa: ARG002 -- all are alike
         """Take a turn, if there is one."""
-        # Several threads of an executor may come here at once.
+        # Several threads of an executor may call this at once.
         with self.lock:
             if self.bucket > 0:
                 self.bucket -= 1
@@ -47,7 +47,7 @@ class ThrottledCallbackGroup(CallbackGroup):
         return False
 
     def ending_execution(self, entity: Any) -> None:
-        """Nothing is given back: the timer fills the bucket."""
+        """Do nothing: only the timer refills the bucket."""
 
     def timer_callback(self) -> None:
         """Allow as many callbacks as before."""

@@ -1,7 +1,7 @@
 """ROS 2's example of guard conditions.
 
 =========================  =====================================================
-module                     what it holds
+module                     contents
 =========================  =====================================================
 `trigger_guard_condition`  an executor that a program wakes by itself
 =========================  =====================================================

@@ -23,7 +23,7 @@ class MinimalActionClientAsyncIO(Node):
         self._client = ActionClient(self, Fibonacci, "fibonacci")
 
     def wait_for_server(self) -> None:
-        """Wait until the server is there."""
+        """Wait until the server is available."""
         self.get_logger().info("Waiting for action server...")
         if not self._client.wait_for_server():
             raise ExternalShutdownException
@@ -62,7 +62,7 @@ async def run(node: MinimalActionClientAsyncIO) -> None:
     if sending.done():
         rclpy.shutdown()
         await sending
-    # If it is not done, nobody spins any more, so no answer can come.
+    # If it is not done, the node no longer spins, so no answer can arrive.
     sending.cancel()
     await spinning
 

@@ -1,4 +1,4 @@
-"""An action client in one function, which spins until each answer is there."""
+"""An action client in one function, which spins until each answer has arrived."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """ROS 2's minimal examples: Action servers for Fibonacci sequences.
 
 =======================  =============================================================
-module                   what it holds
+module                   contents
 =======================  =============================================================
 `server`                 feedback once a second, cancellation, several goals at a time
 `server_defer`           executes a goal three seconds after it was accepted

@@ -26,7 +26,7 @@ class MinimalActionServer(Node):
             Fibonacci,
             "fibonacci",
             execute_callback=self.execute_callback,
-            # Lets goals run side by side, and cancellations in while they run.
+            # Allows goals to run concurrently, and accepts cancellations while they run.
             callback_group=ReentrantCallbackGroup(),
             goal_callback=self.goal_callback,
             cancel_callback=self.cancel_callback,

@@ -1,4 +1,4 @@
-"""A client that spins until its answer is there."""
+"""A client that spins until its answer has arrived."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ __all__ = ["main"]
 
 
 def main(args: list[str] | None = None) -> None:
-    """Ask for 41 + 1, once, half a second after the service is there, and log the answer."""
+    """Ask for 41 + 1, once, half a second after the service is available, and log the answer."""
     with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
         node = rclpy.create_node("minimal_client")
         # In the node's own group, the answer and the callback would wait for each other.

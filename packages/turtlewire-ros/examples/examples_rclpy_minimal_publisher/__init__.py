@@ -1,7 +1,7 @@
 """ROS 2's minimal examples: A publisher in three styles.
 
 ===========================  ====================================
-module                       what it holds
+module                       contents
 ===========================  ====================================
 `publisher_local_function`   the timer calls a local function
 `publisher_member_function`  the timer calls a method of the node

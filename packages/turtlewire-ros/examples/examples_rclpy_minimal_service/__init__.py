@@ -1,7 +1,7 @@
 """ROS 2's minimal examples: A service in two styles.
 
 =========================  ===================================
-module                     what it holds
+module                     contents
 =========================  ===================================
 `service`                  requests go to a function
 `service_member_function`  requests go to a method of the node

@@ -1,7 +1,7 @@
 """ROS 2's minimal examples: A subscription in three styles.
 
 ============================  ===================================
-module                        what it holds
+module                        contents
 ============================  ===================================
 `subscriber_lambda`           messages go to a lambda
 `subscriber_member_function`  messages go to a method of the node

@@ -1,7 +1,7 @@
 """ROS 2's example of a point cloud.
 
 ======================  ========================================
-module                  what it holds
+module                  contents
 ======================  ========================================
 `pointcloud_publisher`  a wavy surface on ``test_cloud``
 ======================  ========================================

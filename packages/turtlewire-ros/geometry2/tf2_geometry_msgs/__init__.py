@@ -8,7 +8,7 @@ The functions named ``X_from_Y`` turn messages into NumPy arrays and back; they,
 loaded when they are first used.
 
 ============================  ==========================================
-module                        what it holds
+module                        contents
 ============================  ==========================================
 `registration`                registers the transforms of all types
 `vectors`, `poses`, `twists`  the transforms, by kind of message

@@ -11,7 +11,7 @@ __all__ = ["copy_of", "header_of"]
 
 
 def header_of(transform: Any) -> Header:
-    """Return a header of its own with frame and stamp of a ``TransformStamped``.
+    """Return a new header with frame and stamp of a ``TransformStamped``.
 
     The data is now in that frame, and of that time.
     """

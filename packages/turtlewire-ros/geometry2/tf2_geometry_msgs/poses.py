@@ -71,7 +71,7 @@ def do_transform_path(path: Path, transform: TransformStamped) -> Path:
     frame and keep their stamps: they are the times at which the poses are reached.
 
     Raises:
-        ValueError: A pose names another frame than the path; it needs a transform of its own.
+        ValueError: A pose names another frame than the path; it needs its own transform.
     """
     frame = path.header.frame_id
     for index, pose in enumerate(path.poses):

@@ -1,7 +1,7 @@
 """tf2_py as in ROS 2: the BufferCore, and the exceptions of tf2.
 
 =============  ===============================
-module         what it holds
+module         contents
 =============  ===============================
 `buffer_core`  `BufferCore`
 `messages`     results as ``TransformStamped``

@@ -1,7 +1,7 @@
 """tf2_ros as in ROS 2: buffers that are filled from the wire, and broadcasters.
 
 ================================  ===========================================================
-module                            what it holds
+module                            contents
 ================================  ===========================================================
 `buffer`                          `Buffer`: a node's buffer
 `buffer_interface`                `BufferInterface`: what all buffers share; registered types
@@ -12,7 +12,7 @@ module                            what it holds
 `static_transform_broadcaster`    `StaticTransformBroadcaster`: also for later subscriptions
 `message_filter`                  holds messages back until they can be transformed
 `transform_futures`, `deadlines`  futures of transforms; their timeouts
-`spinning`                        an executor in a thread of its own
+`spinning`                        an executor in its own thread
 `notebook`                        a ``TransformStamped`` in Jupyter
 `tf2_echo`, `tf2_monitor`         the tools of these names
 `static_transform_publisher`      the executable of this name

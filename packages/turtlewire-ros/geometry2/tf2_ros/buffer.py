@@ -34,7 +34,7 @@ JUMP_BACK = JumpThreshold(min_forward=None, min_backward=Duration(seconds=-1), o
 class Buffer(BufferCore, BufferInterface):
     """Stores transforms and answers lookups. Safe for use from many threads.
 
-    A :class:`~tf2_ros.TransformListener` fills it from a thread of its own, so a lookup with a
+    A :class:`~tf2_ros.TransformListener` fills it from its own thread, so a lookup with a
     timeout works anywhere, callbacks included: it blocks until the data arrives, and no executor
     has to spin.
 

@@ -46,7 +46,7 @@ _NO_RESULT = f"The BufferServer returned None for result or result.error!  {_WRO
 class BufferClient(BufferInterface):
     """A buffer interface whose lookups a :class:`~tf2_ros.BufferServer` answers. Thread-safe.
 
-    The client has a node and a thread of its own, so that a lookup works in any callback, whether
+    The client has its own node and thread, so that a lookup works in any callback, whether
     or not the user's node is being spun.
 
     Args:
@@ -187,13 +187,13 @@ class BufferClient(BufferInterface):
         try:
             response = self._wait(handle.get_result_async(), limit, servers)
         except TimeoutException:
-            # The server need not go on waiting.
+            # The server can stop waiting.
             handle.cancel_goal_async()
             raise
         return _transform(response)
 
     def _servers(self) -> set[bytes]:
-        # Each action server publishes the status, so its publisher stands for it.
+        # Each action server publishes the status, so its publisher identifies the server.
         return {
             bytes(each.endpoint_gid)
             for each in self._node.get_publishers_info_by_topic(f"{self._action}/_action/status")
@@ -248,7 +248,7 @@ def _message(time: Time | Any) -> Any:
     if isinstance(time, Time):
         return time.to_msg()
     if hasattr(time, "sec") and hasattr(time, "nanosec") and not since(LYRICAL):
-        # The level is that of the user's call.
+        # The warning points at the user's call.
         warnings.warn(
             "Passing a builtin_interfaces.msg.Time is deprecated, pass a rclpy.time.Time object.",
             UserWarning,

@@ -31,7 +31,7 @@ def frame_id(text: str) -> str:
 
 
 def count(text: str) -> int:
-    """Return a count, in which 0 stands for no limit."""
+    """Return a count; 0 means no limit."""
     return _whole(text, 1_000_000_000, "a whole number, 0 or more")
 
 

@@ -26,7 +26,7 @@ __all__ = ["FilterFailureReason", "MessageFilter"]
 
 
 class FilterFailureReason(IntEnum):
-    """Why a message was dropped."""
+    """The reason for which a message was dropped."""
 
     Unknown = 0
     """The clock has jumped back, and the message belongs to another time."""
@@ -168,7 +168,7 @@ class MessageFilter(SimpleFilter):
                 # The timer runs for the oldest message only.
                 self._timer.timer_period_ns = self._timeout_ns
                 self._timer.reset()
-        # Without the lock: the callbacks are the user's, and may add messages.
+        # Without the lock, because the user's callbacks may add messages.
         if dropped is not None:
             self._fail(dropped.message, FilterFailureReason.QueueFull)
         self._deliver()
@@ -199,7 +199,7 @@ class MessageFilter(SimpleFilter):
         """Wake the executor if a message is ready or too old; runs on the receiving thread."""
         with self._lock:
             waiting = list(self._waiting)
-        # The callbacks belong on the node's executor, not on the thread that received the data.
+        # The callbacks run on the node's executor, not on the thread that received the data.
         if any(self._is_ready(each) or self._is_too_old(each) for each in waiting):
             self._ready.trigger()
 

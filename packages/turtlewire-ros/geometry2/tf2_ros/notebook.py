@@ -32,7 +32,7 @@ def transform_html(message: TransformStamped) -> str | None:
         _Pose(
             message.header.frame_id,
             message.child_frame_id,
-            stamp_ns or None,  # 0 stands for static links
+            stamp_ns or None,  # 0 means a static link
             (t.x, t.y, t.z),
             (q.x, q.y, q.z, q.w),
         )

@@ -1,4 +1,4 @@
-"""An executor that spins in a thread of its own."""
+"""An executor that spins in its own thread."""
 
 from __future__ import annotations
 

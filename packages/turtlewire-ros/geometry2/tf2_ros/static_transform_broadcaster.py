@@ -82,7 +82,7 @@ class StaticTransformBroadcaster:
             self._keepers = _keepers.setdefault(node.context, {}).setdefault(
                 self.pub_tf.topic_name, {}
             )
-            # A publisher that is gone keeps nothing for late joiners.
+            # A destroyed publisher keeps no messages for late joiners.
             for child in [child for child, kept in self._keepers.items() if kept.gone]:
                 del self._keepers[child]
 

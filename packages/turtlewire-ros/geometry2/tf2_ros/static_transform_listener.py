@@ -22,7 +22,7 @@ class StaticTransformListener(TransformListener):
     Args:
         buffer: The buffer to fill.
         node: The node that owns the subscription; None makes one in the default context.
-        spin_thread: Spin the node in a thread of its own, for its other callbacks.
+        spin_thread: Spin the node in its own thread, for its other callbacks.
         static_qos: Quality of service, or a depth; by default depth 100 and transient local.
         tf_static_topic: The topic of static transforms.
     """

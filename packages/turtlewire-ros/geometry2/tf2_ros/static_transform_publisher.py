@@ -48,7 +48,7 @@ class ArgumentsError(Exception):
 
 
 class Placement(NamedTuple):
-    """Where a frame stands.
+    """The pose of a frame.
 
     Attributes:
         translation: x, y, z in metres.

@@ -63,7 +63,7 @@ def main(args: list[str] | None = None) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = ToolParser(
         prog="tf2_echo",
-        description="Print the pose of TARGET in SOURCE, which takes data from TARGET into SOURCE.",
+        description="Print the pose of TARGET in SOURCE; it transforms data from TARGET to SOURCE.",
     )
     parser.add_argument(
         "source_frame", type=frame_id, help="the frame that the pose is expressed in"

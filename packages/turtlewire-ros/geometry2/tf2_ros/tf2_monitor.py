@@ -101,7 +101,7 @@ class DelayStatistics:
                 _, of_frame = self._frames.get(transform.child_frame_id, (gid, Delays()))
                 of_frame.add(delay)
                 self._frames[transform.child_frame_id] = (gid, of_frame)
-            delays.add(of_message.mean)  # as ROS 2: a broadcaster's figures count messages
+            delays.add(of_message.mean)  # as in ROS 2, a broadcaster's statistics count messages
 
     def _name(self, gid: bytes) -> str:
         """Return the node of a publisher, whose first message may arrive before it is known."""
@@ -150,7 +150,7 @@ def main(args: list[str] | None = None) -> int:
     argv = sys.argv if args is None else args
     options = _parser().parse_args(remove_ros_args(argv)[1:])
     if len(options.frames) not in {0, 2}:
-        print("tf2_monitor: give two frames, or none for all", file=sys.stderr)  # noqa: T201
+        print("tf2_monitor: give two frames, or none to monitor all", file=sys.stderr)  # noqa: T201
         return 1
     rclpy.init(args=argv)
     try:
@@ -179,7 +179,7 @@ def _parser() -> argparse.ArgumentParser:
         nargs="*",
         type=frame_id,
         metavar="FRAME",
-        help="the two frames whose chain to watch; none for all",
+        help="the two ends of the chain to monitor (default: monitor all frames)",
     )
     parser.add_argument(
         "--period",

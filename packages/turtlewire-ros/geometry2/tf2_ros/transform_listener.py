@@ -44,7 +44,7 @@ class TransformListener:
     Args:
         buffer: The buffer to fill.
         node: The node that owns the subscriptions; None makes one in the default context.
-        spin_thread: Spin the node in a thread of its own, for its other callbacks.
+        spin_thread: Spin the node in its own thread, for its other callbacks.
         qos: Quality of service of the subscription to ``tf_topic``, or a depth; by default depth
             100.
         static_qos: Quality of service of the subscription to ``tf_static_topic``; by default depth

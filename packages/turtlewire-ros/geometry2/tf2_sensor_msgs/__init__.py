@@ -3,7 +3,7 @@
 Importing it makes ``tf2_ros.Buffer.transform`` take ``sensor_msgs.msg.PointCloud2``.
 
 =================  ===========================
-module             what it holds
+module             contents
 =================  ===========================
 `clouds`           transforms of point clouds
 `tf2_sensor_msgs`  ROS 2's module of this name

@@ -47,7 +47,7 @@ def do_transform_cloud(
         AssertionError: The cloud has no x, y and z.
         ValueError: The coordinates are of another type, or the sizes contradict each other.
     """
-    # The first field of a name counts.
+    # The first field with a name is used.
     fields = {field.name: field for field in reversed(cloud.fields)}
     if not all(name in fields for name in _POINT):
         raise AssertionError("Point cloud needs the fields x, y, and z for the transformation")

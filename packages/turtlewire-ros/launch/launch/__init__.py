@@ -1,14 +1,14 @@
 """Starts, watches and stops groups of processes that a launch file describes.
 
 =================================  ========================================================
-module                             what it holds
+module                             contents
 =================================  ========================================================
 `launch_service`                   the event loop, the order of events, signals
-`launch_context`                   what the entities of a launch see of it
+`launch_context`                   the view of a launch that its entities get
 `_kernel`                          the state of one launch, and the protocols of its parts
 `launch_description`               a list of entities
 `launch_description_entity`        the base of descriptions and actions
-`launch_description_source`        where a description comes from
+`launch_description_source`        the source of a description
 `launch_description_sources`       Python files, and files of any parser
 `launch_introspector`              a description as a tree, for ``ros2 launch --print``
 `launch_argument`                  a declared argument
@@ -16,9 +16,9 @@ module                             what it holds
 `condition`, `conditions`          the base of conditions; if, unless, equals
 `event`, `events`                  the base of events; one module for each
 `event_handler`, `event_handlers`  reactions to events; the ones that ROS 2 names
-`substitution`, `substitutions`    the base of texts known at run time; one module for each
+`substitution`, `substitutions`    text known only at run time: the base; one module for each
 `descriptions`                     executables to run
-`frontend`                         what the parsers of XML and YAML share
+`frontend`                         the common parts of the XML and YAML parsers
 `child_process`                    a child process on the event loop
 `process_output`, `output_lines`   output of a process: logged; split into lines
 `logging`                          the screen, ``launch.log`` and files of single processes

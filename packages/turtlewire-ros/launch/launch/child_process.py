@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["ChildProcess", "escalate", "stdin_is_terminal"]
 
-# A grandchild may hold the pipes open; the child's own output is there at once.
+# A grandchild may hold the pipes open; the child's own output has already arrived.
 _DRAIN_S = 0.5
 _SIGKILL = getattr(signal, "SIGKILL", signal.SIGTERM)  # Windows has none
 
@@ -81,7 +81,7 @@ class ChildProcess:
 
     @property
     def pid(self) -> int:
-        """Its process id."""
+        """The process id."""
         return self._transport.get_pid()
 
     @property
@@ -192,7 +192,7 @@ class _Protocol(asyncio.SubprocessProtocol):
 
 
 class _TerminalStream(asyncio.Protocol):
-    """One output stream that comes over a pseudo terminal."""
+    """An output stream that is read from a pseudo terminal."""
 
     def __init__(self, child: _Protocol, fd: int) -> None:
         self._child = child

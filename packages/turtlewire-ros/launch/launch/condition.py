@@ -20,7 +20,7 @@ class Condition:
         self._last_result: bool | None = None
 
     def describe(self) -> str:
-        """Return the text that stands for it in descriptions."""
+        """Return the text of this condition in descriptions."""
         return repr(self)
 
     def evaluate(self, context: LaunchContext) -> bool:

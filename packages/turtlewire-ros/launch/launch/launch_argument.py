@@ -11,18 +11,18 @@ __all__ = ["LaunchArgument"]
 
 
 class LaunchArgument(Protocol):
-    """What launch descriptions know of a ``DeclareLaunchArgument``."""
+    """The description of a ``DeclareLaunchArgument``."""
 
     #: Whether it is declared only under a condition; known after a search for arguments.
     conditionally_included: bool
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """The name of the argument."""
 
     @property
     def default_value(self) -> list[Substitution] | None:
-        """Its value when it is not given; None if it must be given."""
+        """The value of the argument if the user does not set it; None if it is required."""
 
     @property
     def description(self) -> str:

@@ -17,7 +17,7 @@ __all__ = ["LaunchDescription"]
 
 
 class LaunchDescription(LaunchDescriptionEntity):
-    """What a launch file returns.
+    """A list of entities, which a launch file returns.
 
     Args:
         initial_entities: The entities.
@@ -45,7 +45,7 @@ class LaunchDescription(LaunchDescriptionEntity):
 
     @property
     def deprecated_reason(self) -> str | None:
-        """Why it is deprecated, and what to use instead."""
+        """The reason for the deprecation, and the replacement."""
         return self._deprecated_reason
 
     def add_entity(self, entity: LaunchDescriptionEntity) -> None:

@@ -22,7 +22,7 @@ class LaunchDescriptionEntity:
         raise NotImplementedError(f"{type(self).__name__} does not define visit()")
 
     def describe(self) -> str:
-        """Return the text that stands for it in descriptions."""
+        """Return the text of this entity in descriptions."""
         return repr(self)
 
     @property

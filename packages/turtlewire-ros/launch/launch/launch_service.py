@@ -131,7 +131,7 @@ class LaunchService:
             with self._signals_handled():
                 logging.log_launch_config(logger=self._logger)
                 await self._serve(shutdown_when_idle)
-                # Whatever the launched processes have left behind.
+                # Stop everything that the launched processes have left behind.
                 await self._run.stop_processes()
             return self._return_code
         finally:
@@ -146,7 +146,7 @@ class LaunchService:
             for event in events:
                 self._process_event(event)
             if events:
-                # The tasks that the events started get their turn before the next test of idleness.
+                # Tasks that the events started run before the next check for idleness.
                 await asyncio.sleep(0)
             elif self._run.is_busy or not (self._run.is_shutdown or shutdown_when_idle):
                 await self._run.wait()

@@ -1,7 +1,7 @@
 """Tests of launched processes as functions of pytest.
 
 ============  =================================================================
-module        what it holds
+module        contents
 ============  =================================================================
 `fixture`     the decorator of fixtures that return a launch description
 `plugin`      runs such launches, and the tests marked ``launch``

@@ -29,7 +29,7 @@ _SCOPES = ("function", "class", "module", "package", "session")
 
 @dataclass(frozen=True)
 class FixtureOptions:
-    """What the decorator knows of a fixture."""
+    """The options of a fixture, as its decorator sets them."""
 
     #: The name by which pytest knows it.
     name: str

@@ -199,7 +199,7 @@ def is_shutdown_test(item: Any) -> bool:
 
 
 def need_shutdown_test_item(obj: Any) -> bool:
-    """Return True if a test function is a generator: it goes on after the shutdown."""
+    """Return True if a test function is a generator, which resumes after the shutdown."""
     return inspect.isgeneratorfunction(obj) or inspect.isasyncgenfunction(obj)
 
 
@@ -344,7 +344,7 @@ def _step(loop: asyncio.AbstractEventLoop, steps: Any) -> bool:
     """Run a generator up to its next ``yield``; returns whether there is one."""
     if inspect.isasyncgen(steps):
         return bool(run_until_complete(loop, anext(steps, _END)) is not _END)
-    # In another thread, so that the launch goes on while the test blocks.
+    # In another thread, so that the launch keeps running while the test blocks.
     step = loop.run_in_executor(None, next, steps, _END)
     return bool(run_until_complete(loop, step) is not _END)
 

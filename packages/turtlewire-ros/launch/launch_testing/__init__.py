@@ -1,17 +1,17 @@
 """Tests of programs that a launch description starts, with unittest, pytest or ``launch_test``.
 
 ================================  ==============================================================
-module                            what it holds
+module                            contents
 ================================  ==============================================================
 `loader`                          finds the tests of a module, before and after the shutdown
-`test_runner`, `test_result`      runs a launch and its tests; what came of them
+`test_runner`, `test_result`      runs a launch and its tests; their results
 `launch_test`                     the command ``launch_test``
 `junitxml`                        results as JUnit's XML
 `pytest`                          the same tests, collected by pytest
 `actions`                         ``ReadyToTest``, and actions that run test programs
 `event_handlers`                  waits for a text on stdout
 `proc_info_handler`               which processes started, and how they ended
-`io_handler`                      what the processes wrote
+`io_handler`                      the output of the processes
 `asserts`                         assertions about exit codes and output
 `tools`                           patterns of expected output; processes that one test starts
 `util`                            finds processes by name and arguments
@@ -19,7 +19,7 @@ module                            what it holds
 `legacy`                          tests as actions of a launch
 `parametrize`                     runs the tests once for each set of arguments
 `ready_to_test_action_timeout`    how long a launch may take to become ready
-`ready_aggregator`                calls a function when several things are ready
+`ready_aggregator`                calls a function when several callers are ready
 `parse_arguments`                 arguments ``name:=value``
 `print_arguments`                 shows the arguments of a launch description
 ================================  ==============================================================

@@ -1,4 +1,4 @@
-"""What the processes of a launch have written."""
+"""The output of the processes of a launch."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class IoHandler:
 
 
 class ActiveIoHandler:
-    """The same while the launch runs: safe from any thread, and a test can wait for output."""
+    """An `IoHandler` of a running launch: thread-safe, and a test can wait for output."""
 
     def __init__(self) -> None:
         self._changed = threading.Condition()

@@ -106,7 +106,7 @@ def main() -> None:
 
 
 def _imported(name: str, path: str) -> ModuleType:
-    """Return the file as a module of its own; files next to it can be imported as in a script."""
+    """Return the file as a separate module; files next to it can be imported as in a script."""
     sys.path.insert(0, os.path.dirname(path))
     specification: Any = importlib.util.spec_from_file_location(name, path)
     module = importlib.util.module_from_spec(specification)

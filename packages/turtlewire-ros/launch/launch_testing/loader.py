@@ -175,7 +175,7 @@ class _Loader(unittest.TestLoader):
         """Return the tests of a class, or none."""
         if getattr(testCaseClass, "__post_shutdown_test__", False) != self._post_shutdown:
             return unittest.TestSuite()
-        # A class of its own for each run: `bind` changes it.
+        # A new class for each run, because `bind` changes it.
         own = type(testCaseClass.__name__, (testCaseClass,), {"__doc__": testCaseClass.__doc__})
         own.__module__ = testCaseClass.__module__
         own.__qualname__ = testCaseClass.__qualname__

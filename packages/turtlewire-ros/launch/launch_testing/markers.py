@@ -1,4 +1,4 @@
-"""Marks of functions that make launch descriptions, and of tests."""
+"""Markers of functions that create launch descriptions, and of tests."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def mark(function: Callable[..., Any], name: str, value: object) -> None:
 
 
 def keep_alive(test_description: F) -> F:
-    """Let the launch go on until the tests end, even if all its processes have ended."""
+    """Keep the launch running until the tests end, even if all its processes have ended."""
     mark(test_description, "keep_alive", True)
     return test_description
 

@@ -38,7 +38,7 @@ def parametrize(
                 bound = functools.partial(function, **arguments)
                 functools.update_wrapper(bound, function)
                 del bound.__wrapped__  # type: ignore[attr-defined]  # its parameters have values
-                # Decorators that stand above this one have marked `descriptions`.
+                # Decorators above this one have marked `descriptions`.
                 marks = getattr(function, "__markers__", {})
                 bound.__markers__ = {  # type: ignore[attr-defined]
                     **marks,

@@ -57,7 +57,7 @@ class ProcInfoHandler:
 
 
 class ActiveProcInfoHandler:
-    """The same while the launch runs: safe from any thread, and a test can wait for events."""
+    """A `ProcInfoHandler` of a running launch: thread-safe, and a test can wait for events."""
 
     def __init__(self) -> None:
         self._changed = threading.Condition()

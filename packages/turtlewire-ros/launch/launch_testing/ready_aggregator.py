@@ -1,4 +1,4 @@
-"""Calls a function when several things are ready."""
+"""Calls a function when several callers are ready."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class ReadyAggregator:
         self._lock = threading.Lock()
 
     def ready_fn(self) -> None:
-        """One more is ready."""
+        """Count one more caller as ready."""
         with self._lock:
             self._missing -= 1
             is_last = self._missing == 0

@@ -1,4 +1,4 @@
-"""How long a launch may take until its ``ReadyToTest``."""
+"""The timeout for a launch to reach its ``ReadyToTest``."""
 
 from __future__ import annotations
 

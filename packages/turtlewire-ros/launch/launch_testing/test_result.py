@@ -1,4 +1,4 @@
-"""What came of the tests of a launch."""
+"""The results of the tests of a launch."""
 
 from __future__ import annotations
 

@@ -75,7 +75,7 @@ class LaunchTestRunner:
                 )
 
     def run(self) -> dict[TestRun, unittest.TestResult]:
-        """Run all launches; returns what came of each."""
+        """Run all launches; returns the results of each."""
         results: dict[TestRun, unittest.TestResult] = {}
         for run in self._test_runs:
             if len(self._test_runs) > 1:
@@ -117,7 +117,7 @@ class _Worker:
         self._result: TestResult | None = None
 
     def run(self) -> unittest.TestResult:
-        """Launch, test, shut down and test again; returns what came of all tests.
+        """Launch, test, shut down and test again; returns the results of all tests.
 
         Raises:
             SkipTest: The description is decorated with a skip.

@@ -1,7 +1,7 @@
 """Launch files in XML.
 
 ============================  ====================
-module                        what it holds
+module                        contents
 ============================  ====================
 `parser`                      reads the text
 `entity`                      one XML element

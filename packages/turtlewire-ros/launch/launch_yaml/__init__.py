@@ -1,7 +1,7 @@
 """Launch files in YAML.
 
 ============================  ====================
-module                        what it holds
+module                        contents
 ============================  ====================
 `parser`                      reads the text
 `entity`                      one mapping

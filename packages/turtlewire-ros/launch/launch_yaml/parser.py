@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Parser"]
 
-# Aliases let a few lines stand for billions of elements; real launch files have far fewer.
+# With aliases, a few lines can expand to billions of elements; real launch files have far fewer.
 _MOST_ELEMENTS = 100_000
 
 
@@ -29,7 +29,7 @@ class Parser(BaseParser):
         Raises:
             SyntaxError: The file is not YAML; the message names file and line.
             RuntimeError: The content is not a mapping with one key.
-            ValueError: Its aliases contain themselves, or stand for more elements than a launch
+            ValueError: Its aliases contain themselves, or expand to more elements than a launch
                 file has.
         """
         if isinstance(file, str):
@@ -39,7 +39,7 @@ class Parser(BaseParser):
         if not isinstance(tree, dict) or len(tree) != 1:
             raise RuntimeError("Expected only one root element: a mapping with the key 'launch'")
         if _size(tree, {}) > _MOST_ELEMENTS:
-            raise ValueError(f"The file stands for more than {_MOST_ELEMENTS} elements")
+            raise ValueError(f"The aliases expand to more than {_MOST_ELEMENTS} elements")
         ((name, element),) = tree.items()
         return Entity(element, str(name)), cls()
 
@@ -64,7 +64,7 @@ def _loader() -> Any:
     def mapping(loader: Any, node: Any) -> Iterator[_Mapping]:
         made = _Mapping()
         made.line = node.start_mark.line + 1
-        # Before it is filled, because an alias in it may stand for itself.
+        # Before it is filled, because it may contain an alias of itself.
         yield made
         made.update(loader.construct_mapping(node))
 

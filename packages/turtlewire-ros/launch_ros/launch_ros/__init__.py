@@ -1,17 +1,17 @@
 """ROS nodes, parameters, remappings and namespaces in launch files.
 
 ===========================================  =====================================================
-module                                       what it holds
+module                                       contents
 ===========================================  =====================================================
 `actions`                                    nodes, containers, namespaces, parameters
 `descriptions`                               parameters, and nodes in containers
-`_node`                                      what actions and descriptions of nodes share
+`_node`                                      common parts of actions and descriptions of nodes
 `event_handlers`, `events`                   state transitions of lifecycle nodes
 `parameter_descriptions`, `parameters_type`  parameters with a type, files of parameters
 `remap_rule_type`                            the type of remapping rules
 `ros_adapters`                               the launch's own node, for services and subscriptions
 `substitutions`                              packages, executables and parameters
-`utilities`                                  parameters, names and remappings made ready
+`utilities`                                  normalized parameters, names and remappings
 ===========================================  =====================================================
 """
 

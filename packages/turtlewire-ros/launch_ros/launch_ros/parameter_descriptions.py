@@ -90,17 +90,17 @@ class Parameter:
 
     @property
     def name(self) -> str | list[Substitution]:
-        """Its name; before :meth:`evaluate` the substitutions that give it."""
+        """The name; before :meth:`evaluate`, the substitutions that produce it."""
         return self._name if self._evaluated is None else self._evaluated[0]
 
     @property
     def value(self) -> Any:
-        """Its value; before :meth:`evaluate` as it was given."""
+        """The value; before :meth:`evaluate`, the unevaluated argument."""
         return self._value.value if self._evaluated is None else self._evaluated[1]
 
     @property
     def value_type(self) -> Any:
-        """Its type, or None."""
+        """The type of the value, or None."""
         return self._value.value_type
 
     def evaluate(self, context: LaunchContext) -> tuple[str, Any]:
@@ -136,7 +136,7 @@ class ParameterFile:
 
     @property
     def param_file(self) -> list[Substitution]:
-        """Its path."""
+        """The path of the file."""
         return self._param_file
 
     @property

@@ -1,14 +1,14 @@
 """Launch tests of ROS nodes.
 
 ==================  =========================================================
-module              what it holds
+module              contents
 ==================  =========================================================
 `actions`           keep the nodes of a launch apart from all others
 `test_runner`       runs launches of ROS nodes with their tests
 `pytest`            the marker ``rostest`` of pytest
 `wait_for_topics`   waits until messages have come on topics
 `data_republisher`  changes messages of one topic and sends them on another
-`message_pump`      spins a node on a thread of its own
+`message_pump`      spins a node on its own thread
 `tools`             filters of what nodes write
 ==================  =========================================================
 """

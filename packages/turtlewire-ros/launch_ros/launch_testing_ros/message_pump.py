@@ -1,4 +1,4 @@
-"""Spins a node on a thread of its own."""
+"""Spins a node on its own thread."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["MessagePump"]
 
 
 class MessagePump:
-    """Spins a node on a thread of its own, so that a test can wait for what it receives.
+    """Spins a node on its own thread, so that a test can wait for what it receives.
 
     Args:
         node: The node.

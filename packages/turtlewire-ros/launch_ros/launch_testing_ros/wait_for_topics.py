@@ -25,8 +25,8 @@ __all__ = ["WaitForTopics"]
 class WaitForTopics:
     """Subscribes to topics and waits for a message on each.
 
-    ``with WaitForTopics([("chatter", String)]) as topics:`` waits at the beginning. It has a node
-    and a context of its own.
+    ``with WaitForTopics([("chatter", String)]) as topics:`` waits at the beginning. It has its own
+    node and context.
 
     Args:
         topic_tuples: Names and types of the topics.
@@ -104,7 +104,7 @@ class WaitForTopics:
         """
         if topic_name not in dict(self.topic_tuples):
             known = ", ".join(topic for topic, _ in self.topic_tuples)
-            raise KeyError(f"'{topic_name}' is none of the topics: {known}")
+            raise KeyError(f"'{topic_name}' is not one of the topics: {known}")
         with self._changed:
             return list(self._messages.get(topic_name, ()))
 

@@ -1,7 +1,7 @@
 """The command ``ros2 launch``, and its functions for programs and extensions.
 
 =========  ===============================
-module     what it holds
+module     contents
 =========  ===============================
 `api`      launch files: found, shown, run
 `command`  the command ``ros2 launch``

@@ -1,7 +1,7 @@
 """The command ``ros2 test``, and its functions for programs and extensions.
 
 =========  =========================
-module     what it holds
+module     contents
 =========  =========================
 `command`  the command ``ros2 test``
 =========  =========================

@@ -1,13 +1,13 @@
 """message_filters as in ROS 2: combines messages of several topics by their stamps.
 
 ====================  =================================================
-module                what it holds
+module                contents
 ====================  =================================================
 `simple_filter`       `SimpleFilter`: callbacks of a filter
 `one_message_filter`  the type of callbacks that take one message
 `subscriber`          `Subscriber`: the messages of a topic
 `cache`               `Cache`: the newest messages, found by time
-`chain`               `Chain`: filters one behind the other
+`chain`               `Chain`: a sequence of filters
 `delta_filter`        messages in which fields have changed: `DeltaFilter` and others
 `input_aligner`       `InputAligner`: several inputs in the order of their stamps
 `time_sequencer`      `TimeSequencer`: messages in the order of their stamps

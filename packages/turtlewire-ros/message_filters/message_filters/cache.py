@@ -111,7 +111,7 @@ class Cache(OneMessageFilter[MsgT]):
         with self._lock:
             return self.cache_times[-1] if self.cache_times else None
 
-    # Lyrical has it no longer.
+    # Lyrical no longer has it.
     if not since(LYRICAL):
 
         def getLastestTime(self) -> Time | None:  # noqa: N802 -- ROS 2's older, misspelt name

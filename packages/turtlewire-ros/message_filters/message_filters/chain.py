@@ -1,4 +1,4 @@
-"""Puts filters behind each other, as one filter."""
+"""Combines a sequence of filters into one filter."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ class Chain(SimpleFilter):
         add = getattr(first, "add", None)
         if add is None:
             raise TypeError(
-                f"the first filter of the chain, a {type(first).__name__}, takes no messages: give "
-                "the chain no input, or another first filter"
+                f"the first filter of the chain, a {type(first).__name__}, accepts no messages: "
+                "use the chain without an input, or with another first filter"
             )
         add(message)

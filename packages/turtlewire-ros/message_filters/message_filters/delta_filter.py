@@ -1,7 +1,7 @@
 """Passes on the messages in which fields have changed.
 
-``PathDeltaFilter(["header.frame_id"], subscriber)`` passes a message on if its frame is another
-one than in the message before. For other comparisons, derive from `ComparisonHandler`.
+``PathDeltaFilter(["header.frame_id"], subscriber)`` passes a message on if its frame differs
+from that of the previous message. For other comparisons, derive from `ComparisonHandler`.
 """
 
 from __future__ import annotations

@@ -32,7 +32,7 @@ class Subscriber(OneMessageFilter[MsgT]):
         qos_profile: Quality of service, or a depth.
         callback_group: As in :meth:`Node.create_subscription
             <rclpy.node.Node.create_subscription>`, like the arguments below.
-        event_callbacks: What to call on events of the quality of service.
+        event_callbacks: Functions to call on events of the quality of service.
         qos_overriding_options: Which policies parameters may override.
         raw: Whether the serialized bytes of the messages are passed on.
         content_filter_options: Without effect.

@@ -93,7 +93,7 @@ class TimeSequencer(SimpleFilter):
                 del self._waiting[0]
 
     def shutdown(self) -> None:
-        """Stop for good: end the timer and the connection, and drop the waiting messages."""
+        """Stop permanently: end the timer and the connection, and drop the waiting messages."""
         self._disconnect()
         self._node.destroy_timer(self._timer)
         self._jumps.unregister()

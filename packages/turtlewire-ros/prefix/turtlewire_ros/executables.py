@@ -2,8 +2,8 @@
 
 An executable is a file: ``<prefix>/lib/PACKAGE/EXECUTABLE`` of a prefix, or the console script of a
 package that pip installed (pip puts those into the environment's ``bin``). A file that starts with
-a Python shebang runs on this interpreter, whatever the shebang says: a workspace that was built by
-a foreign colcon names the system's Python there, which does not have this distribution.
+a Python shebang runs on this interpreter, not on the one in the shebang: a workspace that another
+colcon built names the system's Python there, which does not have this distribution.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def is_python_script(path: str) -> bool:
     """Return True if the first line of the file is a shebang that names a Python."""
     try:
         with open(path, "rb") as file:
-            first_line = file.readline(512)  # a binary may have no line feed for megabytes
+            first_line = file.readline(512)  # a binary may contain megabytes without a line feed
     except OSError:
         return False
     return first_line.startswith(b"#!") and b"python" in first_line

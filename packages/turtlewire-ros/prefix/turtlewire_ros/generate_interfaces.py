@@ -1,7 +1,7 @@
 """``python -m turtlewire_ros.generate_interfaces``: the Python package of a package's interfaces.
 
-As ``python -m turtlewire.msg`` makes it, but every type that a field names must be there: a build
-fails with its line where the first import would.
+Unlike ``python -m turtlewire.msg``, it requires every type that a field names. So a missing type
+fails the build, with its line, instead of the first import.
 """
 
 from __future__ import annotations

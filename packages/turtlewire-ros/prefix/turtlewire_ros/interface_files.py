@@ -1,9 +1,9 @@
-"""Write what is generated from the engine's interfaces; the build of the wheel runs it.
+"""Generates files from the engine's interfaces; the build of the wheel runs it.
 
 ``python -m turtlewire_ros.interface_files PREFIX MODULES`` writes definitions below ``PREFIX``,
 where programs of ROS 2 read them (``share/std_msgs/msg/String.msg`` and ``String.idl`` next to it),
-and packages to import (``std_msgs.msg`` with its type stubs) below ``MODULES``: Jazzy's, and those
-that came later.
+and packages to import (``std_msgs.msg`` with its type stubs) below ``MODULES``: Jazzy's, and
+later ones.
 """
 
 from __future__ import annotations

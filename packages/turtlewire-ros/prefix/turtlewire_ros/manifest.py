@@ -14,7 +14,7 @@ class ManifestError(Exception):
 
 
 class Manifest(NamedTuple):
-    """What a package.xml says.
+    """The content of a package.xml.
 
     Attributes:
         name: The package.

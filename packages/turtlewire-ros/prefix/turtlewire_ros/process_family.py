@@ -1,7 +1,7 @@
 """Ends every process that a command started, directly or not, when the command ends.
 
-A process that is killed by SIGKILL cannot stop what it started, and the child of a child is lost
-when the latter ends. On Linux a :class:`ProcessFamily` therefore marks the environment of its
+A process that SIGKILL ends cannot stop its children, and a grandchild loses its link to the command
+when the child ends. On Linux a :class:`ProcessFamily` therefore marks the environment of its
 children, which all their descendants inherit, and starts a guardian
 (:mod:`turtlewire_ros.process_guardian`) that outlives the command. Other systems do not show the
 environment of other processes: there a command stops only its own children, when it ends in order.
@@ -48,7 +48,7 @@ class ProcessFamily:
                 stdin=subprocess.PIPE,
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
-                # Ctrl-C, a hang-up and signals to the process group are not meant for it.
+                # The guardian must ignore Ctrl-C, hang-ups and signals to the process group.
                 start_new_session=True,
             )
 

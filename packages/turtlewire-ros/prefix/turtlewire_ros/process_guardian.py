@@ -1,4 +1,4 @@
-"""The guardian of a :class:`~turtlewire_ros.process_family.ProcessFamily`: a script of its own.
+"""A script: the guardian of a :class:`~turtlewire_ros.process_family.ProcessFamily`.
 
 It waits until its stdin ends, which happens when the process that started it ends, by SIGKILL too,
 and then stops every process of the family. It runs next to each `ros2 run` and `ros2 launch`, so it
@@ -71,7 +71,7 @@ def _signal_and_wait(processes: list[int], number: signal.Signals) -> None:
     waiting = set()
     for process in processes:
         try:
-            # A handle, because another process may get the number when this one has ended.
+            # A handle, because another process may reuse the id after this one has ended.
             handle = os.pidfd_open(process)
         except ProcessLookupError:
             continue

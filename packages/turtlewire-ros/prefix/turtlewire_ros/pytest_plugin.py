@@ -1,7 +1,7 @@
 """What pytest loads at each start, because it finds this distribution's entry point.
 
-It knows options and markers of launch tests, and imports their packages only when a test file
-speaks of them: other people's tests neither wait for `launch` nor see its fixtures. Test files of
+It defines the options and markers of launch tests, and imports their packages only if a test file
+mentions them: other tests neither wait for `launch` nor see its fixtures. Test files of
 ROS 2's linters, which `ros2 pkg create` puts into each package there, are skipped.
 """
 
@@ -68,7 +68,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Make the markers known."""
+    """Register the markers."""
     for marker in _MARKERS:
         config.addinivalue_line("markers", marker)
 

@@ -1,4 +1,4 @@
-"""Answers to the commands of rqt: which page or command shows the same here."""
+"""Replacements of rqt's commands: prints which page or command shows the same."""
 
 from __future__ import annotations
 

@@ -12,16 +12,16 @@ The modules load when they are first used: ``rclpy.time``, ``rclpy.qos`` and all
 attributes of the package after ``import rclpy``.
 
 ==========================================  ========================================================
-module                                      what it holds
+module                                      contents
 ==========================================  ========================================================
 `node`                                      `Node`; its parts are in `_node`
 `executors`                                 `Executor`; its parts are in `_execution`
-`_node`, `_execution`, `_qos`               what a node, an executor and a QoS consist of
+`_node`, `_execution`, `_qos`               private parts of nodes, executors and QoS
 `context`, `utilities`                      `Context`; the default context, `ok`, `try_shutdown`
 `publisher`, `subscription`                 endpoints of topics
 `client`, `service`                         endpoints of services
 `timer`, `guard_condition`                  timers; wake-ups by hand
-`waitable`, `destroyable`                   entities of programs
+`waitable`, `destroyable`                   entities that programs define
 `action`, `lifecycle`                       action clients and servers; lifecycle nodes
 `callback_groups`, `task`                   which callbacks may run together; futures and coroutines
 `clock`, `clock_type`, `time`, `duration`   clocks, times and durations
@@ -34,10 +34,10 @@ module                                      what it holds
 `qos_overriding_options`                    QoS set by parameters
 `event_handler`                             events: incompatible QoS, deadlines, matches
 `qos_event`                                 the former name of `event_handler`
-`endpoint_info`, `type_hash`                what the graph shows of an endpoint
+`endpoint_info`, `type_hash`                information about an endpoint in the graph
 `topic_endpoint_info`                       the same, under Jazzy's names
 `logging`                                   loggers
-`impl`                                      their outputs and formats; ROS arguments; hints
+`impl`                                      outputs and formats of logs; ROS arguments; hints
 `logging_service`                           the services of a node's log levels
 `service_introspection`                     events of requests and responses
 `type_description_service`                  the service ``~/get_type_description``
@@ -120,7 +120,7 @@ class InitContextManager:
     ) -> None:
         is_default = context is None or context is get_default_context()
         self.context = get_default_context() if context is None else context
-        # As in ROS 2, a library with a context of its own leaves the signals to the program.
+        # As in ROS 2, a library with its own context leaves the signals to the program.
         if signal_handler_options is None:
             signal_handler_options = (
                 SignalHandlerOptions.ALL if is_default else SignalHandlerOptions.NO
@@ -156,9 +156,9 @@ def init(
     """Join a domain; everything else needs this first.
 
     Args:
-        args: Command line whose ``--ros-args`` apply; None takes ``sys.argv``.
-        context: What to initialize; None takes the default context.
-        domain_id: None takes ``ROS_DOMAIN_ID``, else 0.
+        args: Command line whose ``--ros-args`` apply; None uses ``sys.argv``.
+        context: What to initialize; None uses the default context.
+        domain_id: None uses ``ROS_DOMAIN_ID``, else 0.
         signal_handler_options: Which signals shut down; None: both for the default context, none
             for others.
 
@@ -199,7 +199,7 @@ def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None 
     """Leave the domain.
 
     Args:
-        context: None takes the default context.
+        context: None uses the default context.
         uninstall_handlers: Whether signals get their former handlers back; None: when the default
             context is shut down.
 
@@ -240,7 +240,7 @@ def create_node(
 ) -> Node:
     """Make a node; see :class:`rclpy.node.Node` for the arguments.
 
-    ``rosout_qos_profile`` None takes ROS 2's default.
+    ``rosout_qos_profile`` None uses ROS 2's default.
     """
     from .node import Node
     from .qos import qos_profile_rosout_default
@@ -269,8 +269,8 @@ def spin_once(
     """Wait for one callback of ``node`` and run it.
 
     Args:
-        node: What to serve; when it is in no executor, it is in this one for the time of the call.
-        executor: None takes the global one.
+        node: The node to spin; if it has no executor, it is in this one during the call.
+        executor: None uses the global one.
         timeout_sec: How long to wait; None or negative: without limit, 0: not at all.
     """
     executor = get_global_executor() if executor is None else executor
@@ -287,14 +287,14 @@ def spin(node: Node, executor: Executor | None = None) -> None:
     """Run the callbacks of ``node`` until its context is shut down.
 
     Args:
-        node: What to serve; when it is in no executor, it is in this one for the time of the call.
-        executor: None takes the global one.
+        node: The node to spin; if it has no executor, it is in this one during the call.
+        executor: None uses the global one.
 
     Raises:
         KeyboardInterrupt: Ctrl-C, in the main thread.
         ExternalShutdownException: SIGTERM, or another thread shut the context of a given executor
             down.
-        Exception: What a callback raised.
+        Exception: A callback raised it.
     """
     executor = get_global_executor() if executor is None else executor
     added = executor.add_node(node)
@@ -313,9 +313,9 @@ def spin_until_future_complete(
     It also ends when the context is shut down.
 
     Args:
-        node: What to serve; when it is in no executor, it is in this one for the time of the call.
-        future: What to wait for.
-        executor: None takes the global one.
+        node: The node to spin; if it has no executor, it is in this one during the call.
+        future: The future to wait for.
+        executor: None uses the global one.
         timeout_sec: None or negative: without limit.
     """
     executor = get_global_executor() if executor is None else executor

@@ -1,6 +1,6 @@
-"""What ROS 2 programs reach through ``rclpy._rclpy_pybind11``: error classes, and an enumeration.
+"""Names that programs import from ``rclpy._rclpy_pybind11``: error classes, and an enumeration.
 
-Here they have no C extension behind them.
+In turtlewire they are plain Python.
 """
 
 from __future__ import annotations

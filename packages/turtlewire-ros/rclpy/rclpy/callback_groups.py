@@ -17,7 +17,7 @@ class _Scheduler(Protocol):
     """The part of an executor that pauses entities of busy groups."""
 
     def resume_paused(self) -> None:
-        """Let the entities go on whose groups have become free."""
+        """Resume the entities whose groups have become free."""
         ...
 
 

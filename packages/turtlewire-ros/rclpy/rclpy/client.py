@@ -116,7 +116,7 @@ class BaseClient(IntrospectedEndpoint, Generic[SrvT_co]):
                     return
 
     def service_is_ready(self) -> bool:
-        """Return True if a server is there.
+        """Return True if a server is available.
 
         Raises:
             InvalidHandle: The client was destroyed.
@@ -132,7 +132,7 @@ class BaseClient(IntrospectedEndpoint, Generic[SrvT_co]):
             raise
 
     def _look_for_server(self) -> bool:
-        """Return True if a server is there; logs once why one that is there is not called."""
+        """Return True if a server is available; logs once why an existing one is not called."""
         if self.service_is_ready():
             return True
         try:
@@ -151,12 +151,12 @@ class BaseClient(IntrospectedEndpoint, Generic[SrvT_co]):
             with self._lock:
                 future = self._pending.pop(sequence_number, None)
             if future is None:
-                # The program has given the request up.
+                # The program has abandoned the request.
                 return None
             try:
                 response = deserialize(self.srv_type.Response, cdr)
             except CdrError as error:
-                # It is the caller's error; raised here, it would end the spin.
+                # The caller's future gets the error; raised here, it would end the spin.
                 return future.set_exception, (error,)
             if self._events is not None:
                 self._events.publish(
@@ -282,7 +282,7 @@ class Client(BaseClient[SrvT_co]):
         self._forget(future)
 
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
-        """Block until a server is there (no polling).
+        """Block until a server is available (no polling).
 
         A server on a middleware that would misread requests does not count; a warning in the log
         says so.
@@ -291,7 +291,7 @@ class Client(BaseClient[SrvT_co]):
             timeout_sec: None or negative waits without a limit.
 
         Returns:
-            True if a server is there, False after the timeout.
+            True if a server is available, False after the timeout.
 
         Raises:
             InvalidHandle: The client was destroyed, before or during the wait.

@@ -45,7 +45,7 @@ __all__ = [
 
 
 class ClockChange(Enum):
-    """What happened to a clock's source of time at a jump."""
+    """The change of a clock's time source at a jump."""
 
     ROS_TIME_NO_CHANGE = 1
     ROS_TIME_ACTIVATED = 2
@@ -54,7 +54,7 @@ class ClockChange(Enum):
 
 
 class JumpThreshold:
-    """Which clock jumps trigger a callback.
+    """A filter of the clock jumps that trigger a callback.
 
     Args:
         min_forward: Smallest jump forwards; None for no such jump.
@@ -373,7 +373,7 @@ class ROSClock(Clock):
 
 
 class _Sleep:
-    """One wait for a time; a shutdown or another source of time ends it early."""
+    """A wait for a time; a shutdown or a change of the time source ends it early."""
 
     def __init__(self, clock: Clock, until_ns: int, context: Any) -> None:
         self._clock = clock

@@ -1,4 +1,4 @@
-"""Which time a clock or a time stamp means."""
+"""The kinds of time of clocks and time stamps."""
 
 from __future__ import annotations
 

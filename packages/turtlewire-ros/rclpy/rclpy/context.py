@@ -33,7 +33,7 @@ _ALREADY_SHUT_DOWN = "failed to shutdown: rcl_shutdown already called on the giv
 
 
 class _Scheduler(Protocol):
-    """What a context knows of an executor."""
+    """The part of an executor that a context uses."""
 
     def holds_up(self, service: str) -> bool:
         """Return True if a request for a service is there that cannot be answered at the moment."""
@@ -41,7 +41,7 @@ class _Scheduler(Protocol):
 
 
 class _Wait(Protocol):
-    """What a context ends."""
+    """A wait that the shutdown of a context ends."""
 
     def set(self) -> None:
         """End the wait."""
@@ -49,7 +49,7 @@ class _Wait(Protocol):
 
 
 class _Node(Protocol):
-    """What a context knows of a node."""
+    """The part of a node that a context uses."""
 
     def destroy_node(self) -> None:
         """Leave the graph."""
@@ -89,10 +89,10 @@ class Context:
         """Join a domain.
 
         Args:
-            args: Command line whose ``--ros-args`` apply to all nodes; None takes ``sys.argv``.
+            args: Command line whose ``--ros-args`` apply to all nodes; None uses ``sys.argv``.
             initialize_logging: Whether log levels of the command line take effect and the log file
                 is opened.
-            domain_id: None takes ``ROS_DOMAIN_ID``, else 0.
+            domain_id: None uses ``ROS_DOMAIN_ID``, else 0.
 
         Raises:
             RuntimeError: The context was initialized before, or the domain id is negative.
@@ -117,7 +117,7 @@ class Context:
                 # The settings are at fault: the excepthook shows one line instead of a traceback.
                 error.is_of_environment = True
                 raise
-            # Discovery begins here, so that the first question about the graph finds answers.
+            # Discovery begins here, so that the first query of the graph finds other nodes.
             _ = self._wire.graph
             self._valid = True
             _open_contexts.add(self)
@@ -300,7 +300,7 @@ class Context:
             raise TypeError("callback should be a callable, got {}", type(callback))
         with self._lock:
             if self._valid:
-                # Executors and sleeps come and go: references to finished ones must not pile up.
+                # Executors and sleeps end: references to finished ones must not accumulate.
                 self._callbacks = [
                     reference for reference in self._callbacks if reference() is not None
                 ]

@@ -1,4 +1,4 @@
-"""What can be destroyed."""
+"""Base of entities that can be destroyed."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""What is known of an end of a topic or service in the graph.
+"""Information about the endpoints of topics and services in the graph.
 
-In Jazzy and Kilted, the module is called ``topic_endpoint_info``; there it holds what belongs to
-topics.
+In Jazzy and Kilted, the module is called ``topic_endpoint_info``; there it only
+covers topics.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _UNKNOWN_NAMESPACE = "_NODE_NAMESPACE_UNKNOWN_"
 
 
 class EndpointTypeEnum(IntEnum):
-    """Which end of a topic or service it is."""
+    """The kinds of endpoints: publisher, subscription, client, server."""
 
     INVALID = 0
     PUBLISHER = 1

@@ -94,7 +94,7 @@ class EventHandler(Waitable):
 
     Args:
         callback_group: Of the callback.
-        callback: What to call.
+        callback: Function to call.
         event_type: Which event.
         parent_impl: The publisher or subscription, or its handle.
 
@@ -147,7 +147,7 @@ class EventHandler(Waitable):
         super()._close()
 
 
-# Lyrical has it no longer.
+# Lyrical no longer has it.
 if not since(LYRICAL):
 
     class QoSEventHandler(EventHandler):
@@ -169,7 +169,7 @@ _Wanted = dict["QoSPublisherEventType | QoSSubscriptionEventType", "Callable[[An
 
 
 class _EventCallbacks:
-    """What publishers and subscriptions have in common."""
+    """The common base of the event callbacks of publishers and subscriptions."""
 
     #: How ROS 2 warns of an endpoint that does not match.
     _WARNING = ""
@@ -205,7 +205,7 @@ class _EventCallbacks:
         if (
             self.incompatible_qos is None
             and self.use_default_callbacks
-            # On Zenoh everything matches, so the handler would cost and never be called.
+            # On Zenoh all endpoints match, so the handler would only cost time.
             and EventKind.INCOMPATIBLE_QOS in endpoint._core.context.wire.events
         ):
             warn = self._warn_of_incompatible_qos(topic_name, get_logger(endpoint.logger_name))

@@ -1,4 +1,4 @@
-"""The executors: one thread, or a pool of threads; and what their waits end with."""
+"""The executors, with one thread or a thread pool, and the exceptions that end their waits."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ class Executor:
     """Base of the executors. All methods are thread-safe; one thread spins at a time.
 
     Args:
-        context: None takes the default context.
+        context: None uses the default context.
 
     Raises:
         NotInitializedException: The context is not initialized.
@@ -84,7 +84,7 @@ class Executor:
 
     @property
     def context(self) -> Context:
-        """Its context."""
+        """The context of the executor."""
         return self._context
 
     def __enter__(self) -> Self:
@@ -163,7 +163,7 @@ class Executor:
             ExternalShutdownException: The context was shut down by a signal, or by another thread
                 while it waited.
             KeyboardInterrupt: Ctrl-C, in the main thread.
-            Exception: What a callback raised.
+            Exception: A callback raised it.
         """
         scheduler = self._rclpy_scheduler
         outer, scheduler.serves_endlessly = scheduler.serves_endlessly, True
@@ -172,7 +172,7 @@ class Executor:
             while self._context.ok() and not scheduler.is_shutdown:
                 self.spin_once()
         except ExternalShutdownException:
-            if not self._context.ended_at_exit:  # in a daemon thread, nothing is left to notify
+            if not self._context.ended_at_exit:  # in a daemon thread at exit, no wait is left
                 raise
         finally:
             self._spins.pop()
@@ -194,7 +194,7 @@ class Executor:
 
         Raises:
             ExternalShutdownException: The context was shut down.
-            Exception: What a callback raised.
+            Exception: A callback raised it.
         """
         self._spin_once(timeout_sec)
 
@@ -325,9 +325,9 @@ class MultiThreadedExecutor(Executor):
     Exceptions from callbacks propagate out of ``spin``.
 
     Args:
-        num_threads: Size of the pool; None takes the number of processors that this process may
+        num_threads: Size of the pool; None uses the number of processors that this process may
             use.
-        context: None takes the default context.
+        context: None uses the default context.
     """
 
     def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:

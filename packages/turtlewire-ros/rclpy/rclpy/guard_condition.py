@@ -1,4 +1,4 @@
-"""Guard conditions: callbacks that another thread, or the program itself, sets off."""
+"""Guard conditions: callbacks that any thread can trigger."""
 
 from __future__ import annotations
 

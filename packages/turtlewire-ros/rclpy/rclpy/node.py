@@ -5,7 +5,7 @@
 the endpoints, ``_node/graph.py`` answers questions about other nodes, ``_node/parameters.py`` keeps
 the parameters.
 
-Programs derive from it and add attributes of their own. Therefore, all attributes that ROS 2's
+Programs derive from it and add their own attributes. Therefore, all attributes that ROS 2's
 class does not have (it has ``_logger``, ``_clock`` …) begin with two underscores, or with
 ``_rclpy`` if other modules need them.
 """
@@ -118,7 +118,7 @@ class Node(BaseNode):
 
     Args:
         node_name: Base name (no slashes); ``--ros-args -r __node:=…`` replaces it.
-        context: None takes the default context.
+        context: None uses the default context.
         cli_args: Command line of this node alone; its ``--ros-args`` precede the ones of the
             context.
         namespace: None and "" mean "/"; ``--ros-args -r __ns:=…`` replaces it.
@@ -211,37 +211,37 @@ class Node(BaseNode):
 
     @property
     def publishers(self) -> Iterator[Publisher[Any]]:
-        """Its publishers."""
+        """The publishers of the node."""
         yield from self._rclpy_endpoints.of(Publisher)
 
     @property
     def subscriptions(self) -> Iterator[Subscription[Any]]:
-        """Its subscriptions."""
+        """The subscriptions of the node."""
         yield from self._rclpy_endpoints.of(Subscription)
 
     @property
     def clients(self) -> Iterator[Client[Any]]:
-        """Its service clients."""
+        """The service clients of the node."""
         yield from self._rclpy_endpoints.of(Client)
 
     @property
     def services(self) -> Iterator[Service[Any]]:
-        """Its services."""
+        """The services of the node."""
         yield from self._rclpy_endpoints.of(Service)
 
     @property
     def timers(self) -> Iterator[Timer]:
-        """Its timers."""
+        """The timers of the node."""
         yield from self._rclpy_endpoints.of(Timer)
 
     @property
     def guards(self) -> Iterator[GuardCondition]:
-        """Its guard conditions."""
+        """The guard conditions of the node."""
         yield from self._rclpy_endpoints.of(GuardCondition)
 
     @property
     def waitables(self) -> Iterator[Waitable]:
-        """Its waitables: actions, and what programs add."""
+        """The waitables of the node: actions, and waitables that programs add."""
         from .waitable import Waitable
 
         yield from self._rclpy_endpoints.of(Waitable)
@@ -265,8 +265,8 @@ class Node(BaseNode):
             msg_type: Class of its messages.
             topic: Name of the topic.
             qos_profile: Quality of service, or a history depth.
-            callback_group: For event callbacks; None takes the node's default.
-            event_callbacks: What to call on events of the quality of service
+            callback_group: For event callbacks; None uses the node's default.
+            event_callbacks: Functions to call on events of the quality of service
                 (:class:`rclpy.event_handler.PublisherEventCallbacks`).
             qos_overriding_options: Which policies parameters may override.
             publisher_class: Class to instantiate.
@@ -356,8 +356,8 @@ class Node(BaseNode):
             callback: Called with each message, and with a message info when it takes two arguments;
                 may be ``async``.
             qos_profile: Quality of service, or a history depth.
-            callback_group: None takes the node's default.
-            event_callbacks: What to call on events of the quality of service
+            callback_group: None uses the node's default.
+            event_callbacks: Functions to call on events of the quality of service
                 (:class:`rclpy.event_handler.SubscriptionEventCallbacks`).
             qos_overriding_options: Which policies parameters may override.
             raw: Whether the callback gets the serialized bytes.
@@ -397,7 +397,7 @@ class Node(BaseNode):
             srv_type: The service class.
             srv_name: Name of the service.
             qos_profile: Quality of service of requests and responses.
-            callback_group: None takes the node's default.
+            callback_group: None uses the node's default.
 
         Raises:
             InvalidServiceNameException: The name breaks the rules.
@@ -421,7 +421,7 @@ class Node(BaseNode):
             callback: Called with a request and an empty response, returns the response; may be
                 ``async``.
             qos_profile: Quality of service of requests and responses.
-            callback_group: None takes the node's default.
+            callback_group: None uses the node's default.
 
         Raises:
             InvalidServiceNameException: The name breaks the rules.
@@ -442,9 +442,9 @@ class Node(BaseNode):
 
         Args:
             timer_period_sec: Seconds between calls.
-            callback: What to call; may be ``async``.
-            callback_group: None takes the node's default.
-            clock: None takes the node's clock.
+            callback: Function to call; may be ``async``.
+            callback_group: None uses the node's default.
+            clock: None uses the node's clock.
             autostart: False: it starts with :meth:`Timer.reset <rclpy.timer.Timer.reset>`.
         """
         return self._rclpy_endpoints.create_timer(
@@ -514,8 +514,8 @@ class Node(BaseNode):
         self._rclpy_core.close()
 
     def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
-        """Block until a node is there, at most ``timeout`` seconds (negative: no limit).
+        """Block until a node exists, at most ``timeout`` seconds (negative: no limit).
 
-        Return True if it is there.
+        Return True if it exists.
         """
         return self._rclpy_graph.wait_for_node(fully_qualified_node_name, timeout)

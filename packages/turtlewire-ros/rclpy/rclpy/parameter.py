@@ -111,17 +111,17 @@ class Parameter:
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """The name of the parameter."""
         return self._name
 
     @property
     def type_(self) -> Parameter.Type:
-        """Its type."""
+        """The type of the parameter."""
         return self._type_
 
     @property
     def value(self) -> Any:
-        """Its value, None when it is not set."""
+        """The value of the parameter; None if it is not set."""
         return self._value
 
     def get_parameter_value(self) -> rcl_interfaces.msg.ParameterValue:

@@ -75,11 +75,11 @@ class AsyncParameterClient:
         )
 
     def services_are_ready(self) -> bool:
-        """Return True if all services of the other node are there."""
+        """Return True if all services of the other node are available."""
         return all(client.service_is_ready() for client in self._clients())
 
     def wait_for_services(self, timeout_sec: float | None = None) -> bool:
-        """Wait until all services of the other node are there.
+        """Wait until all services of the other node are available.
 
         Args:
             timeout_sec: For all of them together; None waits forever.
@@ -179,7 +179,7 @@ class AsyncParameterClient:
         use_wildcard: bool = False,
         callback: Callable[[Future], None] | None = None,
     ) -> Future:
-        """Set what a YAML file says, one value after the other.
+        """Set the parameters of a YAML file, one value after the other.
 
         See :func:`rclpy.parameter.parameter_dict_from_yaml_file`.
         """

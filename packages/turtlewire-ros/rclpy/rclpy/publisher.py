@@ -192,7 +192,7 @@ class Publisher(BasePublisher[MsgT]):
         msg_type: Class of its messages.
         topic: Name of the topic, as it was given.
         qos_profile: Its quality of service.
-        event_callbacks: What to call on events of the quality of service.
+        event_callbacks: Functions to call on events of the quality of service.
         callback_group: The group in which they are called.
         on_destroy: Called with the publisher when it was destroyed.
     """

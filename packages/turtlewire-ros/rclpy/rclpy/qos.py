@@ -1,4 +1,4 @@
-"""Quality of service: profiles, presets and the check whether two ends match."""
+"""Quality of service: profiles, presets and a compatibility check."""
 
 from __future__ import annotations
 
@@ -357,7 +357,7 @@ class QoSPresetProfiles(Enum):
 
 
 class QoSCompatibility(IntEnum):
-    """Whether two ends match."""
+    """The result of comparing the QoS of a publisher and a subscription."""
 
     OK = 0
     WARNING = 1

@@ -1,6 +1,6 @@
-"""The former home of what is in :mod:`rclpy.event_handler` now; importing it warns.
+"""The old name of :mod:`rclpy.event_handler`; importing it warns.
 
-Lyrical has it no longer.
+Lyrical no longer has it.
 """
 
 from __future__ import annotations

@@ -32,7 +32,7 @@ class InvalidQosOverridesError(Exception):
 
 
 class QoSOverridingOptions:
-    """Which policies of an endpoint can be set by parameters.
+    """The policies of an endpoint that parameters can set.
 
     Args:
         policy_kinds: Those policies.

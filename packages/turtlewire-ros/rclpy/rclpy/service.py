@@ -93,7 +93,7 @@ class BaseService(IntrospectedEndpoint, Generic[SrvT_co]):
             try:
                 request = deserialize(self.srv_type.Request, cdr)
             except CdrError as error:
-                # A foreign client's mistake; raised here, it would end the spin.
+                # The client's mistake must not end the spin of this program.
                 self._logger.error(  # noqa: TRY400 - a ROS logger
                     f"Ignoring a malformed request to service '{self._wire.service}': {error}",
                     throttle_duration_sec=5.0,

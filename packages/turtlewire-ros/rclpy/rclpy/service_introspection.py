@@ -27,7 +27,7 @@ _GID_SIZE = 16
 
 
 class ServiceIntrospectionState(IntEnum):
-    """How much is published."""
+    """The amount of introspection: nothing, metadata, or metadata with contents."""
 
     OFF = 0
     METADATA = 1
@@ -35,7 +35,7 @@ class ServiceIntrospectionState(IntEnum):
 
 
 class EventType(IntEnum):
-    """What happened, as in ``service_msgs/msg/ServiceEventInfo``."""
+    """The kinds of events, as in ``service_msgs/msg/ServiceEventInfo``."""
 
     REQUEST_SENT = 0
     REQUEST_RECEIVED = 1
@@ -44,7 +44,7 @@ class EventType(IntEnum):
 
 
 class IntrospectedEndpoint(ClosingEntity):
-    """What clients and services have in common: an endpoint on the wire, and introspection events.
+    """The common base of clients and services: an endpoint with introspection events.
 
     Args:
         wire: Its side on the wire.
@@ -86,7 +86,7 @@ class IntrospectedEndpoint(ClosingEntity):
         service_event_qos_profile: QoSProfile,
         introspection_state: ServiceIntrospectionState,
     ) -> None:
-        """Publish what is sent and received on ``<service>/_service_event``.
+        """Publish requests and responses on ``<service>/_service_event``.
 
         Args:
             clock: Gives the stamps.

@@ -47,7 +47,7 @@ _FROM_HANDLER = 0x80
 
 
 class SignalHandlerOptions(IntEnum):
-    """Which signals shut the contexts down."""
+    """The signals that shut the contexts down."""
 
     NO = 0
     SIGINT = 1
@@ -90,7 +90,7 @@ class _Watcher:
         """Put the former handlers back, end the thread and join it."""
         for signum, previous in self._previous.items():
             if signal.getsignal(signum) == self._handle and not self._is_needed_for(signum):
-                # None stands for a handler that was not installed from Python.
+                # None means a handler that was not installed from Python.
                 signal.signal(signum, previous if previous is not None else signal.SIG_DFL)
         signal.set_wakeup_fd(self._previous_wakeup_fd)
         write_fd, self._write_fd = self._write_fd, -1
@@ -104,7 +104,7 @@ class _Watcher:
             for byte in os.read(self._read_fd, 64):
                 if byte == _STOP:
                     return
-                # Only bytes of the C handler also belong to the descriptor's previous owner.
+                # The descriptor's previous owner also gets the bytes of the C handler.
                 if not byte & _FROM_HANDLER:
                     self._forward(byte)
                 if byte & ~_FROM_HANDLER in self._previous:
@@ -128,8 +128,8 @@ class _Watcher:
 
     def _handle(self, signum: int, frame: FrameType | None) -> None:
         """Runs in the main thread, after the C handler has written to the pipe."""
-        excepthooks.note_signal()  # the thread may be slower
-        if self._write_fd >= 0:  # again: someone may have taken the wake-up descriptor from us
+        excepthooks.note_signal()  # because the thread may be slower
+        if self._write_fd >= 0:  # in case another library replaced the wake-up descriptor
             os.write(self._write_fd, bytes([signum | _FROM_HANDLER]))
         if signum == signal.SIGINT:
             is_shut_down = self._write_fd < 0

@@ -51,7 +51,7 @@ class BaseSubscription(ClosingEntity, Generic[MsgT]):
     _WRONG_CALLBACK = f"Subscription {_CALLBACK_SHAPES}"
 
     class CallbackType(Enum):
-        """How many arguments the callback takes."""
+        """The number of arguments that a callback takes."""
 
         MessageOnly = 0
         WithMessageInfo = 1
@@ -164,7 +164,7 @@ class BaseSubscription(ClosingEntity, Generic[MsgT]):
             try:
                 message = cdr if self.raw else deserialize(self.msg_type, cdr)
             except CdrError as error:
-                # A foreign publisher's mistake; raised here, it would end the spin.
+                # The publisher's mistake must not end the spin of this program.
                 self._logger.error(  # noqa: TRY400 - a ROS logger
                     f"Ignoring a malformed message on topic '{self.topic}': {error}",
                     throttle_duration_sec=5.0,

@@ -12,7 +12,7 @@ __all__ = ["ContentFilterOptions"]
 
 
 class ContentFilterOptions(NamedTuple):
-    """Which messages a subscription wants.
+    """A filter of the messages that a subscription receives.
 
     A condition in SQL, such as ``data < %0``, and the values of its placeholders.
     """

@@ -27,7 +27,7 @@ __all__ = ["Future", "FutureState", "Task"]
 
 
 class FutureState(Enum):
-    """What can be said of a future."""
+    """The states of a future."""
 
     PENDING = "PENDING"
     CANCELLED = "CANCELLED"
@@ -35,7 +35,7 @@ class FutureState(Enum):
 
 
 class _TaskRunner(Protocol):
-    """What runs done-callbacks: an executor."""
+    """The part of an executor that runs done-callbacks."""
 
     def create_task(self, callback: Callable[..., Any], *args: Any) -> Any:
         """Run ``callback(*args)`` soon."""
@@ -275,7 +275,7 @@ class Task(Future[T]):
         self._finish(**outcome)
 
     def _when_runnable(self, resume: Callable[[], None]) -> None:
-        """Call ``resume()`` once, as soon as another step makes sense."""
+        """Call ``resume()`` once, when the task can run its next step."""
         awaited, self._awaited = self._awaited, None
         if isinstance(awaited, Future):
             awaited._add_waiter(resume)

@@ -173,7 +173,7 @@ class BaseTimer(ClosingEntity):
         now_ns = self._now_ns()
         if self._canceled:
             return None
-        if self._next_call_ns > now_ns:  # its clock went back or stands still
+        if self._next_call_ns > now_ns:  # its clock went back or has stopped
             self._reschedule()
             return None
         due_ns, self._last_call_ns = self._next_call_ns, now_ns

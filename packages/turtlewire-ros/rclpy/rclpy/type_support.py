@@ -1,4 +1,4 @@
-"""What the middleware has to know of a message or service class."""
+"""The properties of message and service classes that the middleware needs."""
 
 from __future__ import annotations
 

@@ -26,8 +26,8 @@ def wait_for_message(
 ) -> tuple[bool, Any]:
     """Block until a message comes.
 
-    The node need not be spun, and may be: only the subscription made here is served, by an executor
-    of its own.
+    You may spin the node meanwhile, but need not: a separate executor serves only the subscription
+    that this function creates.
 
     Args:
         msg_type: Class of the message.

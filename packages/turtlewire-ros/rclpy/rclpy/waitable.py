@@ -1,4 +1,4 @@
-"""Waitables: entities that programs make of other entities."""
+"""Waitables: entities that programs combine from other entities."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ __all__ = ["NumberOfEntities", "WaitSet", "Waitable"]
 
 
 class NumberOfEntities:
-    """How many entities of each kind a waitable waits for."""
+    """The number of entities of each kind that a waitable waits for."""
 
     __slots__ = [
         "num_clients",

@@ -1,7 +1,7 @@
 """Several nodes in one process: a container that loads node classes when it is asked to.
 
 =====================  ====================================================
-module                 what it holds
+module                 contents
 =====================  ====================================================
 `component_container`  the executables: a process that waits for components
 `component_manager`    `ComponentManager`: loads and unloads node classes

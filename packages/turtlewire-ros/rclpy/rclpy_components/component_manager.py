@@ -1,4 +1,4 @@
-"""Loads node classes into this process, each with an executor and a thread of its own."""
+"""Loads node classes into this process, each with its own executor and thread."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ class ComponentManager(Node):
 
 
 class _Component:
-    """A node that runs in a thread of its own."""
+    """A node that runs in its own thread."""
 
     def __init__(self, node: Node, context: Context) -> None:
         self.node = node
@@ -99,8 +99,8 @@ class _Component:
             self._executor.spin()
         except (ExternalShutdownException, ShutdownException):
             pass
-        except Exception:  # noqa: BLE001  the other components of the process go on
-            if self.node.context.ok():  # otherwise it failed because the process ends
+        except Exception:  # noqa: BLE001  the other components keep running
+            if self.node.context.ok():  # otherwise, it failed because the process is ending
                 self.node.get_logger().fatal(
                     f"The component ends because a callback failed:\n{traceback.format_exc()}"
                 )
@@ -113,7 +113,7 @@ class _Component:
 
 
 class _UnknownPluginError(Exception):
-    """No class here has the name of this component of C++.
+    """No Python class has the name of this C++ component.
 
     Args:
         message: ROS 2's text for a library that is not installed, or does not have the component.

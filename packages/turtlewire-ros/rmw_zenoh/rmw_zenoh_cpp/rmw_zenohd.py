@@ -1,7 +1,8 @@
-"""``ros2 run rmw_zenoh_cpp rmw_zenohd``: a Zenoh router, which joins what is on several hosts.
+"""``ros2 run rmw_zenoh_cpp rmw_zenohd``: a Zenoh router, which connects several hosts.
 
-It listens at 127.0.0.1:7447, and does what the file that ``ZENOH_ROUTER_CONFIG_URI`` names, and
-``ZENOH_CONFIG_OVERRIDE``, say. Processes on one host find each other without it.
+It listens at 127.0.0.1:7447, unless the file in ``ZENOH_ROUTER_CONFIG_URI``, or
+``ZENOH_CONFIG_OVERRIDE``, configures it otherwise. Processes on one host find each other without
+it.
 """
 
 from __future__ import annotations

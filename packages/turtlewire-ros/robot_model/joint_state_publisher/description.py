@@ -25,7 +25,7 @@ class DescriptionError(ValueError):
 
 
 class JointOptions(NamedTuple):
-    """What parameters say about joints.
+    """The parameters that configure joints.
 
     Attributes:
         zeros: Start values by joint [rad or m].

@@ -70,7 +70,7 @@ class FreeJoint:
 
 
 class MimicRule(NamedTuple):
-    """How a joint follows another: ``factor * parent + offset``."""
+    """The formula of a joint that follows another: ``factor * parent + offset``."""
 
     parent: str
     factor: float = 1.0
@@ -78,7 +78,7 @@ class MimicRule(NamedTuple):
 
 
 class State(NamedTuple):
-    """What a JointState message says, in the order of the joints in the description."""
+    """The content of a JointState message, in the order of the joints in the description."""
 
     names: list[str]
     positions: list[float]

@@ -1,10 +1,10 @@
 """The joint state publisher with a page in the browser: a slider or a dial for each joint.
 
 ===========================  ==================================
-module                       what it holds
+module                       contents
 ===========================  ==================================
 `joint_state_publisher_gui`  `JointStatePublisherGui`, the node
-`page_commands`              what the page may send
+`page_commands`              the commands of the page
 `screen`                     serves the page
 `sliders`                    positions, shared by node and page
 ===========================  ==================================

@@ -21,11 +21,11 @@ class Randomize(NamedTuple):
 
 
 class Center(NamedTuple):
-    """Each joint at its zero."""
+    """Move each joint to its zero position."""
 
 
 class Play(NamedTuple):
-    """Whether the joints move between their limits by themselves."""
+    """Start or stop moving the joints between their limits."""
 
     on: bool
 

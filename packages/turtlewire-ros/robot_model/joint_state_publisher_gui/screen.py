@@ -1,6 +1,6 @@
 """Serves the page with the sliders.
 
-A browser gets ``joints`` when there is another description, and ``state`` when positions changed.
+A browser gets ``joints`` when the description changes, and ``state`` when positions change.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ class SliderScreen:
 
 
 class _Session(CommandSession):
-    """One browser that shows the page."""
+    """A browser that shows the page."""
 
     def __init__(self, screen: SliderScreen) -> None:
         super().__init__(READER)

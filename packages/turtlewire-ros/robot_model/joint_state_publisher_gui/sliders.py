@@ -19,7 +19,7 @@ _SWEEP_S = 6.0
 
 
 class Snapshot(NamedTuple):
-    """What the page shows.
+    """The state of the sliders that the page shows.
 
     Attributes:
         version: Changes with the description.
@@ -109,5 +109,5 @@ def _position_after(command: Randomize | Center, joint: FreeJoint) -> float:
 def _speed(joint: FreeJoint) -> float:
     """Return the speed of a playing joint [rad/s or m/s], at most its limit."""
     speed = (joint.maximum - joint.minimum) / _SWEEP_S
-    # Many descriptions give 0 for a limit that nobody knows.
+    # Many descriptions give 0 for an unknown limit.
     return min(speed, joint.max_velocity) if joint.max_velocity else speed

@@ -1,7 +1,7 @@
 """robot_state_publisher as in ROS 2: publishes a robot's frames from its URDF and joint states.
 
 =======================  ======================================================
-module                   what it holds
+module                   contents
 =======================  ======================================================
 `robot_state_publisher`  the executable
 `node`                   `RobotStatePublisher`: joint states in, transforms out

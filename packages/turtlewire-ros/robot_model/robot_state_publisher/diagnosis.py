@@ -69,7 +69,7 @@ class Diagnosis:
         if not self.tells_of_skipping:
             return
         self.tells_of_skipping = False
-        ignore = "ignore_timestamp true", "To publish them all the same"
+        ignore = "ignore_timestamp true", "To publish them anyway"
         if stamp == last:
             what = f"whose stamp, {stamp / 1e9:.9f} s, does not advance"
             (setting, purpose) = ignore

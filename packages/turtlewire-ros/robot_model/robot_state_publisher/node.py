@@ -62,7 +62,7 @@ class StartError(RuntimeError):
     """The node cannot start; the text is ROS 2's.
 
     Attributes:
-        hint: What to do; may be empty.
+        hint: Advice; may be empty.
     """
 
     def __init__(self, text: str, hint: str = "") -> None:
@@ -158,8 +158,7 @@ class RobotStatePublisher(Node):
         self._publish_robot(robot, description)
 
     def _subscribe(self) -> None:
-        # Not `Node.create_subscription`: that has no sink, with which the relay gets messages
-        # first.
+        # Not `Node.create_subscription`, which has no sink to pass messages to the relay first.
         self._rclpy_endpoints.create_subscription(
             JointState,
             "joint_states",
@@ -204,7 +203,7 @@ class RobotStatePublisher(Node):
             is_simulated = clock.clock_type == ClockType.ROS_TIME and clock.ros_time_is_active
             relay.set_time(clock.now().nanoseconds if is_simulated else None)
 
-        # The smallest step there is: the relay cannot ask the clock, so it must hear of each move.
+        # The smallest step, because the relay cannot read the clock and needs each move of it.
         step = Duration(nanoseconds=1)
         every_jump = JumpThreshold(min_forward=step, min_backward=Duration(nanoseconds=-1))
         clock.create_jump_callback(every_jump, post_callback=moved)

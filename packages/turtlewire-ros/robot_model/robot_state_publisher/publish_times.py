@@ -1,4 +1,4 @@
-"""When joints were published last, which decides whether a joint state is published."""
+"""The last publish time of each joint, which decides if a joint state is published."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 __all__ = ["PublishTimes"]
 
-_MOST_NAMES = 10_000  # beyond it, publishers invent names
+_MOST_NAMES = 10_000  # with more joints than this, the names are made up
 
 
 class PublishTimes:

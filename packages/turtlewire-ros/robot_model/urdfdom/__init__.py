@@ -1,7 +1,7 @@
 """urdfdom's programs: check_urdf reads a robot description, urdf_to_graphviz draws its tree.
 
 ================================  ==========================================
-module                            what it holds
+module                            contents
 ================================  ==========================================
 `check_urdf`, `urdf_to_graphviz`  the executables
 `reading`                         reads the file of a command line

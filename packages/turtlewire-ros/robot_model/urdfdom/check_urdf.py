@@ -1,4 +1,4 @@
-"""``check_urdf FILE``: whether a file is a URDF, and its tree of links."""
+"""``check_urdf FILE``: checks a URDF and prints its tree of links."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ def tree_lines(robot: Robot) -> Iterator[str]:
     """Yield the tree in the words of urdfdom's check_urdf, children sorted by their joints."""
     children = robot.child_joints[robot.root]
     yield f"root Link: {printable(robot.root)} has {len(children)} child(ren)"
-    # A stack and no recursion: a robot may be a long chain. Reversed, as the last one is popped
-    # first.
+    # A stack instead of recursion, because a robot may be a long chain. Reversed, as the last one
+    # is popped first.
     left = [(1, number, joint) for number, joint in reversed([*enumerate(children, 1)])]
     while left:
         level, number, joint = left.pop()

@@ -1,7 +1,7 @@
 """The command ``ros2 action``, and its functions for programs and extensions.
 
 =========  ===========================
-module     what it holds
+module     contents
 =========  ===========================
 `api`      actions, completions
 `command`  the command ``ros2 action``

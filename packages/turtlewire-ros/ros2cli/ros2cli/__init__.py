@@ -5,11 +5,11 @@ Commands and verbs are entry points of this distribution and of others, for exam
 loaded.
 
 =================================  ========================================================
-module                             what it holds
+module                             contents
 =================================  ========================================================
 `main`                             the command and its help
 `arguments`                        command lines of verbs as data
-`completion`                       what TAB offers
+`completion`                       completions for TAB
 `discovery`                        joins a domain long enough to discover its nodes
 `graph`, `listing`                 nodes and topics; the verbs ``list``, ``find``, ``type``
 `qos`                              QoS on the command line
@@ -19,15 +19,15 @@ module                             what it holds
 `interface_names`                  installed interfaces
 `values`                           YAML values on the command line
 `output`                           printing without control characters of other processes
-`suggestion`                       the nearest names to a wrong one
+`suggestion`                       suggestions for misspelt names
 `selection`                        choosing from a list in the terminal
 `cli`, `helpers`                   ``ros2`` called by programs; functions for extensions
 `command`, `verb`                  ROS 2's classes of commands and verbs
-`builtin`                          makes these classes of our commands and verbs
-`installed`                        entry points, found fast
+`builtin`                          derives these classes from our commands and verbs
+`installed`                        finds entry points quickly
 `entry_points`, `plugin_system`    ROS 2's functions for entry points and extensions
 `extension`                        runs extensions of other packages
-`node`                             the rclpy node of verbs, and ROS 2's names of it
+`node`                             the rclpy node of verbs, under ROS 2's names
 `xmlrpc`                           remote calls on this host
 `daemon`                           answers these calls about the graph
 `background`                       runs a function in a process that stays

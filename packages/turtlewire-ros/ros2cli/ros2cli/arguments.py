@@ -62,7 +62,7 @@ def timeout_argument(default: float | None = None) -> Argument:
     """Return the option ``--timeout`` of verbs that wait for the answer of a node.
 
     Args:
-        default: Seconds; None waits as long as the node is there.
+        default: Seconds; None waits while the node exists.
     """
     shown = "no limit" if default is None else default
     return argument(

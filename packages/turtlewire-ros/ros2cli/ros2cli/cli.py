@@ -17,7 +17,7 @@ def main(
     description: str | None = None,
     extension: CommandExtension | None = None,
 ) -> Any:
-    """Run ``ros2``, or one command that is a program of its own.
+    """Run ``ros2``, or one command as a separate program.
 
     Args:
         script_name: Name of the program in the help.

@@ -1,4 +1,4 @@
-"""Completions that are offered to the shell."""
+"""Completions for the shell."""
 
 from __future__ import annotations
 
@@ -167,7 +167,7 @@ def _on_one_line(values: OrderedDict[str, Any]) -> str:
     class Dumper(yaml.SafeDumper):
         """Writes the fields in their order."""
 
-    # On a class of its own, because this changes the class.
+    # On its own class, because this changes the class.
     Dumper.add_representer(OrderedDict, Dumper.represent_dict)
     text: str = yaml.dump(
         values,

@@ -1,4 +1,4 @@
-"""Questions that the verbs ask the graph.
+"""Queries of the verbs to the graph.
 
 Names and types come as ``(name, [types])`` pairs, sorted by name. They are made printable here, so
 that a peer whose names hold line feeds cannot forge lines of the output.

@@ -28,7 +28,7 @@ def load(entry: Entry) -> Any:
     """Return the class of an entry point; None and one line on stderr if it cannot be loaded."""
     try:
         return entry.load()
-    # Another's module may fail in any way; the other extensions still work.
+    # Modules of other packages may raise any error; the other extensions still work.
     except Exception as error:  # noqa: BLE001
         from ros2cli.output import tell
 

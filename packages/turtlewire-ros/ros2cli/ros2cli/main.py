@@ -77,7 +77,7 @@ def main(argv: list[str] | None = None) -> int:
         return _EXIT_INTERRUPTED
     finally:
         if argv is None:
-            # Nothing is left to do: an interrupt ends the process without a word.
+            # The command has finished: an interrupt ends the process silently.
             signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 

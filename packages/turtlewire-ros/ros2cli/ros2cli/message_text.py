@@ -1,4 +1,4 @@
-"""Messages as text, and the options of the verbs ``echo`` that say how."""
+"""Formats messages as text, with the options of the verbs ``echo``."""
 
 from __future__ import annotations
 

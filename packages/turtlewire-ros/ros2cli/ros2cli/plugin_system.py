@@ -52,7 +52,7 @@ def instantiate_extensions(
             continue
         try:
             found[name] = cls()
-        # Another's constructor may fail in any way; the other extensions still work.
+        # Constructors of other packages may raise any error; the other extensions still work.
         except Exception as error:  # noqa: BLE001
             from ros2cli.output import tell
 

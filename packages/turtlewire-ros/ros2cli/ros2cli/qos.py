@@ -80,7 +80,7 @@ def choose_qos(node: Any, topic_name: str, qos_args: argparse.Namespace) -> QoSP
     """Return the profile that the options describe, or one that matches all publishers.
 
     Args:
-        node: A node of rclpy, or a thing with one in its attribute ``node``.
+        node: A node of rclpy, or an object whose attribute ``node`` is one.
         topic_name: Full name of the topic.
         qos_args: The command line, with the arguments of `add_qos_arguments`.
     """

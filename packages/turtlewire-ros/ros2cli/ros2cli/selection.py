@@ -1,4 +1,4 @@
-"""Choosing what a command line leaves out, in Lyrical: a topic, a node, a package.
+"""Lets the user choose a missing argument, in Lyrical: a topic, a node, a package.
 
 Up to Kilted, argparse refuses such a command line.
 """

@@ -1,4 +1,4 @@
-"""Names that may have been meant."""
+"""Suggestions for misspelt names."""
 
 from __future__ import annotations
 
@@ -119,7 +119,7 @@ def warn_of_other_type(
 def say_why_to_wait(
     kind: str, name: str, interface: type, known: Iterable[tuple[str, list[str]]]
 ) -> None:
-    """Print to stderr why no server is there: another type, or another name.
+    """Print to stderr why no server is available: another type, or another name.
 
     Args:
         kind: ``service`` or ``action``.

@@ -60,7 +60,7 @@ def _mappings(text: str, load: Callable[[], list[Any]]) -> Iterator[dict[str, An
         raise RuntimeError("The passed value is nested too deeply") from None
     except ValueError as error:
         raise RuntimeError(f"The passed value holds what looks like a date: {error}") from None
-    # Each value that is written out has a character of its own; the list of documents has none.
+    # Each value that is written out has its own character; the list of documents has none.
     if size - 1 > len(text) + _MOST_COPIES:
         raise RuntimeError("The aliases of the passed value expand to too many values")
     for values in documents:
@@ -76,7 +76,7 @@ def _size(value: Any, known: dict[int, float]) -> float:
     if not isinstance(value, (dict, list)):
         return 1
     if id(value) not in known:
-        known[id(value)] = float("inf")  # what contains itself has no end
+        known[id(value)] = float("inf")  # a value that contains itself is infinite
         known[id(value)] = 1 + sum(_size(part, known) for part in parts)
     return known[id(value)]
 

@@ -1,7 +1,7 @@
 """The command ``ros2 component``, and its functions for programs and extensions.
 
 ============  =====================================
-module        what it holds
+module        contents
 ============  =====================================
 `api`         components, and those in containers
 `command`     the command ``ros2 component``

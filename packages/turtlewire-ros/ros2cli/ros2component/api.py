@@ -1,4 +1,4 @@
-"""Components: which there are, and those in containers."""
+"""Components: installed ones, and those in containers."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def get_components_in_container(
     Args:
         node: The node that asks.
         remote_container_node_name: Full name of the container.
-        timeout: Seconds to wait for its answer; None waits as long as it is there.
+        timeout: Seconds to wait for its answer; None waits while it exists.
     """
     from composition_interfaces.srv import ListNodes
     from ros2component.containers import ask
@@ -148,7 +148,7 @@ def load_component_into_container(
         remap_rules: Remappings, as ``from:=to``.
         parameters: ``rcl_interfaces/msg/Parameter`` messages.
         extra_arguments: The same, for the container.
-        timeout: Seconds to wait for its answer; None waits as long as it is there.
+        timeout: Seconds to wait for its answer; None waits while it exists.
 
     Raises:
         RuntimeError: The container cannot load it, or does not answer.
@@ -186,7 +186,7 @@ def unload_component_from_container(
         node: The node that asks.
         remote_container_node_name: Full name of the container.
         component_uids: Numbers of the nodes.
-        timeout: Seconds to wait for each answer; None waits as long as the container is there.
+        timeout: Seconds to wait for each answer; None waits while the container exists.
 
     Raises:
         RuntimeError: The container does not answer.
@@ -212,7 +212,7 @@ def add_component_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run_standalone_container(*, container_node_name: str) -> subprocess.Popen[bytes]:
-    """Start a container in a process of its own.
+    """Start a container in a separate process.
 
     Args:
         container_node_name: Its name.

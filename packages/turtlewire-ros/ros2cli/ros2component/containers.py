@@ -1,4 +1,4 @@
-"""Talking to containers of nodes (components)."""
+"""Calls to containers of nodes (components)."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def ask(
         verb: ``load_node``, ``unload_node`` or ``list_nodes``.
         service_class: Class of the service.
         request: The request.
-        timeout: Seconds to wait for the answer; None waits as long as the container is there.
+        timeout: Seconds to wait for the answer; None waits while the container exists.
 
     Raises:
         RuntimeError: The container does not answer, or would misread the request.

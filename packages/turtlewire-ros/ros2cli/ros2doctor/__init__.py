@@ -1,9 +1,9 @@
 """The command ``ros2 doctor``, and its functions for programs and extensions.
 
 =========  ==========================================
-module     what it holds
+module     contents
 =========  ==========================================
-`api`      checks and reports, own ones and others'
+`api`      checks and reports, also from other packages
 `command`  the command ``ros2 doctor``
 `verb`     its verbs
 =========  ==========================================

@@ -1,7 +1,7 @@
 """The command ``ros2 interface``, and its functions for programs and extensions.
 
 =========  ===============================
-module     what it holds
+module     contents
 =========  ===============================
 `api`      interfaces as YAML, completions
 `command`  the command ``ros2 interface``

@@ -1,7 +1,7 @@
 """The command ``ros2 lifecycle``, and its functions for programs and extensions.
 
 ===============  =======================================
-module           what it holds
+module           contents
 ===============  =======================================
 `api`            states and transitions of managed nodes
 `command`        the command ``ros2 lifecycle``

@@ -41,7 +41,7 @@ def call_get_states(
     Args:
         node: The node that asks.
         node_names: Full names of the nodes that are asked.
-        timeout: Seconds to wait for each answer; None waits as long as the node is there.
+        timeout: Seconds to wait for each answer; None waits while the node exists.
     """
     from lifecycle_msgs.srv import GetState
 
@@ -58,7 +58,7 @@ def call_change_states(
     Args:
         node: The node that asks.
         transitions: ``lifecycle_msgs/msg/Transition`` messages by node.
-        timeout: Seconds to wait for each answer; None waits as long as the node is there.
+        timeout: Seconds to wait for each answer; None waits while the node exists.
 
     Returns:
         Whether each of them succeeded, by node.
@@ -78,7 +78,7 @@ def call_get_available_transitions(
     Args:
         node: The node that asks.
         states: The keys are the names of the nodes.
-        timeout: Seconds to wait for each answer; None waits as long as the node is there.
+        timeout: Seconds to wait for each answer; None waits while the node exists.
     """
     return _transitions(node, states, "get_available_transitions", timeout)
 

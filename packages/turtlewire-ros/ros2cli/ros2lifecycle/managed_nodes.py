@@ -1,4 +1,4 @@
-"""Talking to the lifecycle services of nodes."""
+"""Calls to the lifecycle services of nodes."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def ask(
         service_class: Class of the service.
         service: Full name of the service.
         request: The request.
-        timeout: Seconds to wait for the answer; None waits as long as the service is there.
+        timeout: Seconds to wait for the answer; None waits while the service exists.
 
     Raises:
         RuntimeError: The server does not answer, or would misread the request.

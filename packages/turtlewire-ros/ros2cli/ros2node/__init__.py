@@ -1,7 +1,7 @@
 """The command ``ros2 node``, and its functions for programs and extensions.
 
 =========  =====================================
-module     what it holds
+module     contents
 =========  =====================================
 `api`      nodes and what they have, completions
 `command`  the command ``ros2 node``

@@ -80,7 +80,7 @@ def get_node_names(*, node: Any, include_hidden_nodes: bool = False) -> list[Nod
 def wait_for_node(
     node: Any, node_name: str, include_hidden_nodes: bool = False, timeout: float = 1.0
 ) -> bool:
-    """Wait until a node is there.
+    """Wait until a node exists.
 
     Args:
         node: The node that looks.
@@ -89,7 +89,7 @@ def wait_for_node(
         timeout: Seconds to wait.
 
     Returns:
-        Whether it is there.
+        Whether the node exists.
     """
     full_name = graph.full_node_name(node_name)
     direct = DirectNode.around(node)

@@ -1,7 +1,7 @@
 """The command ``ros2 param``, and its functions for programs and extensions.
 
 ============  ======================================
-module        what it holds
+module        contents
 ============  ======================================
 `api`         parameters of other nodes, completions
 `command`     the command ``ros2 param``

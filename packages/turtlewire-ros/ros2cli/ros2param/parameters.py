@@ -1,4 +1,4 @@
-"""Talking to the parameter services of a node."""
+"""Calls to the parameter services of a node."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class ParameterCall:
         self._deadline = 0.0
 
     def send(self) -> ParameterCall:
-        """Send the request as soon as the service is there.
+        """Send the request as soon as the service is available.
 
         Raises:
             RuntimeError: The node does not appear, or would misread the request.

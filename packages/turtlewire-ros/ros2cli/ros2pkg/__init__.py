@@ -1,7 +1,7 @@
 """The command ``ros2 pkg``, and its functions for programs and extensions.
 
 ==================  ========================================
-module              what it holds
+module              contents
 ==================  ========================================
 `api`               installed packages and their executables
 `command`           the command ``ros2 pkg``

@@ -1,7 +1,7 @@
 """The command ``ros2 run``, and its functions for programs and extensions.
 
 =========  ===========================
-module     what it holds
+module     contents
 =========  ===========================
 `api`      executables: found and run
 `command`  the command ``ros2 run``

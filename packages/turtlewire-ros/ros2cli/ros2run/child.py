@@ -1,4 +1,4 @@
-"""Runs a program in the foreground, for ``ros2 run``: signals reach it, and nothing outlives it."""
+"""Runs a program in the foreground, for ``ros2 run``: passes signals on, leaves nothing behind."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """The command ``ros2 service``, and its functions for programs and extensions.
 
 ===========  =======================================
-module       what it holds
+module       contents
 ===========  =======================================
 `api`        services and their classes, completions
 `command`    the command ``ros2 service``

@@ -1,7 +1,7 @@
 """The command ``ros2 topic``, and its functions for programs and extensions.
 
 =========  ==================================================
-module     what it holds
+module     contents
 =========  ==================================================
 `api`      topics and their message classes, QoS, completions
 `command`  the command ``ros2 topic``

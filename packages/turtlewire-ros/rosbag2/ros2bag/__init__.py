@@ -1,7 +1,7 @@
 """The command ``ros2 bag``, and its functions for programs and extensions.
 
 =========  ========================================
-module     what it holds
+module     contents
 =========  ========================================
 `api`      values on the command line, QoS profiles
 `command`  the command ``ros2 bag``

@@ -115,7 +115,7 @@ def info(metadata: BagMetadata, counts: Mapping[str, tuple[int, int]] | None = N
     """Return the text about a bag.
 
     Args:
-        metadata: What the bag holds.
+        metadata: The content of the bag.
         counts: Numbers of requests and responses by service; None counts events only.
     """
     topics: list[TopicInformation] = []

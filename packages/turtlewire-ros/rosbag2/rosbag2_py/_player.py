@@ -32,7 +32,7 @@ class Player:
     Args:
         storage_options: The bag, or a list of bags; or the log level, as in the first releases of
             Jazzy.
-        play_options: What is played, and how.
+        play_options: Options of the playback.
         log_level: ``debug``, ``info``, ``warn``, ``error`` or ``fatal``.
         node_name: Name of the player's node.
 
@@ -81,7 +81,7 @@ class Player:
         storage_options: StorageOptions | Sequence[StorageOptions] | None = None,
         play_options: PlayOptions | None = None,
     ) -> bool:
-        """Start the playback; without a bag of its own, play one to the end.
+        """Start the playback; without its own bag, play one to the end.
 
         The playback of a bag that is given here ends with the bag, by `cancel`, and in the main
         thread by SIGINT or SIGTERM.

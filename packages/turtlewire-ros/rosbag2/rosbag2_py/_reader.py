@@ -95,7 +95,7 @@ class SequentialReader:
         self._position_ns = position_ns
         names = [name for name, topic in bag.topics.items() if self._passes(topic)]
         if self._order.reverse:
-            # Without a seek the reader stands at the first message, before which no other lies.
+            # Without a seek, the reader is at the first message, and none precedes it.
             before = bag.messages(names, end_ns=position_ns)
             # The engine reads forwards only.
             self._messages = reversed(list(before))
@@ -193,7 +193,7 @@ class SequentialReader:
 
         Returns:
             Whether that order is possible. Messages cannot be sorted by their publication, and
-            sqlite3 bags have no order of their own, as in ROS 2; the order stays as it was then.
+            sqlite3 bags do not define an order, as in ROS 2; the order stays as it was then.
         """
         bag = self._opened()
         by_file = order.sort_by is ReadOrderSortBy.File
@@ -216,7 +216,7 @@ class SequentialReader:
 
 
 class SequentialCompressionReader(SequentialReader):
-    """The same for compressed bags; every reader here decompresses."""
+    """A `SequentialReader` under the name for compressed bags; every reader decompresses."""
 
 
 def _matches(pattern: str, name: str) -> bool:

@@ -34,7 +34,7 @@ class Recorder:
 
     Args:
         storage_options: The bag; or the log level, as in the first releases of Jazzy.
-        record_options: What is recorded.
+        record_options: Options of the recording.
         log_level: ``debug``, ``info``, ``warn``, ``error`` or ``fatal``.
         node_name: Name of the recorder's node.
 
@@ -74,7 +74,7 @@ class Recorder:
         record_options: RecordOptions | None = None,
         node_name: str = "rosbag2_recorder",
     ) -> None:
-        """Start to record; without a bag of its own, record until `cancel`.
+        """Start to record; without its own bag, record until `cancel`.
 
         The recording of a bag that is given here also ends by SIGINT and SIGTERM in the main
         thread.
@@ -135,7 +135,7 @@ class Recorder:
 
 
 class _Recording:
-    """A recording on a thread of its own.
+    """A recording on its own thread.
 
     Raises:
         RuntimeError: The recording could not start.

@@ -155,7 +155,7 @@ def _record_value(path: str, key: str, name: str, value: Any) -> Any:
 
 
 def _value(path: str, key: str, value: Any, kind: type) -> Any:
-    """Return a value of the kind that the option has; one text stands for a list of it."""
+    """Return a value of the kind that the option has; a single text becomes a list."""
     if value is None:
         return kind()
     if kind is list and isinstance(value, str):

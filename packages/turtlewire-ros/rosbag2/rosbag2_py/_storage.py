@@ -51,7 +51,7 @@ def get_default_storage_id() -> str:
 
 @dataclass(slots=True)
 class StorageOptions:
-    """Which bag, and how it is written.
+    """The path of a bag and the options of its storage.
 
     Attributes:
         uri: Folder of the bag, or one of its files.
@@ -106,7 +106,7 @@ def check_format(name: str) -> None:
 
 @dataclass(slots=True)
 class StorageFilter:
-    """Which messages a reader returns; an empty field does not restrict.
+    """A filter of the messages that a reader returns; empty fields do not restrict it.
 
     Attributes:
         topics: Names of topics. Service events pass as long as ``services_events`` is empty.

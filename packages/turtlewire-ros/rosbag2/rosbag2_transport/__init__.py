@@ -1,16 +1,16 @@
-"""Recording topics into bags and playing them: what ``ros2 bag`` and rosbag2_py do.
+"""Records topics into bags and plays them, for ``ros2 bag`` and rosbag2_py.
 
 Messages travel as bytes between the wire and the bag; no message object is made.
 
 =====================  ==========================================================
-module                 what it holds
+module                 contents
 =====================  ==========================================================
 `options`              `RecordOptions`, `PlayOptions`
 `record`               `ros2 bag record` from beginning to end, and its keys
 `play`                 `ros2 bag play` from beginning to end, and its keys
 `recorder`             `Recorder`: subscribes, takes, pauses
-`recorder_services`    its services and its topic
-`recorder_notices`     what was asked for and is not there
+`recorder_services`    services and topic of a recorder
+`recorder_notices`     reports requested topics that do not exist
 `recorder_qos`         which QoS receives from all publishers of a topic
 `topic_filter`         which topics are recorded or converted
 `action_topics`        which topics belong to an action
@@ -19,14 +19,14 @@ module                 what it holds
 `played_bags`          the bags, as if they were one
 `player_outputs`       its publishers
 `player_requests`      recorded requests, sent to services again
-`player_qos`           with which QoS it publishes
+`player_qos`           QoS of a player's publishers
 `player_clock`         ``/clock``
-`player_services`      its services and its topic
+`player_services`      services and topic of a player
 `play_filter`          which topics are played
 `latched`              latched messages wherever a playback begins
-`rewrite`              bags into bags
+`rewrite`              converts bags
 `qos_overrides`        QoS profiles from a file
-`session`              what both share: context, node, terminal, signals
+`session`              common parts: context, node, terminal, signals
 `progress`             a line on a terminal
 =====================  ==========================================================
 """

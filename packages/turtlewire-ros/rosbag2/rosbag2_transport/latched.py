@@ -53,7 +53,7 @@ class Latched:
         missing: list[BagMessage] = []
         for topic, (count, newest) in wanted.items():
             sent = self._sent[topic]
-            # Messages that listeners have are a beginning of the wanted ones, or too many.
+            # Listeners have a prefix of the wanted messages, or too many of them.
             new = count - sent if count >= sent else count
             missing += list(newest)[max(0, len(newest) - new) :] if new else []
             self._sent[topic] = count

@@ -1,4 +1,4 @@
-"""What recorder and player are asked to do.
+"""Options of the recorder and the player.
 
 As ROS 2's classes, the options reject attributes that they do not have.
 """
@@ -24,7 +24,7 @@ class NumberedEnum(enum.Enum):
 
 
 class ServiceRequestsSource(NumberedEnum):
-    """Whose record of a service request is played."""
+    """The endpoint whose record of a service request is played."""
 
     SERVICE_INTROSPECTION = 0
     CLIENT_INTROSPECTION = 1
@@ -39,7 +39,7 @@ class MessageOrder(NumberedEnum):
 
 @dataclass(slots=True)
 class RecordOptions:
-    """What is recorded, and how.
+    """Options of a recording.
 
     Attributes:
         all_topics: Record all topics.
@@ -113,7 +113,7 @@ class RecordOptions:
 
 @dataclass(slots=True)
 class PlayOptions:
-    """What is played, and how. Times are seconds; negative means "without".
+    """Options of a playback. Times are in seconds; a negative time means that it is not set.
 
     Attributes:
         read_ahead_queue_size: How many messages are read before they are due.

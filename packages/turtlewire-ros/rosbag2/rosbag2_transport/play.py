@@ -38,7 +38,7 @@ def play(paths: Sequence[str], options: PlayOptions, stop: queue.SimpleQueue[Non
 
     Args:
         paths: The bags.
-        options: What is played, and how.
+        options: Options of the playback.
         stop: Ends the playback.
 
     Raises:
@@ -54,7 +54,7 @@ def burst(
 
     Args:
         paths: The bags.
-        options: What is played, and how.
+        options: Options of the playback.
         stop: Ends the playback.
         count: How many messages; 0 for all.
 
@@ -94,7 +94,7 @@ def served_player(
 
     Args:
         paths: The bags.
-        options: What is played, and how.
+        options: Options of the playback.
         node_name: Name of the node.
 
     Raises:
@@ -132,7 +132,7 @@ def _run(
 
     thread = threading.Thread(target=play_all, name="bag-player", daemon=True)
     thread.start()
-    # On a thread of its own: a burst waits for the player, and this thread for `stop`.
+    # On its own thread: a burst waits for the player, and this thread for `stop`.
     starter = threading.Thread(target=first, args=(player,), name="bag-burst", daemon=True)
     starter.start()
     stop.get()

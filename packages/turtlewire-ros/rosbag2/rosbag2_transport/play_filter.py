@@ -1,4 +1,4 @@
-"""Which topics of a bag are played."""
+"""Chooses the topics of a bag that are played."""
 
 from __future__ import annotations
 

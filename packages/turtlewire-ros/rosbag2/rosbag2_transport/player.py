@@ -42,7 +42,7 @@ class BagPlayer:
     Args:
         node: The node whose publishers it uses.
         paths: The bags.
-        options: What is played, and how.
+        options: Options of the playback.
 
     Attributes:
         changed: Guards everything; notified after each command.
@@ -214,7 +214,7 @@ class BagPlayer:
             self._outputs.publish(message)
         messages = self._bag.messages(self._topics, start_ns=time_ns)
         self._source = ReadAhead(messages, self._options.read_ahead_queue_size)
-        self._source.wait_until_ready()  # or the first messages would be late
+        self._source.wait_until_ready()  # otherwise, the first messages would be late
         # Last, so that time begins when the messages are ready.
         self.clock.jump(time_ns)
 

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 __all__ = ["PlayerOutputs"]
 
-#: How long a playback waits at its start for the subscriptions that are there.
+#: How long a playback waits at its start for existing subscriptions.
 _MATCHING_NS = 2_000_000_000
 
 

@@ -60,7 +60,7 @@ class ServiceRequests:
         return all(client.service not in services or client.is_ready() for client in self._clients)
 
     def _send(self, client: Client, event_type: str, data: bytes) -> None:
-        client.take(1000)  # answers are of no interest, and must not pile up
+        client.take(1000)  # answers are discarded, because they must not accumulate
         if data[4] != self._kind:  # the event's kind is its first byte
             return
         event = deserialize(get_message(event_type), data)

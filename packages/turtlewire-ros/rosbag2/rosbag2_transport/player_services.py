@@ -1,4 +1,4 @@
-"""The services and the topic by which other nodes see and steer a player."""
+"""The services and the topic through which other nodes monitor and control a player."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class PlayerServices:
 
     Args:
         node: The player's node.
-        player: What is steered.
+        player: The player to control.
     """
 
     def __init__(self, node: Node, player: BagPlayer) -> None:
@@ -47,7 +47,7 @@ class PlayerServices:
             node.create_service(type_, f"~/{name}", callback)
 
     def _report_split(self, message: BagMessage) -> None:
-        """Report when the playback goes on to the next file."""
+        """Report when the playback continues with the next file."""
         following = self._file + 1
         while following < len(self._files) and message.log_time_ns >= self._files[following][0]:
             closed, opened = self._files[self._file][1], self._files[following][1]
@@ -84,7 +84,7 @@ class PlayerServices:
         return response
 
     def _play(self, _request: Any, response: Any) -> Any:
-        # It plays: when it has ended, so has its node.
+        # Always playing, because the node ends with the playback.
         warning = "Trying to play() while in playback, dismissing request."
         self._node.get_logger().warning(warning)
         response.success = False

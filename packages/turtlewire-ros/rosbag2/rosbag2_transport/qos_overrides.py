@@ -1,4 +1,4 @@
-"""QoS profiles by topic from a YAML file, as recorder and player take them."""
+"""QoS profiles by topic from a YAML file, for the recorder and the player."""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ def record(
 
     Args:
         make_writer: Makes the bag, which is closed at the end; called when all else is there.
-        options: What is recorded.
+        options: Options of the recording.
         stop: Ends the recording.
         node_name: Name of the recorder's node.
         cache_bytes: How many bytes may wait for the disk; 0 for no limit.
@@ -115,7 +115,7 @@ def _finish(recording: Recording, writer: BagWriter) -> None:
     failure = recording.failure or failure
     if failure is not None:
         is_whole = os.path.exists(os.path.join(writer.path, METADATA_FILE))
-        remedy = "" if is_whole else "; when there is room, `ros2 bag reindex` makes it a bag"
+        remedy = "" if is_whole else "; free some space, and repair it with `ros2 bag reindex`"
         raise RuntimeError(
             f"Recording stopped: {failure}. What was recorded before is in {writer.path}{remedy}"
         )

@@ -47,7 +47,7 @@ class BagRecorder:
     Args:
         node: The node whose subscriptions it uses.
         recording: The bag.
-        options: What is recorded.
+        options: Options of the recording.
         static: Types of the topics that are subscribed to at once, by topic.
 
     Raises:
@@ -74,7 +74,7 @@ class BagRecorder:
         self._refused: set[str] = set()
         self._known_publishers: set[bytes] = set()
         self._latched: list[tuple[str, bytes, int]] = []
-        self._taking = threading.Lock()  # guards taking, the pause and what waits for its end
+        self._taking = threading.Lock()  # guards taking, the pause and messages held during it
         self._is_closed = False
         self._paused = options.start_paused
         self._stopped = threading.Event()
@@ -277,7 +277,7 @@ class BagRecorder:
         self._logger.info(f"Overriding subscription profile for {topic}")
         if why := refusal(override, offered):
             self._logger.warning(
-                f"The QoS override for '{topic}' does not fit a publisher, of which nothing is "
+                f"The QoS override for '{topic}' does not match a publisher; its messages are not "
                 f"recorded. {why}"
             )
         return override.to_wire()

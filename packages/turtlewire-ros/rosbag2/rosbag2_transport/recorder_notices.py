@@ -25,7 +25,7 @@ def missing(options: RecordOptions, graph: Graph, recorded: Collection[str]) -> 
     """Yield one text for each topic, service, type or pattern without a recorded topic.
 
     Args:
-        options: What was asked for.
+        options: Options of the recording.
         graph: What there is.
         recorded: Names of the topics that are recorded.
     """

@@ -1,4 +1,4 @@
-"""The services and the topic by which other nodes see and steer a recorder."""
+"""The services and the topic through which other nodes monitor and control a recorder."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class RecorderServices:
 
     Args:
         node: The recorder's node.
-        recorder: What is steered.
+        recorder: The recorder to control.
         recording: The bag.
         snapshot: Whether there is a service that takes a snapshot.
     """

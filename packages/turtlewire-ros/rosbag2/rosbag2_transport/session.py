@@ -1,4 +1,4 @@
-"""The surroundings of one command: a context, a node that is served, keys, interrupts."""
+"""The environment of one command: a context, a node that spins, keys, interrupts."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _ESCAPE = b"\x1b"
 
 
 class BagSession:
-    """A node in a context of its own, and the thread that serves it; a context manager.
+    """A node in a separate context, and the thread that serves it; a context manager.
 
     Args:
         name: Name of the node.
@@ -104,7 +104,7 @@ def stopped_by_signals(stop: queue.SimpleQueue[None]) -> Iterator[None]:
 
 @contextlib.contextmanager
 def handle_keys(bindings: Mapping[bytes, Callable[[], object]], enabled: bool) -> Iterator[None]:
-    """Call a function for each key that is pressed, on a thread of its own.
+    """Call a function for each key that is pressed, on a separate thread.
 
     Args:
         bindings: What to call by key; a cursor key is ESC, ``[`` and a letter.

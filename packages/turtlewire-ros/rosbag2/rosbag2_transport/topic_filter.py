@@ -1,4 +1,4 @@
-"""Which of the topics in the graph are recorded."""
+"""Chooses the topics of the graph that are recorded."""
 
 from __future__ import annotations
 

@@ -1,14 +1,14 @@
 """``.msg``, ``.srv`` and ``.action`` files as IDL, as ROS 2's package of this name.
 
 ======================  ===================================================
-module                  what it holds
+module                  contents
 ======================  ===================================================
 `parser`                reads the files, with their comments
-`specification`         what they say
+`specification`         the content of these files
 `idl`                   the text of IDL files
 `conversion`            converts a file
 `msg`, `srv`, `action`  ROS 2's functions for each kind of file
-`cli`, `main`           the same on the command line
+`cli`, `main`           conversions on the command line
 ======================  ===================================================
 """
 

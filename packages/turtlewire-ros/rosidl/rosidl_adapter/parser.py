@@ -100,7 +100,7 @@ ACTION_GOAL_SUFFIX = ACTION_GOAL_SERVICE_SUFFIX = "_Goal"
 ACTION_RESULT_SUFFIX = ACTION_RESULT_SERVICE_SUFFIX = "_Result"
 ACTION_FEEDBACK_SUFFIX = ACTION_FEEDBACK_MESSAGE_SUFFIX = "_Feedback"
 
-#: A unit in brackets; what has a comma is a range.
+#: A unit in brackets; with a comma it is a range.
 _UNIT = re.compile(r"\s*\[([^,\]]+)\]")
 
 
@@ -167,7 +167,7 @@ def parse_action_string(pkg_name: str, action_name: str, action_string: str) -> 
 
 
 def _parts(text: str) -> list[str]:
-    # Only the whole line counts: `---` may also stand in a comment or a text.
+    # Only a whole line separates: `---` may also occur in a comment or string.
     groups = itertools.groupby(text.splitlines(), lambda line: line != "---")
     parts = [""]
     for is_content, lines in groups:
@@ -198,7 +198,7 @@ def parse_message_string(pkg_name: str, msg_name: str, message_string: str) -> M
     for line in map(str.rstrip, lines):
         content = without_comment(line)
         mark, comment = line[len(content) :][:1], line[len(content) + 1 :]
-        # An indented comment that stands alone continues the one of the line before.
+        # An indented comment on its own line continues the previous line's comment.
         if mark and content and not content.strip():
             if named:
                 named[-1].annotations["comment"].append(comment.lstrip(COMMENT_DELIMITER))

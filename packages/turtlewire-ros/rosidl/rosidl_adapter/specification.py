@@ -1,4 +1,4 @@
-"""What ``.msg``, ``.srv`` and ``.action`` files say, with the comments."""
+"""The content of ``.msg``, ``.srv`` and ``.action`` files, with comments."""
 
 from __future__ import annotations
 

@@ -1,10 +1,10 @@
-"""What interfaces consist of, as ROS 2's package of this name.
+"""Interfaces as objects, as in ROS 2's package of this name.
 
 ============  ===================================================================
-module        what it holds
+module        contents
 ============  ===================================================================
 `definition`  types of fields, of which ``SLOT_TYPES`` consists; messages, services
 `idl_file`    files of interfaces in IDL
-`parser`      reads them
+`parser`      parses these files
 ============  ===================================================================
 """

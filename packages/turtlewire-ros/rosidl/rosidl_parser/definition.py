@@ -1,4 +1,4 @@
-"""What an interface consists of: the types of fields, and structures, messages, services, actions.
+"""The parts of interfaces: types of fields, structures, messages, services and actions.
 
 `SLOT_TYPES` of message classes consists of the engine's types.
 """
@@ -132,7 +132,7 @@ class Annotation:
 
 
 class Annotatable:
-    """What may have annotations.
+    """Base of the definitions that may have annotations.
 
     Attributes:
         annotations: The annotations in their order.

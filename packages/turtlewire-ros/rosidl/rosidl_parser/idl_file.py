@@ -1,4 +1,4 @@
-"""Files of interfaces in IDL: where they are and what they hold."""
+"""Files of interfaces in IDL: their paths and contents."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Include:
 
 
 class IdlLocator:
-    """Where a file is.
+    """The path of a file.
 
     Attributes:
         basepath: A folder.
@@ -43,7 +43,7 @@ class IdlLocator:
 
 
 class IdlContent:
-    """What a file holds.
+    """The content of a file.
 
     Attributes:
         elements: Includes, messages, services and actions.
@@ -64,7 +64,7 @@ class IdlFile:
 
     Attributes:
         locator: Where it is.
-        content: What it holds.
+        content: The content of it.
     """
 
     __slots__ = ("content", "locator")

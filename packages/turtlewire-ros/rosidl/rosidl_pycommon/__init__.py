@@ -1,7 +1,7 @@
 """The base classes of interfaces, as ROS 2's package of this name from Lyrical on.
 
 ========================  ===========================================
-module                    what it holds
+module                    contents
 ========================  ===========================================
 `interface_base_classes`  bases of messages, services and actions
 ========================  ===========================================

@@ -1,7 +1,7 @@
 """Loading of compiled libraries, as ROS 2's package of this name.
 
 =====================  ===================================
-module                 what it holds
+module                 contents
 =====================  ===================================
 `add_dll_directories`  folders of libraries on Windows
 `import_c_library`     imports a compiled module by a name

@@ -30,8 +30,7 @@ def import_c_library(name: str, package: str | None = None) -> ModuleType:
         with add_dll_directories_from_env("PATH"):
             return importlib.import_module(name, package=package)
     except ImportError as error:
-        # The module exists but cannot be loaded, most often for a library of its own that is
-        # missing.
+        # The module exists but cannot be loaded, usually because one of its libraries is missing.
         if error.path is not None and os.path.isfile(error.path):
             error.msg += f"\nThe C extension '{error.path}' failed to be imported while being"
             error.msg += f" present on the system. Please refer to '{_HELP}' for possible solutions"

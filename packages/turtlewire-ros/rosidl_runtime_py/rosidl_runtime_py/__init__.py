@@ -1,7 +1,7 @@
 """Messages as text, text as messages, and interface classes by name.
 
 =============================  ======================================
-module                         what it holds
+module                         contents
 =============================  ======================================
 `convert`                      messages as YAML, CSV and dictionaries
 `set_message`                  messages filled from dictionaries

@@ -46,7 +46,7 @@ def message_to_yaml(
     """
     import yaml
 
-    # Of its own for each call, because `add_representer` changes the class.
+    # A new class for each call, because `add_representer` changes it.
     class Dumper(yaml.Dumper):
         """Writes mappings in the order they have, always in block style."""
 

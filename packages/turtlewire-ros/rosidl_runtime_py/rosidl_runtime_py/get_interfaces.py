@@ -1,4 +1,4 @@
-"""Which interfaces there are, and where they are defined."""
+"""Lists the installed interfaces and their files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Fills messages from dictionaries, which `ros2 topic pub` and its like read from YAML."""
+"""Fills messages from dictionaries; `ros2 topic pub` and similar verbs read them from YAML."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ def set_message_fields(
     Args:
         msg: The message; what ``values`` does not name stays.
         values: Values by field name, nested dictionaries for nested messages.
-        expand_header_auto: Let ``"auto"`` stand for a header with the time of publishing.
-        expand_time_now: Let ``"now"`` stand for the time of publishing.
+        expand_header_auto: Replace ``"auto"`` by a header with the time of publishing.
+        expand_time_now: Replace ``"now"`` by the time of publishing.
 
     Returns:
         The ``builtin_interfaces/msg/Time`` objects in the message that await the time of
@@ -87,7 +87,7 @@ class _Filler:
         return value if type(value) is type(current) else type(current)(value)
 
     def _message(self, type_: NamespacedType, value: Any) -> Any:
-        # A message is taken as it is, so that a caller may nest messages in dictionaries.
+        # Messages are accepted unchanged, so that callers may nest them in dictionaries.
         if getattr(value, "_TYPE_NAME", None) == type_.full_name:
             return value
         message = get_message(type_.full_name)()

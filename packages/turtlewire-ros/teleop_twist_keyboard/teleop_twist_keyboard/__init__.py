@@ -1,7 +1,7 @@
 """Drives a robot from a terminal: keys are velocity commands on ``cmd_vel``.
 
 ========  ================================
-module    what it holds
+module    contents
 ========  ================================
 `teleop`  keys to velocities, and the node
 ========  ================================

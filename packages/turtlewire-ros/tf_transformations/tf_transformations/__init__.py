@@ -10,7 +10,7 @@ Functions of one quaternion work on plain floats, so that a node that only needs
 :func:`quaternion_from_euler` starts without NumPy; everything else loads it at its first use.
 
 ==============  =============================================
-module          what it holds
+module          contents
 ==============  =============================================
 `_quaternions`  one quaternion at a time, on plain floats
 `_matrices`     4x4 matrices of single operations, and back

@@ -1,4 +1,4 @@
-"""Turn a thing with the mouse as if it lay in a glass ball (Ken Shoemake's arcball)."""
+"""Rotates an object with the mouse as if it were in a glass ball (Ken Shoemake's arcball)."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def arcball_nearest_axis(point: ArrayLike, axes: Sequence[ArrayLike]) -> ArrayLi
 
 
 class Arcball:
-    """Keeps the orientation of a thing that is turned with the mouse.
+    """Keeps the orientation of an object that is rotated with the mouse.
 
     Args:
         initial: Orientation at the start: a quaternion ``(x, y, z, w)``, a 4x4 matrix, or None for

@@ -1,4 +1,4 @@
-"""Vectors of any length, interpolation and chance."""
+"""Vectors of any length, interpolation and random rotations."""
 
 from __future__ import annotations
 

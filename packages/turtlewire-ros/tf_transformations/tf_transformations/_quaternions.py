@@ -95,7 +95,7 @@ def euler_from_rotation(
 def rotation_from_quaternion(quaternion: Sequence[float]) -> tuple[tuple[float, float, float], ...]:
     """Return the three rows of the rotation matrix.
 
-    The quaternion need not be normalised; zero stands for no rotation.
+    The quaternion need not be normalised; zero means no rotation.
     """
     x, y, z, w = quaternion
     norm = x * x + y * y + z * z + w * w

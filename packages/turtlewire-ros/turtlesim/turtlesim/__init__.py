@@ -1,19 +1,19 @@
 """turtlesim: the simulator of ROS 2's tutorials, with its screen in the browser.
 
 ===================================  =========================================================
-module                               what it holds
+module                               contents
 ===================================  =========================================================
 `turtlesim_node`, `options`          the simulator's node; its command line
-`pace`                               how fast the simulation goes, and what is seen in a pause
+`pace`                               the speed of the simulation, and pauses
 `model`, `physics`                   the turtles and their world; the formulas of one tick
 `crowd`                              many turtles in one tick
 `path`, `path_bulk`, `pen_line`      pixels that pens paint: one line, many lines, their shape
 `turtle_endpoints`, `rotate_action`  topics and services of one turtle; its action
 `missing_turtles`                    turtles that are referenced but were never spawned
-`screen`, `picture`                  the page in the browser; what it draws
-`drawing`, `looks`                   what the pens have drawn, for browsers that connect later; in
-                                     which colour
-`page_commands`, `page_actions`      what the page asks for; how it is done
+`screen`, `picture`                  the page in the browser; the data that it draws
+`drawing`, `looks`                   the pens' lines, also for browsers that connect later; their
+                                     colours
+`page_commands`, `page_actions`      the commands of the page; their execution
 `page_rotations`                     rotations that a page asks for
 `transform_view`                     frames and transforms on the page
 `turtle_teleop_key`                  drives a turtle from a terminal
@@ -28,7 +28,7 @@ import sys
 
 from turtlewire.distro import KILTED, since
 
-# Kilted moved the interfaces to a package of their own, with other names on the wire.
+# Kilted moved the interfaces to their own package, with other names on the wire.
 if since(KILTED):
     from turtlesim_msgs import action, msg, srv
 

@@ -24,7 +24,7 @@ __all__ = ["Crowd", "CrowdTick"]
 
 
 class CrowdTick(NamedTuple):
-    """What one tick did to a crowd.
+    """The results of one tick of a crowd.
 
     Attributes:
         turtles: The turtles, sorted by name.

@@ -42,7 +42,7 @@ PERIOD_S = 0.016
 
 
 class SquareGoal(NamedTuple):
-    """Where the turtle shall be [m], and its heading [rad]."""
+    """A target position [m] and heading [rad] of the turtle."""
 
     x: float
     y: float

@@ -16,10 +16,11 @@ __all__ = ["RECORD_SIZE", "StrokeHistory"]
 #: of the 500 x 500 image.
 _RECORD = struct.Struct("<I4f")
 RECORD_SIZE = _RECORD.size
-#: Strokes kept one by one, for browsers that watch; a browser that falls back further starts again.
+#: Strokes kept one by one, for browsers that watch; a browser that falls further behind starts
+#: again.
 _RECENT = 20_000
-#: Lines kept of what is older, and strokes of a crowd. Beyond them the oldest are forgotten: a
-#: browser that opens then does not see them.
+#: Number of older lines, and of strokes of a crowd, that are kept. Further old ones are dropped:
+#: browsers that connect later do not see them.
 _OLDER = 200_000
 #: Largest distance of a joined line from a point that the turtle visited [pixels].
 _TOLERANCE = 0.05

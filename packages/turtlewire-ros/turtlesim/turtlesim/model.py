@@ -69,7 +69,7 @@ class Pen(NamedTuple):
 
 # The original's.
 DEFAULT_PEN = Pen(0xB3, 0xB8, 0xFF, 3)
-#: Stands for the end of a command whose first tick is still to come.
+#: The end time of a command whose first tick is still to come.
 _NEW_COMMAND = -math.inf
 
 
@@ -94,7 +94,7 @@ class Stroke(NamedTuple):
 
 
 class TurtleTick(NamedTuple):
-    """What one tick did to one turtle.
+    """The results of one tick of a turtle.
 
     Attributes:
         turtle: The turtle.
@@ -117,7 +117,7 @@ class TurtleTick(NamedTuple):
 
 
 class RotationState(Enum):
-    """How far a rotation has come."""
+    """The progress of a rotation."""
 
     ACTIVE = "active"
     SUCCEEDED = "succeeded"
@@ -148,7 +148,7 @@ class Rotation:
 
 
 class Turtle:
-    """One turtle. Its attributes are its state between two ticks; see the module's text for units.
+    """A turtle. The attributes are its state between two ticks, in the units of this module.
 
     Attributes:
         name: Name, unique in its world.
@@ -195,7 +195,7 @@ class Turtle:
 
     @property
     def pose(self) -> TurtlePose:
-        """Its pose and the velocities of the last command."""
+        """The pose of the turtle, and the velocities of the last command."""
         state = (self.x, self.y_down, self.theta, self.forward, self.lateral, self.turning)
         return TurtlePose._make(published(state))
 
@@ -401,7 +401,7 @@ class World:
 
     def _next_name(self) -> str:
         while True:
-            # As in the original, the count goes on after a kill: no name is given twice until a
+            # As in the original, the count continues after a kill: no name is given twice until a
             # reset.
             self._named += 1
             name = f"turtle{self._named}"

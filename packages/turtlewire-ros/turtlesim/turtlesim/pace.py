@@ -1,4 +1,4 @@
-"""How fast the simulation goes, and what is seen while it stands still."""
+"""The speed of the simulation, and the page's updates during a pause."""
 
 from __future__ import annotations
 

@@ -93,7 +93,7 @@ class PageActions:
 
     def carry_out(self) -> None:
         """Carry out the commands; the ones that are not possible yet wait for a later tick."""
-        # Only the commands that are here now: some put themselves back.
+        # Only the commands that are queued now, because some queue themselves again.
         for _ in range(len(self._commands)):
             command = self._commands.popleft()
             self._actions[type(command)](command)
@@ -113,7 +113,7 @@ class PageActions:
         if publisher is None:
             publisher = self._node.create_publisher(Twist, f"{name}/cmd_vel", QUEUE_DEPTH)
             self._publishers[name] = publisher
-        if not publisher.get_subscription_count():  # the simulator's own is not found yet
+        if not publisher.get_subscription_count():  # the simulator's own is not discovered yet
             self._commands.append(command)
             return
         message = Twist()

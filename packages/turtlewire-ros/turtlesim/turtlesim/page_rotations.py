@@ -1,4 +1,4 @@
-"""Rotations that a page asks for, sent as goals, as by any action client."""
+"""Rotations that a page requests, sent as action goals."""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
-"""What the page draws: the turtles, and the pen's drawing since a page looked last.
+"""The data that the page draws: the turtles, and new lines of the pens.
 
 A page gets a ``scene`` when turtles, background or hints change, and a ``frame`` for each tick. A
 frame's arrays are ``poses``, five floats for each turtle in the scene's order (x, y, theta, linear
-and angular velocity), and ``strokes`` as :mod:`turtlesim.drawing` packs them. ``version`` is the
-scene that it belongs to, and with ``restart`` the picture starts empty.
+and angular velocity), and ``strokes`` as :mod:`turtlesim.drawing` packs them. ``version`` is
+the scene of the frame; with ``restart`` the page clears its drawing first.
 """
 
 from __future__ import annotations

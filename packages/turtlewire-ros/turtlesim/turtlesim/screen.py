@@ -1,7 +1,7 @@
-"""The simulator's screen: a page in any browser of this machine, fed at the simulation's rate.
+"""The simulator's screen: a page in any browser of this machine, updated at the simulation's rate.
 
-A browser gets scenes and frames (:mod:`turtlesim.picture`), of a crowd's frames each second one if
-it keeps up, ``tf`` texts a few times a second while it watches the frames, and an ``axes`` text at
+A browser gets scenes and frames (:mod:`turtlesim.picture`); of a crowd, at most every second frame.
+It gets ``tf`` messages a few times a second while it shows the frames, and an ``axes`` message at
 each tick while it draws them.
 """
 
@@ -114,7 +114,7 @@ class Screen:
 
 
 class _Session(CommandSession):
-    """One browser that shows the page."""
+    """A browser that shows the page."""
 
     def __init__(self, screen: Screen, on_command: Callable[[Command], None]) -> None:
         super().__init__(READER)

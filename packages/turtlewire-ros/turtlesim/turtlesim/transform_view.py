@@ -125,7 +125,7 @@ class TransformView:
         for name in names:
             try:
                 field_from_frame = self._buffer.lookup_transform(field, name)
-            except TransformException:  # it belongs to another tree by now
+            except TransformException:  # the frame now belongs to another tree
                 continue
             place = _seen_from_above(*field_from_frame.translation, *field_from_frame.rotation)
             if all(map(math.isfinite, place)):

@@ -159,4 +159,4 @@ class TurtleEndpoints:
 
 def are_finite(*numbers: float) -> bool:
     """Return True if no number is NaN or too large for the arithmetic of a pose."""
-    return all(abs(number) <= _LARGEST for number in numbers)  # false for NaN, too
+    return all(abs(number) <= _LARGEST for number in numbers)  # also false for NaN

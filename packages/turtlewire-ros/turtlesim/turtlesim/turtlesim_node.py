@@ -40,7 +40,7 @@ _BACKGROUND = {"r": ("Red", 0x45), "g": ("Green", 0x56), "b": ("Blue", 0xFF)}
 
 
 class TurtlesimNode(CppNode):
-    """One simulator, which moves its turtles every 16 ms of its node's clock.
+    """A simulator, which moves its turtles every 16 ms of the node's clock.
 
     Args:
         headless: Whether to serve no page.
@@ -162,7 +162,7 @@ class TurtlesimNode(CppNode):
             self._hold()
 
     def _hold(self) -> None:
-        """Obey the pages, and show where turtles stand in a pause."""
+        """Handle the pages' commands, and show the turtles during a pause."""
         self._page.carry_out()
         ticks = hold(self.world.in_order())
         for tick in ticks:
@@ -208,7 +208,7 @@ class TurtlesimNode(CppNode):
             endpoints = self._endpoints_of[turtle.name]
             if endpoints.pose_listeners:
                 endpoints.publish_pose(tick.poses[k].tolist())
-            if endpoints.color_listeners:  # it sees what those before it have drawn in this tick
+            if endpoints.color_listeners:  # it sees lines of earlier turtles
                 before = int(tick.movers.searchsorted(k))
                 self._path.draw_lines(tick.lines[drawn:before], tick.pens[drawn:before])
                 drawn = before
@@ -254,7 +254,7 @@ class TurtlesimNode(CppNode):
         """Add a turtle, and return its name, or an empty string after an error was logged."""
         if not are_finite(x, y, theta):
             self.get_logger().error(
-                f"Cannot spawn a turtle where it is not finite: x={x}, y={y}, theta={theta}"
+                f"Cannot spawn a turtle at a pose that is not finite: x={x}, y={y}, theta={theta}"
             )
             return ""
         turtle = self.world.spawn(x, y, theta, name)

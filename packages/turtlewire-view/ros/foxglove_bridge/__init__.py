@@ -1,7 +1,7 @@
-"""Foxglove and Lichtblick see a robot: the bridge's node, on turtlewire's Foxglove server.
+"""Connects Foxglove and Lichtblick to a robot: the bridge's node, on turtlewire's server.
 
 =================  =========================================
-module             what it holds
+module             contents
 =================  =========================================
 `foxglove_bridge`  the node and its parameters; the executable
 =================  =========================================

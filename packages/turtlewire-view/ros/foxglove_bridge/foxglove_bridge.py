@@ -91,7 +91,7 @@ class FoxgloveBridge(Node):
         for name, default in vars(BridgeOptions()).items():
             if name == "use_sim_time":  # each node has it
                 values[name] = self.get_parameter(name).value
-            elif isinstance(default, tuple):  # no list of a launch file is empty
+            elif isinstance(default, tuple):  # a launch file cannot pass an empty list
                 given = self.declare_parameter(name, [*default] or [""], _FIXED).value
                 values[name] = tuple(text for text in given or () if text)
             else:

@@ -1,7 +1,7 @@
-"""The 3D view under RViz's name, for launch files and habits.
+"""The 3D view under RViz's name, for launch files and users of RViz.
 
 =======  ========
-module   what it holds
+module   contents
 =======  ========
 `rviz2`  the node
 =======  ========

@@ -1,4 +1,4 @@
-"""The 3D view: a page that shows the frames of the wire or of a bag, and what is in them.
+"""The 3D view: a page that shows live frames or the frames of a bag, with sensor data.
 
 ::
 
@@ -8,26 +8,26 @@
     print(viewer.url)
 
 ==================  =============================================================================
-module              what it holds
+module              contents
 ==================  =============================================================================
-`viewer`            `Viewer`: serves the page, one thread for its pace and one for displays
-`session`           one page: what it asks for, and what it does not have yet
-`source`            `Source`, `Timeline`: what frames and messages come from, and at which time
-`live`              `LiveSource`: the wire
+`viewer`            `Viewer`: serves the page, with one thread for updates and one for displays
+`session`           one page: its requests, and the data that it has not received yet
+`source`            `Source`, `Timeline`: the origin of frames and messages, and their time
+`live`              `LiveSource`: the network
 `bag_source`        `BagSource`: a bag with its own time
 `buffer_source`     `BufferSource`: a buffer of the program
 `robot_source`      `RobotSource`: a robot with joints that pages move
 `named_robots`      the robot of a path, or of a name of ``robot_descriptions``
-`bag_stamps`        which stamps belong to a time of a bag, where they are of another clock
-`parameter_watch`   asks a node for a parameter
+`bag_stamps`        maps times of a bag to stamps of another clock
+`parameter_watch`   reads a parameter of a node
 `frames`            `FrameScene`: all poses in one frame, at one time, as one array
-`tree`              the rows of the tree; one frame as another sees it
-`words`             the same in a sentence
+`tree`              the rows of the tree; the pose of one frame in another
+`words`             such a pose as a sentence
 `display_feed`      a display of a page: waits for transforms, makes packets
-`displays`          what to draw for each type of message
+`displays`          the drawing of each type of message
 `meshes`            meshes of packages: addresses to URLs, URLs to files
-`package_folders`   where packages lie: named by the user, around a URDF, in the ament index
-`page_commands`     what the page may send
+`package_folders`   finds packages: named by the user, around a URDF, in the ament index
+`page_commands`     the commands of the page
 `page_requests`     publish with a tool, save a view
 `rviz_file`         views of ``.rviz`` files
 `rviz_writing`      views as ``.rviz`` files
@@ -54,7 +54,7 @@ if TYPE_CHECKING:
     from turtlewire_view.live import LiveSource
     from turtlewire_view.viewer import Viewer
 
-#: Loaded when they are used: the command line reads its options, and a live view no bag, without.
+#: Loaded at first use: parsing a command line needs none of them, and a live view needs no bag.
 _MODULES = {
     "BagSource": "bag_source",
     "BufferSource": "buffer_source",

@@ -208,7 +208,7 @@ class BagSource:
                 self._deliver_last(sinks, start_ns)
                 self._changed()
                 self._play_from(start_ns, sinks, wanted)
-            except BagError as error:  # what can be read was delivered; the frames are there
+            except BagError as error:  # everything readable was delivered; the frames stay
                 self.problem = str(error)
                 self._play_from(start_ns, {}, wanted)
 

@@ -1,4 +1,4 @@
-"""Which stamps belong to a time of a bag whose stamps come from another clock."""
+"""Maps the time of a bag to stamps that come from another clock."""
 
 from __future__ import annotations
 

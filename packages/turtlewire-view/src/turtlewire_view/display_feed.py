@@ -1,8 +1,8 @@
 """One display of one page: messages of a topic in, packets out, each where its frame was then.
 
-A message is shown when its frame can be transformed into the fixed frame at its stamp, as tf2's
-message filter has it: what comes before its transforms waits for them, what is older than all of
-them is dropped, and if too many wait, the oldest is dropped. The status says why.
+A message is shown when its frame can be transformed into the fixed frame at its stamp, as in tf2's
+message filter: a message that arrives before its transforms waits for them, one that is older than
+all of them is dropped, and if too many wait, the oldest is dropped. The status gives the reason.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ _NO_MESSAGE = Status("warn", "No messages received")
 
 
 class Base:
-    """What poses refer to: the frame, what is subtracted from its coordinates, and the buffer.
+    """The reference of poses: a frame, the origin subtracted from its coordinates, and a buffer.
 
     With ``own_frames``, each message is shown in its own frame, because there are no transforms.
     """
@@ -269,7 +269,7 @@ class DisplayFeed:
     def _guarded(self, make: Callable[[], list[Output]]) -> list[Output]:
         try:
             return make()
-        except Exception:  # a fault of ours must not end the thread of all displays
+        except Exception:  # an error in one display must not end the thread of all displays
             if not self._logged:  # one traceback, not one for each message of the topic
                 self._logged = True
                 _logger.exception("The display %s cannot show a message", self.display.kind)
@@ -291,7 +291,7 @@ class DisplayFeed:
         self._shown.pop(part, None)
         self._waiting = deque(content for content in self._waiting if content.part != part)
         packet = encode_packet({"type": "removed", "id": self.name, "part": part})
-        with self._lock:  # a page that reads nothing for long gets no updates of removed items
+        with self._lock:  # a page that is far behind gets no updates of removed items
             self._ready.pop(part, None)
             self._ready.pop(f"pose {part}", None)
             if part in self._told:
@@ -302,7 +302,7 @@ class DisplayFeed:
         still: deque[Content] = deque()
         reason = ""
         for content in self._waiting:
-            if content.event:  # what it changes may wait before it
+            if content.event:  # the message that it updates may be waiting before it
                 if still:
                     still.append(content)
                 else:
@@ -343,7 +343,7 @@ class DisplayFeed:
                 continue
             pose = self._pose(content, base)
             packet = {"type": "pose", "id": self.name, "part": part, "pose": pose}
-            with self._lock:  # beside the content, which may wait to be sent, too
+            with self._lock:  # separate from the content, which may also be waiting to be sent
                 self._ready[f"pose {part}"] = encode_packet(packet)
 
     def _pose(self, content: Content, base: Base) -> list[float] | None:
@@ -384,7 +384,7 @@ class DisplayFeed:
     def _send_event(self, content: Content) -> None:
         number = next(self._events)
         self._send(content, {}, f"event {number}")
-        with self._lock:  # no page that sleeps may fill the memory
+        with self._lock:  # a sleeping page must not fill the memory
             self._ready.pop(f"event {number - _MOST_EVENTS}", None)
 
     def _say(self, status: Status) -> None:

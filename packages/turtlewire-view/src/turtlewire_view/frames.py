@@ -1,4 +1,4 @@
-"""All frames as a page draws them: in one frame, at one time, as one array."""
+"""The poses of all frames in one frame, at one time, as one array, for the page."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ __all__ = ["FRAME_TIMEOUT_S", "FrameScene", "Frames", "TreeStructure"]
 #: Beyond this distance from the origin [m], 32-bit coordinates would be wrong by a millimetre.
 _FAR_M = 10_000.0
 _ORIGIN_STEP_M = 1_000.0
-#: What is farther than the sun is a mistake, and cannot be drawn.
+#: A frame that is farther away than the sun is a mistake, and cannot be drawn.
 _FARTHEST_M = 1.5e11
 #: How long RViz shows a frame that gets no newer data [s].
 FRAME_TIMEOUT_S = 15.0
 
 
 class TreeStructure(NamedTuple):
-    """Which frames there are; it changes rarely.
+    """The frames and their parents; they change rarely.
 
     Attributes:
         version: Counts changes.
@@ -109,7 +109,7 @@ class FrameScene:
             buffer: The frames.
             fixed: The frame to look from; empty, or one that does not exist, takes the root of the
                 largest tree.
-            stamp_ns: None takes the newest time that each frame has in common with the fixed one. A
+            stamp_ns: None uses the newest time that each frame has in common with the fixed one. A
                 frame whose data end before the stamp stays where it was for as long as RViz shows
                 it.
         """
@@ -165,7 +165,7 @@ class FrameScene:
         try:
             names, found, times_ns = buffer.lookup_all(target, stamp_ns)
         except TransformException:
-            return  # a frame that has only been a name until now
+            return  # until now, the frame was only a name
         former, rows = self._rows.get(target, (None, None))
         if rows is None or names != former:
             rows = np.array([self._index.get(name, -1) for name in names], np.intp)
@@ -207,7 +207,7 @@ def _in_order(tree: FrameTree) -> tuple[list[str], list[int], list[str]]:
             members.append(frame)
             waiting += reversed(tree.children[frame])
         found.append((root, members))
-    found.sort(key=lambda each: -len(each[1]))  # stable: the one that came first leads its equals
+    found.sort(key=lambda each: -len(each[1]))  # stable, so the first of equal ones stays first
     names = [name for _, members in found for name in members]
     trees = [number for number, (_, members) in enumerate(found) for _ in members]
     return names, trees, [root for root, _ in found]

@@ -1,4 +1,4 @@
-"""The wire as a source: frames from ``/tf`` and ``/tf_static``, messages of any topic."""
+"""The network as a source: frames from ``/tf`` and ``/tf_static``, messages of any topic."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ __all__ = [
 _HISTORY_NS = 60 * 10**9
 #: Robots have a few hundred frames. With 5,000, the server uses a fifth of a core for each page.
 MAX_FRAMES = 5_000
-#: Stamps below are of a simulation, and no system time [ns].
+#: Smaller stamps are simulated time, not system time [ns].
 _WALL_TIME_FROM_NS = 10**18
 _NODE_NAME = "turtlewire_view_{}"
 _DEPTH = 100
@@ -48,7 +48,7 @@ _MOST_PUBLISHERS = 16
 
 
 class LiveSource:
-    """What is on the wire of this process's domain.
+    """The live frames and messages of this process's domain.
 
     Args:
         context: The participant to use; None joins the domain of the environment.
@@ -193,7 +193,7 @@ class HasHistory(Protocol):
 
     @property
     def buffer(self) -> Buffer:
-        """Its frames."""
+        """The buffer with the frames."""
         ...
 
     @property
@@ -217,7 +217,7 @@ class LiveTimeline:
         return self._kept or self._source.buffer
 
     def stamp_ns(self) -> int | None:
-        """None while it follows the source."""
+        """The time that the page shows; None while it follows the source."""
         return self._stamp_ns
 
     def state(self) -> TimelineState:
@@ -303,7 +303,7 @@ class _FittedSubscription:
             reliability=Reliability.BEST_AVAILABLE,
             durability=Durability.BEST_AVAILABLE,
         )
-        # Without publishers the best of all would match none that is less.
+        # Without publishers, the strictest QoS would not match weaker publishers.
         return fit_subscription(wanted, offered or [QoS(reliability=Reliability.BEST_EFFORT)])
 
 

@@ -58,7 +58,7 @@ _logger = logging.getLogger(__name__)
 
 
 class MeshAddress(NamedTuple):
-    """Where the page finds a mesh.
+    """The address at which the page finds a mesh.
 
     Attributes:
         url: Path on the server, None if the address is refused.

@@ -80,7 +80,7 @@ def _fetched(module: str) -> Any:
         reason = reason.removeprefix("stderr: '").rstrip("'")  # git's own line
         raise ConnectionError(
             f"the description of {module.removesuffix(_SUFFIX)} cannot be fetched: {reason}. "
-            "It is fetched by git when it is shown for the first time, which needs a network."
+            "git fetches it when it is shown for the first time, which needs a network."
         ) from error
 
 

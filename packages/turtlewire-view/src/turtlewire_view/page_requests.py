@@ -1,4 +1,4 @@
-"""What pages ask for once: publish with a tool, save a view, load one."""
+"""Single requests of pages: publish with a tool, save or load a view."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def _display_of(entry: object) -> SavedDisplay:
             place = entry.get("place")
             place = place if isinstance(place, int) else None
             return SavedDisplay(kind, topic, options, entry.get("visible") is not False, place)
-    raise CommandError("a display must have the texts 'kind' and 'topic', and an object 'options'")
+    raise CommandError("a display must have strings 'kind' and 'topic', and an object 'options'")
 
 
 def _is_number(value: object) -> bool:

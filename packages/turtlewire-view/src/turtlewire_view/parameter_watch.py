@@ -1,4 +1,4 @@
-"""One parameter of one node, asked through the node's parameter service, as ``ros2 param get``."""
+"""Reads one parameter of one node through its parameter service, like ``ros2 param get``."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ _MOST_NAMED = 5
 class ParameterWatch:
     """Asks for a text parameter when its node is there, comes again or says that it has changed.
 
-    A thread of its own waits for the responses and gives the answers, without any lock held.
+    A separate thread waits for the responses and reports them, without holding a lock.
 
     Args:
         context: The participant.
@@ -107,7 +107,7 @@ class ParameterWatch:
         request = self._interface.Request(names=[self._parameter])
         try:
             self._asked = self._client.send_request(msg.serialize(request))
-        except UncallableServiceError as error:  # such a server has just come
+        except UncallableServiceError as error:  # this server has just appeared
             self._answers.append(ParameterAnswer(problem=error.in_one_line()))
             self._wait_set.wake()
 
@@ -142,7 +142,7 @@ class ParameterWatch:
             for client in self._wait_set.wait():
                 if isinstance(client, Client):
                     for number, cdr in self._responses(client):
-                        with self._lock:  # the request's number may not be known before
+                        with self._lock:  # the request's number may be unknown earlier
                             if number == self._asked:
                                 self._answers.append(self._answer(cdr))
             while self._answers and not self._is_closed:
@@ -151,7 +151,7 @@ class ParameterWatch:
     def _responses(self, client: Client) -> list[tuple[int, bytes]]:
         try:
             return client.take()
-        except WireError:  # the wire has been closed under it
+        except WireError:  # the context has been closed in the meantime
             self._is_closed = True
             return []
 

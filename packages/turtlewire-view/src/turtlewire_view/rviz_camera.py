@@ -1,4 +1,4 @@
-"""The camera of a ``.rviz`` file, ``Views/Current``: RViz's kinds as the page's two."""
+"""The camera of a ``.rviz`` file, ``Views/Current``: converts RViz's kinds to the page's two."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any, TypedDict
 __all__ = ["Camera", "camera_from", "camera_properties", "is_camera"]
 
 _FIXED_FRAME = "<Fixed Frame>"
-#: Kinds of RViz that look at a point; the others stand somewhere and look around.
+#: Kinds of RViz that look at a point; the others are at a position and look around.
 _ORBITS = ("Orbit", "XYOrbit", "ThirdPersonFollower")
 _TOP = "TopDownOrtho"
 _DISTANCE, _ANGLE, _SCALE = 10.0, math.pi / 4, 10.0  # RViz's own defaults
@@ -17,7 +17,7 @@ _NEAREST_M, _FARTHEST_M = 1e-3, 1e7
 
 
 class Camera(TypedDict):
-    """How a scene is looked at.
+    """The camera of a view.
 
     Attributes:
         kind: ``orbit``, or ``top`` for a picture from above.

@@ -1,8 +1,8 @@
-"""Views as RViz saves them, ``.rviz`` files: read for what the page has.
+"""Reads ``.rviz`` files, the views that RViz saves, as far as the page supports them.
 
-A view is what the page keeps: the fixed frame, what of the frames is drawn, and displays with
-kind, topic and options; :mod:`turtlewire_view.rviz_writing` writes them. Which option of RViz is
-which of the page's stands in :mod:`turtlewire_view.rviz_options`.
+A view consists of the fixed frame, the visible parts of frames, and displays with kind, topic and
+options. :mod:`turtlewire_view.rviz_writing` writes views, and :mod:`turtlewire_view.rviz_options`
+maps RViz's options to the page's.
 """
 
 from __future__ import annotations
@@ -150,7 +150,7 @@ def read_rviz(text: str) -> SavedView:
             refused += [f"{name}: {problem}" for problem in problems]
         else:
             others.append(name or "a display without a class")
-    # RViz's "<Fixed Frame>" stands in options of frames; as the fixed frame it says nothing.
+    # "<Fixed Frame>" is a value of RViz's frame options; as the fixed frame it has no meaning.
     own = isinstance(fixed, str) and not fixed.startswith("<")
     token = hashlib.sha256(text.encode(errors="replace")).hexdigest()[:16]
     unread = _unread(others, refused)

@@ -1,4 +1,4 @@
-"""Which option of RViz's displays is which of the page's, and how their values are written."""
+"""Maps the options of RViz's displays, and their values, to the page's options."""
 
 from __future__ import annotations
 
@@ -347,7 +347,7 @@ def from_rviz(name: str, properties: dict[str, Any]) -> tuple[str, dict[str, obj
     for option in options:
         given = _at(properties, option.theirs)
         value = option.read(given)
-        entry = table.get(option.ours)  # a scan has no colours of its own, for one
+        entry = table.get(option.ours)  # a scan has no colours, for example
         if entry is None or given is None or given == "":
             continue
         if value is not None and entry.accepts(value):

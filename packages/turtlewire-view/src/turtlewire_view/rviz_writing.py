@@ -1,4 +1,4 @@
-"""Writes views as ``.rviz`` files; what the page has not stays as the file that was read had it."""
+"""Writes views as ``.rviz`` files; settings that the page does not support stay unchanged."""
 
 from __future__ import annotations
 

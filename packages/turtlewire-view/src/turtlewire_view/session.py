@@ -1,4 +1,4 @@
-"""One page: its fixed frame, time and displays; what it asks for, and what it does not have yet."""
+"""One page: its fixed frame, time and displays, its requests, and data still to be sent."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _MOST_DISPLAYS = 100
 
 
 class SessionHost(Protocol):
-    """What a session needs of the view; it is :class:`turtlewire_view.viewer.Viewer`."""
+    """The part of :class:`turtlewire_view.viewer.Viewer` that sessions use."""
 
     source: Source
     fixed_frame: str
@@ -67,7 +67,7 @@ class SessionHost(Protocol):
 
 
 class _Wish(NamedTuple):
-    """What a page asked for."""
+    """A request of a page."""
 
     kind: str
     topic: str

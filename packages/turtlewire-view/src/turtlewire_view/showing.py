@@ -108,7 +108,7 @@ def _named(packages: Mapping[str, str | os.PathLike[str]]) -> dict[str, str]:
     named = {name: os.fspath(folder) for name, folder in packages.items()}
     for name, folder in named.items():
         if not os.path.isdir(folder):
-            text = f"the package {name!r} is to be in a folder that does not exist"
+            text = f"the folder of the package {name!r} does not exist"
             raise NotADirectoryError(errno.ENOTDIR, text, folder)
     return named
 

@@ -1,4 +1,4 @@
-"""Where the view gets its frames and messages from: the wire, or a bag."""
+"""The source of the view's frames and messages: the network, a bag, a buffer or a robot."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class ParameterAnswer(NamedTuple):
 
 
 class TimelineState(NamedTuple):
-    """What the time bar shows; times in seconds, None if unknown.
+    """The state of the time bar; times in seconds, None if unknown.
 
     Attributes:
         now: The time that is shown.
@@ -93,7 +93,7 @@ class Timeline(Protocol):
         ...
 
     def play(self) -> None:
-        """Let the time go on: a bag from where it is, the wire from now."""
+        """Resume: a bag from its current time, the network from now."""
         ...
 
     def seek(self, stamp_ns: int) -> None:
@@ -125,7 +125,7 @@ class Source(Protocol):
 
     @property
     def buffer(self) -> Buffer:
-        """Its frames."""
+        """The buffer with the frames."""
         ...
 
     def now_ns(self) -> int:

@@ -1,4 +1,4 @@
-"""What the page's tools publish: RViz's topics, types and covariance."""
+"""The messages of the page's tools, with RViz's topics, types and covariance."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _DEVIATION_XY, _DEVIATION_YAW = 0.5, math.pi / 12
 
 
 class ToolMessage(NamedTuple):
-    """What to publish."""
+    """The message that a tool publishes."""
 
     topic: str
     type_name: str
@@ -51,7 +51,7 @@ def tool_message(
     if len(position) != 3 or not all(map(math.isfinite, (*position, yaw))):
         raise ValueError("a tool needs a position of three finite numbers and a finite yaw")
     if not frame_id:
-        raise ValueError("there is no fixed frame yet that a position could be in")
+        raise ValueError("no position can be published, because there is no fixed frame yet")
     own_topic, type_name = TOOLS[tool]
     message: Any = msg.get_message(type_name)()
     message.header.frame_id = frame_id

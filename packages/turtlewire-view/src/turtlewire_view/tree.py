@@ -1,4 +1,4 @@
-"""The page's data about each frame, and about one frame as another sees it."""
+"""The page's data about each frame, and the pose of one frame in another."""
 
 from __future__ import annotations
 
@@ -142,7 +142,7 @@ def _ended_link(buffer: Buffer, error: TransformException) -> str:
         return ""
     assert error.requested_ns is not None
     assert error.newest_ns is not None
-    assert error.oldest_ns is not None  # of an error of the past
+    assert error.oldest_ns is not None  # for the error of a time in the past
     gap, kept = error.newest_ns - error.requested_ns, error.newest_ns - error.oldest_ns
     senders = " and ".join(sorted({sender.name for sender in ended[0].senders}))
     return (

@@ -84,7 +84,7 @@ def _view(args: argparse.Namespace) -> int:
             source, args.fixed_frame, port=args.port, lan=lan, saved=saved, packages=packages
         )
         stack.pop_all()
-        stack.callback(viewer.close)  # closes the source, too
+        stack.callback(viewer.close)  # also closes the source
         if args.port and args.port != urlsplit(viewer.url).port:
             print(f"Port {args.port} is in use: the view uses a free port", flush=True)
         print(f"The view is at {viewer.url} (Ctrl-C ends it)", flush=True)

@@ -1,4 +1,4 @@
-"""The view: a page for any number of browsers, fed from one source."""
+"""The view: a page for any number of browsers, with data from one source."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 __all__ = ["Viewer"]
 
 _PAGE = Path(__file__).parent / "page"
-#: Pictures a second, at most, and one a second when nothing happens: ages go on.
+#: Shortest time between pictures, and the time if nothing changes but the ages [s].
 _FRAME_S, _IDLE_S = 1 / 30, 1.0
 _MOST_DOCUMENTS = 16
 
@@ -46,17 +46,17 @@ _EMBEDDED = {
 class Viewer:
     """Serves the page until it is closed.
 
-    Two threads beside the server's: one notifies the pages of news at most thirty times a second,
-    one makes geometry of messages.
+    Two threads in addition to the server's: one notifies the pages of changes up to 30 times a
+    second, one makes geometry of messages.
 
     Args:
         source: Where frames and messages come from; closed with the view.
         fixed_frame: What pages look from first; empty takes the root of the largest tree.
-        port: Preferred TCP port; None takes turtlesim's rule (`TURTLEWIRE_PORT`, 7070).
+        port: Preferred TCP port; None uses turtlesim's rule (`TURTLEWIRE_PORT`, 7070).
         saved: What pages show first, of a ``.rviz`` file.
         lan: Whether to serve all devices of the network (see :mod:`turtlewire.web.lan`).
         embeds: True if pages of this computer, such as notebooks, may embed the page.
-        packages: Where packages with meshes lie; None takes the ament index.
+        packages: Where packages with meshes lie; None uses the ament index.
 
     Attributes:
         url: The page's address.
@@ -179,7 +179,7 @@ class Viewer:
         topics = sorted(self.source.topics(), key=lambda each: each.publishers)
         types_there = {each.name: each.type_name for each in topics}  # what is published counts
         of_kind = {each: shows for each, shows in display_types().items() if shows.kind == kind}
-        asked = options.get("message_type")  # a file knows it before the topic is there
+        asked = options.get("message_type")  # a file names it before the topic exists
         if not isinstance(asked, str) or asked not in of_kind:
             asked = next(iter(of_kind), "")
         type_name = types_there.get(topic) or asked
@@ -234,7 +234,7 @@ class Viewer:
             self._work_for_all()
 
     def _work_for_all(self) -> None:
-        """In a method of its own: the waiting thread must not hold on to pages that have gone."""
+        """Update all pages. A separate method, so that no local keeps closed pages alive."""
         with self._lock:
             sessions = list(self._sessions)
         for session in sessions:

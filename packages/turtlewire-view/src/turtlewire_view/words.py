@@ -1,4 +1,4 @@
-"""Where a frame is as another one sees it, in plain words."""
+"""Describes the pose of a frame in another frame in plain words."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ __all__ = ["transform_in_words"]
 _NOTHING_M = 0.005
 _NOTHING_DEG = 0.5
 _DIRECTIONS = (("ahead", "behind"), ("to the left", "to the right"), ("above", "below"))
-#: After these no "of" stands before the name.
+#: Words that are not followed by "of".
 _WITHOUT_OF = ("behind", "above", "below")
 
 
 def transform_in_words(
     source: str, target: str, translation: Sequence[float], rotation: Sequence[float]
 ) -> str:
-    """One sentence on ``target_from_source``.
+    """Describe ``target_from_source`` in one sentence.
 
     Args:
         source: The frame that is looked at.

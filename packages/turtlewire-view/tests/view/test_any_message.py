@@ -72,7 +72,7 @@ ANY_OPTION = st.one_of(
 
 
 def options_of(kind):
-    """A strategy for options: choices of its own, and anything."""
+    """A strategy for options: valid choices, and anything."""
     table = option_table(kind)
     own = [st.tuples(st.just(name), st.sampled_from(each.choices or (each.value,)))
            for name, each in table.items()]  # fmt: skip

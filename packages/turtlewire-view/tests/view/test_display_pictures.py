@@ -47,7 +47,7 @@ DAE = """<?xml version="1.0"?>
 
 
 def painted_dae(unit, effect, images=""):
-    """A square of 1 m that faces up, its corners in the unit [m], with an effect of its own."""
+    """A square of 1 m that faces up, its corners in the unit [m], with its own effect."""
     corners = " ".join(f"{x / unit} {y / unit} 0" for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)))
     return f"""<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">

@@ -1,6 +1,6 @@
 """What the view's page looks like, against pictures that were looked at.
 
-``TURTLEWIRE_WRITE_GOLDEN=1`` writes them anew. They are compared as turtlesim's are.
+``TURTLEWIRE_WRITE_GOLDEN=1`` rewrites them. They are compared as turtlesim's are.
 """
 
 from __future__ import annotations

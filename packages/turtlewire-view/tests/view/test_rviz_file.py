@@ -310,7 +310,7 @@ def test_any_options_are_saved(options):
     display = {"kind": "odometry", "topic": "/odom", "options": options}
     text = text_of_view(SaveView("map", [display], {}), {})
     assert read_rviz(text).displays[0].kind == "odometry"
-    with pytest.raises(CommandError, match="must have the texts"):
+    with pytest.raises(CommandError, match="must have strings"):
         text_of_view(SaveView("", [{"kind": 1}], {}), {})
 
 

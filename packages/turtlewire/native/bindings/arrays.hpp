@@ -20,8 +20,8 @@ namespace nb = nanobind;
 
 using Stamps = nb::ndarray<const Stamp, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
-// Whether `object` is such an array as it stands. A scalar is none: those of NumPy's times offer a
-// buffer without strides, which nanobind would read. What has no length is a scalar.
+// Whether `object` is such an array without a conversion. A scalar is not: NumPy's times offer a
+// buffer without strides, which nanobind would read. An object without a length is a scalar.
 template <typename Array>
 bool is_array(nb::handle object, Array& array) {
   return nb::hasattr(object, "__len__") && nb::try_cast(object, array, false);
@@ -30,8 +30,8 @@ bool is_array(nb::handle object, Array& array) {
 // A named tuple of turtlewire.tf.answers.
 nb::object make_answer(const char* name, const nb::tuple& fields);
 
-// The array that a function of turtlewire.tf.array_arguments makes of what a caller passed; its
-// errors say what fits.
+// The array that a function of turtlewire.tf.array_arguments makes of an argument; its errors name
+// the accepted types.
 nb::object checked_array(const char* function, nb::handle object);
 
 // int64 stamps from an array or sequence of integers or datetime64.

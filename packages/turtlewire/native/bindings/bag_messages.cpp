@@ -27,7 +27,7 @@ nb::object bytes_of(std::span<const unsigned char> data) {
                                            static_cast<Py_ssize_t>(data.size())));
 }
 
-// Whether the channel of a record is wanted; neighbours often have the same.
+// Whether the channel of a record is requested; consecutive records often have the same channel.
 class Wanted {
  public:
   explicit Wanted(nb::handle channels) : channels_(channels) {}
@@ -134,7 +134,7 @@ constexpr char kMessagesDoc[] =
     "Args:\n"
     "    records: The bytes.\n"
     "    position: Where the first record begins.\n"
-    "    wanted: The channels whose messages are wanted; None takes all.\n"
+    "    wanted: The channels whose messages are wanted; None means all.\n"
     "    into: The list, to which log time, channel, publish time and bytes are appended.\n\n"
     "Returns:\n"
     "    Where the first record begins that is no message or is damaged; else the end.";

@@ -38,7 +38,7 @@ nb::object output(PyObject* given, std::initializer_list<std::size_t> shape, dou
   return out;
 }
 
-// What becomes of rows that have no answer: an exception for the first one, or NaN.
+// The treatment of rows without an answer: an exception for the first one, or NaN.
 enum class Errors : std::uint8_t { raise, nan };
 
 Errors errors_of(PyObject* name) {
@@ -51,7 +51,7 @@ Stamp beyond_of(PyObject* object) {
   return beyond;
 }
 
-// A frame that may be left out, or None.
+// An optional frame: missing, or None.
 std::optional<std::string_view> frame_if(PyObject* object, const char* what) {
   if (object == nullptr || object == Py_None) return std::nullopt;
   return text_of(nb::handle(object), what);
@@ -61,7 +61,7 @@ void check_signals() {
   if (taking_gil(PyErr_CheckSignals) != 0) throw nb::python_error();
 }
 
-// Raises what a single lookup at the first stamp without an answer raises.
+// Raises the error that a single lookup at the first stamp without an answer raises.
 [[noreturn]] void raise_first(BufferObject& self, const Request& request, Status status) {
   Found found;
   Failure failure;
@@ -202,7 +202,7 @@ bool is_datetime(nb::handle object) {
          nb::hasattr(object, "to_datetime64");
 }
 
-// The time, if it is one and no array: None, an int, one of NumPy's integers, or a datetime64.
+// The time, if the argument is not an array: None, an int, one of NumPy's, or a datetime64.
 std::optional<Stamp> single_stamp(nb::handle object) {
   if (object.is_none()) return kLatest;
   if (PyLong_CheckExact(object.ptr())) return nanoseconds_of(object, "stamps");
@@ -239,8 +239,8 @@ void move_each(const Lanes& poses, const T* in, T* out, std::size_t n) {
   std::transform(points, points + 3 * n, out, [](double value) { return static_cast<T>(value); });
 }
 
-// Numbers to read where others may be written: the same ones, or a copy if an input would be lost
-// before it is read.
+// Input numbers that the output may overlap: the same memory, or a copy if an input would be
+// overwritten before it is read.
 template <typename T>
 class Input {
  public:
@@ -257,7 +257,7 @@ class Input {
   std::vector<T> copy_;
 };
 
-// What the points go through after their own lookup: into the target at its own time.
+// The second transform of the points, after their own lookup: into the target at its own time.
 Pose target_from_fixed(BufferObject& self, std::string_view target, std::string_view fixed,
                        Stamp t) {
   Found found;

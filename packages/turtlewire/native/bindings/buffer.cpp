@@ -87,8 +87,8 @@ void BufferObject::remember_path(PyObject* target, PyObject* source, std::string
   Py_XDECREF(old.source);
 }
 
-// Asks; while the answer is no, waits for data as long as that can help. False if a Python error is
-// set.
+// Looks up; after a failure, waits for data as long as new data can help. False if a Python error
+// is set.
 template <typename Request>
 bool BufferObject::answer_or_wait(const Request& request, Stamp timeout, Failure& failure,
                                   Found* found) {

@@ -1,4 +1,4 @@
-// What stands behind turtlewire.Buffer.
+// The implementation of turtlewire.Buffer.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace turtlewire::python {
 
-// The sender of transforms that name none.
+// The default sender of transforms.
 constexpr std::string_view kUnknownSender = "default_authority";
 
 class BufferObject {
@@ -36,7 +36,7 @@ class BufferObject {
   // or a wait failed.
   bool can_transform(PyObject* target, PyObject* source, Stamp t, Stamp timeout, Failure& failure);
 
-  // The same for the questions that tf2 asks seldom: with `found` a lookup, else only whether one
+  // The same for rare kinds of lookups: with `found` a lookup, else only whether one
   // would succeed. Without `failure`, a lookup that has no answer sets the Python error.
   template <typename Request>
   bool ask(const Request& request, Stamp timeout, Found* found, Failure* failure) {
@@ -46,7 +46,7 @@ class BufferObject {
     if (failure != nullptr || why.status == Status::ok) return true;
     return raise_failure(why);
   }
-  // The quick yes: without words.
+  // The fast path: no reason for a failure.
   bool certainly_can_transform(PyObject* target, PyObject* source, Stamp t);
 
   // Adds one transform and calls the listeners, unless it is refused.
@@ -58,8 +58,8 @@ class BufferObject {
   void wake();
 
  private:
-  // A pair of names seen before, known again by the identity of the two string objects, which it
-  // keeps alive.
+  // A cached pair of names, recognized by the identity of the two string objects, which it keeps
+  // alive.
   struct KnownPath {
     PyObject* target = nullptr;
     PyObject* source = nullptr;

@@ -15,7 +15,7 @@ namespace turtlewire::python {
 void load_error_classes();
 
 // Sets the Python error for a question that has no answer. `buffer` is the Python object that was
-// asked; it tells the names of frames, should somebody want a hint. Always returns null, for
+// asked; it supplies the names of frames for the hint. Always returns null, for
 // `return raise(...)`.
 PyObject* raise(const Failure& failure, Question question, PyObject* buffer);
 // The same for one of many stamps; the hint then mentions the argument `errors`.

@@ -254,7 +254,7 @@ std::array<PyMethodDef, 4> inspection_methods() {
       buffer_method<kRemoveFrame, remove_frame>(
           "remove_frame($self, child_frame)\n--\n\n"
           "Forgets how a frame lies in its parent: its history or its static transform.\n\n"
-          "Names that then stand for nothing are forgotten too.\n\n"
+          "Names that are then unused are also forgotten.\n\n"
           "Returns:\n"
           "    Whether there was anything to forget."),
       buffer_method<kRemoveStale, remove_stale>(

@@ -1,4 +1,4 @@
-// The methods of turtlewire.Buffer that look into it, and change it by other ways than new data.
+// The methods of turtlewire.Buffer that inspect it, or change it other than by adding data.
 #pragma once
 
 #include <array>

@@ -21,7 +21,7 @@ namespace {
 
 using namespace nb::literals;
 
-// A tuple (gid, name); false with a Python error set if it is none.
+// Reads a tuple (gid, name); false with a Python error set if the object is not one.
 bool read_identity(PyObject* identity, std::string& gid, std::string& name) {
   const char *gid_bytes = nullptr, *name_bytes = nullptr;
   Py_ssize_t gid_size = 0, name_size = 0;
@@ -52,7 +52,7 @@ class IntakeObject final : public Sink {
     for (const nb::handle buffer : buffers) fed.push_back(&nb::cast<BufferObject&>(buffer).shared);
     core.feed(std::move(fed));
     std::swap(buffers_,
-              buffers);  // the former ones end, if they do, when nothing of them is in use any more
+              buffers);  // the previous ones are destroyed when nothing uses them any more
   }
 
   nb::list serve(const nb::callable& gid_of) {
@@ -112,7 +112,7 @@ class IntakeObject final : public Sink {
     return true;
   }
 
-  // What messages stored without Python are to be told of.
+  // The functions to call after messages were stored without Python.
   void tell() {
     if (core.take_expected()) {
       const nb::object callback = on_expected_;

@@ -71,7 +71,7 @@ void add_joint_frames_type(nb::module_& module) {
       module, "JointFrames",
       "Makes TFMessages of JointStates, both in CDR, for joints that were worked out before.\n\n"
       "Args:\n"
-      "    template: A TFMessage whose stamps and poses are written anew each time.\n"
+      "    template: A TFMessage whose stamps and poses are rewritten each time.\n"
       "    stamps: Where the stamp of each joint's transform begins.\n"
       "    poses: Where its seven numbers begin.\n"
       "    constants: 15 numbers for each joint; see turtlewire.urdf.joint_model.\n"

@@ -1,4 +1,4 @@
-// The arguments of lookups and of the questions whether one would succeed, read in one place.
+// Reads the arguments of lookups, and of checks whether a lookup would succeed.
 #pragma once
 
 #include <array>

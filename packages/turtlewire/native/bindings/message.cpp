@@ -232,7 +232,7 @@ struct AtOneTime {
   }
 };
 
-// By way of a frame that did not move meanwhile.
+// Through a fixed frame, which did not move between the two times.
 struct AtTwoTimes {
   static constexpr std::size_t kCount = 6;
 

@@ -13,8 +13,8 @@
 NB_MODULE(_native, module) {
   using namespace turtlewire::python;
   module.attr("__doc__") = "The compiled core of turtlewire. Use it through turtlewire.Buffer.";
-  // What a program or a daemon thread holds on to until the process ends is no leak that a user
-  // should read of.
+  // Objects that a program or a daemon thread keeps until the process ends are not leaks that
+  // nanobind should report.
   nb::set_leak_warnings(false);
   load_error_classes();
   if (!add_transform_type(module)) throw nb::python_error();

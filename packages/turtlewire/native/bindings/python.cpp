@@ -3,7 +3,7 @@
 namespace turtlewire::python {
 namespace {
 
-// What turtlewire.tf.datetimes makes of an object that is no int; it raises for most.
+// Converts an object that is not an int with turtlewire.tf.datetimes, which raises for most.
 PyObject* from_datetime(PyObject* object, const char* what) {
   return taking_gil([=]() -> PyObject* {
     PyObject* module = PyImport_ImportModule("turtlewire.tf.datetimes");
@@ -14,8 +14,8 @@ PyObject* from_datetime(PyObject* object, const char* what) {
   });
 }
 
-// What turtlewire.tf.number_errors says of them; `items` is null if there are none. Errors that are
-// no TypeError come from the caller's own objects and stay.
+// Raises the error of turtlewire.tf.number_errors; `items` is null without a sequence. Errors other
+// than TypeError come from the caller's own objects and stay.
 void raise_no_numbers(PyObject* sequence, PyObject* items, const char* what) {
   if (PyErr_Occurred() != nullptr && PyErr_ExceptionMatches(PyExc_TypeError) == 0) return;
   PyErr_Clear();

@@ -66,7 +66,7 @@ struct Parameters {
   std::array<const char*, N> names;
 };
 
-// What a call gives for the parameters, in their order; null for what it leaves out.
+// The arguments of a call in the order of the parameters; null for omitted ones.
 template <std::size_t N>
 using Values = std::array<PyObject*, N>;
 
@@ -160,7 +160,7 @@ inline bool text_of(PyObject* object, std::string_view& text, const char* what) 
   return true;
 }
 
-// A str of UTF-8; bytes that are none become U+FFFD.
+// A str of UTF-8; invalid bytes become U+FFFD.
 inline PyObject* to_python(std::string_view text) {
   return PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace");
 }
@@ -196,7 +196,7 @@ inline bool moment_of(PyObject* object, Stamp& value, const char* what) {
   return nanoseconds_of(object, value, what) && (value != kLatest || raise_no_time(what));
 }
 
-// So many numbers from a sequence. False with a Python error set.
+// Reads a fixed count of numbers from a sequence. False with a Python error set.
 bool numbers_of(PyObject* sequence, double* values, Py_ssize_t count, const char* what);
 
 // None for an argument that was left out.
@@ -207,7 +207,7 @@ Stamp nanoseconds_of(nb::handle object, const char* what);
 Stamp nanoseconds_or(PyObject* object, Stamp value, const char* what);  // null is `value`
 Stamp moment_of(nb::handle object, const char* what);
 bool is_true(PyObject* object);  // null is false
-// Which of two words it is; null is the first.
+// Reads one of two words; null is the first.
 int choice_of(PyObject* object, const char* what, std::string_view first, std::string_view second);
 std::string_view text_of(nb::handle object, const char* what);
 

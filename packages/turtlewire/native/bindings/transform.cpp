@@ -137,8 +137,7 @@ PyObject* compare(PyObject* a, PyObject* b, int operation) {
   return PyBool_FromLong(equal == (operation == Py_EQ));
 }
 
-// What a helper in Python answers to a method that reads the arguments `Names`; None for those that
-// are left out.
+// Calls a helper in Python for a method that reads the arguments `Names`; None for omitted ones.
 template <const auto& Names, const char* Home, const char* Helper>
 PyObject* asked(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
   static const Signature signature(Names);

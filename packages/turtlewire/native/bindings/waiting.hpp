@@ -1,4 +1,4 @@
-// Waiting for data with the GIL released, in a way that Ctrl-C ends.
+// Waits for data with the GIL released; Ctrl-C ends the wait.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -14,8 +14,7 @@ namespace turtlewire::python {
 
 namespace nb = nanobind;
 
-// Python's own lock, as threading.Lock is: the one portable thing to sleep on that a signal
-// interrupts.
+// Python's own lock, as threading.Lock is: the only portable way to sleep that a signal interrupts.
 class Sleeper final : public Waiter {
  public:
   Sleeper() : lock_(PyThread_allocate_lock()) {

@@ -22,7 +22,7 @@ using zenoh::Origins;
 
 // Shorter ones are empty: the encapsulation takes four bytes.
 constexpr std::size_t kShortest = 5;
-// Handing over so much takes about as long as giving the GIL away and taking it again.
+// Passing on this many bytes takes about as long as releasing and acquiring the GIL.
 constexpr std::size_t kLongBatch = 32768;
 
 struct Message {

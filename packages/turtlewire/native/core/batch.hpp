@@ -12,9 +12,9 @@
 
 namespace turtlewire {
 
-// target_from_source at many times. The buffer is locked for each block only, so others get their
-// turn in between; each block's answers belong to one state of the buffer. Where there is no answer
-// the pose is NaN, and the status says why.
+// target_from_source at many times. The buffer is locked only for each block, so other threads get
+// the lock in between; the answers of a block belong to one state of the buffer. Without an answer,
+// the pose is NaN, and the status is the reason.
 class BatchLookup {
  public:
   // `beyond`: as in Request.
@@ -60,9 +60,9 @@ struct FramePose {
 Status lookup_all(SharedBuffer& shared, std::string_view target, Stamp t,
                   std::vector<FramePose>& found, Failure& failure);
 
-// How a frame moves, as seen by an observer.
+// A request for the velocity of a frame relative to an observer.
 struct VelocityRequest {
-  std::string_view tracking, observer;  // the frame that moves; the frame that is taken for at rest
+  std::string_view tracking, observer;  // the frame that moves; the frame that counts as fixed
   std::string_view axes;                // the frame in whose axes the answer is given
   std::string_view point_frame;  // the point moves with `tracking`; it is given in this frame
   Vec3 point;

@@ -1,4 +1,4 @@
-// What must be true of a buffer at any time; tests ask after every operation.
+// Checks the invariants of a buffer; tests call it after every operation.
 #include <cmath>
 
 #include "tree.hpp"

@@ -1,5 +1,5 @@
-// Why a question has no answer, and why a transform was refused: facts while the buffer is locked,
-// words afterwards.
+// The reasons for failed lookups and rejected transforms: recorded while the buffer is locked, and
+// formatted afterwards.
 #pragma once
 
 #include <cstdint>

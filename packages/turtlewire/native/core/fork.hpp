@@ -1,14 +1,14 @@
-// What must be done with locks when a program calls fork().
+// Handles locks when a program calls fork().
 #pragma once
 
 namespace turtlewire {
 
 // An object with a lock. fork() copies only the thread that calls it: a lock that another thread
-// holds at that moment would stay locked in the child for ever, and what it guards half changed. So
+// holds at that moment would stay locked in the child forever, and what it guards half changed. So
 // fork() waits for all these locks first.
 class ForkAware {
  public:
-  // In which order the locks are taken, when a thread takes several.
+  // The order in which a thread acquires several locks.
   enum class Order { outer, inner };
 
   virtual void before_fork() = 0;                       // takes the lock
@@ -18,8 +18,8 @@ class ForkAware {
   ~ForkAware() = default;
 };
 
-// Has fork() call the functions of an object for as long as this lives. Make it the last member, so
-// that it ends before the lock does.
+// Registers an object's functions with fork() for its own lifetime. Make it the last member, so
+// that it is destroyed before the lock.
 class ForkRegistration {
  public:
   ForkRegistration(ForkAware& object, ForkAware::Order order);

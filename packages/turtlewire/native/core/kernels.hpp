@@ -44,7 +44,7 @@ struct Kernels {
   void (*apply)(const Lanes& poses, double* points);
 };
 
-// All that this processor can do, the plainest first.
+// The kernels that this processor supports, the simplest first.
 const std::vector<const Kernels*>& all_kernels();
 // The last of them.
 const Kernels& kernels();

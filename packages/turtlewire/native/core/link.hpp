@@ -1,5 +1,4 @@
-// One link of the tree: how a child frame lies in its parent, over time (dynamic) or forever
-// (static).
+// A link of the tree: the pose of a child frame in its parent, over time (dynamic) or static.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +21,7 @@ enum class ReadStatus : std::uint8_t { ok, no_data, future, past };
 
 enum class InsertStatus : std::uint8_t { added, duplicate, too_old };
 
-// Who has sent samples of one link, and with which parent.
+// A sender of a link's samples, and the parent that it names.
 struct Sender {
   SourceId id = 0;
   FrameId parent = 0;
@@ -91,7 +90,7 @@ class Link {
       visit(samples_[i].parent);
   }
 
-  // All that a path between two frames depends on, but for the samples themselves; equal shapes,
+  // Everything that a path between two frames depends on, except the samples: equal shapes have
   // equal paths.
   std::uint64_t shape() const {
     const auto flags = static_cast<std::uint64_t>(kind_) |
@@ -117,8 +116,8 @@ class Link {
     has_scaling_ = false;
   }
 
-  // tf2's order of things: drop what is too old by the newest stamp so far, refuse what is older
-  // than that, and put a sample of a known stamp behind those that came before it.
+  // tf2's order of steps: drop samples that are too old by the newest stamp so far, refuse older
+  // ones than that, and insert a sample with a repeated stamp after the earlier ones.
   InsertStatus insert(Stamp stamp, const Sample& sample, Stamp keep) {
     if (samples_.empty()) {
       append(stamp, sample);
@@ -161,7 +160,7 @@ class Link {
     former_senders_ = {};
   }
 
-  // The history goes, and a static pose if it is not to stay.
+  // Clears the history, and the static pose unless it is kept.
   void clear(bool static_stays) {
     if (is_static() && static_stays) return;
     const FrameId parent = last_parent();
@@ -186,8 +185,8 @@ class Link {
     return {ReadStatus::ok, pair.older->parent, interpolated(pair, t)};
   }
 
-  // As read, but up to `limit` before the oldest and after the newest sample: the motion between
-  // the two outermost samples is taken to go on.
+  // As read, but up to `limit` before the oldest and after the newest sample: extrapolates the
+  // motion between the two outermost samples.
   Reading read_beyond(Stamp t, Stamp limit) const {
     const Reading reading = read(t);
     if (reading.status != ReadStatus::future && reading.status != ReadStatus::past) return reading;

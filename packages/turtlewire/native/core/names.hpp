@@ -1,4 +1,4 @@
-// Names and the small numbers that stand for them: frames and senders.
+// Names of frames and senders, and their ids, small numbers.
 #pragma once
 
 #include <cstdint>
@@ -57,7 +57,7 @@ class Names {
     shown_[intern(name)] = renamed_.emplace_back(shown);
   }
 
-  // Forgets a name; its number stands for the empty text until it is given again.
+  // Forgets a name; its number means the empty text until it is reused.
   void free(std::uint32_t id) {
     free_.push_back(id);
     ids_.erase(names_[id]);

@@ -1,4 +1,4 @@
-// The way between two frames, prepared once for each shape of the tree.
+// The path between two frames, prepared once for each shape of the tree.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// A transform that came as bytes.
+// A serialized transform.
 #pragma once
 
 #include <string_view>

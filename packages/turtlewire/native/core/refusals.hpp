@@ -1,4 +1,4 @@
-// What was refused, counted and remembered by frame.
+// Rejected transforms, counted by frame.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The texts in which tf2 describes its whole tree.
+// tf2's descriptions of the whole tree.
 #include <algorithm>
 #include <cstdio>
 

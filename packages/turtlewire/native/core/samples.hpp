@@ -274,7 +274,7 @@ class Samples {
   std::size_t room_ = 0;        // samples that fit into the blocks
   std::size_t head_ = 0;        // samples at the start of the first block that were dropped
   std::size_t size_ = 0;
-  Stamp oldest_ = 0, newest_ = 0;  // stand here, too, because all questions ask for them
+  Stamp oldest_ = 0, newest_ = 0;  // also stored here, because all lookups read them
   Sample* back_ = nullptr;         // likewise
   double per_ns_ = 0.0;
 };

@@ -46,7 +46,7 @@ void Tree::add_time(const Link& link, Stamp& earliest) const {
     earliest = stamp;
 }
 
-// By the newest parent of each link, whatever the time.
+// By the newest parent of each link, at any time.
 Status Tree::latest_common_time(FrameId target, FrameId source, Stamp& t, Failure* failure) const {
   t = kLatest;
   if (target == source) {
@@ -99,7 +99,7 @@ Reading Rule::read(const Link& link) const {
   return beyond != 0 ? link.read_beyond(t, beyond) : link.read(t);
 }
 
-// One step upwards after another, from a start frame; remembers why it could not go on.
+// Walks upwards from a start frame, step by step; remembers why it had to stop.
 struct Tree::Climb {
   const Tree& buffer;
   const Rule& rule;

@@ -111,7 +111,7 @@ Status SharedBuffer::can_transform(const FullRequest& r, Failure& failure) {
   if (status == Status::ok) status = resolve(r.fixed, Argument::fixed, id, failure);
   if (status != Status::ok) return status;
   status = test({r.target, r.fixed, r.target_time, r.beyond}, failure);
-  // tf2 goes on behind a static link that was cleared, and then reports the other half's failure.
+  // tf2 continues past a cleared static link, and then reports the failure of the other half.
   if (status != Status::ok && status != Status::no_static_data) return status;
   Failure other;
   const Status last = test({r.fixed, r.source, r.source_time, r.beyond}, other);

@@ -32,7 +32,7 @@ class Waiter {
 struct Request {
   std::string_view target, source;
   Stamp t = kLatest;
-  Stamp beyond = 0;  // so far outside of a link's data its motion is taken to go on; never in tf2
+  Stamp beyond = 0;  // how far motion is extrapolated outside of a link's data; never in tf2
 };
 struct FullRequest {
   std::string_view target;
@@ -79,7 +79,7 @@ class SharedBuffer final : public ForkAware {
 
   Stamp keep() const { return tree_.keep(); }
 
-  // Adds the transforms of one message and wakes who waits.
+  // Adds the transforms of one message and wakes the waiting threads.
   Added add(std::span<const ReceivedTransform> transforms, std::string_view authority,
             bool is_static);
 
@@ -119,7 +119,7 @@ class SharedBuffer final : public ForkAware {
   const ForkRegistration registration_{*this, Order::inner};
 };
 
-// Makes a waiter known for as long as this lives.
+// Registers a waiter for the lifetime of this object.
 class Waiting {
  public:
   Waiting(SharedBuffer& shared, Waiter& waiter) : shared_(shared), waiter_(&waiter) {

@@ -20,10 +20,10 @@
 namespace turtlewire {
 
 inline constexpr std::string_view kNoParent = "NO_PARENT";
-inline constexpr int kMaxGraphDepth = 1000;  // tf2 takes more hops for a loop
+inline constexpr int kMaxGraphDepth = 1000;  // tf2 treats more hops as a loop
 
-// What a link is asked for: its pose at a time; that, but up to `beyond` outside of its data; or
-// its newest pose, if that is not older than `max_age` at the time.
+// The kind of pose that a link returns: at a time; at a time up to `beyond` outside of its data; or
+// the newest, if it is not older than `max_age` at the time.
 struct Rule {
   Stamp t = kLatest;
   Stamp beyond = 0;
@@ -38,7 +38,7 @@ struct Rules {
   Stamp no_time = kLatest;       // a newest stamp that does not count for the latest common time
   bool keeps_rotations = false;  // as they were given, if nearly unit; else by way of a matrix
   bool tells_emptied = false;    // the text of a lookup says that a link has no data at all
-  bool clears_static = false;    // clear() forgets static poses, too
+  bool clears_static = false;    // clear() also forgets static poses
 
   static Rules of_jazzy() { return {.no_time = 0}; }
   static Rules of_kilted() {
@@ -85,8 +85,8 @@ class Tree {
                  const Pose& pose, SourceId source);
   // Forgets all samples; frames and senders stay, and static transforms by most rules.
   void clear();
-  // Forgets the links of these frames with their history and static poses, and the names that then
-  // stand for nothing. Takes time in proportion to the number of all frames. Returns the names of
+  // Forgets the links of these frames with their history and static poses, and names that are then
+  // unused. Takes time in proportion to the number of all frames. Returns the names of
   // the frames that had a link.
   std::vector<std::string> remove(std::span<const FrameId> children);
   SourceId sender(std::string_view name);
@@ -103,7 +103,7 @@ class Tree {
 
   // -- names
   const Names& frames() const { return frames_; }
-  // All frames that were ever heard of and not removed, in order of arrival.
+  // All frames that were ever received and not removed, in order of arrival.
   const std::vector<FrameId>& known_frames() const { return known_frames_; }
   bool is_known(FrameId frame) const { return is_known_[frame]; }
   // The link above a frame, by its name in a transform; null if there never was one.
@@ -112,7 +112,7 @@ class Tree {
   Status resolve(std::string_view name, FrameId& id) const;
 
   // -- out
-  // The way from source to target, made anew when the tree has changed; stays valid until the next
+  // The path from source to target, rebuilt when the tree has changed; stays valid until the next
   // change of the tree.
   const Path& path(FrameId target, FrameId source);
   bool is_current(const Path& path) const { return path.version == version_; }

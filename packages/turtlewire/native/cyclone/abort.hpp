@@ -1,4 +1,4 @@
-// What Cyclone said before it aborted the process.
+// Prints Cyclone's last messages before it aborts the process.
 #pragma once
 
 namespace turtlewire::cyclone {

@@ -107,7 +107,7 @@ void FirstRequests::send_when_due() {
     if (due_.empty()) {
       changed_.wait(lock);
     } else if (const auto next = due_.begin(); next->first > Clock::now()) {
-      const Clock::time_point when = next->first;  // another thread may add one meanwhile
+      const Clock::time_point when = next->first;  // another thread may add one
       changed_.wait_until(lock, when);
     } else {
       const Guid writer = next->second;

@@ -26,7 +26,7 @@ struct MatchedStatus {
 };
 
 // Asks each new client of one server for its first request, with heartbeats in the client's name.
-// They are sent on a thread of its own, which starts with the first client on Fast DDS.
+// A separate thread sends them; it starts with the first client on Fast DDS.
 class FirstRequests {
  public:
   using Guid = decltype(Identity::guid);

@@ -1,4 +1,4 @@
-// Messages that Cyclone's own thread hands to a sink.
+// Passes messages from Cyclone's thread to a sink.
 #pragma once
 
 #include <new>

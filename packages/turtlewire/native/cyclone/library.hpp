@@ -1,5 +1,5 @@
-// What we call of Cyclone DDS, which is the same in 0.10 and 11. Python looks it up, in the very
-// library that it uses itself.
+// The functions of Cyclone DDS that we call, which are the same in 0.10 and 11. Python looks them
+// up in the library that it uses itself.
 #pragma once
 
 #include <array>
@@ -86,7 +86,7 @@ class Samples {
     for (std::size_t i = 0; i < size(); ++i) library_.release(samples_[i]);
   }
 
-  // 0 also when the reader has gone.
+  // 0 also if the reader was deleted.
   std::size_t size() const { return count_ < 0 ? 0 : static_cast<std::size_t>(count_); }
   bool valid(std::size_t i) const { return info<unsigned char>(i, 1) != 0; }
   std::int64_t sent(std::size_t i) const { return info<std::int64_t>(i, 2); }

@@ -92,7 +92,7 @@ State& state() {
   return made;
 }
 
-// Reads memory that may not be there.
+// Reads memory that may not be mapped.
 bool peek(const void* from, void* to, std::size_t size) {
 #ifdef __linux__
   const iovec local{to, size}, remote{const_cast<void*>(from), size};
@@ -153,7 +153,7 @@ void* to_block(const void* sample, std::size_t offset, std::size_t size, Block* 
     const auto found = own.tags.find(sample);
     if (found != own.tags.end()) tag = found->second;
   }
-  // Of a sample in fragments, each gets it: Fast DDS heeds the one that arrives first.
+  // Each fragment of a sample gets it, because Fast DDS reads the one that arrives first.
   if (tag) (append_identity(reference, tag->identity) ? tag->appended : tag->refused) = true;
   return reinterpret_cast<ToBlock>(own.original[kToBlock])(sample, offset, size, reference);
 }
@@ -167,7 +167,7 @@ void forget(void* sample) {
   reinterpret_cast<Free>(own.original[kFree])(sample);
 }
 
-// Where the header of the submessage is that ends at `end`; null if none does.
+// The header of the submessage that ends at `end`; null if there is none.
 unsigned char* submessage_before(unsigned char* end) {
   constexpr std::size_t kDataSize = 24, kFragSize = 36;
   std::array<unsigned char, kFragSize> tail;

@@ -1,4 +1,4 @@
-// Feeds buffers with messages on whatever thread brings them, and keeps back those that need more
+// Fills buffers with messages on any receiving thread, and keeps back those that need more
 // than that.
 #pragma once
 
@@ -53,7 +53,7 @@ class Intake final : public ForkAware {
   // that need Python. Those before them that do not need it any more are stored. `former` is what
   // the last call returned, if an introduction may have changed the need.
   std::deque<WaitingMessage> take(std::deque<WaitingMessage> former = {});
-  // Whether a buffer that somebody listens to has got data since the last time.
+  // Whether a buffer with change listeners has received data since the last time.
   bool take_news();
 
   void before_fork() override { mutex_.lock(); }
@@ -72,7 +72,7 @@ class Intake final : public ForkAware {
  private:
   static constexpr std::chrono::seconds kRoomPeriod{1};
   static constexpr std::size_t kMostPublishers =
-      1000;  // they come and go; beyond it, all are introduced anew
+      1000;  // they come and go; beyond it, all are introduced again
   struct Publisher {
     std::string gid, name;
   };
@@ -90,7 +90,7 @@ class Intake final : public ForkAware {
   TfMessage message_;
   Backlog backlog_;
   bool news_ = false;
-  std::uint64_t stored_ = 0;  // messages, without those that were kept back for good
+  std::uint64_t stored_ = 0;  // messages, without those that were kept back permanently
   bool expecting_ = false;    // the next message is expected
   bool expected_came_ = false;
   std::vector<Waker> wakers_;  // of threads that expect the next message

@@ -23,7 +23,7 @@ class JointFrames {
  public:
   static constexpr std::size_t kStampAt = 4;  // in a JointState
 
-  // `message` is a TFMessage whose stamps and poses are written anew each time. Throws
+  // `message` is a TFMessage whose stamps and poses are rewritten each time. Throws
   // std::invalid_argument if they do not lie within it.
   JointFrames(std::vector<unsigned char> message, std::vector<JointFrame> joints);
 

@@ -22,7 +22,7 @@ namespace turtlewire {
 
 // Python handles JointStates with names that are not known yet, malformed ones, those that find the
 // clock set back, those whose skipping is worth a log line, and those whose answer cannot be sent
-// at once. It asks for the same stamps, and tells those of its own answers. The order of all
+// at once. It asks for the same stamps, and reports the stamps of its own answers. The order of all
 // messages is kept: until Python has found nothing left to take, further messages are kept back as
 // well.
 class JointRelay final : public ForkAware {

@@ -1,4 +1,4 @@
-// What native code sends messages with, whatever the middleware.
+// The interface with which native code sends messages in any middleware.
 #pragma once
 
 #include <cstdint>

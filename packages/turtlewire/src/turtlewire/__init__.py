@@ -1,11 +1,11 @@
 """ROS 2's transform system for Python, without a ROS installation.
 
 ===================  =====================================================================
-module               what it holds
+module               contents
 ===================  =====================================================================
 `attribute_hints`    AttributeErrors that say what to use, for names of other libraries
 `bag`                rosbag2 folders, MCAP and sqlite3, read and written
-`call_errors`        errors of calls whose arguments do not fit
+`call_errors`        errors of calls with wrong arguments
 `cli`                the ``turtlewire`` command and its verbs
 `demo`               ``python -m turtlewire.demo``: one turtle follows another
 `distro`             the distribution of ROS 2 that ``ROS_DISTRO`` chooses
@@ -14,20 +14,20 @@ module               what it holds
 `geometry`           quaternions, poses and matrices as numbers
 `msg`                interface definitions, message classes, CDR and type hashes
 `net`                topics and transforms of a network: `connect`
-`package_sources`    what to clone for well-known packages that are missing
-`path_arguments`     paths that callers pass, and near names of those that are missing
-`platforms`          what this platform can do, and which core is asked for
+`package_sources`    repositories of well-known packages that are missing
+`path_arguments`     paths that callers pass, and suggestions for missing ones
+`platforms`          capabilities of this platform, and the requested core
 `plugins`            entry points that installed packages declare
 `plugin_versions`    versions of the interfaces of extensions
-`program`            how a command ends whose output cannot be written
+`program`            ends a command whose output cannot be written
 `relay`              topics and services carried between two networks
 `terminal`           command lines, keys and text of terminals
 `testing`            a domain, a filled buffer and waiting, for users' tests
-`tf`                 the transform buffer, the listener that fills it, and its pictures
+`tf`                 the transform buffer, the listener that fills it, and its diagrams
 `trajectory`         poses over time: sampled, in files, compared
 `urdf`               robots: a parser of URDF and forward kinematics
 `viewing`            `show`, which opens the 3D view of turtlewire-view
-`wake_up`            a wait of the main thread that a signal may interrupt at any moment
+`wake_up`            waits of the main thread that signals can interrupt
 `web`                a small HTTP and WebSocket server for this machine's browsers
 `wire`               the middleware: bytes, QoS, names and the graph
 ===================  =====================================================================
@@ -62,7 +62,7 @@ _HOMES = {
     "connect": "turtlewire.net",
     "show": "turtlewire.viewing",
 }
-#: Found without an import of their own.
+#: Modules that are attributes without a separate import.
 _MODULES = {"bag", "errors", "geometry", "msg", "testing", "trajectory", "urdf", "wire"}
 
 

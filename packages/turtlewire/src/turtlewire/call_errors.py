@@ -1,6 +1,6 @@
-"""Errors of calls whose arguments do not fit: in Python's words, with the names that exist.
+"""Errors of calls with wrong arguments: in Python's words, with the names that exist.
 
-The compiled core calls `call_error` where it reads arguments; `explain_calls` does the same for
+The compiled core calls `call_error` when it reads arguments; `explain_calls` does the same for
 classes in Python, so that both cores raise the same texts.
 """
 

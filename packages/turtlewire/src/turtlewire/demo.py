@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 __all__ = ["main"]
 
 _LAUNCH = ("launch", "learning_tf2_py", "turtle_tf2_demo.launch.py")
-#: What the demo needs beside this package, and where it is in the sources.
+#: Other packages that the demo needs, and their folders in the sources.
 _NEEDED = {
     "turtlesim": "./packages/turtlewire-ros",
     "learning_tf2_py": "./examples/learning_tf2_py",
@@ -75,7 +75,7 @@ def _run(command: list[str], seconds: float | None) -> int:
     path = f"{os.path.dirname(command[0])}{os.pathsep}{os.environ.get('PATH', '')}"
     environment = {**os.environ, "PATH": path}
     if seconds is None and sys.platform != "win32":
-        # In the place of this process, so that whatever ends it ends the launch.
+        # Replaces this process, so that a signal that ends it ends the launch.
         os.execve(command[0], command, environment)  # noqa: S606 -- ours
     # On Windows, Ctrl-C reaches the launch as well; elsewhere, in its session, only from here.
     launch = subprocess.Popen(  # noqa: S603 -- ours

@@ -1,8 +1,8 @@
 """The distribution of ROS 2 that a process follows.
 
-``ROS_DISTRO`` chooses it, as the set-up script of a real installation does. What a later
-distribution adds exists under every name, so that a program written for it runs; what one changes
-or removes follows the name, and code asks `since` there.
+``ROS_DISTRO`` chooses it, as the set-up script of a real installation does. Additions of later
+distributions exist under every name, so that programs written for them run. Changes and removals
+follow the name; code calls `since` there.
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@
         ├── InvalidArgumentException  an empty frame id, or one that starts with '/'
         └── TimeoutException          a remote buffer did not answer in time
 
-``str(error)`` is the text that ROS 2 defines, if it defines one. Our advice is in ``error.hint``
+``str(error)`` is ROS 2's text, if ROS 2 defines one. Our advice is in ``error.hint``
 (an empty string when there is nothing to add); tracebacks show it as a note on Python 3.11 and
 later.
 """
@@ -280,7 +280,7 @@ class LookupException(TransformException):
         if not names:
             why_empty = getattr(self._buffer, "_why_empty", None)  # a core alone has none
             return str(why_empty()) if why_empty else "No transform was set yet."
-        # 'turtle1' and 'turtle2' are two things, of which one may not have been spawned yet.
+        # 'turtle1' and 'turtle2' are different turtles; one may not have been spawned yet.
         others = [name for name in names if name.strip(digits) != frame.strip(digits)]
         near = difflib.get_close_matches(frame, others, 3, 0.5)
         if near:

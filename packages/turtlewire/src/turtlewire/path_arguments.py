@@ -1,4 +1,4 @@
-"""Paths that callers pass: checked, and explained where nothing is."""
+"""Checks paths that callers pass, and explains missing ones."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def path_text(path: Any, argument: str = "path", what: str = "path") -> str:
     Args:
         path: A str, bytes, or an object with ``__fspath__`` such as a ``pathlib.Path``.
         argument: The name of the argument, for the text of the error.
-        what: The thing at the path, for the text of the error.
+        what: The kind of file at the path, for the text of the error.
 
     Raises:
         TypeError: The path is something else, such as a number (of an open file).

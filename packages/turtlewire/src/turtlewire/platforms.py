@@ -1,4 +1,4 @@
-"""What this platform can do, and which core the environment asks for: the one place that looks."""
+"""The capabilities of this platform, and the core that the environment requests."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Entry points that installed packages declare, turtlewire's first.
 
-The files are read here, because importing :mod:`importlib.metadata` takes longer than most of what
-a command does.
+This module reads the files itself, because importing :mod:`importlib.metadata` takes longer than
+most commands.
 """
 
 from __future__ import annotations

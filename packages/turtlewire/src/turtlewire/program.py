@@ -1,7 +1,7 @@
-"""Ends a program as Unix tools end when their output cannot be written.
+"""Ends a program as Unix tools do when they cannot write their output.
 
-``git``, ``ls`` and ``cat`` end without a text when the reader of their output, such as ``head``,
-has closed the pipe: SIGPIPE ends them, for which a shell shows the status 141. When the disk is
+``git``, ``ls`` and ``cat`` end silently when the reader of their output, such as ``head``, has
+closed the pipe: SIGPIPE ends them, and a shell shows the status 141. When the disk is
 full, they print one line. Python ignores SIGPIPE, prints a traceback, and "Exception ignored in …"
 with the status 120 for what is in its buffers at the exit.
 """
@@ -33,8 +33,8 @@ def program(main: Callable[_Arguments, _Status]) -> Callable[_Arguments, _Status
 
     If stdout cannot be written, the write raises ``SystemExit``, so that ``main`` cleans up: with
     the status 141 and no text if the reader of a pipe has closed it, else with the status 1 and one
-    line on stderr. If no one reads stderr, the status is also 141, but ``main`` goes on: log lines
-    that no one reads must not end a node.
+    line on stderr. If no one reads stderr, the status is also 141, but ``main`` continues: log
+    lines that no one reads must not end a node.
 
     Nothing changes if stdout is not the one of the process, as in tests that capture it.
     """

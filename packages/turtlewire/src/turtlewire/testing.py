@@ -1,4 +1,4 @@
-"""Helpers for tests of programs that use transforms: a domain of their own, buffers, waiting.
+"""Helpers for tests of programs that use transforms: an isolated domain, buffers, waiting.
 
 In ``conftest.py``, for the whole run::
 
@@ -77,7 +77,7 @@ def reserved_domain() -> Iterator[int]:
 
 @contextlib.contextmanager
 def isolated_domain() -> Iterator[int]:
-    """Give this process and its children a ROS domain of their own, on this computer only.
+    """Give this process and its children their own ROS domain, on this computer only.
 
     Sets ``ROS_DOMAIN_ID``, ``ROS_AUTOMATIC_DISCOVERY_RANGE`` and ``ROS_LOG_DIR`` (a temporary
     folder) in the environment, removes other variables that choose peers or the middleware, and

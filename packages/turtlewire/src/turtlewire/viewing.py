@@ -76,7 +76,7 @@ def show(
             all are at 0. The page has a slider for each.
         fixed_frame: The frame to look from first; empty takes the root of the largest tree.
         config: A ``.rviz`` file to load.
-        port: The TCP port to try first; None takes ``TURTLEWIRE_PORT``, or 7070.
+        port: The TCP port to try first; None uses ``TURTLEWIRE_PORT``, or 7070.
         lan: True to serve the page to other devices of the network, at an address with a token.
         packages: Folders of packages, for the meshes of ``package://NAME/…``. Packages around a
             ``.urdf`` file are found without.

@@ -1,4 +1,4 @@
-"""The how-tos about bags and trajectories do what they say."""
+"""The examples of the how-to pages about bags and trajectories, run."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from turtlewire.trajectory import Trajectory
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
-    """What the pages find: a bag, a circle and two estimates of it."""
+    """The files that the pages use: a bag, a circle and two estimates of it."""
     monkeypatch.chdir(tmp_path)
     write_bag(tmp_path / "my_bag")
     angle = np.linspace(0, 2 * np.pi, 500)

@@ -1,4 +1,4 @@
-"""What killed processes leave of a new folder is removed; what living ones write is not."""
+"""Remains of a new folder from killed processes are removed; folders of living ones are not."""
 
 from __future__ import annotations
 

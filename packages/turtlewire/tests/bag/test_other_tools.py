@@ -69,7 +69,7 @@ def write(path, channels=CHANNELS, **options):
 
 
 def reasons(path):
-    """Why each topic is not decoded; empty for those that are."""
+    """Return why each topic is not decoded; empty for decoded topics."""
     found = {}
     with open_bag(path) as bag:
         for message in bag:

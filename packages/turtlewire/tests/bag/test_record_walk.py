@@ -61,7 +61,7 @@ def rounded(poses):
 
 
 def outcome(core, records, window=(0, FOREVER)):
-    """What a buffer holds after the walk, and what the walk tells."""
+    """Return the content of a buffer after the walk, and the walk's report."""
     buffer, walk = core.Buffer(None), core.RecordWalk(*window)
     damage = [walk.walk(buffer, part, CHANNELS) for part in records]
     history = {

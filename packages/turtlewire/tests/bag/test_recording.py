@@ -1,4 +1,4 @@
-"""What a recording keeps and loses at the limit of its cache."""
+"""Messages that a recording keeps and loses at the limit of its cache."""
 
 from __future__ import annotations
 

@@ -53,7 +53,7 @@ def path(tmp_path):
 
 @pytest.mark.parametrize("kind", PLACES)
 def test_every_type_with_a_pose(path, kind):
-    with pytest.warns(UserWarning, match="2 of 102 messages of .* have the stamp of another"):
+    with pytest.warns(UserWarning, match="2 of 102 messages of .* repeat a stamp"):
         trajectory = Trajectory.from_bag(path, f"/{kind.rpartition('/')[2].lower()}")
     assert len(trajectory) == 100
     assert trajectory.stamps_ns[49] == START + 490_000_007

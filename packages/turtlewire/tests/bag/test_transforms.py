@@ -98,7 +98,7 @@ def test_the_pages_of_chunks_that_were_read_are_given_back(tmp_path, monkeypatch
 
 
 def resident_bytes(file):
-    """How much of a mapped file is in this process's memory."""
+    """Return the resident size of a mapped file in this process."""
     total, ours = 0, False
     for line in Path("/proc/self/smaps").read_text(encoding="utf-8").splitlines():
         if re.match(r"[0-9a-f]+-[0-9a-f]+ ", line):
@@ -164,7 +164,7 @@ def test_gaps_jumps_two_parents_and_nonsense_are_reported(tmp_path):
 
 
 def test_a_frame_that_changes_its_parent_once_is_reported(tmp_path):
-    """It is no conflict, as when a gripper takes a part; but lookups across it differ."""
+    """This is not a conflict, as when a gripper picks up a part, but it affects lookups."""
     with BagWriter(tmp_path / "made") as writer:
         writer.add_topic("/tf", "tf2_msgs/msg/TFMessage")
         for i in range(20):

@@ -204,7 +204,7 @@ def test_remarks_about_a_file_are_lines_below_each_other(capsys, tmp_path):
     path = tmp_path / "walk.tum"
     path.write_text("1 0 0 0 0 0 0 2\n1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n")
     remarks = (
-        f"note: {path}: 1 of 3 stamps repeat the one before; the first pose is taken\n"
+        f"note: {path}: 1 of 3 stamps repeat the previous one; the first pose is used\n"
         f"note: {path}: 1 of 3 quaternions are normalised\n"
     )
     done = run(capsys, "trajectory", path)

@@ -1,4 +1,4 @@
-"""What the doctor finds, on graphs and traffic made for it."""
+"""Findings of the doctor on artificial graphs and traffic."""
 
 from __future__ import annotations
 
@@ -628,7 +628,7 @@ NO_WIRE = "PROBLEM: join domain"
 
 @pytest.mark.skipif(
     not OWN_NETWORK,
-    reason="a network of its own needs root, unshare and ip (Debian: apt install iproute2)",
+    reason="a separate network needs root, unshare and ip (Debian: apt install iproute2)",
 )
 @pytest.mark.parametrize(
     ("network", "problems"),

@@ -1,4 +1,4 @@
-"""How nodes on Fast DDS receive: what they announce and share; tests/peers has real ones."""
+"""The transports of nodes on Fast DDS, announced and shared; tests/peers has real nodes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Gaps in the stamps of transforms: loss is found, and other rhythms are no loss."""
+"""Gaps in the stamps of transforms: loss is found, and other patterns are not mistaken for it."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def test_too_few_moments_say_nothing(stamps):
 
 
 def stamps_of(*periods, period_ns=20_000_000):
-    """Stamps that are so many periods apart."""
+    """Return stamps that are this many periods apart."""
     return [sum(periods[:k]) * period_ns for k in range(len(periods) + 1)]
 
 

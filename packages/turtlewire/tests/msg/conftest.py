@@ -1,4 +1,4 @@
-"""What the message tests share.
+"""Fixtures and helpers of the message tests.
 
 The golden data, filling a message from it, and messages of any type at random.
 """

@@ -1,4 +1,4 @@
-"""The codec's edges: what it accepts, what it refuses and how it says so."""
+"""Edge cases of the codec: accepted and rejected values, and the errors."""
 
 from __future__ import annotations
 

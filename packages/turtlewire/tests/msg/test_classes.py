@@ -276,7 +276,7 @@ def test_the_parts_of_services_and_actions_are_imported_by_name():
 
 
 def test_the_private_modules_of_interfaces_are_imported():
-    """As ROS 2's generator names them; in a process of its own, where nothing is imported yet."""
+    """As ROS 2's generator names them; in a separate process, where nothing is imported yet."""
     code = (
         "from geometry_msgs.msg._pose_stamped import PoseStamped\n"
         "from tf2_msgs.action._lookup_transform import LookupTransform_GetResult_Response\n"

@@ -29,7 +29,7 @@ print(json.dumps({name: msg.type_hash(name) for name in names}))
 def test_names_and_hashes_are_those_of_the_distribution(distro, count):
     here = json.loads("".join(lines_in(distro, LIST)))
     real = HASHES["every"] | HASHES[distro]
-    # Turtlewire has one more for the demos; the real ones keep it in a package of their own.
+    # Turtlewire has one more for the demos; the real ones keep it in their own package.
     here.pop("action_tutorials_interfaces/action/Fibonacci")
     assert len(real) == count
     assert here == real

@@ -56,7 +56,7 @@ FILES = {
 
 @pytest.fixture(autouse=True)
 def own_registry(monkeypatch):
-    """What a test generates registers itself, and must not meet the next test."""
+    """Restore the registry after each test, because generated packages register themselves."""
     monkeypatch.setattr(registry, "_registered", {})
 
 

@@ -83,7 +83,7 @@ def test_all_interfaces_are_listed():
         (
             "nope/msg/X",
             "unknown interface 'nope/msg/X'",
-            "`ros2 interface list` shows what there is.",
+            "`ros2 interface list` shows all interfaces.",
         ),
         (
             "Twist",

@@ -70,7 +70,7 @@ def rosbags_store():
     store = get_typestore(Stores.ROS2_JAZZY)
     for name, text in SHAPES.items():
         define(f"shape_msgs_of_tests/msg/{name}", text)
-        # rosbags hashes char as a type of its own; ROS 2's .msg files mean uint8 by it.
+        # rosbags hashes char as a distinct type; ROS 2's .msg files mean uint8 by it.
         known = text.replace("char", "uint8")
         store.register(get_types_from_msg(known, f"shape_msgs_of_tests/msg/{name}"))
     return store

@@ -1,4 +1,4 @@
-"""What importing costs, in modules: nothing heavy comes in before it is needed."""
+"""The cost of imports in modules: heavy modules are imported only when they are needed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`turtlewire relay` as a process of its own, between two networks that this process is in."""
+"""`turtlewire relay` as a separate process, between two networks that this process is in."""
 
 from __future__ import annotations
 

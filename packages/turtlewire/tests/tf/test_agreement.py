@@ -29,10 +29,10 @@ ADAPTER = Path(__file__).parent / "rivals" / "debian_tf2.py"
 
 
 def perform(buffer: turtlewire.Buffer, operation: tuple[Any, ...]) -> Any:
-    """What a refused sample says.
+    """Add a sample, or look up; return the result.
 
-    What a question answers: an int, [stamp, numbers], or the exception. As in ROS, the time 0 of a
-    question is the latest, and that of an answer none.
+    A rejected sample returns the reason, a lookup an int, [stamp, numbers] or the exception. As in
+    ROS, the time 0 requests the latest, and means no time in a result.
     """
     kind, *arguments = operation
     if kind == "set":

@@ -1,4 +1,4 @@
-"""What errors carry beyond their text."""
+"""Attributes of errors."""
 
 from __future__ import annotations
 

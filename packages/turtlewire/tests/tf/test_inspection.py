@@ -1,4 +1,4 @@
-"""Looking into a buffer, and changing it by other ways than new data, on both cores."""
+"""Inspecting a buffer, and changing it other than by adding data, on both cores."""
 
 from __future__ import annotations
 
@@ -341,7 +341,7 @@ HEADER = b'{"format": "turtlewire buffer 1", "cache_time_ns": 1, "runs": [["a", 
 
 
 def archive(*, header: bytes, **arrays: bytes) -> bytes:
-    """What `save` writes, with these bytes as the members."""
+    """Return an archive as `save` writes it, with these bytes as the members."""
     file = io.BytesIO()
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as members:
         members.writestr("header.npy", claiming("|u1", (len(header),)) + header)

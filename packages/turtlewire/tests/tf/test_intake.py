@@ -1,4 +1,4 @@
-"""The short way of transforms.
+"""The native path of transforms into buffers.
 
 From the wire into the compiled core: on Cyclone's receiving thread without Python, from Zenoh's
 channel in batches.

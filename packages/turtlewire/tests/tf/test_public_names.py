@@ -1,4 +1,4 @@
-"""What ``import turtlewire`` offers."""
+"""The public names of ``import turtlewire``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Removing frames: what is left of them, and what it costs."""
+"""Removing frames: remaining data, and cost."""
 
 from __future__ import annotations
 

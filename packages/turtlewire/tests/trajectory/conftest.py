@@ -1,4 +1,4 @@
-"""Random trajectories, and the same as objects of evo."""
+"""Random trajectories, and their equivalents in evo."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def random_walk(seed, count=300, step=0.1, period_ns=50_000_000):
 
 
 def disturbed(trajectory, seed, size=0.05):
-    """The same with noise, in another frame."""
+    """Return the trajectory with noise, in another frame."""
     from turtlewire.trajectory.alignment import Alignment
 
     dice = np.random.default_rng(seed)

@@ -154,7 +154,7 @@ POSES = ["0 0 0 0 0 0 1", "1 0 0 0 0 0 1", "2 0 0 0 0 0 1"]
 def test_of_repeated_stamps_the_first_pose_is_taken(tmp_path, name, rows):
     path = tmp_path / "walk"
     path.write_text("\n".join(rows))
-    text = r"walk: 1 of 3 stamps repeat the one before; the first pose is taken$"
+    text = r"walk: 1 of 3 stamps repeat the previous one; the first pose is used$"
     with pytest.warns(UserWarning, match=text):
         found = Trajectory.load(path, format=name)
     assert found.positions[:, 0].tolist() == [0, 2]
@@ -189,7 +189,7 @@ def test_the_times_of_a_sequence_in_the_same_folder_are_read(tmp_path):
     walk = random_walk(1, 5)
     walk.save(tmp_path / "00.txt", format="kitti")
     (tmp_path / "00_times.txt").rename(tmp_path / "times.txt")
-    with pytest.warns(UserWarning, match=r"00\.txt: the times are taken from times\.txt in the"):
+    with pytest.warns(UserWarning, match=r"00\.txt: the times come from times\.txt in the"):
         found = Trajectory.load(tmp_path / "00.txt")
     assert (found.timed, found.stamps_ns.tolist()) == (True, walk.stamps_ns.tolist())
     (tmp_path / "times.txt").write_text("1.0\n")

@@ -23,7 +23,7 @@ from .conftest import disturbed, random_walk
 
 
 def every_picture():
-    """One of each, which use all elements that charts have."""
+    """Yield one chart of each kind, which together use all elements of charts."""
     truth = random_walk(1)
     estimate = disturbed(truth, 2)
     comparison = compare(truth, estimate, "se3")

@@ -1,4 +1,4 @@
-"""Robots of our own, as URDF texts: shapes that real ones have, with numbers that nothing hides.
+"""Our own robots as URDF: shapes of real robots, with numbers that expose errors.
 
 Origins and axes are drawn from a seeded generator where a real robot would have round numbers: a
 wrong sign or order of rotations must not cancel out.

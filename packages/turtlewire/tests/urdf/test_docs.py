@@ -1,4 +1,4 @@
-"""The how-to about URDF does what it says; a `text` block is what the block before it prints."""
+"""The examples of the how-to page about URDF; a `text` block is the previous block's output."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def test_the_page_does_what_it_says(run, tmp_path):
 
 
 def outcome(program):
-    """What it printed, without its log and the time of waiting for the first transform."""
+    """Return the output, without the log and the waiting time for the first transform."""
     assert program.wait() == 0, program.text
     skipped = ("[INFO]", "Waiting", "Warning")
     return "".join(

@@ -1,4 +1,4 @@
-"""JointStates to TFMessages, natively and in the plain-Python twin."""
+"""JointStates to TFMessages, natively and in plain Python."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def pose(transform):
 
 
 def pose_at(name, position):
-    """Of a joint alone, by the batch."""
+    """Return the pose of a single joint, computed by the batch."""
     joint = ROBOT.joints[name]
     alone = Robot.from_xml(
         f'<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="{joint.type}">'

@@ -1,4 +1,4 @@
-"""What pages may send, and what they are told when they send something else."""
+"""The commands of pages, and the answers to invalid ones."""
 
 from __future__ import annotations
 

@@ -144,7 +144,7 @@ def test_cached_files_are_not_sent_again(server):
 
 
 def test_computed_answers_are_never_compressed(root, start):
-    """It may stand beside something secret, and its length would tell."""
+    """Such an answer may contain a secret, which its length would reveal."""
     body = b"x" * 5000
     server = start(root, answer=lambda path: WebContent(body, "text/plain"))
     response = get(server, "/computed", "gzip")

@@ -1,4 +1,4 @@
-"""One suite for all middlewares: what the contract in ``base.py`` promises."""
+"""One suite for all middlewares: the guarantees of the contract in ``base.py``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What used to end the process without a word inside Cyclone: one clear error instead."""
+"""Calls that used to end the process silently inside Cyclone raise a clear error instead."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ def test_a_datagram_that_the_network_refuses_is_explained():
 
 
 def test_cyclone_log_of_a_domain_goes_into_the_pipe():
-    """In a process of its own.
+    """Runs in a separate process.
 
     Cyclone keeps the first stderr that it sees for what belongs to no domain.
     """
@@ -73,7 +73,7 @@ def test_many_lines_of_one_kind_are_one_warning_and_the_thread_ends(monkeypatch)
 
 
 def word(number: int) -> str:
-    """A word of its own for each number."""
+    """Return a different word for each number."""
     digits = hashlib.sha256(number.to_bytes(4, "big")).hexdigest()
     return digits.translate(str.maketrans("0123456789abcdef", "ghijklmnopqrstuv"))
 

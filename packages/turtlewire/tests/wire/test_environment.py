@@ -86,7 +86,7 @@ def test_localhost_only_is_honoured_and_deprecated(
 
 @pytest.mark.parametrize("theirs", ["rmw_fastrtps_cpp", "rmw_connextdds", "rmw_nope"])
 def test_a_middleware_that_is_not_here_is_one_line_and_cyclone_is_taken(theirs: str):
-    """In a process of its own: this one may have said it before."""
+    """Runs in a separate process, because this one may have printed the warning already."""
     code = (
         "from turtlewire.wire import open_context\n"
         "for _ in range(2):\n"
@@ -266,7 +266,7 @@ def test_a_static_peer_that_nobody_knows_is_left_out_with_one_warning(
 
 @pytest.mark.parametrize("peer", ["a..b", "0.0.0.0"])  # no name server is asked for these
 def test_static_peer_fatal_to_cyclone_is_skipped_with_a_warning(peer: str):
-    """In a process of its own, which has to survive it."""
+    """Runs in a separate process, which must survive."""
     code = (
         "from turtlewire.wire import open_context; open_context().close(); "
         "open_context().close(); print('alive')"

@@ -1,4 +1,4 @@
-"""What a foreign DDS peer sees of our nodes is what it saw of those of a real ROS 2."""
+"""Another vendor's DDS peer sees our nodes as it saw the nodes of a real ROS 2."""
 
 from __future__ import annotations
 
@@ -123,7 +123,7 @@ def complete(endpoint: dict, common: dict) -> dict:
 
 
 def comparable(endpoint: dict) -> str:
-    """One string per endpoint; without what differs on purpose or by chance."""
+    """Return one string per endpoint, without intended and random differences."""
     qos = json.loads(json.dumps(endpoint["qos"]))
     if endpoint["kind"] == "writer":
         qos["Reliability"].pop(

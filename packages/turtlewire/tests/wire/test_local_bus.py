@@ -1,4 +1,4 @@
-"""The in-process middleware compares an endpoint with those of its own topic only."""
+"""The in-process middleware compares an endpoint only with endpoints of the same topic."""
 
 from __future__ import annotations
 

@@ -199,7 +199,7 @@ def test_a_forked_child_is_told_so_and_ends_quietly(context: Context):
 
 
 def forked(before: str) -> str:
-    """What a child prints that is forked after ``before`` and opens a context of its own."""
+    """Return the output of a child that is forked after ``before`` and opens its own context."""
     code = (
         "import os\n"
         "from turtlewire.wire import open_context\n"

@@ -1,4 +1,4 @@
-"""The variables of SROS 2: what must be secure does not start, the rest is warned of."""
+"""The variables of SROS 2: processes that must be secure do not start; others warn."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which participants are asked for what they said before Cyclone could hear them."""
+"""Choosing the participants that are asked for data that Cyclone could not receive yet."""
 
 from __future__ import annotations
 

@@ -82,7 +82,7 @@ def test_there_is_nothing_in_an_empty_or_closed_reader(pair, take):
 
 
 def waiter_for_publishers(context, subscription):
-    """A function that waits until the reader thread has seen so many publishers."""
+    """Return a function that waits until the reader thread has seen this many publishers."""
     matched = subscription.create_event(EventKind.MATCHED)
     wait_set = context.create_wait_set()
     wait_set.attach(matched)

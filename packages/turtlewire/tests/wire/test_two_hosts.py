@@ -180,7 +180,7 @@ for port in map(int, sys.argv[2:]):
 
 
 def sockets_there() -> str:
-    """What receives datagrams at the host ``there``."""
+    """Return the sockets that receive datagrams at the host ``there``."""
     listing = ["ip", "netns", "exec", namespace("there"), "ss", "-Hlun"]
     return subprocess.run(listing, capture_output=True, text=True, check=True).stdout
 

@@ -4,21 +4,21 @@ Nothing is configured or compiled: the commands are evaluated, and what they wou
 and test is collected in a `plan.Plan`.
 
 ==============  =======================================================================
-module          what it holds
+module          contents
 ==============  =======================================================================
 `syntax`        commands and arguments of a file, with their lines
-`blocks`        the same as a tree of ``if``, ``foreach``, ``function`` …
-`conditions`    what stands between the parentheses of ``if`` and ``while``
+`blocks`        the commands as a tree of ``if``, ``foreach``, ``function`` …
+`conditions`    the conditions of ``if`` and ``while``
 `interpreter`   variables, and the order in which commands run
 `basics`        ``set``, ``list``, ``string``, ``message``, ``option`` …
 `files`         ``file``, ``configure_file``, ``get_filename_component``, ``include``
-`arguments`     keywords of commands, as ``cmake_parse_arguments`` takes them apart
+`arguments`     keywords of commands, as ``cmake_parse_arguments`` parses them
 `installing`    ``install``
 `ament`         ``find_package``, ``ament_…``, ``rosidl_generate_interfaces``
 `xacro`         ``xacro_add_files``, for PyPI's xacro has no CMake extras
-`targets`       what would compile C++, and commands without an effect here
+`targets`       commands that compile C++, and commands without an effect here
 `processes`     ``execute_process``, ``add_custom_command``, ``add_custom_target``
-`tool`          what ``cmake -E`` does
+`tool`          a replacement of ``cmake -E``
 `plan`          what a package installs, generates and tests
 `evaluate`      the plan of a package's folder
 ==============  =======================================================================

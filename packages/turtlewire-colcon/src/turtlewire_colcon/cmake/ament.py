@@ -25,7 +25,7 @@ __all__ = ["AMENT", "OWN_PARTS"]
 
 _KINDS = ("msg", "srv", "action")
 _FIND_KEYWORDS = ("COMPONENTS", "OPTIONAL_COMPONENTS", "HINTS", "PATHS", "NAMES", "REQUIRED")
-#: Commands whose faults are errors also beside C++: they add what is installed without it.
+#: Commands whose mistakes are errors even in packages with C++: they install Python or data.
 OWN_PARTS = (
     "ament_package", "ament_auto_package", "ament_python_install_package",
     "ament_python_install_module", "rosidl_generate_interfaces",

@@ -1,4 +1,4 @@
-"""Takes the words of a command apart by its keywords, as ``cmake_parse_arguments`` does."""
+"""Splits the words of a command by its keywords, as ``cmake_parse_arguments`` does."""
 
 from __future__ import annotations
 

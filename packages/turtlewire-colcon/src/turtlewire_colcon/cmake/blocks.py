@@ -1,4 +1,4 @@
-"""The commands of a CMake file as a tree: what stands inside ``if`` and the like."""
+"""The commands of a CMake file as a tree of blocks such as ``if`` and ``foreach``."""
 
 from __future__ import annotations
 

@@ -47,7 +47,7 @@ def is_false(text: str) -> bool:
 
 
 class Surroundings(Protocol):
-    """What a condition asks about: the interpreter."""
+    """The part of the interpreter that conditions query."""
 
     variables: dict[str, str]
     environment: Mapping[str, str]
@@ -209,7 +209,7 @@ def note_match(variables: dict[str, str], match: re.Match[str] | None) -> None:
 
 
 def _version(text: str) -> tuple[int, ...]:
-    start = re.match(r"\d+(?:\.\d+)*", text)  # what follows does not count
+    start = re.match(r"\d+(?:\.\d+)*", text)  # the rest is not evaluated
     numbers = [int(part) for part in start[0].split(".")] if start else []
     while numbers and numbers[-1] == 0:
         numbers.pop()

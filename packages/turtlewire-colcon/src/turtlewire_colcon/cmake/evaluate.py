@@ -72,7 +72,7 @@ def evaluate_package(
     path = source / "CMakeLists.txt"
     if not path.is_file():
         raise FileNotFoundError(
-            f"there is no {path}, which the build_type ament_cmake in package.xml asks for"
+            f"there is no {path}, which the build_type ament_cmake in package.xml requires"
         )
     interpreter = Interpreter(
         BASICS | FILES | PROCESSES | INSTALLING | TARGETS | AMENT | XACRO,

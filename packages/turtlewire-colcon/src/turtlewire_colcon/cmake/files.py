@@ -68,7 +68,7 @@ def _glob(run: Interpreter, words: list[str], *, recursive: bool) -> None:
     found: set[str] = set()
     for pattern in parsed.rest:
         folder, _, name = run.source_path(pattern).rpartition("/")
-        # CMake's wildcards may stand in folders, too; glob begins above the first one.
+        # CMake also allows wildcards in folder names; glob starts above the first one.
         paths = Path(folder).rglob(name) if recursive else _matches(folder, name)
         found.update(str(path) for path in paths if not recursive or path.is_file())
     base = parsed.values.get("RELATIVE")

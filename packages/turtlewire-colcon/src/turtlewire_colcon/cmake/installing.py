@@ -89,7 +89,7 @@ def destination(run: Interpreter, text: str, call: ExpandedCommand) -> str:
 
 
 def _source(run: Interpreter, word: str) -> str:
-    # What ends with a slash stands for the folder's contents.
+    # A trailing slash means the contents of the folder.
     return run.source_path(word) + ("/" if word.endswith("/") or word in (".", "") else "")
 
 

@@ -109,7 +109,7 @@ class Interpreter:
                     break
 
     def run_text(self, text: str, place: SourcePosition) -> None:
-        """Run commands that stand in a string."""
+        """Run the commands in a string."""
         self._call_body(build_tree(parse_commands(text, place.file)), "return")
 
     def knows(self, name: str) -> bool:
@@ -134,7 +134,7 @@ class Interpreter:
 
     @contextmanager
     def scope(self, **variables: str) -> Iterator[None]:
-        """A scope of its own, with further variables."""
+        """Open a scope with further variables."""
         self._outer.append(self.variables)
         self.variables = {**self.variables, **variables}
         try:

@@ -1,4 +1,4 @@
-"""What a package installs, generates and tests, as its CMakeLists.txt says."""
+"""The files that a package installs, its interfaces and its tests, by its CMakeLists.txt."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Install(NamedTuple):
 
     Attributes:
         kind: ``DIRECTORY``, ``FILES`` or ``PROGRAMS``.
-        sources: Paths. A directory that ends with ``/`` stands for its contents.
+        sources: Paths. A directory that ends with ``/`` means its contents.
         destination: Where they go, relative to the prefix.
         place: Where the command stands.
         rename: Name of the installed file, or empty.
@@ -143,7 +143,7 @@ class PlannedTest(NamedTuple):
         environment: Variables set for it.
         folder: Where it runs.
         timeout: Seconds.
-        isolated: Whether it runs in a ROS domain of its own.
+        isolated: Whether it runs in its own ROS domain.
     """
 
     name: str
@@ -157,7 +157,7 @@ class PlannedTest(NamedTuple):
 
 @dataclass
 class Plan:
-    """What a package installs, generates and tests.
+    """The files, interfaces and tests of a package.
 
     Attributes:
         name: Name of the project.

@@ -34,7 +34,7 @@ def _execute_process(run: Interpreter, call: ExpandedCommand) -> None:
     commands, words = _commands(call.words)
     parsed = parse_keywords(words, _OPTIONS, _VALUES, _LISTS)
     if len(commands) != 1:
-        raise CMakeError(call.place, "execute_process() takes one COMMAND here")
+        raise CMakeError(call.place, "execute_process() supports a single COMMAND here")
     folder = run.binary_path(parsed.values.get("WORKING_DIRECTORY", "."))
     try:
         # The command is the package's own, as with CMake.

@@ -19,7 +19,7 @@ _UNQUOTED = re.compile(r'(?:[^\s()#"\\]|\\.|\$\([^()]*\)|(?<=[^\s(])"(?:[^"\\]|\
 
 
 class SourcePosition(NamedTuple):
-    """Where a command stands.
+    """The position of a command in its file.
 
     Attributes:
         file: The file's path.
@@ -74,7 +74,7 @@ class CMakeCommand(NamedTuple):
 
     Attributes:
         name: In lower case.
-        arguments: As written; parentheses among them are arguments of their own.
+        arguments: As written; each parenthesis is a separate argument.
         place: Where it stands.
     """
 

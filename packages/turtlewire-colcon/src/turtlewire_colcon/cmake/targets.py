@@ -1,4 +1,4 @@
-"""Commands that would compile C++, and commands that concern nothing but such targets."""
+"""Commands that would compile C++, and commands that only affect such targets."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``python -m turtlewire_colcon.cmake.tool -E …``: what ``cmake -E`` does, without CMake."""
+"""``python -m turtlewire_colcon.cmake.tool -E …``: ``cmake -E`` without CMake."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """``xacro_add_files`` and its parts, which xacro's CMake extras define, unlike PyPI's xacro.
 
-A xacro that is built in the workspace brings its own functions, which take the place of these.
+A xacro that is built in the workspace defines its own functions, which replace these.
 """
 
 from __future__ import annotations

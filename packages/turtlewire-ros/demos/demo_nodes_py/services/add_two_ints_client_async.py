@@ -1,4 +1,4 @@
-"""Asks ``add_two_ints`` for 2 + 3 and spins in a loop of its own until the answer is there."""
+"""Asks ``add_two_ints`` for 2 + 3 and spins in a loop until the answer has arrived."""
 
 from __future__ import annotations
 

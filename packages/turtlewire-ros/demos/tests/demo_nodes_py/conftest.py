@@ -1,4 +1,4 @@
-"""A node that listens."""
+"""A node that subscribes to topics."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Heard:
             self._more.notify_all()
 
     def wait_until(self, is_done, timeout=60):
-        """Whether the messages become as wanted in time."""
+        """Wait until the messages satisfy a condition; return False after the timeout."""
         with self._more:
             return self._more.wait_for(lambda: is_done(self.got), timeout)
 

@@ -17,7 +17,7 @@ FIBONACCI = r"array\('i', \[0, 1, 1, 2, 3, 5, 8, 13, 21, 34, 55\]\)"
 
 @pytest.fixture
 def start(run):
-    """Starts executables, each in a process of its own."""
+    """Starts executables, each in its own process."""
 
     def start(package: str, executable: str, *arguments: str, **options):
         return run(ROS2, "run", package, executable, *arguments, **options)

@@ -138,7 +138,7 @@ def test_a_new_goal_aborts_the_single_goal(rig_of):
 
 @pytest.fixture
 def start(run):
-    """Starts executables of the examples' actions, each in a process of its own."""
+    """Starts executables of the examples' actions, each in its own process."""
 
     def start(kind: str, executable: str):
         return run(ROS2, "run", f"examples_rclpy_minimal_action_{kind}", executable)

@@ -45,7 +45,7 @@ rclpy.spin(node)
 
 @pytest.fixture
 def start(run):
-    """Starts executables, each in a process of its own."""
+    """Starts executables, each in its own process."""
 
     def start(package: str, executable: str, *arguments: str, **options):
         return run(ROS2, "run", package, executable, *arguments, **options)

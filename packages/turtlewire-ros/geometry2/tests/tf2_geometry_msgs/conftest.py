@@ -1,4 +1,4 @@
-"""Transforms of messages, and the same as SciPy sees them."""
+"""Transforms of messages, and their equivalents in SciPy."""
 
 from __future__ import annotations
 

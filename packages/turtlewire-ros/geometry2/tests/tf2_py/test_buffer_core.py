@@ -1,4 +1,4 @@
-"""The surface of tf2_py: what it takes and gives back. Its answers are in test_golden.py."""
+"""The API of tf2_py: arguments and results. test_golden.py checks the answers."""
 
 from __future__ import annotations
 

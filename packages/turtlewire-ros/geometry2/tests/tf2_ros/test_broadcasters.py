@@ -1,4 +1,4 @@
-"""Both broadcasters, and that no static transform is ever lost."""
+"""Both broadcasters; static transforms are never lost."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ LONG = Duration(seconds=60)
 
 @pytest.fixture
 def heard(make_node):
-    """What a listener hears that comes when it is called."""
+    """Return a function that starts a listener and returns its buffer."""
 
     def listen():
         buffer = Buffer()
@@ -141,7 +141,7 @@ def test_no_peer_is_lost_over_a_thousand_joins(make_node, stamped):
 
 @contextlib.contextmanager
 def open_node(name):
-    """A node on a participant of its own, as in another process."""
+    """A node on its own participant, as in another process."""
     context = Context()
     context.init(args=[])
     node = Node(name, context=context, enable_rosout=False, start_parameter_services=False)
@@ -154,7 +154,7 @@ def open_node(name):
 
 @pytest.mark.parametrize("enough_joins", [100, pytest.param(1000, marks=pytest.mark.slow)])
 def test_no_static_transform_is_lost_over_dds(enough_joins, monkeypatch, stamped):
-    """The same among participants of Cyclone DDS, each with frames of its own."""
+    """The same with participants of Cyclone DDS, each with its own frames."""
     monkeypatch.delenv("RMW_IMPLEMENTATION")
     chance = random.Random(20261121)
     broadcasters, expected, owner = {}, {}, {}

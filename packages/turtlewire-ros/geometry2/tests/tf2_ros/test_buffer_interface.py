@@ -24,14 +24,14 @@ from tf2_ros.buffer_interface import NO_TIMEOUT
 
 
 class Note:
-    """Something that has a header and no registration of its own elsewhere."""
+    """A type with a header that no other test registers."""
 
     def __init__(self, x=0.0):
         self.x = x
 
 
 class Memo(Note):
-    """Another such thing."""
+    """Another type with a header that no other test registers."""
 
 
 @pytest.fixture

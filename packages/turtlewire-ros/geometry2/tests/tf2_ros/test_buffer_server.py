@@ -32,7 +32,7 @@ LONG = Duration(seconds=60)
 
 @pytest.fixture
 def spun(context):
-    """Spins nodes in threads of their own."""
+    """Spins nodes in separate threads."""
     executors, threads = [], []
 
     def spin(node):

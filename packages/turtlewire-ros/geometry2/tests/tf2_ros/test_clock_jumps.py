@@ -1,4 +1,4 @@
-"""A simulated world that is killed and begins anew, earlier.
+"""A simulated world that is killed and restarts at an earlier time.
 
 The server, the client, filters and tools, each in its own process.
 """

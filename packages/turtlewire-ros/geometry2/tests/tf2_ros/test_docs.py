@@ -55,7 +55,7 @@ def test_the_page_does_what_it_says(page, run):
 
 
 class Command:
-    """A program that ended, and what it printed; `repeat` runs it anew."""
+    """A program that ended, and what it printed; `repeat` runs it again."""
 
     def __init__(self, run, *words):
         self._run = run

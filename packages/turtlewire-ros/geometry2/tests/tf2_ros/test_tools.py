@@ -379,8 +379,8 @@ def test_echo_refuses(words, status, text, capsys):
 @pytest.mark.parametrize(
     ("words", "text"),
     [
-        ("robot", "give two frames, or none for all"),
-        ("robot world here", "give two frames, or none for all"),
+        ("robot", "give two frames, or none to monitor all"),
+        ("robot world here", "give two frames, or none to monitor all"),
         ("/robot world", "in tf2 frame_ids cannot start with a '/'"),
         ("--period 0", "'0' is not a number of seconds, above 0 and up to 3600"),
         ("--period nan", "'nan' is not a number of seconds, above 0 and up to 3600"),

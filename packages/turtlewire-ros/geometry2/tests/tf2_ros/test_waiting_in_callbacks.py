@@ -38,7 +38,7 @@ LONG, SHORT = Duration(seconds=60), Duration(seconds=0.01)
 
 
 class Sample(NamedTuple):
-    """A transform to publish, so many half seconds after zero."""
+    """A transform to publish, this many half seconds after zero."""
 
     child: str
     halves: int
@@ -94,7 +94,7 @@ def expected(question, come, static):
 
 
 class Run:
-    """One schedule: an executor that spins, and a thread on which things come."""
+    """One schedule: an executor that spins, and a thread that publishes."""
 
     def __init__(self, context, asked, order, static):
         self.asked, self.order, self.static = asked, order, static

@@ -62,7 +62,7 @@ def make_cloud(dtype, values, *, shape=None, row_gap=0, bigendian=False):
 
 
 def read(cloud, *names):
-    """Columns of a cloud, by a way of its own: struct-like, row by row."""
+    """Read the columns of a cloud independently: row by row, as struct does."""
     rows = np.frombuffer(cloud.data, np.uint8).reshape(cloud.height, cloud.row_step)[
         :, : cloud.width * cloud.point_step
     ]

@@ -1,4 +1,4 @@
-"""view_frames as a process of its own over DDS, and as a node in this one."""
+"""view_frames as a separate process over DDS, and as a node in this one."""
 
 from __future__ import annotations
 

@@ -1,6 +1,7 @@
 """Protocols of the parts of a launch, as the other parts see them.
 
-``Context_contra`` is the context that they are handed; it stands above them, so it is a parameter.
+``Context_contra`` is the type of the context that they get; it is a type parameter because its
+module is in a higher layer.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ class Visitable(Protocol[Context_contra]):
         """Take effect; the returned entities are visited next."""
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
-        """Return what is done when the entity has completed, or None if a visit is all."""
+        """Return the future of the entity's completion, or None if a visit completes it."""
 
 
 class EventHandling(Protocol[Context_contra]):

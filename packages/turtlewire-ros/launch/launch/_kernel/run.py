@@ -66,7 +66,7 @@ class Run(Generic[C]):
     def _wake_loop(self) -> None:
         loop, wake = self._loop, self._wake
         if loop is None or wake is None:
-            return  # not running: the queue is looked at when it starts
+            return  # not running: the loop reads the queue when it starts
         with contextlib.suppress(RuntimeError):  # the loop may have been closed by now
             loop.call_soon_threadsafe(wake.set)
 

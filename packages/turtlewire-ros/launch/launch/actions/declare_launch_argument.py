@@ -89,12 +89,12 @@ class DeclareLaunchArgument(Action):
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """The name of the argument."""
         return self._name
 
     @property
     def default_value(self) -> list[Substitution] | None:
-        """Its value when it is not given."""
+        """The value of the argument if the user does not set it."""
         return self._default_value
 
     @property

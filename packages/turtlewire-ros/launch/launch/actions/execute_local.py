@@ -151,11 +151,11 @@ class ExecuteLocal(ProcessAction):
         return self._sigkill_timeout
 
     def get_stdout(self) -> bytes:
-        """Its output to stdout; kept only with ``cached_output``."""
+        """The stdout of the process; kept only with ``cached_output``."""
         return self._output.kept(1)
 
     def get_stderr(self) -> bytes:
-        """Its output to stderr; kept only with ``cached_output``."""
+        """The stderr of the process; kept only with ``cached_output``."""
         return self._output.kept(2)
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
@@ -275,7 +275,7 @@ class ExecuteLocal(ProcessAction):
         return await ChildProcess.start(
             self.command(),
             cwd=description.final_cwd,
-            # Without it, what a Python node prints would only be seen when it has ended.
+            # Without it, the output of a Python node would only appear after its end.
             env=context.marked_environment({"PYTHONUNBUFFERED": "1", **description.final_env}),
             shell=self._shell,
             inherit_stdin=emulate_tty and not context.noninteractive and stdin_is_terminal(),

@@ -1,4 +1,4 @@
-"""The former home of :class:`launch.actions.LogInfo`; in Lyrical, importing it warns."""
+"""The old module of :class:`launch.actions.LogInfo`; in Lyrical, importing it warns."""
 
 from __future__ import annotations
 

@@ -138,7 +138,7 @@ class TimerAction(Action):
     def handle(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Return the actions; called when the time is over.
 
-        In a group with a scope of its own they find what the group had set, as without the timer.
+        In a group with its own scope they find what the group had set, as without the timer.
         """
         context.extend_locals(self._locals)
         if self._scope is None:

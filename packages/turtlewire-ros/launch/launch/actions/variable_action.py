@@ -1,6 +1,6 @@
-"""The common parts of actions that set, extend and unset named texts.
+"""The common parts of actions that set, extend and unset variables.
 
-The named texts of a launch are its environment variables and its launch configurations.
+The variables of a launch are its environment variables and its launch configurations.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class VariableAction(Action):
 
     @property
     def name(self) -> list[Substitution]:
-        """Its name."""
+        """The name of the variable."""
         return self._name
 
     def variables(self, context: LaunchContext) -> MutableMapping[str, str]:
@@ -76,7 +76,7 @@ class SetVariableAction(VariableAction):
 
     @property
     def value(self) -> list[Substitution]:
-        """Its value."""
+        """The value of the variable."""
         return self._value
 
     def execute(self, context: LaunchContext) -> None:

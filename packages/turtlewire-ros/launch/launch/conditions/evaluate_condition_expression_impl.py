@@ -1,4 +1,4 @@
-"""Reads a text as true or false."""
+"""Evaluates text as true or false."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ class Shutdown(Event):
 
     @property
     def reason(self) -> str:
-        """Why."""
+        """The reason for the shutdown."""
         return self._reason
 
     @property

@@ -79,7 +79,7 @@ class _Reader:
 
     def _character(self) -> str:
         character = self._text[self._at]
-        # The empty string is in every string, so the end of the text needs a check of its own.
+        # The empty string is in every string, so the end of the text needs its own check.
         if (
             character == "\\"
             and self._text[self._at + 1 : self._at + 2] in _ESCAPABLE

@@ -1,4 +1,4 @@
-"""Texts of attributes as values of a type."""
+"""Converts the text of attributes to values of a type."""
 
 from __future__ import annotations
 

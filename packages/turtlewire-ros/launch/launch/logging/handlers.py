@@ -1,4 +1,4 @@
-"""Handlers of the standard library that format the lines of each logger as it wants.
+"""The standard library's handlers, with a formatter for each logger.
 
 ``StreamHandler``, ``FileHandler`` and all handlers of :mod:`logging.handlers` are here under their
 own names. They have two further methods: ``setFormatterFor(logger, formatter)`` and

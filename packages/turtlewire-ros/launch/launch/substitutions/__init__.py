@@ -1,4 +1,4 @@
-"""Texts that are known only when the launch runs."""
+"""Text that is known only when the launch runs."""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ class EnvironmentVariable(Substitution):
 
     @property
     def name(self) -> list[Substitution]:
-        """Its name."""
+        """The name of the variable."""
         return self._name
 
     @property

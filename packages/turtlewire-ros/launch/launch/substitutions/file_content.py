@@ -40,7 +40,7 @@ class FileContent(Substitution):
 
     @property
     def path(self) -> list[Substitution]:
-        """Its path."""
+        """The path of the file."""
         return self._path
 
     def describe(self) -> str:

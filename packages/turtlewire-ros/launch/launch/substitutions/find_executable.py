@@ -41,7 +41,7 @@ class FindExecutable(Substitution):
 
     @property
     def name(self) -> list[Substitution]:
-        """Its name."""
+        """The name of the program."""
         return self._name
 
     def describe(self) -> str:

@@ -50,12 +50,12 @@ class ForEachVar(Substitution):
 
     @property
     def name(self) -> list[Substitution]:
-        """Its name."""
+        """The name of the variable."""
         return self._name
 
     @property
     def default_value(self) -> list[Substitution] | None:
-        """Its value in iterations without one, or None."""
+        """The value in iterations that do not set the variable, or None."""
         return self._default_value
 
     def describe(self) -> str:

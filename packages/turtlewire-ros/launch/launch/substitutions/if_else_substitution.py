@@ -20,7 +20,7 @@ __all__ = ["IfElseSubstitution"]
 
 @expose_substitution("if")
 class IfElseSubstitution(Substitution):
-    """One text when a condition is true, else another.
+    """Chooses one of two texts by a condition.
 
     Args:
         condition: A text that is true or false.

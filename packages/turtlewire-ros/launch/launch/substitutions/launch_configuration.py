@@ -45,7 +45,7 @@ class LaunchConfiguration(Substitution):
 
     @property
     def variable_name(self) -> list[Substitution]:
-        """Its name."""
+        """The name of the launch configuration."""
         return self._variable_name
 
     def describe(self) -> str:

@@ -1,4 +1,4 @@
-"""Whether two texts differ."""
+"""Tests that two texts differ."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["NotEqualsSubstitution"]
 
 @expose_substitution("not-equals")
 class NotEqualsSubstitution(EqualsSubstitution):
-    """Whether two texts differ, by the same rules."""
+    """``true`` if two texts differ, by the rules of :class:`EqualsSubstitution`."""
 
     def perform(self, context: LaunchContext) -> str:
         """``true`` or ``false``."""

@@ -1,4 +1,4 @@
-"""Paths from parts."""
+"""Paths joined from parts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Texts from parts."""
+"""Text joined from parts."""
 
 from __future__ import annotations
 

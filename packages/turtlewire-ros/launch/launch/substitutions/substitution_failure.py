@@ -10,7 +10,7 @@ class SubstitutionFailure(RuntimeError):
 
     Args:
         msg: Why.
-        hint: What to do about it.
+        hint: Advice.
     """
 
     def __init__(self, msg: str = "", *, hint: str = "") -> None:

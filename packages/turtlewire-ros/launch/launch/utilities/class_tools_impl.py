@@ -1,4 +1,4 @@
-"""Questions about objects and their classes."""
+"""Checks of objects and their classes."""
 
 from __future__ import annotations
 

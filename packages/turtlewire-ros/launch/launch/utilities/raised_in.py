@@ -1,4 +1,4 @@
-"""Where in a launch file an error was raised."""
+"""Finds the line of a launch file in which an error was raised."""
 
 from __future__ import annotations
 

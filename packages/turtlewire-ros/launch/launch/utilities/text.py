@@ -1,4 +1,4 @@
-"""Plain text as a substitution; it is found as ``launch.substitutions.TextSubstitution``."""
+"""Plain text as a substitution; import it as ``launch.substitutions.TextSubstitution``."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ class TextSubstitution(Substitution):
         text: The text.
     """
 
-    # Where ROS 2 has it, which is seen in descriptions. It stands here because text becomes
-    # substitutions in `launch.utilities`, on which all other substitutions stand.
+    # ROS 2's module, which descriptions show. The class is defined here because `launch.utilities`
+    # converts text to substitutions, and all other substitutions import that package.
     __module__ = "launch.substitutions.text_substitution"
 
     def __init__(self, *, text: str) -> None:

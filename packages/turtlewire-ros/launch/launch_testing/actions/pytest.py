@@ -1,4 +1,4 @@
-"""Runs tests of pytest in a process of their own."""
+"""Runs tests of pytest in a separate process."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ __all__ = ["PyTest"]
 
 
 class PyTest(Test):
-    """Runs tests of pytest in a process of their own.
+    """Runs tests of pytest in a separate process.
 
     Args:
         path: Path of the file or folder.

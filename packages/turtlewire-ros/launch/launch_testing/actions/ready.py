@@ -1,4 +1,4 @@
-"""Tells that the tests may begin."""
+"""Starts the tests."""
 
 from __future__ import annotations
 

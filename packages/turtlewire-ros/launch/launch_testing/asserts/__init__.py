@@ -1,4 +1,4 @@
-"""Assertions about what the processes of a launch wrote, and how they ended."""
+"""Assertions about the output and the exit codes of the processes of a launch."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""An assertion about how processes ended."""
+"""An assertion about the exit codes of processes."""
 
 from __future__ import annotations
 

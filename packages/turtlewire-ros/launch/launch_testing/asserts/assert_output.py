@@ -1,4 +1,4 @@
-"""Assertions about what processes wrote."""
+"""Assertions about the output of processes."""
 
 from __future__ import annotations
 

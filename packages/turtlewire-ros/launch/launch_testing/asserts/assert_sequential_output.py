@@ -1,4 +1,4 @@
-"""An assertion about texts that a process wrote one after the other."""
+"""An assertion about the order of texts in the output of a process."""
 
 from __future__ import annotations
 

@@ -10,7 +10,7 @@
     status = tests.run(service)
 
 ========  ==================================
-module    what it holds
+module    contents
 ========  ==================================
 `output`  tests and filters of output
 ========  ==================================

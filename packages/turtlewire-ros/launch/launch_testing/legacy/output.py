@@ -1,4 +1,4 @@
-"""Tests and filters of what processes write, for `LaunchTestService.add_output_test`."""
+"""Tests and filters of the output of processes, for `LaunchTestService.add_output_test`."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def create_output_lines_filter(
     Args:
         filtered_prefixes: Beginnings of the lines; by default ``pid`` and ``rc``.
         filtered_patterns: Patterns of the lines.
-        filtered_rmw_implementation: A middleware whose lines are removed, too.
+        filtered_rmw_implementation: A middleware whose lines are also removed.
     """
     prefixes = list(
         get_default_filtered_prefixes() if filtered_prefixes is None else filtered_prefixes

@@ -1,7 +1,7 @@
 """Launch tests as items of pytest.
 
 The plugin that pytest loads is :mod:`turtlewire_ros.pytest_plugin`; it imports this module when a
-file speaks of launch tests.
+file mentions launch tests.
 """
 
 from __future__ import annotations

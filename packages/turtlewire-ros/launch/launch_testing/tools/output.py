@@ -1,4 +1,4 @@
-"""What a program is expected to write."""
+"""Patterns of a program's expected output."""
 
 from __future__ import annotations
 

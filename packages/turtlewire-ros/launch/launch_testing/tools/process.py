@@ -20,7 +20,7 @@ __all__ = ["ProcessProxy", "launch_process"]
 
 
 class ProcessProxy:
-    """What a test sees of a process.
+    """A test's view of a process.
 
     Args:
         process_action: The action that runs it.
@@ -81,7 +81,7 @@ class ProcessProxy:
 
     @property
     def exit_code(self) -> int | None:
-        """Its exit code, None before its end."""
+        """The exit code of the process; None while it runs."""
         return self._proc_info[self._action].returncode if self.terminated else None
 
     @property

@@ -13,7 +13,7 @@ __all__ = ["NO_CMD_ARGS", "NoMatchingProcessException", "resolveProcesses"]
 
 
 class _NoArguments:
-    """Its one instance stands for a command line without arguments."""
+    """The type of `NO_CMD_ARGS`, which matches a command line without arguments."""
 
     def __repr__(self) -> str:
         return "NO_CMD_ARGS"

@@ -1,4 +1,4 @@
-"""What the tests of launch share."""
+"""Fixtures and helpers of the tests of launch."""
 
 from __future__ import annotations
 

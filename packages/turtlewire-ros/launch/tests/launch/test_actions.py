@@ -1,4 +1,4 @@
-"""What each action does to the launch."""
+"""The effect of each action on the launch."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""When actions take place."""
+"""Conditions of actions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How entities and substitutions are shown, and what can be asked of them without running them."""
+"""Descriptions and properties of entities and substitutions that do not run."""
 
 from __future__ import annotations
 

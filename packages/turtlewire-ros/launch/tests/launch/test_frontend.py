@@ -1,4 +1,4 @@
-"""What XML and YAML launch files have in common: the same files in both languages do the same."""
+"""XML and YAML launch files: equivalent files in both languages have the same effects."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Ctrl-C and other signals, at `ros2 launch` in a process or a terminal of its own."""
+"""Ctrl-C and other signals, at `ros2 launch` in a separate process or terminal."""
 
 from __future__ import annotations
 

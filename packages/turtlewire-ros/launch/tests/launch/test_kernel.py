@@ -1,4 +1,4 @@
-"""The parts under entities and loop: the state of one launch, scopes, and what they promise."""
+"""The kernel below entities and loop: the state of one launch, scopes, and their guarantees."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where log lines go, and how they look."""
+"""Destinations and formats of log lines."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What each substitution becomes, how it is shown, and what it says when it cannot be performed."""
+"""The result, the description and the error of each substitution."""
 
 from __future__ import annotations
 

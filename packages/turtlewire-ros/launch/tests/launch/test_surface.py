@@ -1,4 +1,4 @@
-"""Doors of ROS 2's launch that programs use besides launch files."""
+"""Parts of launch's API that programs use outside launch files."""
 
 from __future__ import annotations
 

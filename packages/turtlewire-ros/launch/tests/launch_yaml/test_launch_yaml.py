@@ -94,7 +94,7 @@ def test_aliases_work_but_no_bombs(entity):
         f"  - group: &g{level} [{', '.join(f'{{group: *g{level - 1}}}' for _ in range(10))}]"
         for level in range(1, 9)
     )
-    with pytest.raises(ValueError, match="The file stands for more than 100000 elements"):
+    with pytest.raises(ValueError, match="The aliases expand to more than 100000 elements"):
         entity(f"launch:\n  - group: &g0 []\n{levels}")
     with pytest.raises(ValueError, match="An alias contains itself"):
         entity("launch: &a [{group: *a}]")

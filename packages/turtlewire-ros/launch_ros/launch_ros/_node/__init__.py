@@ -1,1 +1,1 @@
-"""What the actions and descriptions of nodes have in common: arguments, and elements of files."""
+"""The common parts of actions and descriptions of nodes: arguments, and elements of files."""

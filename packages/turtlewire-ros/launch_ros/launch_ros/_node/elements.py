@@ -80,7 +80,7 @@ def _parsed(value: Any, parser: Parser) -> Any:
     if not isinstance(value, str):
         return value
     parts = parser.parse_substitution(value)
-    # Substitutions mean what YAML makes of their text; text in the file is text.
+    # The result of a substitution is parsed as YAML; plain text in the file stays text.
     return parts[0].text if len(parts) == 1 and isinstance(parts[0], TextSubstitution) else parts
 
 

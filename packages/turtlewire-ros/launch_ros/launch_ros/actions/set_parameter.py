@@ -44,12 +44,12 @@ class SetParameter(Action):
 
     @property
     def name(self) -> str | list[Substitution]:
-        """Its name; before the visit the substitutions that give it."""
+        """The name of the parameter; before the visit, the substitutions that produce it."""
         return self._parameter.name
 
     @property
     def value(self) -> Any:
-        """Its value; before the visit as it was given."""
+        """The value of the parameter; before the visit, the unevaluated argument."""
         return self._parameter.value
 
     def execute(self, context: LaunchContext) -> None:

@@ -47,7 +47,7 @@ class ExecutableInPackage(PathSubstitution):
 
     @property
     def executable(self) -> list[Substitution]:
-        """Its name."""
+        """The name of the executable."""
         return self._executable
 
     @property

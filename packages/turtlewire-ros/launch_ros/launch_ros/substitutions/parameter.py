@@ -43,7 +43,7 @@ class Parameter(Substitution):
 
     @property
     def name(self) -> list[Substitution]:
-        """Its name."""
+        """The name of the parameter."""
         return self._name
 
     def describe(self) -> str:

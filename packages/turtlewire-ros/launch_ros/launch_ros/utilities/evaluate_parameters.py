@@ -106,7 +106,7 @@ def typed(text: str, value_type: Any) -> Any:
 
     Args:
         text: The text.
-        value_type: The type; None takes what YAML makes of it.
+        value_type: The type; None parses it as YAML.
 
     Raises:
         ValueError: ``text`` is not a value of the type.

@@ -1,6 +1,6 @@
-"""What applies to all nodes of a scope: namespace, parameters, remappings.
+"""Settings for all nodes of a scope: namespace, parameters, remappings.
 
-They are kept among the launch configurations, so that a ``GroupAction`` limits them.
+They are stored as launch configurations, so that a ``GroupAction`` limits their scope.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """Actions for launch tests of ROS nodes.
 
 ======================  =============================================================
-module                  what it holds
+module                  contents
 ======================  =============================================================
-`enable_rmw_isolation`  `EnableRmwIsolation`: nodes of other tests are out of reach
+`enable_rmw_isolation`  `EnableRmwIsolation`: isolates the nodes of a test
 ======================  =============================================================
 """
 

@@ -19,7 +19,7 @@ _VARIABLE = "ROS_DOMAIN_ID"
 
 
 class EnableRmwIsolation(Action):
-    """Gives the processes and contexts that start afterwards a ROS domain in which nobody else is.
+    """Gives processes and contexts that start afterwards a ROS domain that no other process uses.
 
     It sets ``ROS_DOMAIN_ID``, and restores it when the launch shuts down.
 

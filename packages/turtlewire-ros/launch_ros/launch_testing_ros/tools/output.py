@@ -1,4 +1,4 @@
-"""Filters of lines that a middleware writes."""
+"""Filters of the middleware's output."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Launch files, for programs and extensions.
 
 =====  ================================
-module what it holds
+module contents
 =====  ================================
 `api`  launch files: found, shown, run
 =====  ================================

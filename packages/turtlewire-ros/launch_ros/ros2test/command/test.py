@@ -48,7 +48,7 @@ ARGUMENTS = (
 
 
 def main(args: argparse.Namespace) -> int:
-    """Run the launch test, in a domain of its own unless ``ROS_DOMAIN_ID`` chooses one."""
+    """Run the launch test, in its own domain unless ``ROS_DOMAIN_ID`` chooses one."""
     with contextlib.ExitStack() as stack:
         # A domain chosen by the user stays as it is.
         if not args.disable_isolation and "ROS_DOMAIN_ID" not in os.environ:
@@ -66,4 +66,4 @@ def main(args: argparse.Namespace) -> int:
 
 @command_of_module
 class TestCommand(CommandExtension):
-    """Run a launch test in a domain of its own."""
+    """Run a launch test in its own domain."""

@@ -1,4 +1,4 @@
-"""What the tests of launch_ros share."""
+"""Fixtures and helpers of the tests of launch_ros."""
 
 from __future__ import annotations
 

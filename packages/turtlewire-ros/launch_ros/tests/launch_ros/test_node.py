@@ -1,4 +1,4 @@
-"""How nodes are started: names, parameters, remappings and what a scope adds to them."""
+"""Starting nodes: names, parameters, remappings and additions of the scope."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ print(json.dumps({"arguments": arguments, "files": texts, "log": log}))
 
 @pytest.fixture
 def show(tmp_path, monkeypatch):
-    """A package `shows` with an executable `show`, in a prefix of its own."""
+    """A package `shows` with an executable `show`, in its own prefix."""
     (tmp_path / "share/ament_index/resource_index/packages").mkdir(parents=True)
     (tmp_path / "share/ament_index/resource_index/packages/shows").touch()
     (tmp_path / "lib/shows").mkdir(parents=True)

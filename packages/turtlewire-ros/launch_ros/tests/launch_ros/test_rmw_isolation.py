@@ -1,4 +1,4 @@
-"""A domain of its own for a launch."""
+"""A launch in a separate domain."""
 
 from __future__ import annotations
 

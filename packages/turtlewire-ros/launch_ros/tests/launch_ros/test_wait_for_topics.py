@@ -1,4 +1,4 @@
-"""What ``WaitForTopics`` of launch_testing_ros does besides waiting."""
+"""``WaitForTopics`` of launch_testing_ros, apart from waiting."""
 
 from __future__ import annotations
 

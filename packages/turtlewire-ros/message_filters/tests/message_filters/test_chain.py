@@ -1,4 +1,4 @@
-"""Filters one behind the other."""
+"""Sequences of filters."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def test_a_chain_that_begins_with_a_subscriber(monkeypatch):
         chain.addFilter(Subscriber(node, PointStamped, "others"))
     points.callback(message)
     assert len(heard) == 2, "the chain is as it was"
-    with pytest.raises(TypeError, match="a Subscriber, takes no messages: give the chain no input"):
+    with pytest.raises(TypeError, match="a Subscriber, accepts no messages: use the chain"):
         chain.add(message)
     node.destroy_node()
     context.try_shutdown()

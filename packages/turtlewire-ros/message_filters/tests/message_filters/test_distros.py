@@ -1,4 +1,4 @@
-"""What follows the name of the distribution, each name in a process of its own."""
+"""Differences between distributions, each in its own process."""
 
 from __future__ import annotations
 

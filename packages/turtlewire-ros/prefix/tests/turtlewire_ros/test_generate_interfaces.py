@@ -1,4 +1,4 @@
-"""How a build generates the Python of interfaces: silently, or with the faulty line."""
+"""Generating the Python modules of interfaces in a build: silently, or with the faulty line."""
 
 from __future__ import annotations
 

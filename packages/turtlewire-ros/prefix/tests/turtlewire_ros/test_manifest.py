@@ -1,4 +1,4 @@
-"""Where a package.xml is broken."""
+"""Errors in package.xml files."""
 
 from __future__ import annotations
 

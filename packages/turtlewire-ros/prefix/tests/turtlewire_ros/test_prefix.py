@@ -1,4 +1,4 @@
-"""Where packages and their executables are found."""
+"""Finding packages and their executables."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def test_python_scripts_are_run_by_this_interpreter(tmp_path):
 
 
 def make_distribution(folder, *, direct_url=None, files=()):
-    """What pip leaves of a package named ``pip_pkg``."""
+    """Create the files that pip installs for a package named ``pip_pkg``."""
     info = folder / "pip_pkg-1.0.dist-info"
     info.mkdir(parents=True)
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: pip_pkg\nVersion: 1.0\n")

@@ -1,4 +1,4 @@
-"""What pytest finds in packages that `ros2 pkg create` of a real ROS 2 has made."""
+"""The tests that pytest finds in packages created by `ros2 pkg create` of a real ROS 2."""
 
 from __future__ import annotations
 

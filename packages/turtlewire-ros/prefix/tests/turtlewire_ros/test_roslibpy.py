@@ -45,7 +45,7 @@ ros.terminate()
 
 
 class Bridge:
-    """What rosbridge does for one client: topics and services as JSON."""
+    """Acts as rosbridge for one client: topics and services as JSON."""
 
     def __init__(self, node: Node) -> None:
         self._node = node

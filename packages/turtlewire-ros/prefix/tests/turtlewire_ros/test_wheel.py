@@ -1,4 +1,4 @@
-"""What the wheel brings for ament, colcon, rosdep and shells."""
+"""The files of the wheel for ament, colcon, rosdep and shells."""
 
 from __future__ import annotations
 

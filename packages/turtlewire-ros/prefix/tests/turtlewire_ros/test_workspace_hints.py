@@ -1,4 +1,4 @@
-"""What is said of packages and files that a workspace has, and that are not found."""
+"""Hints about packages and files of a workspace that are not found."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-# The environment of this prefix, for shells that cannot tell where a sourced file lies:
+# The environment of this prefix, for shells that do not know the path of a sourced file:
 # TURTLEWIRE_PREFIX says so, and the setup.sh of colcon's workspaces does by COLCON_CURRENT_PREFIX.
 # shellcheck shell=sh
 _turtlewire_prefix="${AMENT_CURRENT_PREFIX:-${TURTLEWIRE_PREFIX:-}}"

@@ -1,17 +1,17 @@
-"""How executors wait, decide what runs next, and run it; none of it is ROS 2's public surface.
+"""Private parts of executors: waiting, choosing what runs next, and running it.
 
 ========================  =============================================================
-module                    what it holds
+module                    contents
 ========================  =============================================================
-`scheduler`, `pool`       finds and runs what is ready; the same with a pool of threads
+`scheduler`, `pool`       finds and runs ready callbacks; a variant with a thread pool
 `wait`, `timer_queue`     the one wait for wire and timers; timers by their due times
-`entity`                  `Entity`, `EntityHost`: all that an entity knows of its executor
-`running_callbacks`       threads that run callbacks, and which
+`entity`                  `Entity`; `EntityHost`, an entity's view of its executor
+`running_callbacks`       the callbacks that each thread is running
 `blocking`, `self_waits`  waiting for a response; warnings of deadlocks
 `futures`                 callbacks of futures: called at once, or by an executor
 `background_events`       TF messages, stored by other threads, as events
 `exceptions`              reasons for which a wait ends without work
-`handle`                  handles, where ROS 2 has objects of its C library
+`handle`                  stand-ins for the handles of ROS 2's C library
 `asyncio_loop`            asyncio's loop, where one runs
 ========================  =============================================================
 """

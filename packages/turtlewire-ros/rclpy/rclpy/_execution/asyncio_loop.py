@@ -1,4 +1,4 @@
-"""Whether asyncio runs a loop in this thread; without importing asyncio."""
+"""Finds asyncio's running loop of this thread without importing asyncio."""
 
 from __future__ import annotations
 

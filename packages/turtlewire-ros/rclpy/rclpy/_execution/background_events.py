@@ -1,4 +1,4 @@
-"""Messages that another thread handles, and that still end a ``spin_once``."""
+"""Events of messages that another thread handles; they still end a ``spin_once``."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["Arrivals", "BackgroundEvents"]
 
 
 class Arrivals(Protocol):
-    """What handles the messages, such as :class:`turtlewire.tf.listener.TransformListener`."""
+    """A handler of messages, such as :class:`turtlewire.tf.listener.TransformListener`."""
 
     def expect_message(
         self, call: Callable[[], None], waker: tuple[int, int] | None = None

@@ -1,4 +1,4 @@
-"""Blocking for a response, without the deadlocks that lie in wait there."""
+"""Blocks until a response arrives, and avoids or reports the deadlocks that this can cause."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ if TYPE_CHECKING:
 
 __all__ = ["BlockingCall", "wait_for_response"]
 
-#: After this time a wait that nothing seems to end is logged.
+#: Time after which a wait that probably never ends is logged.
 _PATIENCE_S = 1.0
 
 
 class BlockingCall(NamedTuple):
-    """What is waited for, and where.
+    """A service call that blocks its thread until the response arrives.
 
     Attributes:
         service: Full name of the service.
@@ -77,7 +77,7 @@ def _serve_responses(
             if patience is not None and time.monotonic() >= patience:
                 patience = None
                 _warn_of_other_executor(call)
-            # The request is here, and this thread is the only one that could answer it.
+            # The request has arrived, and only this thread could answer it.
             if host.holds_up(call.service):
                 raise RuntimeError(
                     "The service is served by the executor that this call blocks: "
@@ -86,7 +86,7 @@ def _serve_responses(
             try:
                 ready = host.next(
                     _remaining_ns(deadline, patience),
-                    # Either can become true during the wait without anything to hand out.
+                    # Both can become true during the wait although no callback is ready.
                     lambda: future.done() or host.holds_up(call.service),
                 )
             except (TimeoutException, ConditionReachedException):

@@ -1,7 +1,7 @@
 """What an executor serves: subscriptions, timers, services, clients, guard conditions, waitables.
 
-Programs derive from some of these classes, so that all names which ROS 2 does not define begin with
-an underscore; within the package, the scheduler uses them.
+Programs derive from some of these classes. Therefore all names that ROS 2 does not define begin
+with an underscore, although the scheduler uses them.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ Work = tuple["Callable[..., Any]", "tuple[Any, ...]"]
 
 
 class EntityHost(Protocol):
-    """What entities, and callbacks that block, need of the executor; the scheduler fulfils it.
+    """The part of an executor that entities and blocking callbacks use: its scheduler.
 
     Attributes:
         wait: Where entities report that they are ready.
@@ -76,7 +76,7 @@ class EntityHost(Protocol):
     def next(
         self, timeout_ns: int | None, condition: Callable[[], bool] | None = None
     ) -> tuple[Entity | Task[Any], Work | None]:
-        """Wait for the next thing to run."""
+        """Wait for the next callback to run."""
         ...
 
     def execute(self, source: Entity | Task[Any], work: Work | None) -> None:
@@ -162,7 +162,7 @@ class Entity:
         """
         if self._destroyed:
             return
-        # First: from here on no executor adopts it, and attaching it may fail silently.
+        # First: from now on no executor adopts the entity, and attaching it may fail silently.
         self._destroyed = True
         host = self._serving_host()
         if host is not None:
@@ -173,7 +173,7 @@ class Entity:
             self._on_destroy(self)
 
     def _close(self) -> None:
-        """Release what it holds on the wire."""
+        """Release the entity's objects of the middleware."""
 
     def _attach(self, host: EntityHost) -> None:
         """Start to report readiness to ``host``."""
@@ -222,7 +222,7 @@ class ClosingEntity(Entity):
 
 
 class _Owner(Protocol):
-    """What an entity is part of."""
+    """The owner of an entity: a node or a waitable."""
 
     def _work_of(self, part: Entity) -> Work | None:
         """Return the work to run when a part is ready."""

@@ -1,4 +1,4 @@
-"""What ends a wait of an executor without anything to run."""
+"""Exceptions that end an executor's wait without a callback to run."""
 
 from __future__ import annotations
 
@@ -35,6 +35,6 @@ class ExternalShutdownException(Exception):
 
 
 class ConditionReachedException(Exception):
-    """What a spin waited for has come."""
+    """The condition of a spin has become true."""
 
     __module__ = _MODULE

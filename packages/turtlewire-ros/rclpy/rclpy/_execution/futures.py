@@ -1,4 +1,4 @@
-"""What executors, clients and waitables do with futures; programs see none of it."""
+"""Private functions of executors, clients and waitables for futures."""
 
 from __future__ import annotations
 

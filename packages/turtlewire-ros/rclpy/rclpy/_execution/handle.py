@@ -1,4 +1,4 @@
-"""Handles: what stands where ROS 2 has an object of its C library."""
+"""Stand-ins for the handles of ROS 2's C library."""
 
 from __future__ import annotations
 

@@ -61,7 +61,7 @@ class PoolScheduler(Scheduler):
             # Handing a response to its future takes no thread: all may be waiting for it.
             self.execute(source, work)
             return
-        with self.lock:  # so that the pool is not shut down between the question and its task
+        with self.lock:  # so that the pool is not shut down between this check and the submission
             if not self.is_shutdown:
                 self._free_threads -= 1
                 self._pool.submit(self._run_in_pool, source, work)
@@ -86,12 +86,12 @@ class PoolScheduler(Scheduler):
     def shutdown(self, timeout_sec: float | None) -> bool:
         ended = super().shutdown(timeout_sec)
         with self.lock:
-            # Not waiting again: the time limit has been spent above.
+            # Without waiting again, because the time limit is used up.
             self._pool.shutdown(wait=False)
         return ended
 
     def close(self) -> None:
         """Close the scheduler and end the threads."""
         super().close()
-        in_callback = self._running.of_this_thread() > 0  # then this thread may be one of them
+        in_callback = self._running.of_this_thread() > 0  # perhaps a thread of the pool
         self._pool.shutdown(wait=self.waits_for_threads and not in_callback)

@@ -1,4 +1,4 @@
-"""Which threads are running callbacks."""
+"""Records which callback each thread is running."""
 
 from __future__ import annotations
 

@@ -2,8 +2,8 @@
 
 One wait serves everything. The middleware's wait set holds the subscriptions, clients and services,
 and is notified once when one is added or removed; the earliest timer gives the wait's limit; a
-guard condition, a finished future or another thread ends the wait. Nothing is collected again for a
-pass, and nothing polls: an idle executor does not run at all.
+guard condition, a finished future or another thread ends the wait. The scheduler neither polls nor
+rebuilds its wait set: an idle executor does not run at all.
 
 Within one cycle the order is that of ROS 2: unfinished tasks (the newest first), the waitables of
 all nodes, then node by node its timers, subscriptions, guard conditions, clients and services.
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Scheduler"]
 
-#: A spin within a callback that finds nothing to do for so long is warned of.
+#: Idle time after which a spin within a callback logs a warning.
 _PATIENCE_NS = 1_000_000_000
 
 
@@ -100,7 +100,7 @@ class Scheduler:
             entity._leave(self)
 
     def _listen_to(self, entity: Entity, attach: Callable[[EntityHost], None]) -> None:
-        """Attach an entity; another thread may destroy it or shut things down at this moment."""
+        """Attach an entity; another thread may destroy it, or shut down, at this moment."""
         try:
             attach(self)
         except WireError:
@@ -125,17 +125,17 @@ class Scheduler:
         if self._collecting or not self.is_spun_by_this_thread():
             self.wake()
 
-    # Finding the next thing to run
+    # Finding the next callback to run
 
     def spin_once(
         self, timeout_ns: int | None, condition: Callable[[], bool] | None = None
     ) -> None:
-        """Wait for the next thing to run, and run it; raises as :meth:`next`.
+        """Wait for the next callback, and run it; raises as :meth:`next`.
 
         Raises:
             RuntimeError: Another thread spins.
         """
-        # A callback may spin its own executor: the outer spin goes on afterwards.
+        # A callback may spin its own executor: the outer spin continues afterwards.
         outer, me = self._spinning_thread, threading.get_ident()
         if outer is not None and outer != me:
             raise RuntimeError("Executor is already spinning")
@@ -156,7 +156,7 @@ class Scheduler:
     def next(
         self, timeout_ns: int | None, condition: Callable[[], bool] | None = None
     ) -> tuple[Entity | Task[Any], Work | None]:
-        """Wait for the next thing to run, and claim its callback group.
+        """Wait for the next callback to run, and claim its callback group.
 
         Raises:
             ConditionReachedException: ``condition()`` is true.
@@ -264,21 +264,21 @@ class Scheduler:
     def _pause(self, entity: Entity) -> None:
         # With the lock: a thread that ends its callback may resume the entity at any moment.
         with self.lock:
-            if entity not in self._served:  # released since its group was looked at
+            if entity not in self._served:  # the group was released after the check above
                 return
             self._paused.add(entity)
             entity.callback_group._rclpy_note_wait(self)
             entity._pause(self)
             self._self_waits.held_up(entity, list(self._holders.values()), self._served)
-        if self.may_run(entity):  # it became free before it was in the list
+        if self.may_run(entity):  # the group became free before the entity was in the list
             self._resume(entity)
 
     def _release_group(self, entity: Entity) -> None:
-        """Give the group back, and let the entities go on that waited for it."""
+        """Release the group, and resume the entities that waited for it."""
         if not entity._GATED:
             return
         entity.callback_group.ending_execution(entity)
-        # A callback of this group may have freed another one: programs write groups of their own.
+        # A callback of this group may have freed another one: programs define their own groups.
         self.resume_paused()
         entity.callback_group._rclpy_wake_schedulers()
 
@@ -326,7 +326,7 @@ class Scheduler:
                 self._advance(task)
 
     def _advance(self, task: Task[Any]) -> None:
-        """Run one step of a task; have it run again when what it awaits is done."""
+        """Run one step of a task; schedule the next step for when the awaited future is done."""
         task()
         if not task.done():
             task._when_runnable(lambda: self._schedule(task))
@@ -349,7 +349,7 @@ class Scheduler:
             yield
         finally:
             self._response_awaited = outer
-            # Within the block, `may_run` was False for every entity.
+            # During the block, `may_run` returned False for every entity.
             self.resume_paused()
 
     def holds_up(self, service: str) -> bool:

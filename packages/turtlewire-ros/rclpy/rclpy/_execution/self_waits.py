@@ -1,4 +1,4 @@
-"""Async callbacks that await a service which is held up by their own callback group."""
+"""Warnings about async callbacks that await a service blocked by their own callback group."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The timers of an executor, ordered by the moment at which they are due."""
+"""The timers of an executor, ordered by the time at which they are due."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class TimerQueue(Generic[T]):
                 self._sweep()
                 return
             ticket = self._tickets[timer] = next(self._next_ticket)
-            # The ticket also decides between equal times, because timers have no order.
+            # The ticket orders timers with equal times, because timers cannot be compared.
             entry = (time.monotonic_ns() + delay_ns, ticket, timer)
             heapq.heappush(self._heap, entry)
             self._sweep()

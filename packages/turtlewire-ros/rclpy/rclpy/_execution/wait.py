@@ -1,4 +1,4 @@
-"""What an executor waits for: endpoints with something to take, and timers that are due."""
+"""The wait of an executor: for endpoints with messages, and for timers."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["ExecutorWait"]
 
 
 class _Ranked(Protocol):
-    """What can be reported as ready."""
+    """An object that the wait can report as ready."""
 
     _rank: tuple[int, int, int]
 
@@ -96,7 +96,7 @@ class ExecutorWait(Generic[T]):
         """
         if self._left:
             self._detach_left()
-        # The wire still gets a look: what is ready there belongs to the same cycle.
+        # The middleware is still checked: its ready entities belong to the same cycle.
         if self._notified:
             timeout_ns = 0
         else:

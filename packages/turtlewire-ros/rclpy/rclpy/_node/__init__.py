@@ -1,11 +1,11 @@
-"""What a :class:`rclpy.node.Node` is made of; none of it is ROS 2's public surface.
+"""Private parts of :class:`rclpy.node.Node`.
 
 ============================  ==================================================================
-module                        what it holds
+module                        contents
 ============================  ==================================================================
-`base`                        `BaseNode`: what ordinary and asynchronous nodes share
+`base`                        `BaseNode`: the base of ordinary and asynchronous nodes
 `state`                       names, wire, context, logger and command line of one node
-`endpoints`                   makes, keeps and closes what a node owns
+`endpoints`                   creates, stores and closes the endpoints of a node
 `checks`                      checks of callbacks and of the quality of service
 `names`                       full names of topics and services
 `graph`                       other nodes, topics and services
@@ -15,6 +15,6 @@ module                        what it holds
 `prefixes`                    prefixes of parameters' names
 `descriptors`                 checks a value against its descriptor: ranges, steps, types
 `rosout`                      the publisher of ``/rosout``
-`views`                       what time source and built-in services need of a node
+`views`                       views of a node for the time source and built-in services
 ============================  ==================================================================
 """

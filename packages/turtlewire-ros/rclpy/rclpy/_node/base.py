@@ -1,4 +1,4 @@
-"""What all nodes have: names, a clock, a logger, parameters, and a view of the graph."""
+"""The common base of all nodes: names, a clock, a logger, parameters, and a view of the graph."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def _rosout_qos(profile: QoSProfile | int) -> QoS:
 
 
 class BaseNode:
-    """What :class:`rclpy.node.Node` and :class:`rclpy.experimental.AsyncNode` have in common.
+    """The common base of :class:`rclpy.node.Node` and :class:`rclpy.experimental.AsyncNode`.
 
     Args:
         clock: Its clock, of ROS time. :class:`rclpy.node.Node` describes the other arguments.
@@ -169,7 +169,7 @@ class BaseNode:
 
     @property
     def context(self) -> Context:
-        """Its context."""
+        """The context of the node."""
         return self._context
 
     @property
@@ -195,7 +195,7 @@ class BaseNode:
         """Return the fully qualified name of a service, remapped unless ``only_expand``."""
         return self._rclpy_endpoints.names.resolve_service(service, only_expand=only_expand)
 
-    # What each kind of node makes in its own way
+    # Implemented by each kind of node
 
     def get_clock(self) -> BaseClock:
         """Return its clock."""
@@ -518,7 +518,7 @@ def _arguments(
     from rclpy.impl.arguments import Arguments
 
     component = component_arguments.get()
-    if component is not None:  # the container's command line is not the component's
+    if component is not None:  # a component does not use the container's command line
         # Once, because a component may create further nodes.
         component_arguments.set(None)
         return Arguments.parse_local(component)

@@ -1,6 +1,6 @@
 """Declarations of parameters.
 
-What ``(name, value or type, descriptor)`` means, and what the command line makes of it.
+Interprets ``(name, value or type, descriptor)`` and applies values of the command line.
 """
 
 from __future__ import annotations

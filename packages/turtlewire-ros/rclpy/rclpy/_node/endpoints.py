@@ -1,7 +1,7 @@
-"""What a node owns.
+"""The endpoints and timers of a node.
 
-It makes publishers, subscriptions, clients, services, timers and guard conditions, keeps them, and
-closes them.
+Creates publishers, subscriptions, clients, services, timers and guard conditions, stores
+them, and closes them.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ def endpoints_of(node: Any) -> OwnEndpoints:
 
 
 class QosOverrides(NamedTuple):
-    """What parameters may say of an endpoint's quality of service."""
+    """The QoS policies of an endpoint that parameters may override."""
 
     options: QoSOverridingOptions | None
     parameters: NodeParameters
@@ -302,7 +302,7 @@ class OwnEndpoints:
     def create_rate(self, frequency: float, clock: Clock) -> Rate:
         if frequency <= 0:
             raise ValueError("frequency must be > 0")
-        # a group of its own: a callback that sleeps must not hold up the timer that wakes it
+        # its own group: a callback that sleeps must not hold up the timer that wakes it
         timer = self.create_timer(
             1.0 / frequency, None, MutuallyExclusiveCallbackGroup(), clock, autostart=True
         )

@@ -1,4 +1,4 @@
-"""What a node knows of the other nodes, topics and services."""
+"""A node's view of the graph: other nodes, topics and services."""
 
 from __future__ import annotations
 

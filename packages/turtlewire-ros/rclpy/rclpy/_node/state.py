@@ -1,4 +1,4 @@
-"""The core of a node: what its endpoints, parameters and services share of it."""
+"""The state of a node that its endpoints, parameters and services share."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class NodeState:
         # Refers to the wire node instead of this object, which the finalizer must not keep alive.
         leave = partial(_leave, self._wire, rosout, self.before_leaving)
         self._end = weakref.finalize(self, _leave_later, context.wire, leave)
-        self._end.atexit = False  # the context's end is the node's
+        self._end.atexit = False  # the node ends with its context
         self._leave = leave
 
     @property

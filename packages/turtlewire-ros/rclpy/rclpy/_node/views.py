@@ -100,7 +100,7 @@ class TimeSourceOwner(Protocol):
         ...
 
     def get_logger(self) -> RcutilsLogger:
-        """Its logger."""
+        """Return the logger of the node."""
         ...
 
     def create_subscription(

@@ -1,7 +1,7 @@
-"""Parts of :mod:`rclpy.qos` and :mod:`rclpy.event_handler`; none is ROS 2's public surface.
+"""Private parts of :mod:`rclpy.qos` and :mod:`rclpy.event_handler`.
 
 ===============  =================================================================
-module           what it holds
+module           contents
 ===============  =================================================================
 `policies`       the policies of a quality of service and their values
 `compatibility`  which offered and requested profiles match, with ROS 2's reasons

@@ -1,4 +1,4 @@
-"""The states of an action's goals as they travel: bytes of ``action_msgs/msg/GoalStatusArray``.
+"""The serialized states of an action's goals: bytes of ``action_msgs/msg/GoalStatusArray``.
 
 A server publishes the states of all of its goals whenever one of them changes, and keeps a finished
 goal until its result expires, a quarter of an hour by default. Each goal is a record of fixed size,

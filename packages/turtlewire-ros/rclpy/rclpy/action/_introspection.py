@@ -1,4 +1,4 @@
-"""Introspection of actions: that of the three services of a client or a server."""
+"""Introspection of actions: of the three services of a client or server."""
 
 from __future__ import annotations
 

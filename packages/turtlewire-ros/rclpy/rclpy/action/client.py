@@ -128,7 +128,7 @@ class ActionClient(IntrospectedAction, Waitable, Generic[ActionT_co]):
         node: The node that owns it.
         action_type: The action class.
         action_name: Name of the action.
-        callback_group: Of feedback callbacks; None takes the node's default.
+        callback_group: Of feedback callbacks; None uses the node's default.
         goal_service_qos_profile: Quality of service of goal requests.
         result_service_qos_profile: Quality of service of result requests.
         cancel_service_qos_profile: Quality of service of cancel requests.
@@ -220,7 +220,7 @@ class ActionClient(IntrospectedAction, Waitable, Generic[ActionT_co]):
         )
 
     def server_is_ready(self) -> bool:
-        """Return True if an action server is there; RCLError after a shutdown."""
+        """Return True if an action server is available; RCLError after a shutdown."""
         check_valid(self._node.context, "Failed to check if action server is available")
         return (
             self._goal_client.service_is_ready()
@@ -231,13 +231,13 @@ class ActionClient(IntrospectedAction, Waitable, Generic[ActionT_co]):
         )
 
     def wait_for_server(self, timeout_sec: float | None = None) -> bool:
-        """Block until an action server is there (no polling).
+        """Block until an action server is available (no polling).
 
         Args:
             timeout_sec: None or negative waits without a limit.
 
         Returns:
-            True if a server is there, False after the timeout.
+            True if a server is available, False after the timeout.
 
         Raises:
             RCLError: The context was shut down, before or during the wait.
@@ -248,7 +248,7 @@ class ActionClient(IntrospectedAction, Waitable, Generic[ActionT_co]):
         return self._node.context.wait_for_graph(self._look_for_server, timeout_ns)
 
     def _look_for_server(self) -> bool:
-        """Return True if a server is there; logs once why one that is there is not called."""
+        """Return True if a server is available; logs once why an existing one is not called."""
         if self.server_is_ready():
             return True
         self._goal_client._look_for_server()
@@ -266,7 +266,7 @@ class ActionClient(IntrospectedAction, Waitable, Generic[ActionT_co]):
             goal: The goal.
             feedback_callback: Called with each feedback message (``.feedback``, ``.goal_id``),
                 except messages sent after the program got the result.
-            goal_uuid: Identifies the goal; None takes a random one.
+            goal_uuid: Identifies the goal; None uses a random one.
 
         Returns:
             A future of a :class:`ClientGoalHandle`.

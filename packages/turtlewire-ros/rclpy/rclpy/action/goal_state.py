@@ -1,4 +1,4 @@
-"""The states of a goal, and which event leads from one to the next."""
+"""The states of a goal, and the events that change them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ACTIVE_STATES = frozenset({_ACCEPTED, _EXECUTING, _CANCELING})
 
 
 class GoalEvent(Enum):
-    """What can happen to a goal."""
+    """Events in the life of a goal."""
 
     EXECUTE = 1
     CANCEL_GOAL = 2

@@ -55,14 +55,14 @@ _DOES_NOTHING = "Not handling nor executing the goal, this server will do nothin
 
 
 class GoalResponse(Enum):
-    """What a goal callback decides."""
+    """The decision of a goal callback."""
 
     REJECT = 1
     ACCEPT = 2
 
 
 class CancelResponse(Enum):
-    """What a cancel callback decides."""
+    """The decision of a cancel callback."""
 
     REJECT = 1
     ACCEPT = 2
@@ -105,7 +105,7 @@ class ActionServer(IntrospectedAction, Waitable):
         action_name: Name of the action.
         execute_callback: Called with a :class:`ServerGoalHandle`, returns the result; may be
             ``async``. None: the program ends each goal by its handle.
-        callback_group: Of the other callbacks; None takes the node's default. Executions run
+        callback_group: Of the other callbacks; None uses the node's default. Executions run
             outside of all groups.
         goal_callback: Called with the goal, decides whether it is accepted (default: yes).
         handle_accepted_callback: Called with the handle of an accepted goal (default: executes it).
@@ -220,13 +220,13 @@ class ActionServer(IntrospectedAction, Waitable):
         return self._action_type
 
     def register_goal_callback(self, goal_callback: Callable[[Any], Any] | None = None) -> None:
-        """Replace the goal callback; None takes the default."""
+        """Replace the goal callback; None uses the default."""
         self._goal_callback = goal_callback or default_goal_callback
 
     def register_handle_accepted_callback(
         self, handle_accepted_callback: Callable[[ServerGoalHandle], Any] | None = None
     ) -> None:
-        """Replace the callback for accepted goals; None takes the default."""
+        """Replace the callback for accepted goals; None uses the default."""
         self._handle_accepted_callback = (
             handle_accepted_callback or default_handle_accepted_callback
         )
@@ -234,7 +234,7 @@ class ActionServer(IntrospectedAction, Waitable):
     def register_cancel_callback(
         self, cancel_callback: Callable[[ServerGoalHandle], Any] | None = None
     ) -> None:
-        """Replace the cancel callback; None takes the default."""
+        """Replace the cancel callback; None uses the default."""
         self._cancel_callback = cancel_callback or default_cancel_callback
 
     def register_execute_callback(
@@ -284,7 +284,7 @@ class ActionServer(IntrospectedAction, Waitable):
         goal_handle: ServerGoalHandle,
         execute_callback: Callable[[ServerGoalHandle], Any] | None = None,
     ) -> None:
-        """Execute a goal on the executor; None takes the execute callback of the server.
+        """Execute a goal on the executor; None uses the execute callback of the server.
 
         Between two spins of the node, the goal waits for the next one.
         """
@@ -382,7 +382,7 @@ class ActionServer(IntrospectedAction, Waitable):
             self._expiry.cancel()
             return
         expires_ns = first_end_ns + self._result_timeout_ns
-        if expires_ns != self._expires_ns:  # for most goals that end, the timer is set already
+        if expires_ns != self._expires_ns:  # usually, the timer is already set when a goal ends
             self._expires_ns = expires_ns
             self._expiry.timer_period_ns = max(0, expires_ns - self._now_ns())
             self._expiry.reset()

@@ -62,7 +62,7 @@ class ServerGoalHandle:
 
     def execute(self, execute_callback: Callable[[ServerGoalHandle], Any] | None = None) -> None:
         """Execute the goal with ``execute_callback``, or with the server's callback."""
-        # As in ROS 2, a goal that was cancelled before its execution is executed all the same, so
+        # As in ROS 2, a goal that was cancelled before its execution is still executed, so
         # that the callback can end it, but it cannot go back to EXECUTING.
         if not self.is_cancel_requested:
             self._goals.advance(self._goal, GoalEvent.EXECUTE)

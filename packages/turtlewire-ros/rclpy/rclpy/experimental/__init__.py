@@ -1,7 +1,7 @@
-"""What ROS 2 calls experimental: nodes for asyncio, and the executor that is driven by events.
+"""ROS 2's experimental API: nodes for asyncio, and the events executor.
 
 ======================  ==========================================================================
-module                  what it holds
+module                  contents
 ======================  ==========================================================================
 `async_node`            `AsyncNode`
 `async_publisher`       its publishers, and in modules named likewise:
@@ -10,7 +10,7 @@ module                  what it holds
 `async_client`          clients, whose calls are awaited
 `async_timer`           timers
 `async_clock`           its clock, whose sleeps are awaited
-`_async_entity`         what runs the callbacks of all of them
+`_async_entity`         runs the callbacks of these entities
 `events_executor`       `EventsExecutor`
 ======================  ==========================================================================
 """

@@ -23,7 +23,7 @@ __all__ = ["AsyncClient"]
 class AsyncClient(AsyncEndpoint, BaseClient[SrvT_co]):
     """Calls a service; made by :meth:`AsyncNode.create_client`.
 
-    Nothing has a timeout of its own: use ``async with asyncio.timeout(…)``.
+    No method has its own timeout: use ``async with asyncio.timeout(…)``.
 
     Attributes:
         srv_type: The service class.
@@ -67,7 +67,7 @@ class AsyncClient(AsyncEndpoint, BaseClient[SrvT_co]):
         return response
 
     async def wait_for_service(self, *, check_interval: float = 0.1) -> None:  # noqa: ARG002
-        """Wait until a server is there.
+        """Wait until a server is available.
 
         Args:
             check_interval: Ignored, because nothing polls: changes of the graph end the wait.

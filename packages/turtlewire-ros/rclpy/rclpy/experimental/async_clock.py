@@ -63,7 +63,7 @@ class AsyncClock(BaseClock):
 
 
 class _Sleep:
-    """One wait for a time."""
+    """A wait for a time."""
 
     def __init__(self, clock: AsyncClock, until_ns: int) -> None:
         self._clock = clock

@@ -27,7 +27,7 @@ class AsyncSubscription(AsyncEndpoint, BaseSubscription[MsgT]):
     """Receives the messages of a topic; made by :meth:`AsyncNode.create_subscription`.
 
     With a callback, each message waits in the middleware until the callback of the former one has
-    ended, or is handled at once in a task of its own if the subscription is concurrent. Without
+    ended, or is handled at once in a separate task if the subscription is concurrent. Without
     one, the program iterates over it: ``async for message in subscription``.
 
     Attributes:

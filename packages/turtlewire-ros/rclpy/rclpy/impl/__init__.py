@@ -1,7 +1,7 @@
 """Parts of :mod:`rclpy.logging`, under the paths that they have in ROS 2, and of this package.
 
 =============  ==============================================================
-module         what it holds
+module         contents
 =============  ==============================================================
 `arguments`    ROS arguments, and the nodes that they are for
 `excepthooks`  Ctrl-C without a traceback at the end of a process

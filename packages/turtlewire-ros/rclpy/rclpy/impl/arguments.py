@@ -1,4 +1,4 @@
-"""What ``--ros-args`` says: remap rules, parameters, log levels and the enclave.
+"""Parses ``--ros-args``: remap rules, parameters, log levels and the enclave.
 
 ::
 

@@ -2,10 +2,10 @@
 
 The user asked the program to end, so its position does not matter, even during imports. The exit
 status stays that of an interrupted program. The same goes for threads that spin:
-``ExternalShutdownException`` is how they learn of the signal, not a fault. An unreadable command
-line is reported in one line, and so are settings with which no context can be opened. Where Python
-drops exceptions, within a destructor or a callback of a weak reference (at the end of each import
-there is one), Ctrl-C is raised again right afterwards.
+``ExternalShutdownException`` tells them that the program ends, and is not an error. An unreadable
+command line is reported in one line, and so are settings with which no context can be opened. Where
+Python drops exceptions, within a destructor or a callback of a weak reference (at the end of each
+import there is one), Ctrl-C is raised again right afterwards.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ def take_dropped() -> bool:
 
 
 def _hook(kind: type[BaseException], value: BaseException, traceback: TracebackType | None) -> None:
-    if hasattr(sys, "ps1"):  # at a prompt, the traceback says what was interrupted
+    if hasattr(sys, "ps1"):  # at a prompt, the traceback shows the interrupted line
         _previous_hook(kind, value, traceback)
     elif getattr(value, "is_of_command_line", False) or _is_of_the_command_line(traceback):
         _previous_hook(kind, value.with_traceback(None), None)
@@ -108,11 +108,11 @@ def _raise_again_after(frame_guard: set[signal.Signals]) -> None:
     in Python would itself be the first to be interrupted. :func:`next` ignores the dead reference,
     which is its default, and calls ``interrupt_main``.
     """
-    global _guard_reference  # noqa: PLW0603 - as above
+    global _guard_reference  # noqa: PLW0603 - there is one in the process
     call = functools.partial(next, map(_thread.interrupt_main, (SIGINT,)))
     _guard_reference = weakref.ref(frame_guard, call)
 
 
-explain_missing_modules()  # before `install`, whose hook calls the one that it finds
+explain_missing_modules()  # before `install`, whose hook calls the previous hook
 sys.unraisablehook = _unraisable_hook
 install()  # at once: most of what a node does in its first moments is importing

@@ -1,4 +1,4 @@
-"""What the console shows of log lines that report failed lookups of transforms.
+"""Shortens repeated log lines about failed transform lookups on the console.
 
 A program logs ``f"Could not transform: {error}"`` where it handles the error, often ten times a
 second. The console gets such a line once a second, with the hint of the error below it. The log
@@ -21,7 +21,7 @@ _MOST_ERRORS = 100
 
 
 class Shown(NamedTuple):
-    """What the console shows of a log line.
+    """The part of a log line that the console shows.
 
     Attributes:
         line: Whether it shows the line.

@@ -1,4 +1,4 @@
-"""Where ROS 2 programs find what is the C extension there.
+"""The name under which ROS 2 programs import the C extension.
 
 ``from rclpy.impl.implementation_singleton import rclpy_implementation``.
 """

@@ -1,4 +1,4 @@
-"""Where log records go.
+"""The outputs of log records.
 
 The console, a file, and ``/rosout`` through the sink of the node that owns the logger.
 
@@ -76,7 +76,7 @@ class _Console:
     def write(self, line: str, severity: int) -> None:
         if self._coloured:
             line = f"{_COLOURS.get(severity, _RESET)}{line}{_RESET}"
-        # A closed stream leaves no place to tell about it, and must not end the program.
+        # A closed stream cannot show the error, and must not end the program.
         _write_line(self._fd, line)
 
 

@@ -8,7 +8,7 @@ __all__ = ["LoggingSeverity"]
 
 
 class LoggingSeverity(IntEnum):
-    """How severe a message is; UNSET stands for "as the parent logger"."""
+    """The severity of a message; UNSET means that the parent logger's level applies."""
 
     UNSET = 0
     DEBUG = 10

@@ -13,7 +13,7 @@ __all__ = ["RemapKind", "RemapRule", "parse_node_prefix", "parse_remap_rule", "r
 
 
 class RemapKind(Flag):
-    """What a rule renames."""
+    """The kinds of names that rules rename."""
 
     TOPIC = 1
     SERVICE = 2

@@ -50,7 +50,7 @@ class _SystemClock:
 class LoggingFilter:
     """Decides which messages of a calling line are written.
 
-    A program can enter classes of its own into :data:`supported_filters`.
+    A program can add its own classes to :data:`supported_filters`.
 
     Attributes:
         params: The keywords that ask for it, with their defaults; None marks one that is required.
@@ -139,7 +139,7 @@ class SkipFirst(LoggingFilter):
         return bool(skipped)
 
 
-#: Asked in this order; the next filter does not see a message that one holds back.
+#: The filters are called in this order; a filter does not see messages that an earlier one drops.
 supported_filters: OrderedDict[str, type[LoggingFilter]] = OrderedDict(
     throttle=Throttle, skip_first=SkipFirst, once=Once
 )
@@ -181,10 +181,10 @@ class _Place(NamedTuple):
 
 
 class CallerId(_Place):
-    """Where in a program a message is logged: the line, and the instruction in it.
+    """The place in a program that logs a message: the line, and the instruction in it.
 
     Args:
-        frame: None takes the nearest frame of another file.
+        frame: None uses the nearest frame of another file.
     """
 
     __slots__ = ()
@@ -197,7 +197,7 @@ class CallerId(_Place):
 
 
 class _CallSite:
-    """What one line of a program asks for; it has to stay the same from call to call."""
+    """The filters that one line of a program requests; they must not change between calls."""
 
     def __init__(self, severity: int, name: str, options: dict[str, Any]) -> None:
         self.severity = severity
@@ -297,7 +297,7 @@ class RcutilsLogger:
         """Log with severity WARN."""
         return log_levels.effective(self.name) <= _WARN and self._log(message, _WARN, kwargs)
 
-    # Lyrical has it no longer.
+    # Lyrical no longer has it.
     if not since(LYRICAL):
 
         def warn(self, message: Any, **kwargs: Any) -> bool:
@@ -319,7 +319,7 @@ class RcutilsLogger:
         caller = CallerId()
         site = self._call_sites.get(caller)
         if site is None:
-            # Another thread may have entered the line since the look.
+            # Another thread may have added the line since the check.
             site = self._call_sites.setdefault(caller, _CallSite(severity, name, options))
         else:
             site.check(severity, name, options)
@@ -340,7 +340,7 @@ class RcutilsLogger:
 
 def _encodable(text: str) -> str:
     """Escape lone surrogates, so that every output accepts the text."""
-    # They stand for undecodable bytes, for example of a file name.
+    # They represent undecodable bytes, for example of a file name.
     return text if text.isascii() else text.encode(errors="backslashreplace").decode()
 
 

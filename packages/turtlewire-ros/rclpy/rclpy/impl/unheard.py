@@ -1,4 +1,4 @@
-"""Warnings about topics without a matching endpoint, a sign of a wrong domain."""
+"""Warns about topics without a matching endpoint, a sign of a wrong domain."""
 
 from __future__ import annotations
 

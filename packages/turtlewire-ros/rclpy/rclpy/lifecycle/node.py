@@ -1,4 +1,4 @@
-"""Managed nodes."""
+"""Managed (lifecycle) nodes."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class LifecycleNodeMixin(ManagedEntity):
 
     Args:
         enable_communication_interface: Whether other nodes can see and change the state.
-        callback_group: Of the services for that; None takes the node's default.
+        callback_group: Of the services for that; None uses the node's default.
     """
 
     def __init__(

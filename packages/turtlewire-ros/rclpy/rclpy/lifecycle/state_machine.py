@@ -18,7 +18,7 @@ __all__ = [
 
 
 class TransitionCallbackReturn(Enum):
-    """What a transition callback reports."""
+    """The result of a transition callback."""
 
     SUCCESS = 97
     FAILURE = 98
@@ -113,7 +113,7 @@ TRANSITIONS = _all_transitions()
 
 
 class StateMachine:
-    """Where a node is, and where it can go."""
+    """The state of a node and its possible transitions."""
 
     def __init__(self) -> None:
         self.current_state = STATES[_UNCONFIGURED]

@@ -1,4 +1,4 @@
-"""What the tests of asynchronous nodes have in common."""
+"""Common helpers of the tests of asynchronous nodes."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def tree(error):
 
 
 def in_groups(depth, *error):
-    """Return the tree of an error within so many exception groups."""
+    """Return the tree of an error within this many exception groups."""
     return ("ExceptionGroup", IN_GROUP, in_groups(depth - 1, *error)) if depth else error
 
 

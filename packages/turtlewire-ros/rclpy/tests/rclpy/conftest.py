@@ -54,7 +54,7 @@ def spin_until(executor):
 
 
 class Program:
-    """A Python program in a process of its own, whose output is read line by line."""
+    """A Python program in a separate process, whose output is read line by line."""
 
     def __init__(self, source: str, *arguments: str) -> None:
         command = [sys.executable, "-u", "-c", textwrap.dedent(source), *arguments]

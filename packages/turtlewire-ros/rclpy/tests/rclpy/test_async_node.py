@@ -1,4 +1,4 @@
-"""Asynchronous nodes: how they begin, fail and end. The outcomes are those of ROS 2 Lyrical."""
+"""Asynchronous nodes: start, failure and end. The outcomes are those of ROS 2 Lyrical."""
 
 from __future__ import annotations
 

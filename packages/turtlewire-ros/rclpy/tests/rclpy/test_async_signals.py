@@ -1,4 +1,4 @@
-"""Ctrl-C and SIGTERM beside asynchronous nodes, in processes of their own."""
+"""Ctrl-C and SIGTERM beside asynchronous nodes, in separate processes."""
 
 from __future__ import annotations
 

@@ -39,7 +39,7 @@ def transform(parent, child, sec=0):
 
 
 class Talker:
-    """Publishes transforms from another node, by a thread of its own."""
+    """Publishes transforms from another node, by its own thread."""
 
     def __init__(self, context):
         self.node = Node("talker", context=context)

@@ -1,4 +1,4 @@
-"""What every node has of its own, against the endpoints that a real ROS 2 node announced
+"""The built-in endpoints of every node, compared with the endpoints that a real node announced
 (golden/wire/endpoints.json).
 """
 

@@ -1,4 +1,4 @@
-"""Callback groups by themselves; how executors respect them is in test_executors.py."""
+"""Callback groups alone; test_executors.py checks that executors respect them."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from rclpy.time import Time
 
 
 class FakeContext:
-    """What a clock needs of a context."""
+    """The part of a context that a clock uses."""
 
     def __init__(self):
         self.valid = True

@@ -1,4 +1,4 @@
-"""Entities that go, or change their executor, while an executor serves them: spinning goes on."""
+"""Entities that are destroyed or change their executor while one serves them: it keeps spinning."""
 
 from __future__ import annotations
 

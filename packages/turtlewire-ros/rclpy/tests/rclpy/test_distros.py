@@ -1,4 +1,4 @@
-"""What Kilted and Lyrical changed in rclpy; each program runs in a process of a distribution."""
+"""Changes of rclpy in Kilted and Lyrical; each program runs in a process of a distribution."""
 
 from __future__ import annotations
 

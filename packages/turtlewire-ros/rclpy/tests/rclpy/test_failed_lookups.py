@@ -1,4 +1,4 @@
-"""What the console shows of log lines about failed lookups: the hint, and no flood."""
+"""Log lines about failed lookups on the console: with the hint, and without a flood."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def rosout():
 
 
 def listener(buffer):
-    """What a tutorial's listener does each time its timer fires."""
+    """Do what a tutorial's listener does each time its timer fires."""
     logger = get_logger("listener")
 
     def on_timer(source):

@@ -1,4 +1,4 @@
-"""Mistakes that beginners make: the error comes where the mistake is, and says what to do."""
+"""Mistakes of beginners: the error is raised at the mistake, and says what to do."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The node: names, remapping, what it owns, what it shows of itself."""
+"""The node: names, remapping, its entities, and its properties in the graph."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a node knows of others, on both middlewares."""
+"""A node's view of the graph, on both middlewares."""
 
 from __future__ import annotations
 

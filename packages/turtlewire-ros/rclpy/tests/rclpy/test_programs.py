@@ -1,4 +1,4 @@
-"""Whole programs in the shape of ROS 2's introductory examples, each in a process of its own, over
+"""Whole programs in the shape of ROS 2's introductory examples, each in its own process, over
 Cyclone DDS.
 """
 

@@ -1,4 +1,4 @@
-"""Ctrl-C and SIGTERM, in processes of their own."""
+"""Ctrl-C and SIGTERM, in separate processes."""
 
 from __future__ import annotations
 
@@ -236,7 +236,7 @@ def test_ctrl_c_that_is_not_caught_ends_without_a_traceback(start):
 
 
 def test_ctrl_c_between_two_callbacks_of_asyncio_loses_none(start):
-    """The one that was next wakes a task: without it, asyncio.run waited for the task for ever."""
+    """The one that was next wakes a task: without it, asyncio.run waited for the task forever."""
     program = start('''
         import asyncio, rclpy
 

@@ -1,4 +1,4 @@
-"""What `tests/surface` does not see of rclpy's surface.
+"""Parts of rclpy's API that `tests/surface` does not cover.
 
 Values of enumerations of ROS 2's C extension, base classes of errors, aliases, presets, and
 attributes that constructors set.

@@ -1,4 +1,4 @@
-"""Programs with type hints: what a type checker says of them."""
+"""Programs with type hints, checked by a type checker."""
 
 from __future__ import annotations
 

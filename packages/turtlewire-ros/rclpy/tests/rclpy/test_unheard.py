@@ -1,4 +1,4 @@
-"""A program that drives something says when nothing listens, and in which domains there are nodes.
+"""Warnings of a publisher without subscriptions, with the domains that have nodes.
 
 Teleop on another domain than the simulator was silent.
 """

@@ -1,4 +1,4 @@
-"""What a real joint_state_publisher sent (`tests/golden/robots/jsp`), and what ours sends."""
+"""Messages of a real joint_state_publisher (`tests/golden/robots/jsp`), and of ours."""
 
 from __future__ import annotations
 

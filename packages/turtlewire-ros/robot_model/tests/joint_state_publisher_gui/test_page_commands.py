@@ -1,4 +1,4 @@
-"""What a page may send."""
+"""The commands of a page."""
 
 from __future__ import annotations
 

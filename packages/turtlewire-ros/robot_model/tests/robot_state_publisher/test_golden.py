@@ -1,4 +1,4 @@
-"""What a real robot_state_publisher sent and logged (`tests/golden/robots`), and what ours does.
+"""Messages and logs of a real robot_state_publisher (`tests/golden/robots`), and of ours.
 
 Kinematics, parameters, descriptions, refusals and exit codes are equal. Log lines are equal too;
 ours adds some (see `docs/compatibility.md`), and the tests check that they are there.

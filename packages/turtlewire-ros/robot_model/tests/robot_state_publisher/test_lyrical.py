@@ -1,4 +1,4 @@
-"""What Lyrical's robot_state_publisher changed: the description from a topic, and frequencies."""
+"""Changes of Lyrical's robot_state_publisher: the description from a topic, and frequencies."""
 
 from __future__ import annotations
 

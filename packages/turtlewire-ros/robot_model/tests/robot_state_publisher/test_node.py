@@ -1,4 +1,4 @@
-"""What ours does beyond a real robot_state_publisher: faults mended, and lines that say why."""
+"""Differences from a real robot_state_publisher: fixed faults, and log lines that explain."""
 
 from __future__ import annotations
 

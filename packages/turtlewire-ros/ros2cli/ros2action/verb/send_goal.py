@@ -109,7 +109,7 @@ def _run(direct: DirectNode, client: Any, goal: Any, args: argparse.Namespace) -
     # Up to Kilted, the time is that of the wait for a server.
     limit = args.timeout if since(LYRICAL) else None
     accepted = False
-    # Feedback has a topic of its own, on which it may overtake the answer to the goal.
+    # Feedback has its own topic, on which it may overtake the answer to the goal.
     early: list[Any] = []
 
     def show(message: Any) -> None:

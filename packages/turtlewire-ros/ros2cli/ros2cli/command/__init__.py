@@ -1,4 +1,4 @@
-"""What a command of ``ros2`` is, and how a command offers its verbs."""
+"""The base of the commands of ``ros2``, and the lookup of their verbs."""
 
 from __future__ import annotations
 
@@ -127,7 +127,7 @@ def add_subparsers_on_demand(
     for name in sorted(entries):
         extension = loaded.get(name)
         if extension is None and name in load:
-            continue  # its failure has been reported
+            continue  # its error has already been printed
         sub = _add_parser(group, cli_name, name, extension, hide_extensions)
         if extension is not None:
             sub.set_defaults(**{dest: extension})

@@ -1,4 +1,4 @@
-"""Nodes that commands look at the graph with."""
+"""Nodes with which commands query the graph."""
 
 from __future__ import annotations
 

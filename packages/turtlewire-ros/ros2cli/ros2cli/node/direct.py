@@ -66,7 +66,7 @@ class DirectNode:
         """Wrap a node that the caller owns and destroys.
 
         Args:
-            node: A node of rclpy, or a thing with one in its attribute ``node``.
+            node: A node of rclpy, or an object whose attribute ``node`` is one.
         """
         # Without the constructor, which would make a node.
         direct = DirectNode.__new__(DirectNode)
@@ -156,7 +156,7 @@ class DirectNode:
     def wait_for_server(
         self, service: str, is_ready: Callable[[], bool], timeout: float | None = None
     ) -> bool:
-        """Wait until the server of a service is there.
+        """Wait until the server of a service is available.
 
         Args:
             service: Fully qualified name of the service.
@@ -200,7 +200,7 @@ class DirectNode:
             future: The answer to come.
             server: Name of the server for the error, for example ``service '/spawn'``.
             is_served: Whether it is still there; asked at every change of the graph.
-            timeout: Seconds to wait; None waits as long as the server is there.
+            timeout: Seconds to wait; None waits while the server exists.
 
         Raises:
             KeyboardInterrupt: At Ctrl-C.
@@ -209,7 +209,7 @@ class DirectNode:
         """
         if not self.wait_for(lambda: future.done() or not is_served(), timeout, future):
             raise TimeoutError(f"no answer within {timeout} s")
-        if not future.done():  # its last answer may still be on its way
+        if not future.done():  # its last answer may still be in transit
             with suppress(TimeoutError):
                 return self.result(future, _LAST_ANSWER_S)
             raise RuntimeError(f"The server of {server} ended before it answered")

@@ -1,4 +1,4 @@
-"""What a verb of a command is, for example ``list`` of ``ros2 topic``."""
+"""The base of verbs, for example ``list`` of ``ros2 topic``."""
 
 from __future__ import annotations
 

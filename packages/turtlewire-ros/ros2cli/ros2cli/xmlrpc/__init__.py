@@ -1,1 +1,1 @@
-"""Remote calls on one host, as ROS 2's daemon takes them; here extensions may use them."""
+"""Remote calls on one host, as ROS 2's daemon accepts them; extensions may use them."""

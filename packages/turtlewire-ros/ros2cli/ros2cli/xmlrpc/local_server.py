@@ -1,4 +1,4 @@
-"""A server that answers to this host alone."""
+"""A server that only answers this host."""
 
 from __future__ import annotations
 

@@ -48,4 +48,4 @@ def main(args: argparse.Namespace) -> str | None:
 
 @verb_of_module
 class StandaloneVerb(VerbExtension):
-    """Run a node in a container of its own."""
+    """Run a node in its own container."""

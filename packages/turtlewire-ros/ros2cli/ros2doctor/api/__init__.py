@@ -1,11 +1,11 @@
 """Checks and reports of ``ros2 doctor``, and of other packages.
 
 A package adds a check by an entry point in the group ``ros2doctor.checks``, and a report by one in
-``ros2doctor.report``: `run_checks`, `generate_reports` and ``ros2 doctor`` include them. One that
-fails is one line on stderr.
+``ros2doctor.report``: `run_checks`, `generate_reports` and ``ros2 doctor`` include them. A check
+that fails prints one line on stderr.
 
 ===================  =============================================
-module               what it holds
+module               contents
 ===================  =============================================
 `action`             the actions of the domain
 `environment`        environment variables
@@ -220,7 +220,7 @@ def _called(group: str, function: Callable[[Any], _T]) -> Iterator[_T]:
     for name, extension in instantiate_extensions(group, unique_instance=True).items():
         try:
             returned = function(extension)
-        # Another's code may fail in any way; the other extensions still work.
+        # Code of other packages may raise any error; the other extensions still work.
         except Exception as error:  # noqa: BLE001, PERF203
             tell(f"Failed to call '{group}' extension '{name}': {type(error).__name__}: {error}")
         else:
@@ -228,7 +228,7 @@ def _called(group: str, function: Callable[[Any], _T]) -> Iterator[_T]:
 
 
 class _OwnCheck(DoctorCheck):
-    """All that ``ros2 doctor`` looks at: the setup, the graph, the transforms."""
+    """The checks of ``ros2 doctor``: the setup, the graph and the transforms."""
 
     def category(self) -> str:
         return "turtlewire"

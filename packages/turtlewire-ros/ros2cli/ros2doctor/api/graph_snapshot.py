@@ -19,7 +19,7 @@ SKIP_TOPICS = ["/parameter_events", "/rosout"]
 
 
 class Counts(NamedTuple):
-    """How many endpoints of both kinds a name has.
+    """The numbers of endpoints of both kinds with a name.
 
     Attributes:
         name: Name of the topic, service or action.
@@ -33,7 +33,7 @@ class Counts(NamedTuple):
 
 
 class GraphSnapshot(NamedTuple):
-    """What was discovered.
+    """The endpoints that were discovered.
 
     Attributes:
         topics: All topics except `SKIP_TOPICS`.
@@ -63,7 +63,7 @@ def one_snapshot() -> Iterator[None]:
 
 
 def snapshot() -> GraphSnapshot:
-    """Return what can be discovered now, or what the first call in the block returned."""
+    """Return the endpoints of the graph now, or the result of the first call in the block."""
     if not _shared:
         return _discover()
     found = _shared[-1] or _discover()

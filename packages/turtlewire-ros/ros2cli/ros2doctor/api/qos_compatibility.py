@@ -1,4 +1,4 @@
-"""Publishers and subscriptions whose quality of service does not fit."""
+"""Publishers and subscriptions with incompatible quality of service."""
 
 from __future__ import annotations
 

@@ -64,7 +64,7 @@ class Report:
 
 
 class Result:
-    """How many errors and warnings a check has found."""
+    """The numbers of errors and warnings that a check has found."""
 
     __slots__ = ("error", "warning")
 

@@ -104,7 +104,7 @@ def _print_of_all_nodes(direct: DirectNode, args: argparse.Namespace, name: str)
             print(f"{node}:{_text(value, args, below=True)}")
     if not found:
         node = full_node_name(name)
-        hint = f"\n{node} is a node: name one of its parameters, too" if node in nodes else ""
+        hint = f"\n{node} is a node: also name one of its parameters" if node in nodes else ""
         return f"Parameter '{name}' not set on any node{hint}"
     return 1 if failed else 0
 

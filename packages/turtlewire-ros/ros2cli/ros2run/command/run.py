@@ -80,7 +80,7 @@ def run_and_tell(command: list[str]) -> int:
     end = signal.strsignal(-status) if status < 0 else f"Process exited with failure {status}"
     try:
         print(f"[ros2run]: {end}", flush=True)
-    except SystemExit as unwritten:  # as the program's own output was, which has said so
+    except SystemExit as unwritten:  # as the program's own output was, which has reported it
         raise SystemExit(status if status > 0 else unwritten.code) from None
     return status
 

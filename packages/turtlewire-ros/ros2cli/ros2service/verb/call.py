@@ -94,7 +94,7 @@ def requester(
             header, stand for the time of each call.
         period: Seconds between calls; None calls once.
         qos_profile: QoS of the client; by default that of services.
-        timeout: Seconds to wait for each response; None waits as long as the service is there.
+        timeout: Seconds to wait for each response; None waits while the service exists.
         as_json: Print request and response of each call as a JSON object in one line.
 
     Returns:
@@ -135,7 +135,7 @@ def _client(
     qos: QoSProfile | None,
     remark: Callable[[str], None],
 ) -> Any:
-    """Return a client whose service is there; ``remark`` prints that it waits."""
+    """Return a client whose service is available; ``remark`` prints that it waits."""
     from rclpy.qos import qos_profile_services_default
     from ros2cli.graph import services
     from ros2cli.suggestion import say_why_to_wait

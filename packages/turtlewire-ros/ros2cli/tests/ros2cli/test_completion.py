@@ -1,4 +1,4 @@
-"""What a shell is offered for the next word."""
+"""Completions of the next word for a shell."""
 
 from __future__ import annotations
 

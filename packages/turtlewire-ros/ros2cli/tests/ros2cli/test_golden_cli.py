@@ -79,7 +79,7 @@ def differences_beside_the_daemon(case):
 
 
 def differences_alone(case):
-    """In a domain of its own: the nodes of several cases have the same names."""
+    """In its own domain: the nodes of several cases have the same names."""
     with reserved_domain() as domain:
         return differences(case, {"ROS_DOMAIN_ID": str(domain)})
 

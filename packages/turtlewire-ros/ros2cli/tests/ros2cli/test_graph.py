@@ -1,4 +1,4 @@
-"""Questions to the graph."""
+"""Queries of the graph."""
 
 from __future__ import annotations
 

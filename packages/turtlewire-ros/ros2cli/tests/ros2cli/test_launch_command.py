@@ -1,4 +1,4 @@
-"""What `ros2 launch` makes of its command line."""
+"""The command line of `ros2 launch`."""
 
 from __future__ import annotations
 

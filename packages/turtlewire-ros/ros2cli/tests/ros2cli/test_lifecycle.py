@@ -38,7 +38,7 @@ def managed():
 
 
 def ros2(*words):
-    """Run in a process of its own, as rclpy's default context belongs to a process."""
+    """Run in a separate process, as rclpy's default context belongs to a process."""
     program = "import sys; from ros2cli.main import main; sys.exit(main(sys.argv[1:]))"
     result = subprocess.run(
         [sys.executable, "-c", program, *words],

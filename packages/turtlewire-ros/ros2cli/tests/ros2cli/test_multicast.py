@@ -36,7 +36,7 @@ OWN_NETWORK = (
 
 @pytest.mark.skipif(
     not OWN_NETWORK,
-    reason="a network of its own needs root, unshare and ip (Debian: apt install iproute2)",
+    reason="a separate network needs root, unshare and ip (Debian: apt install iproute2)",
 )
 def test_without_a_network_it_arrives_on_the_same_host(run):
     receive_and_send = f"""

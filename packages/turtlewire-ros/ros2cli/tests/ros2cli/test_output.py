@@ -1,4 +1,4 @@
-"""What verbs print of the text of other processes."""
+"""The output of verbs with text of other processes."""
 
 from __future__ import annotations
 

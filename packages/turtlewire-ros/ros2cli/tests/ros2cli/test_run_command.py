@@ -1,4 +1,4 @@
-"""`ros2 run`: what it runs, and how it ends."""
+"""`ros2 run`: finding executables, and exit status."""
 
 from __future__ import annotations
 

@@ -48,7 +48,7 @@ def test_a_parameter_of_all_nodes(nodes, capsys):
     assert told(capsys, "get speed") == (text, "")
     assert told(capsys, "get on --hide-type --service-timeout 60") == ("/a: True\n", "")
     assert told(capsys, "get sped", 1) == ("", "Parameter 'sped' not set on any node\n")
-    hint = "Parameter '/a' not set on any node\n/a is a node: name one of its parameters, too\n"
+    hint = "Parameter '/a' not set on any node\n/a is a node: also name one of its parameters\n"
     assert told(capsys, "get /a", 1) == ("", hint)
 
 

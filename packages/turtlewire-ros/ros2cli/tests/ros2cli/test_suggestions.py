@@ -1,6 +1,6 @@
 """Unknown names.
 
-The error line is that of ROS 2, and the nearest names follow on a line of their own.
+The error line is that of ROS 2, and the nearest names follow on a separate line.
 """
 
 from __future__ import annotations

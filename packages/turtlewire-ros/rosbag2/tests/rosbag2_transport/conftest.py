@@ -49,13 +49,13 @@ class Peer:
         return self.node.create_publisher(String, topic, qos)
 
     def heard(self, publisher, by=1):
-        """Wait until so many listen to a publisher."""
+        """Wait until this many subscriptions match a publisher."""
         graph = self.context.wire.graph
         assert graph.wait_for(lambda: publisher.get_subscription_count() >= by, 60_000_000_000)
         return publisher
 
     def listen(self, topic, qos=DEEP, type_=String):
-        """What arrives on a topic: a list that grows."""
+        """Return a list to which the messages of a topic are appended."""
         got = []
 
         def take(message):

@@ -1,4 +1,4 @@
-"""Which latched messages are missing when a playback moves."""
+"""Latched messages that are missing after a seek of a playback."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`ros2 bag play`: what a real one sends, and latched messages wherever it begins."""
+"""`ros2 bag play`: the messages of a real player, and latched messages at any start."""
 
 from __future__ import annotations
 

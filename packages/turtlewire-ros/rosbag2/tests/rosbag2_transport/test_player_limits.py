@@ -1,4 +1,4 @@
-"""Where a playback ends, and where its clock stands after each command."""
+"""The end of a playback, and the time of its clock after each command."""
 
 from __future__ import annotations
 

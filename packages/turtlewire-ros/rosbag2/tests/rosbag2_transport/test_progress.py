@@ -1,4 +1,4 @@
-"""The line that tells how a recording, a playback or a conversion goes."""
+"""The progress line of a recording, a playback or a conversion."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""QoS of recorder and player: what fits all publishers, and what is deep enough."""
+"""QoS of recorder and player: it matches all publishers, and is deep enough."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Every option of `ros2 bag record`: what is chosen, told, split, compressed and stored."""
+"""Every option of `ros2 bag record`: topics, messages, splitting, compression, storage."""
 
 from __future__ import annotations
 
@@ -249,7 +249,7 @@ def test_simulated_time_splits_compression_and_overrides(peer, bag_verb, tmp_pat
         *("--disable-keyboard-controls", "--max-cache-size", "0", "--log-level", "info"),
     )
     recorder.wait_for(r"\[black_box\]: use_sim_time set, waiting for /clock")
-    recorder.wait_for("The QoS override for '/lossy' does not fit a publisher")
+    recorder.wait_for("The QoS override for '/lossy' does not match a publisher")
     recorder.wait_for("All requested topics are subscribed")
     peer.heard(word)
     peer.heard(clock)

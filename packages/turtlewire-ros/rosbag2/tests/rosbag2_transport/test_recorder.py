@@ -1,4 +1,4 @@
-"""`ros2 bag record`: what is published is in the bag, whatever happens to the recorder."""
+"""`ros2 bag record`: published messages are in the bag, whatever happens to the recorder."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def publish(publisher, names=NAMES):
 
 
 def wait_until_written(path, topic, count):
-    """Until a bag that is being recorded holds so many messages in its file."""
+    """Wait until the file of a bag that is being recorded holds this many messages."""
     for _ in range(600):
         try:
             if len(texts(path, topic)) >= count:

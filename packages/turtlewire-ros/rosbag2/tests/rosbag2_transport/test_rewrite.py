@@ -1,4 +1,4 @@
-"""Converting bags: what is left when it ends early."""
+"""Converting bags: no files remain after an early end."""
 
 from __future__ import annotations
 

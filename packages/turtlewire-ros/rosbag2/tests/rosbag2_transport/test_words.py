@@ -1,4 +1,4 @@
-"""What the shell offers for `ros2 bag`, and what wrong words are answered."""
+"""Completions of `ros2 bag`, and errors of wrong words."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where comments begin: the engine's parser, `rosidl_adapter` and `interface show` agree."""
+"""The start of comments: the engine's parser, `rosidl_adapter` and `interface show` agree."""
 
 from __future__ import annotations
 

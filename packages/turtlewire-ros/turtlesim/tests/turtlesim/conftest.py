@@ -48,7 +48,7 @@ class SharedWorld(World):
 
 
 class Simulator:
-    """The model, stepped in real time in a thread of its own, and its screen."""
+    """The model, stepped in real time in its own thread, and its screen."""
 
     def __init__(self, *, lan: bool = False) -> None:
         self.world = SharedWorld()
@@ -118,7 +118,7 @@ class Simulator:
 
 @pytest.fixture
 def make_simulator(monkeypatch):
-    """Starts simulators, each at a port of its own.
+    """Starts simulators, each at its own port.
 
     One that follows another may take its port again.
     """

@@ -1,4 +1,4 @@
-"""What is seen of a page: pixels, texts and places; and transforms that it can see."""
+"""The visible state of a page: pixels, texts and positions; and transforms for it."""
 
 from __future__ import annotations
 
@@ -46,12 +46,12 @@ def wait_until(is_done) -> None:
 
 
 def is_at_rest(turtle) -> bool:
-    """Whether the last command of a turtle is over."""
+    """Return True if the last command of a turtle is over."""
     return turtle.forward == turtle.turning == 0.0
 
 
 def is_pen(colour: tuple[int, ...]) -> bool:
-    """Whether this is turtle1's line, in the colour of its shell."""
+    """Return True if this is turtle1's line, in the colour of its shell."""
     return math.dist(colour[:3], (0x72, 0xC3, 0xB0)) < 12
 
 
@@ -64,7 +64,7 @@ def is_ground(colour: tuple[int, ...]) -> bool:
 
 
 def on_screen(page, x: float, y: float) -> tuple[float, float]:
-    """Where a place of the field [m] is on the screen."""
+    """Return the position of a point of the field [m] on the screen."""
     box = page.locator("#turtles").bounding_box()
     scale = box["width"] / 500
     return box["x"] + (x * 45 + 0.5) * scale, box["y"] + ((499 / 45 - y) * 45 + 0.5) * scale

@@ -1,4 +1,4 @@
-"""What the pens drew, as browsers get it: all of it, in order, and bounded."""
+"""The lines of the pens, as browsers get them: complete, in order, and bounded."""
 
 from __future__ import annotations
 

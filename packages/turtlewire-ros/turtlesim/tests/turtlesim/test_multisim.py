@@ -1,6 +1,6 @@
 """Two simulators at once.
 
-The launch file that comes along, with draw_square and mimic, as processes of their own.
+The launch file that comes along, with draw_square and mimic, as separate processes.
 """
 
 from __future__ import annotations

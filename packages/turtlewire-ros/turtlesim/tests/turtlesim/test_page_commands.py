@@ -1,4 +1,4 @@
-"""What pages may send."""
+"""The commands of pages."""
 
 from __future__ import annotations
 

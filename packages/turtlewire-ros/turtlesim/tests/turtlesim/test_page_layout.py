@@ -1,4 +1,4 @@
-"""Where things are: the field stays in view and in place, whatever appears next to or over it."""
+"""The layout: the field stays visible and in place when elements appear next to or over it."""
 
 from __future__ import annotations
 

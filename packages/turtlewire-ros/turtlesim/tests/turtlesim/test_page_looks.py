@@ -1,6 +1,6 @@
-"""What the page looks like, against pictures and boxes that were looked at.
+"""The appearance of the page, compared with reviewed pictures and boxes.
 
-``TURTLEWIRE_WRITE_GOLDEN=1`` writes them anew.
+``TURTLEWIRE_WRITE_GOLDEN=1`` rewrites them.
 
 Pictures are compared after they were made small, boxes with a tolerance; where the page has another
 font than in the golden pictures, only what must be so with any font is looked at.

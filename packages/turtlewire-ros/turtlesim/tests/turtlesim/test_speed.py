@@ -1,4 +1,4 @@
-"""Faster than real time in processes of their own: the chase over DDS, in the simulator's time."""
+"""Faster than real time in separate processes: the chase over DDS, in the simulator's time."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The lock-step simulation.
+"""The lock-step simulation of `turtlesim.testing`.
 
 The same bits every time, faster than real time, and the example exercise that is graded with it.
 """

@@ -1,4 +1,4 @@
-"""What the page learns of TF, over a real middleware in this process."""
+"""The TF data of the page, over a real middleware in this process."""
 
 from __future__ import annotations
 

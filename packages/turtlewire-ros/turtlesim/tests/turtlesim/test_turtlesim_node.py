@@ -102,7 +102,7 @@ def twist(linear: float = 0.0, angular: float = 0.0, lateral: float = 0.0) -> Tw
 
 
 def lines(capfd) -> list[str]:
-    """What was logged since the last look, level and text."""
+    """Return the log lines since the last call, with level and text."""
     matches = re.findall(
         r"^(\[[A-Z]+\]) \[[0-9.]+\] \[[a-z0-9.]+\]: (.*)$", capfd.readouterr().err, re.MULTILINE
     )

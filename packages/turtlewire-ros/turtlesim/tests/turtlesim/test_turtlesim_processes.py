@@ -1,4 +1,4 @@
-"""The programs as processes of their own over DDS.
+"""The programs as separate processes over DDS.
 
 The simulator with its page, and teleop on a pseudo-terminal.
 """
@@ -254,7 +254,7 @@ def terminal():
 
 
 def follows(command, poses):
-    """Whether the turtle moved as it was told; poses show the speed, not its sign."""
+    """Return True if the turtle moved as commanded; poses show the speed, not its sign."""
     wanted = (abs(command.linear.x), command.angular.z)
     return any((pose.linear_velocity, pose.angular_velocity) == wanted for pose in poses)
 
@@ -347,7 +347,7 @@ TELEOP_WITH_A_PIPE = f"true | {sys.executable} -m turtlesim.turtle_teleop_key"
 
 
 def test_teleop_without_a_terminal_says_so(run):
-    teleop = run("sh", "-c", TELEOP_WITH_A_PIPE)  # in a session of its own, without a terminal
+    teleop = run("sh", "-c", TELEOP_WITH_A_PIPE)  # in a separate session, without a terminal
     assert teleop.wait() == 1
     first, hint = teleop.text.splitlines()
     assert first == "Failed to get old console mode"

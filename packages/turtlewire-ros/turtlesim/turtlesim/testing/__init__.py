@@ -13,7 +13,7 @@ For pytest, ``pytest_plugins = ["turtlesim.testing.fixtures"]`` in ``conftest.py
 ``simulation``.
 
 ============  ===================================================================
-module        what it holds
+module        contents
 ============  ===================================================================
 `simulation`  the simulator and the nodes of a test, in lock-step
 `stage`       nodes of one process, in lock-step

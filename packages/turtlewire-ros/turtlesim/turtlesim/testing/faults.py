@@ -1,4 +1,4 @@
-"""Faults of transforms, to practise on: what goes wrong with TF on robots, switched on in a test.
+"""Faults of transforms for practice: typical TF problems of robots, switched on in a test.
 
 ::
 
@@ -8,8 +8,8 @@
         simulation.run(5.0)  # turtle2 follows where turtle1 was
         simulation.clear_faults()
 
-Every fault acts on the way between the broadcasters and the listeners: no node is changed, and each
-run is the same.
+Every fault acts between the broadcasters and the listeners: the nodes stay unchanged, and each run
+is the same.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ _TOPICS = {"/tf", _STATIC}
 
 
 class Nodes(Protocol):
-    """What a fault uses of :class:`.Simulation`."""
+    """The part of :class:`.Simulation` that faults use."""
 
     def start(self, make_node: Callable[[], Node], **parameters: object) -> Node:
         """Make a node with parameters, and let it take part."""
@@ -58,10 +58,10 @@ class Nodes(Protocol):
 
 
 class Fault:
-    """What happens to each transform on its way. Subclasses change one thing.
+    """A fault in the transport of transforms. Each subclass changes one property.
 
     Args:
-        frame: The child frame that it is about; None takes all.
+        frame: The child frame that it is about; None means all.
     """
 
     def __init__(self, frame: str | None = None) -> None:
@@ -87,7 +87,7 @@ class Delay(Fault):
 
     Args:
         seconds: How late, in simulated time.
-        frame: The child frame; None takes all.
+        frame: The child frame; None means all.
     """
 
     def __init__(self, seconds: float, frame: str | None = None) -> None:
@@ -103,7 +103,7 @@ class Loss(Fault):
 
     Args:
         share: The part that is lost, 0 to 1.
-        frame: The child frame; None takes all.
+        frame: The child frame; None means all.
         seed: Another number loses others.
     """
 
@@ -141,7 +141,7 @@ class WrongTime(Fault):
     Args:
         seconds: How far the stamps are in the future; below zero: in the past, where they end at
             zero.
-        frame: The child frame; None takes all.
+        frame: The child frame; None means all.
     """
 
     def __init__(self, seconds: float, frame: str | None = None) -> None:
@@ -162,7 +162,7 @@ class MissingStatic(Fault):
     starts.
 
     Args:
-        frame: The child frame; None takes all.
+        frame: The child frame; None means all.
     """
 
     def concerns(self, transform: Any, topic: str) -> bool:

@@ -22,7 +22,7 @@ class ProgramError(RuntimeError):
     """A program cannot take part in a simulation.
 
     Attributes:
-        hint: What to do.
+        hint: Advice.
     """
 
     def __init__(self, text: str, hint: str) -> None:
@@ -107,7 +107,7 @@ def _init(**_: object) -> contextlib.AbstractContextManager[object]:
 
 
 def _ignore(*_: object, **__: object) -> None:
-    """In place of a shutdown: the simulation ends its context itself."""
+    """Ignore a shutdown, because the simulation ends its own context."""
 
 
 def _spin(node: Node, executor: Executor | None = None) -> NoReturn:

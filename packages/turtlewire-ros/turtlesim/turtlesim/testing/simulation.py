@@ -116,7 +116,7 @@ class Simulation(Stage):
         return pose
 
     def distance(self, one: str, other: str) -> float:
-        """Between two turtles [m]."""
+        """Return the distance between two turtles [m]."""
         a, b = self.pose(one), self.pose(other)
         return math.hypot(a.x - b.x, a.y - b.y)
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["Stage"]
 
 _MIDDLEWARE = "RMW_IMPLEMENTATION"
-#: A node that publishes to itself without end would never come to rest.
+#: A node that keeps publishing to itself would never become idle.
 _MOST_CALLBACKS = 100_000
 
 
@@ -98,7 +98,7 @@ class Stage:
     def _arguments(self, parameters: dict[str, object]) -> Iterator[None]:
         """Give nodes that are made inside these parameters."""
         context = rclpy.get_default_context()
-        # Nodes read these when they are made. A context has only one set, so it is swapped.
+        # Nodes read the arguments at their creation. A context has only one set, so it is swapped.
         outer, context._arguments = (
             context.arguments,
             Arguments.parse_global(["--ros-args", *_as_arguments(parameters)]),
@@ -172,7 +172,7 @@ def _as_arguments(parameters: dict[str, object]) -> list[str]:
     name = parameters.pop("name", None)
     renamed = [] if name is None else ["-r", f"__node:={name}"]
     values = {"use_sim_time": True, **parameters}
-    # JSON is YAML, as which parameters are read.
+    # Parameters are parsed as YAML, and JSON is YAML.
     return renamed + [
         part for key, value in values.items() for part in ("-p", f"{key}:={json.dumps(value)}")
     ]

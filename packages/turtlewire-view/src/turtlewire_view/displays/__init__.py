@@ -1,10 +1,10 @@
-"""What the view draws for each type of message: pure, without wire, buffer and threads.
+"""The drawing of each type of message: pure functions, without network, buffer and threads.
 
 =================  =============================================================================
-module             what it holds
+module             contents
 =================  =============================================================================
-`content`          `Display` and what it makes of messages
-`options`          which options there are, and what the user chose
+`content`          `Display` and the results that it computes from messages
+`options`          the options of displays, and the user's choices
 `numeric`          poses, points and colours of messages as arrays
 `path`             Path
 `poses`            PoseStamped, PoseWithCovarianceStamped, PoseArray, Odometry
@@ -12,15 +12,15 @@ module             what it holds
 `shapes`           PolygonStamped, PointStamped, GridCells, Range, CameraInfo
 `twist_or_wrench`  TwistStamped, AccelStamped, WrenchStamped
 `measurement`      Temperature, RelativeHumidity, FluidPressure, Illuminance
-`points`           what point clouds and scans have in common
+`points`           the common base of point clouds and scans
 `point_cloud`      PointCloud2 and PointCloud
-`cloud_layout`     its bytes as records
+`cloud_layout`     the bytes of a point cloud as records
 `coloring`         colours from values
 `laser_scan`       LaserScan
 `occupancy_grid`   OccupancyGrid and OccupancyGridUpdate
 `marker`           Marker and MarkerArray
 `marker_shapes`    one marker
-`marker_texture`   the image on its triangles
+`marker_texture`   the image on the triangles of a marker
 `image`            Image and CompressedImage
 `encodings`        pixels as RGBA
 `robot_model`      the links of a URDF

@@ -1,4 +1,4 @@
-"""The points of a PointCloud2 as a view of its bytes, whatever its fields and paddings are."""
+"""The points of a PointCloud2 as a view of its bytes, for any fields and padding."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _LARGEST_STEP = 2**31 - 1
 
 
 def picked_points(message: Any, budget: int, warn: Callable[[str], None]) -> NDArray[np.void]:
-    """At most ``budget`` points of the cloud, evenly spread, one record each.
+    """Return at most ``budget`` points of the cloud, evenly chosen, one record each.
 
     Args:
         message: A PointCloud2.
@@ -80,7 +80,7 @@ def _layout(message: Any, warn: Callable[[str], None]) -> np.dtype[np.void]:
 
 
 def _require_places(message: Any, fields: Collection[str], unreadable: Mapping[str, str]) -> None:
-    """Raise UnusableMessageError that tells why x, y or z cannot be read."""
+    """Raise UnusableMessageError with the reason why x, y or z cannot be read."""
     missing = [name for name in "xyz" if name not in fields]
     for name in missing:
         if name in unreadable:

@@ -1,4 +1,4 @@
-"""Colours of points: from their values over RViz's rainbow, from one channel, or all the same."""
+"""Colours of points: by value over RViz's rainbow, from one channel, or one colour for all."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def flat(count: int, color: tuple[int, int, int]) -> NDArray[np.uint8]:
 
 
 def _rainbow(place: NDArray[np.float64]) -> NDArray[np.uint8]:
-    """From violet at 0 over blue and green to red at 1."""
+    """Return RViz's rainbow: violet at 0, then blue and green, red at 1."""
     scaled = place * 5 + 1
     segment = np.floor(scaled).astype(np.int64)
     rest = scaled - segment

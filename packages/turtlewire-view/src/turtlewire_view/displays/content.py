@@ -1,4 +1,4 @@
-"""What a display makes of a message: geometry to send, parts that are gone, and what is wrong."""
+"""The results of a display for a message: geometry, removed parts, and problems."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Covariances of poses as what is drawn of them: an ellipsoid, and how uncertain the heading is."""
+"""The drawing of pose covariances: an ellipsoid, and the uncertainty of the heading."""
 
 from __future__ import annotations
 

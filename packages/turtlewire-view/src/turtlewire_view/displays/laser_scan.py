@@ -1,4 +1,4 @@
-"""LaserScan: the points that the beams hit, each from where the scanner was then."""
+"""LaserScan: the points that the beams hit, each from the scanner's pose at its time."""
 
 from __future__ import annotations
 

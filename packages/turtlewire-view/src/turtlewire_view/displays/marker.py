@@ -1,4 +1,4 @@
-"""Marker and MarkerArray: what there is of each namespace and id, and how long."""
+"""Marker and MarkerArray: the markers by namespace and id, and their lifetimes."""
 
 from __future__ import annotations
 

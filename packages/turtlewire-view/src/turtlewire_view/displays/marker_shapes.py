@@ -1,4 +1,4 @@
-"""One Marker message as what the page draws, with RViz's rules of what is wrong with it."""
+"""Converts a Marker message to shapes of the page, with RViz's checks."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ _GROUPS = {
     "triangle_list": (3, 3),
     "arrow_strip": (2, 1),
 }
-#: Items that may be left out evenly when there are too many; lines are cut off instead.
+#: Items of which some may be omitted evenly if there are too many; lines are truncated instead.
 _THINNED = frozenset({"cube_list", "sphere_list", "points", "line_list", "triangle_list"})
 _LONGEST_TEXT = 10_000
 _LARGEST_FILE = 32 * 2**20
@@ -62,7 +62,7 @@ _LARGEST_SCALE = 1e9
 
 
 class MarkerShape(NamedTuple):
-    """What is sent of a marker.
+    """The data of a marker that the page gets.
 
     Attributes:
         header: Shape, pose, scale, colour and what else the shape needs.

@@ -1,4 +1,4 @@
-"""The image on a TRIANGLE_LIST, and where each corner lies in it."""
+"""The image on a TRIANGLE_LIST, and the texture coordinates of each corner."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _LARGEST_FILE = 32 * 2**20
 
 
 class MarkerTexture(NamedTuple):
-    """What is sent of a texture.
+    """The data of a texture that the page gets.
 
     Attributes:
         header: ``name``, and ``url`` or ``problem`` unless the image travels along; None: no

@@ -21,7 +21,7 @@ __all__ = ["MeasurementDisplay"]
 
 
 class _Quantity(NamedTuple):
-    """How a quantity is written, and RViz's bounds of its colours."""
+    """The text format of a quantity, and RViz's limits of its colours."""
 
     form: str
     factor: float

@@ -98,9 +98,9 @@ def pose_rows(
 
 
 def rows_within(rows: NDArray[np.float64], bound: float = LARGEST) -> NDArray[np.bool_]:
-    """For each row whether all its numbers are finite and smaller than ``bound``."""
+    """Return for each row if all its numbers are finite and smaller than ``bound``."""
     with np.errstate(invalid="ignore"):
-        within: NDArray[np.bool_] = np.all(np.abs(rows) < bound, axis=1)  # false for NaN, too
+        within: NDArray[np.bool_] = np.all(np.abs(rows) < bound, axis=1)  # also false for NaN
     return within
 
 
@@ -154,5 +154,5 @@ def color_bytes(rows: NDArray[np.float64]) -> NDArray[np.uint8]:
 
 
 def rgba_bytes(color: Any) -> list[int]:
-    """One ColorRGBA message as four bytes."""
+    """Convert a ColorRGBA message to four bytes."""
     return [int(value) for value in color_bytes(picked_rows([color], np.arange(1), "rgba"))[0]]

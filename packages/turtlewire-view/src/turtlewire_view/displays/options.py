@@ -1,7 +1,7 @@
-"""Options of displays: which there are, and the user's choices, of which wrong ones are refused.
+"""Options of displays, and the user's choices; wrong choices are rejected.
 
-The table is the page's ``js/displays/options.json``, which makes the controls of it: for each kind
-of display a list of options, or of names of lists that it has, too.
+The table is ``js/displays/options.json``, from which the page builds its controls: for each kind of
+display a list of options, or of the names of further lists.
 """
 
 from __future__ import annotations

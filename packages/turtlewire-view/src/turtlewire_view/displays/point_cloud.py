@@ -1,4 +1,4 @@
-"""PointCloud2: points with colours, at most as many as the page can bear."""
+"""PointCloud2: points with colours, at most as many as the page can draw."""
 
 from __future__ import annotations
 

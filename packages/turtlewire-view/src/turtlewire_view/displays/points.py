@@ -1,4 +1,4 @@
-"""Base of the displays of points: what stays for its decay time, and the budget of all that does.
+"""Base of the displays of points: keeps points for the decay time, within a budget.
 
 As in RViz a decay time of 0 shows the last message alone.
 """
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = ["PointsDisplay", "moved"]
 
-#: More messages than this are not kept, whatever the decay time is.
+#: At most this many messages are kept, for any decay time.
 _MOST_KEPT = 1000
 
 

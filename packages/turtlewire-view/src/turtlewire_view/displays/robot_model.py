@@ -102,7 +102,7 @@ def robot_content(
 
     The header's ``links`` have ``name``, the ``frame`` that each hangs on, and ``visuals`` and
     ``collisions`` with shape, origin (x, y, z, qx, qy, qz, qw), colour, texture and mesh; ``mass``
-    and ``inertia`` are lists of such shapes, too, see :mod:`turtlewire_view.displays.inertia`.
+    and ``inertia`` are also lists of such shapes, see :mod:`turtlewire_view.displays.inertia`.
 
     Args:
         text: The XML.

@@ -1,4 +1,4 @@
-"""Polygons, points, cells, ranges and what cameras see."""
+"""Polygons, points, cells, ranges and the fields of view of cameras."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ class GridCellsDisplay(Display):
 
 
 class CameraInfoDisplay(Display):
-    """What the camera of a ``sensor_msgs/msg/CameraInfo`` sees: a pyramid along z.
+    """The field of view of a ``sensor_msgs/msg/CameraInfo``: a pyramid along z.
 
     The header has ``corners``: where the image's corners are seen at a depth of 1 m.
     """

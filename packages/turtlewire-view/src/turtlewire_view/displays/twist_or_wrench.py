@@ -1,4 +1,4 @@
-"""TwistStamped, AccelStamped and WrenchStamped: a straight and a turning part."""
+"""TwistStamped, AccelStamped and WrenchStamped: a linear and an angular part."""
 
 from __future__ import annotations
 

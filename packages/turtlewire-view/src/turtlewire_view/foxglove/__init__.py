@@ -1,20 +1,20 @@
 """The Foxglove WebSocket server: Foxglove and Lichtblick see the topics of this domain.
 
-Messages travel as they are: the wire delivers CDR bytes, and a client gets them behind a head of 13
-bytes. :class:`~turtlewire_view.foxglove.server.FoxgloveServer` is the server; it needs no package
-of ROS.
+Messages are forwarded unchanged: the middleware delivers CDR bytes, and a client gets them after a
+header of 13 bytes. :class:`~turtlewire_view.foxglove.server.FoxgloveServer` is the server; it needs
+no package of ROS.
 
 ==================  ===================================================================
-module              what it holds
+module              contents
 ==================  ===================================================================
-`server`            `FoxgloveServer`: accepts clients, and refuses foreign pages
-`options`           `BridgeOptions`: what it serves, where and to whom
+`server`            `FoxgloveServer`: accepts clients, and refuses pages of other sites
+`options`           `BridgeOptions`: the topics to serve, the address, the allowed clients
 `session`           one client: its requests, one method for each
-`publishing`        what one client publishes
-`outbox`            what one client has yet to receive; a slow one loses old messages
-`bridge`            what all clients share, and tells them of changes
+`publishing`        the topics that one client publishes
+`outbox`            the send queue of one client; a slow client loses old messages
+`bridge`            the state that all clients share; notifies them of changes
 `offers`            the topics and services that clients may use, as the graph has them
-`channel`           one topic: its subscriptions on the wire, and who receives
+`channel`           one topic: its subscriptions, and the clients that receive it
 `services`          services that clients may call
 `caller`            calls of services on the wire, for asyncio
 `parameters`        the parameters of all nodes: read, set, followed

@@ -1,4 +1,4 @@
-"""What all clients share: topics, services, parameters, connections and time."""
+"""The state that all clients share: topics, services, parameters, connections and time."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ __all__ = ["Bridge", "ConnectedClient", "Log"]
 
 
 class Log(Protocol):
-    """Where lines for the server's user go; a ``logging.Logger`` is one, and rclpy's, too."""
+    """A logger for the server's user: a ``logging.Logger``, or rclpy's."""
 
     def info(self, message: str, /) -> Any:
         """Tell."""
@@ -189,7 +189,7 @@ class Bridge:
                 client.outbox.send(protocol.text("parameterValues", parameters=wanted))
 
     def _tell_time(self, time_ns: int) -> None:
-        """On a thread of the wire."""
+        """Send a new time to the clients; runs on a thread of the middleware."""
         if "time" in self.options.capabilities:
             frame = protocol.time_data(time_ns)
             for client in self._everybody:

@@ -39,7 +39,7 @@ class _Connection:
 
 
 class Caller:
-    """Calls services; for the loop's thread. A thread of its own waits for responses.
+    """Calls services; for the loop's thread. A separate thread waits for responses.
 
     Args:
         context: The participant.
@@ -126,7 +126,7 @@ class Caller:
         return self._connections[key]
 
     def _take(self) -> None:
-        """On the thread that waits for responses."""
+        """Take responses; runs on the thread that waits for them."""
         while not self._is_closed:
             for client in self._wait_set.wait():
                 if isinstance(client, Client):

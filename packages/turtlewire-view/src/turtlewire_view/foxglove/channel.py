@@ -127,7 +127,7 @@ class FoxgloveChannel:
             former.close()
 
         def receive(cdr: bytes, info: MessageInfo) -> None:
-            if info.publisher_gid in self._others:  # Zenoh matches all: the shared one has it, too
+            if info.publisher_gid in self._others:  # Zenoh: the shared one also gets it
                 return
             outbox.put(subscription_id, self._now_ns() or info.received_timestamp_ns, cdr)
 
@@ -147,7 +147,7 @@ class FoxgloveChannel:
 
     def _spread(self, cdr: bytes, info: MessageInfo) -> None:
         """Give a message to all clients, on a thread of the wire."""
-        if info.publisher_gid in self._keepers:  # it comes on the clients' own subscriptions
+        if info.publisher_gid in self._keepers:  # the clients' own subscriptions deliver it
             return
         time_ns = self._now_ns() or info.received_timestamp_ns
         for outbox, subscription_id in self._receivers:

@@ -24,7 +24,7 @@ def items(request: dict[str, Any], field: str, kind: type = dict) -> list[Any]:
 
 
 def names(request: dict[str, Any]) -> list[str]:
-    """Return the names of parameters; no field stands for none.
+    """Return the names of parameters; a missing field means none.
 
     Raises:
         ProtocolError: The field is not a list of strings.

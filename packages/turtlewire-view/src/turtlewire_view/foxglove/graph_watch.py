@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 __all__ = ["GraphWatch"]
 
-#: Changes come in groups; so long after the first of them the others are waited for [s].
+#: Changes come in groups; time to wait for further changes after the first one [s].
 _REST = 0.05
 
 
@@ -35,7 +35,7 @@ class GraphWatch:
         self._stop_listening = graph.add_listener(self._tell)
 
     def _tell(self) -> None:
-        """On a thread of the wire."""
+        """Notify the loop of a change; runs on a thread of the middleware."""
         if not self._is_told:
             self._is_told = True
             self._calls.soon(self._changed)
@@ -64,7 +64,7 @@ class GraphWatch:
                 try:
                     await asyncio.wait_for(event.wait(), end - loop.time())
                 except asyncio.TimeoutError:
-                    continue  # the predicate has the last word
+                    continue  # the predicate decides
                 event.clear()
         finally:
             self._waiting.discard(event)

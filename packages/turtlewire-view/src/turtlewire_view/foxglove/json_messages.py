@@ -1,7 +1,7 @@
 """Messages as JSON, and back.
 
-Numbers that JSON does not have are the texts ``NaN``, ``Infinity`` and ``-Infinity``. 64-bit
-integers may also come as text, because JavaScript rounds large ones; bytes may come as base64.
+Numbers that JSON does not have are the strings ``NaN``, ``Infinity`` and ``-Infinity``. 64-bit
+integers may also be strings, because JavaScript rounds large ones; bytes may come as base64.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What a server serves, where and to whom."""
+"""Options of a server: the topics to serve, the address, the allowed clients."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ _LOOPBACK = re.compile(r"https?://(?:localhost|127\.0\.0\.1|\[::1\])(?::\d+)?")
 
 
 def refusal(origins: list[str], allowed: Iterable[str]) -> str | None:
-    """Why a connection is refused, as one sentence, or None if it is allowed.
+    """Return why a connection is refused, as one sentence, or None if it is allowed.
 
     Args:
         origins: All ``Origin`` headers. Programs other than browsers send none.

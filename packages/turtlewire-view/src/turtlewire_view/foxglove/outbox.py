@@ -1,4 +1,4 @@
-"""What one client has yet to receive."""
+"""The send queue of one client."""
 
 from __future__ import annotations
 

@@ -35,7 +35,7 @@ _JSON_TYPES = {_DOUBLE: "float64", 8: "float64_array", _BYTES: "byte_array"}
 def to_json(name: str, value: Any) -> dict[str, Any]:
     """Return a parameter as clients read it; one that is not set has no value.
 
-    JSON's numbers do not tell 2 from 2.0, so that a type stands beside floating-point ones.
+    JSON does not distinguish 2 from 2.0, so floating-point numbers are sent with a type.
 
     Args:
         name: Its name.
@@ -94,7 +94,7 @@ def _typed(value: Any, as_double: bool, present_type: int) -> tuple[int, Any]:
     if len(kinds) > 1:
         raise ValueError("the items of a list are of different types")
     plain = [item for _, item in items]
-    if not kinds:  # of which type an empty list is, only the parameter tells
+    if not kinds:  # only the parameter determines the type of an empty list
         empty = present_type if present_type in _ARRAY_OF.values() else _ARRAY_OF[_STRING]
         return (_ARRAY_OF[_DOUBLE] if as_double else empty), plain
     return _ARRAY_OF[kinds.pop()], plain

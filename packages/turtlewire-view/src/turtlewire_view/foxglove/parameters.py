@@ -51,7 +51,7 @@ class Parameters:
         Those that are not set are left out.
 
         Args:
-            names: Their names, ``/node.name``; none stands for all parameters of all nodes.
+            names: Their names, ``/node.name``; none means all parameters of all nodes.
         """
         if names:
             values, problems = await self._values(names)
@@ -206,7 +206,7 @@ class ParameterEvents:
             self._subscription = None
 
     def _receive(self, cdr: bytes, _info: MessageInfo) -> None:
-        """On a thread of the wire."""
+        """Pass an event to the loop; runs on a thread of the middleware."""
         self._calls.soon(self._read, cdr)
 
     def _read(self, cdr: bytes) -> None:

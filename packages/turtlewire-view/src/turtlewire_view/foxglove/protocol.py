@@ -113,7 +113,7 @@ def asset(request_id: int, data: bytes) -> bytes:
 
 
 def asset_error(request_id: int, message: str) -> bytes:
-    """Why a client does not get a file."""
+    """Return the answer that explains why a client does not get a file."""
     encoded = message.encode(errors="replace")
     return _ASSET.pack(4, request_id, 1, len(encoded)) + encoded
 

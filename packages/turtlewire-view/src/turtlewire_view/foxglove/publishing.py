@@ -1,4 +1,4 @@
-"""What one client publishes."""
+"""The topics that one client publishes."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Definitions of types as clients read them (encoding ``ros2msg``), with all types that they use.
 
-Requests, responses and other parts of services and actions have no file of their own; their text is
-written from what was parsed.
+Requests, responses and other parts of services and actions have no separate file; their text is
+generated from the parsed definition.
 """
 
 from __future__ import annotations

@@ -39,7 +39,7 @@ _LARGEST_MESSAGE = 64 << 20
 _PING_TIMEOUT = 120
 #: Number of frames to send to one client before the next client's turn.
 _TURN = 64
-#: What comes closer together than this is sent together: a wake-up costs more than a frame [s].
+#: Messages within this time are sent together: a wake-up costs more than a frame [s].
 _REST = 0.004
 #: Origins and hosts that are warned of; further ones are refused in silence.
 _MOST_WARNINGS = 20
@@ -124,7 +124,7 @@ class FoxgloveServer:
         return None
 
     def _refusal(self, headers: Headers) -> str | None:
-        """Why a request is refused, which is also warned of; None if it is allowed.
+        """Return why a request is refused, and log a warning; None if it is allowed.
 
         Other computers' names are checked on loopback only: elsewhere, everybody who reaches the
         server is served, and under whatever name it has there.

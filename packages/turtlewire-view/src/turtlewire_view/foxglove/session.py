@@ -30,7 +30,7 @@ _MOST_NAMES = 10_000
 
 
 class FoxgloveSession:
-    """What one client has asked for. For the loop's thread.
+    """The subscriptions and requests of one client. For the loop's thread.
 
     A wrong request is answered by a status and changes nothing.
 

@@ -1,4 +1,4 @@
-"""Bags: what ROS 2 records, read and written without ROS.
+"""Bags: reads and writes ROS 2's recordings without ROS.
 
 ::
 
@@ -10,19 +10,19 @@
             print(message.log_time_ns, message.decode())
 
 ==================  ========================================================================
-module              what it holds
+module              contents
 ==================  ========================================================================
 `reader`            `Bag`, `open_bag`: messages in order of time over all files
 `message_choice`    arguments that choose messages: topics, types and times
 `reindexing`        `reindex`: repairs the folder of a recorder that was cut off
 `transforms`        the TF of a bag read into a buffer, for `Buffer.from_bag`
-`transform_report`  `TransformReport`: its links, and what is wrong with them
+`transform_report`  `TransformReport`: the links of a bag, and their problems
 `trajectories`      odometry and poses of a topic, for `Trajectory.from_bag`
-`progress`          a line that shows how far something is
+`progress`          a line that shows the progress of an operation
 `columns`           `Columns`: fields of all messages of a topic as NumPy arrays
-`column_fields`     which fields can be columns, and where they lie
+`column_fields`     fields that can be columns, and their offsets
 `sensor_arrays`     images and point clouds as arrays
-`overview`          `describe_bag`: what a bag holds, topic by topic
+`overview`          `describe_bag`: the contents of a bag, topic by topic
 `extents`           counts, sizes and times of the messages of a file
 `editing`           `copy_bag`, `merge_bags`, `split_bag`: new bags from others
 `selection`         the topics that go into a new bag, and their new names
@@ -31,40 +31,40 @@ module              what it holds
 `extra_records`     attachments and metadata records of MCAP files
 `output_channels`   the channels of a new bag
 `pieces`            the new bags, one after another
-`latched`           latched messages from before a time
-`frame_renaming`    frames in messages under new names
+`latched`           latched messages before a given time
+`frame_renaming`    renames frames in messages
 `frame_fields`      the fields of messages that name frames
 `new_folder`        a folder that appears when it is complete
 `message`           `BagMessage`
 `channels`          a topic with one definition of its type
-`written_types`     types as a bag defines them, and their messages read as ours
+`written_types`     types as a bag defines them; converts their messages to ours
 `encodings`         topics whose messages are not in CDR
-`files`             the files of a bag: kinds, names, order, and what they hold together
-`playback`          `PlayClock`, `ReadAhead`: the time of a playback and what is due
+`files`             the files of a bag: kinds, names, order and common metadata
+`playback`          `PlayClock`, `ReadAhead`: the time of a playback, and due messages
 `writer`            `BagWriter`
-`writer_checks`     what it refuses, with a reason
-`recording`         `Recording`: messages of several threads, written on a thread of its own
-`storage`           the interface of a file of a bag, whichever storage it uses
-`mcap_storage`      an MCAP file behind it
-`sqlite_storage`    a sqlite3 file behind it
+`writer_checks`     checks of a writer's options, types and messages
+`recording`         `Recording`: messages of several threads, written on a background thread
+`storage`           the interface of a file of a bag, common to all storages
+`mcap_storage`      that interface for MCAP files
+`sqlite_storage`    that interface for sqlite3 files
 `mcap_reader`       the MCAP format: summary, chunks, files without a summary
-`chunk_walk`        its chunks, prepared one ahead of their reader
+`chunk_walk`        prepares the next chunk of an MCAP file in advance
 `record_messages`   the messages among the records of a chunk
 `time_order`        messages of chunks in order of time
 `mcap_records`      the records of MCAP as bytes and objects
 `mcap_writer`       writes MCAP files
 `sqlite_reader`     rosbag2's sqlite3 schema, versions 1 to 4
-`ros1_storage`      a bag of ROS 1 behind it
+`ros1_storage`      that interface for bags of ROS 1
 `ros1_file`         the format of ROS 1's bags: connections, chunks, bags without an end
-`ros1_messages`     their messages, converted to CDR
+`ros1_messages`     converts messages of ROS 1 to CDR
 `ros1_steps`        the steps of that conversion, for the compiled core
-`ros1_definitions`  their definitions, in the words of ROS 2
-`repair`            a damaged file made whole
+`ros1_definitions`  converts definitions of ROS 1 to ROS 2
+`repair`            repairs a damaged file
 `sqlite_writer`     writes sqlite3 files
 `metadata`          ``metadata.yaml``, versions 1 to 9
 `qos_yaml`          the QoS of recorded topics as YAML
 `unpacking`         files and messages that were compressed as a whole
-`definitions`       message definitions as bags carry them
+`definitions`       message definitions in the format of bags
 `compression`       zstd and lz4, with limits
 ==================  ========================================================================
 """

@@ -1,4 +1,4 @@
-"""The fields of messages that can be columns, and the steps that collect them.
+"""Finds the fields of messages that can be columns, and the steps that collect them.
 
 The compiled core runs the steps; the kinds are numbered as in ``native/feeds/column_reader.hpp``.
 """
@@ -38,7 +38,7 @@ _POINT_FIELD = "sensor_msgs/msg/PointField"
 
 
 class StepKind(IntEnum):
-    """What comes next in a message."""
+    """The kinds of steps that read a message."""
 
     NUMBERS = 0
     TEXT = 1

@@ -1,4 +1,4 @@
-"""Definitions of message types as bags carry them: one text with all that a type needs.
+"""Definitions of message types in the format of bags: one text with all types that one needs.
 
 The text of the type itself comes first. Each type that it uses follows once, after a line of 80
 ``=`` and a line ``MSG: package/Name``. Source: rosbag2 (encoding ``ros2msg``).

@@ -50,7 +50,7 @@ _MESSAGES_FOR_HINT = 1000
 
 
 class BagOptions(TypedDict, total=False):
-    """What goes into a new bag, and how it is written.
+    """Options of a new bag: its contents and its storage.
 
     Attributes:
         start: The log time of the first message. Nanoseconds, a ``datetime64``, or a text: an
@@ -173,7 +173,7 @@ def split_bag(
 
 @dataclass(frozen=True)
 class _Cuts:
-    """Where bags begin; without any of these there is one bag."""
+    """The points at which a new bag begins; without any there is one bag."""
 
     every: Span | str | None = None
     size: int | str | None = None
@@ -236,7 +236,7 @@ def _write(
 
 
 class _Operation:
-    """One call of `copy_bag`, `merge_bags` or `split_bag` on open bags."""
+    """A call of `copy_bag`, `merge_bags` or `split_bag` on open bags."""
 
     def __init__(self, bags: list[Bag], options: BagOptions, cuts: _Cuts) -> None:
         self._bags = bags

@@ -1,4 +1,4 @@
-"""Attachments and metadata records of MCAP files, which stand beside the messages."""
+"""Attachments and metadata records of MCAP files, which are stored with the messages."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ def _read(file: McapFile, position: int) -> ExtraRecord:
         reader.text_map()
         return ExtraRecord(record, name, None)
     if opcode != Op.ATTACHMENT:
-        raise BagError("there is another record")
+        raise BagError("the record is neither an attachment nor metadata")
     log_time, _ = reader.u64(), reader.u64()
     name, _ = reader.string(), reader.string()
     reader.take(reader.u64())

@@ -1,4 +1,4 @@
-"""The files that a bag consists of: their kinds, names and order, and what they hold together."""
+"""The files of a bag: their kinds, names, order and common metadata."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def file_name(folder: str, number: int, ros_distro: str) -> str:
     base = os.path.basename(folder)
     if ros_distro != str(LYRICAL):
         return f"{base}_{number}"
-    # A folder that `ros2 bag record` names ends in a time, which the file has by itself.
+    # Folders named by `ros2 bag record` end with a time, which the file name adds itself.
     return f"{number}_{_TIME.sub('', base)}_{time.strftime('%Y_%m_%d-%H_%M_%S')}"
 
 

@@ -1,4 +1,4 @@
-"""Finds the latched messages that a part of a bag needs to be usable alone."""
+"""Finds the latched messages that a part of a bag needs."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["is_latched", "latched_before"]
 
 _TF_TYPE = "tf2_msgs/msg/TFMessage"
-#: How many messages are repeated where publishers keep all of theirs.
+#: How many messages are repeated if a publisher keeps all of its messages.
 _KEEP_ALL = 1000
 
 
@@ -92,7 +92,7 @@ def _depth(topic: TopicInfo) -> int:
     profiles = [qos for qos in topic.qos if qos.durability == Durability.TRANSIENT_LOCAL]
     if any(qos.history == History.KEEP_ALL for qos in profiles):
         return _KEEP_ALL
-    # Discovery by Fast DDS does not tell the depth.
+    # Fast DDS does not announce the depth.
     return sum(max(1, qos.depth) for qos in profiles) or 1
 
 

@@ -1,7 +1,8 @@
 """Reads one MCAP file: its definitions, its blocks of records, and the messages in them.
 
 A file that was closed ends with a summary that says where each chunk lies. A file whose writer was
-killed, or that was written without an index, is walked from the start; all that is whole is read.
+killed, or that was written without an index, is walked from the start; all intact messages are
+read.
 """
 
 from __future__ import annotations
@@ -147,7 +148,7 @@ class McapFile:
 
         Args:
             chunk: One of `chunks`.
-            wanted: The channels whose messages are wanted; None takes all.
+            wanted: The channels whose messages are wanted; None means all.
 
         Raises:
             BagError: The chunk is damaged; the messages before the damage were yielded.
@@ -225,7 +226,7 @@ class McapFile:
         return True
 
     def _summary_is_complete(self) -> bool:
-        """Return True if it tells all that is needed: writers may leave out each kind of record."""
+        """Return True if the summary is complete: writers may omit each kind of record."""
         used = self.statistics.channel_counts.keys()
         return (
             self._has_statistics
@@ -321,8 +322,8 @@ class McapFile:
         except BagError as error:
             lost = len(self._bytes) - reached
             self.problems.append(
-                f"{self.path}: {error}; what lies before it is read, the last {lost:,} bytes only "
-                "as far as whole messages lie in them"
+                f"{self.path}: {error}; all data before it is read, and the intact messages of the "
+                f"last {lost:,} bytes"
             )
             if self._bytes[reached : reached + 1] == _CHUNK:  # whole messages may lie in it
                 rest = len(self._bytes) - reached

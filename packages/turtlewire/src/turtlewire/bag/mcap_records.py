@@ -100,7 +100,7 @@ class ChunkIndex:
         end_ns: Largest log time.
         offset: Position of the chunk's record in the file.
         length: Length of that record, opcode and length included.
-        channels: The channels with messages in it; None if the file does not tell.
+        channels: The channels with messages in it; None if the file does not say.
         index_bytes: Length of the MessageIndex records behind the chunk; 0 if it has none.
     """
 

@@ -1,6 +1,6 @@
 """Writes one MCAP file in chunks, as rosbag2 does.
 
-What was flushed survives a process that is killed: chunks are whole records, and a reader walks a
+Flushed data survives if the process is killed: chunks are complete records, and a reader walks a
 file that has no summary.
 """
 
@@ -278,7 +278,7 @@ class McapWriter:
                 while rest:
                     rest = rest[self._file.write(rest) :]
         except OSError:
-            # Half a chunk would not hurt a reader, but the room that it takes may be the last.
+            # Readers ignore half a chunk, but it may fill the rest of the disk.
             self._file.truncate(self.file_bytes)
             self._file.seek(self.file_bytes)
             raise
@@ -298,7 +298,7 @@ class McapWriter:
             self._file.close()
 
     def abandon(self) -> None:
-        """Close the file as it is: nobody will read it."""
+        """Close the file without completing it, because it will be deleted."""
         self._file.close()
 
     def _end(self) -> None:

@@ -31,7 +31,7 @@ class BagMessage(NamedTuple):
         topic: Name of its topic.
         type: ``"tf2_msgs/msg/TFMessage"``.
         log_time_ns: When the recorder received it, nanoseconds since 1970.
-        publish_time_ns: When it was sent; equal to ``log_time_ns`` where the bag does not tell. A
+        publish_time_ns: When it was sent; equal to ``log_time_ns`` where the bag does not say. A
             latched message may have been sent long before the bag began.
         data: Its CDR bytes; messages of ROS 1 are converted to CDR.
     """

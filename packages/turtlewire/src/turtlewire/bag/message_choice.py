@@ -54,7 +54,7 @@ def check_unit(metadata: BagMetadata, **times: int) -> None:
 
 
 def one_or_several(names: str | Iterable[str] | None, argument: str) -> set[str] | None:
-    """Return one name or several as a set; None stands for all.
+    """Return one name or several as a set; None means all.
 
     Raises:
         TypeError: A name is not a str; the text names the ``argument``.
@@ -74,7 +74,7 @@ def one_or_several(names: str | Iterable[str] | None, argument: str) -> set[str]
 
 
 def full_type_names(types: str | Iterable[str] | None) -> set[str] | None:
-    """Return types as a set of names with three parts; None stands for all.
+    """Return types as a set of names with three parts; None means all.
 
     Raises:
         TypeError: A name is not a str.

@@ -2,7 +2,7 @@
 
 Source: rosbag2 (Jazzy, version 9). Versions differ in the keys that exist and in how the QoS of the
 publishers is written: a text that holds YAML up to version 8, plain YAML since; numbers for the
-policies up to 8, words since. The content decides which it is, as in rosbag2.
+policies up to 8, words since. The content determines the form, as in rosbag2.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ class TopicInfo:
         name: ``/tf``.
         type: ``tf2_msgs/msg/TFMessage``; ``tf2_msgs/TFMessage`` of other tools becomes the same.
         serialization_format: ``cdr``; may be empty.
-        qos: What each publisher offered while recording; empty if the bag does not tell.
+        qos: What each publisher offered while recording; empty if the bag does not say.
         type_hash: ``RIHS01_…``; may be empty.
         message_count: How many messages of it the bag holds.
     """
@@ -113,7 +113,7 @@ class BagMetadata:
         compression_format: ``zstd`` or empty: compression of whole files or single messages.
         compression_mode: ``FILE``, ``MESSAGE`` or empty.
         custom_data: What the user attached.
-        ros_distro: ``jazzy``; empty if the bag does not tell.
+        ros_distro: ``jazzy``; empty if the bag does not say.
     """
 
     storage: str

@@ -1,4 +1,4 @@
-"""What a bag holds, topic by topic: counts, times, sizes, definitions."""
+"""Describes the contents of a bag, topic by topic: counts, times, sizes, definitions."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class TopicOverview:
 
 @dataclass
 class BagOverview:
-    """What a bag holds.
+    """The contents of a bag.
 
     Attributes:
         path: The folder or file.
@@ -76,8 +76,8 @@ class BagOverview:
 def describe_bag(path: str | os.PathLike[str]) -> BagOverview:
     """Return what a bag holds.
 
-    The message indexes of MCAP files and the rows of sqlite3 files tell the sizes. Other files are
-    read to their end.
+    The message indexes of MCAP files and the rows of sqlite3 files contain the sizes. Other files
+    are read to their end.
 
     Args:
         path: The bag; see `open_bag`.

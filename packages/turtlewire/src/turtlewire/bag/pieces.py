@@ -69,7 +69,7 @@ class Pieces:
         """End the current bag, and remove it if it is empty; its first message begins the next one.
 
         Args:
-            start_ns: The log time of repeated messages; None takes that of the first message.
+            start_ns: The log time of repeated messages; None uses that of the first message.
         """
         writer, self._writer = self._writer, None
         if writer is not None and self._is_empty:

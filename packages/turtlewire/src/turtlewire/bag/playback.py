@@ -76,7 +76,7 @@ class PlayClock:
 
 
 class ReadAhead:
-    """Reads messages on a thread of its own, so that decompressing delays none that is due.
+    """Reads messages on its own thread, so that decompressing delays none that is due.
 
     Args:
         messages: What is read.

@@ -1,4 +1,4 @@
-"""A line on the terminal that shows how far something is."""
+"""A line on the terminal that shows the progress of an operation."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """The QoS of a recorded topic as rosbag2 writes it to YAML, and back.
 
-Up to metadata version 8 the policies are numbers of rmw, since version 9 words. Which of both a
-profile uses shows its ``history``, as in rosbag2.
+Up to metadata version 8 the policies are numbers of rmw, since version 9 words. The ``history`` of
+a profile decides which of the two it uses, as in rosbag2.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ def profiles_from_yaml(offered: str | list[dict[str, Any]] | None, where: str) -
 
     Args:
         offered: YAML as text (sqlite3, MCAP, metadata up to version 8) or what it holds; empty or
-            None where the bag does not tell.
+            None where the bag does not say.
         where: Names the place in an error.
 
     Returns:

@@ -76,7 +76,7 @@ class Bag:
         path: The folder or file.
         metadata: What it holds; computed from the files where ``metadata.yaml`` is missing.
         problems: What is damaged or missing, one sentence each with file and position. What can be
-            read is read all the same; `messages` raises a `BagError` at its end if a chunk in the
+            read is still read; `messages` raises a `BagError` at its end if a chunk in the
             middle was damaged.
     """
 
@@ -199,8 +199,8 @@ class Bag:
         """Yield the messages in order of their log time.
 
         Args:
-            topics: A topic or several; None takes all.
-            types: A message type or several; None takes all.
+            topics: A topic or several; None means all.
+            types: A message type or several; None means all.
             start_ns: The log time from which on messages are taken; None: from the beginning.
             end_ns: The last log time that is taken; None: to the end.
 
@@ -360,7 +360,7 @@ class Bag:
         found, expected = file.counted_messages(), self._expected_counts.get(path, 0)
         if found is not None and found < expected and not file.problems:
             full = os.path.join(self._folder, path)
-            self.complain(f"{full}: {found:,} of {expected:,} messages are found: it is damaged")
+            self.complain(f"{full}: only {found:,} of {expected:,} messages found; it is damaged")
 
     def _open(self, path: str) -> StorageFile:
         plain = self._plain_file(path)

@@ -43,7 +43,7 @@ def plain_mcap_messages(
     Args:
         records: The records of an MCAP chunk.
         position: Where the first record begins.
-        wanted: The channels whose messages are wanted; None takes all.
+        wanted: The channels whose messages are wanted; None means all.
         into: The list.
 
     Returns:

@@ -28,7 +28,7 @@ _Message = tuple[str, bytes, int, int]
 
 
 class RecordingStatus(NamedTuple):
-    """How a recording goes.
+    """The progress of a recording.
 
     Attributes:
         messages: How many messages were handed in.
@@ -42,7 +42,7 @@ class RecordingStatus(NamedTuple):
 
 
 class Recording:
-    """Writes the messages of several threads into a bag, on a thread of its own.
+    """Writes the messages of several threads into a bag, on its own thread.
 
     Args:
         writer: The bag. It belongs to this object from now on; topics are added with `add_topic`.

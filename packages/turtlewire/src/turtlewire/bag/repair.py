@@ -1,6 +1,6 @@
-"""Makes a damaged file of a bag whole: what can be read of it, in a new file.
+"""Repairs a damaged file of a bag: copies the readable messages to a new file.
 
-Other programs do not read an MCAP file without its end, nor a database that was cut.
+Other programs cannot read an MCAP file without its end, or a truncated database.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _FOREVER = (1 << 64) - 1
 
 
 def repaired_copy(file: StorageFile) -> str:
-    """Write what can be read of a damaged file into a copy beside it.
+    """Write the readable part of a damaged file to a copy next to it.
 
     Returns:
         The path of the copy; empty if the file is whole.
@@ -58,7 +58,7 @@ def repaired_copy(file: StorageFile) -> str:
 
 
 def _copy_mcap(file: McapFile, path: str) -> None:
-    writer = McapWriter(path, compression="zstd")  # so that it fits beside the damaged one
+    writer = McapWriter(path, compression="zstd")  # so that both files fit on the disk
     try:
         schemas = {0: 0}
         for number, schema in file.schemas.items():
@@ -100,7 +100,7 @@ def _copy_sqlite(file: SqliteFile, path: str) -> None:
             )
             for number, topic in file.topics.items()
         }
-        with suppress(BagError):  # rows that cannot be read after all are left out
+        with suppress(BagError):  # unreadable rows are left out
             for block in file.blocks(topics, 0, _FOREVER):
                 for log_time, number, publish_time, data in block:
                     writer.write(topics[number], log_time, publish_time, data)

@@ -1,6 +1,6 @@
 """Turn definitions of messages from ROS 1 into definitions of ROS 2.
 
-``time``, ``duration`` and ``Header`` become types of their own, and texts get quotes. Names stay as
+``time``, ``duration`` and ``Header`` become ROS 2's types, and strings get quotes. Names stay as
 they are, except the names of constants, which ROS 2 demands in capitals.
 """
 
@@ -33,7 +33,7 @@ def _line(line: str) -> str:
     type_ = _TYPES.get(type_, type_)
     if not equals:
         return f"{type_}{array or ''} {name}"
-    if type_ == "string":  # all of the line is its value, '#' included
+    if type_ == "string":  # the value is the rest of the line, including '#'
         quoted = value.strip().replace("\\", "\\\\").replace('"', '\\"')
         return f'string {name.upper()}="{quoted}"'
     value = without_comment(value).strip()

@@ -1,7 +1,7 @@
 """Reads one ``.bag`` file of ROS 1 (format 2.0): its connections, chunks and messages.
 
-A bag that was closed ends with its connections and the times of each chunk. One whose recorder was
-killed has no end and is walked from the start; all that is whole is read.
+A bag that was closed ends with its connections and the times of each chunk. A bag whose recorder
+was killed has no end and is walked from the start; all intact messages are read.
 """
 
 from __future__ import annotations
@@ -89,7 +89,7 @@ class Ros1File:
             pass
 
     def forget(self, chunk: ChunkIndex) -> None:
-        """Give the memory of a chunk's pages back; they are read again when they are needed."""
+        """Release the memory of a chunk's pages; they are read again when they are needed."""
         if sys.platform != "win32" and hasattr(mmap, "MADV_DONTNEED"):
             start = chunk.offset // mmap.PAGESIZE * mmap.PAGESIZE
             self._map.madvise(mmap.MADV_DONTNEED, start, chunk.offset + chunk.length - start)
@@ -101,7 +101,7 @@ class Ros1File:
 
         Args:
             chunk: One of `chunks`.
-            wanted: The connections whose messages are wanted; None takes all.
+            wanted: The connections whose messages are wanted; None means all.
 
         Raises:
             BagError: The chunk is damaged; the messages before the damage were yielded.
@@ -241,8 +241,8 @@ class Ros1File:
             lost = len(self._bytes) - position
             self.problems.append(
                 f"{self.path}: the record at byte {position} is cut off or damaged "
-                f"({_text(error)}); what lies before it is read, the last {lost:,} bytes only as "
-                "far as whole messages lie in them"
+                f"({_text(error)}); all data before it is read, and the intact messages of the "
+                f"last {lost:,} bytes"
             )
             with suppress(*_DAMAGE):
                 if self._is_cut(position):

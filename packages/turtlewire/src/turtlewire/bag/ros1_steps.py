@@ -1,7 +1,7 @@
 """The steps that convert the messages of a type from the bytes of ROS 1 to CDR.
 
 The compiled core runs them; the kinds are numbered as in ``native/feeds/ros1_to_cdr.hpp``. They
-cover what nearly all messages are made of. `conversion_steps` returns None for the others, which
+cover nearly all messages. `conversion_steps` returns None for the others, which
 `turtlewire.msg.evolution` converts by way of message objects.
 """
 

@@ -1,4 +1,4 @@
-"""Which topics of bags go into a new bag, and under which names."""
+"""Selects the topics that go into a new bag, and renames them."""
 
 from __future__ import annotations
 

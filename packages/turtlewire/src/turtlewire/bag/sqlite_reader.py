@@ -3,8 +3,8 @@
 Versions differ in missing tables: without the table ``schema`` it is version 2 or 1, without the
 column ``offered_qos_profiles`` version 1; definitions and embedded metadata exist since version 4.
 
-Of a file that was cut, the rows up to the first one that is lost are read: they lie in the order in
-which they were written, and sqlite3 can go through them without the index.
+In a truncated file, the rows before the first lost one are read: they are stored in the order in
+which they were written, and sqlite3 can iterate over them without the index.
 """
 
 from __future__ import annotations

@@ -106,7 +106,7 @@ class SqliteWriter:
         """Write the pending messages in one transaction."""
         if not self._pending:
             return
-        with self._database:  # commits, or takes back what an error left half done
+        with self._database:  # commits, or rolls back after an error
             self._database.execute("BEGIN")
             self._database.executemany(
                 "INSERT INTO messages (topic_id, timestamp, data) VALUES (?, ?, ?)", self._pending
@@ -133,7 +133,7 @@ class SqliteWriter:
             self._database.close()
 
     def abandon(self) -> None:
-        """Close the file as it is: nobody will read it."""
+        """Close the file without completing it, because it will be deleted."""
         self._database.close()
 
     def _merge_log(self) -> None:

@@ -1,4 +1,4 @@
-"""The interface of a file of a bag, whichever storage it uses."""
+"""The interface of a file of a bag, common to all storages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Trajectories that a bag holds as topics: odometry and poses."""
+"""Trajectories from the topics of a bag: odometry and poses."""
 
 from __future__ import annotations
 
@@ -58,8 +58,8 @@ def read_topic(
     poses = np.array([row[3] for row in rows], np.float64)[first]
     if len(first) < len(rows):
         warnings.warn(
-            f"{bag.path}: {len(rows) - len(first):,} of {len(rows):,} messages of {topic} have the "
-            "stamp of another; the first pose of each stamp is taken",
+            f"{bag.path}: {len(rows) - len(first):,} of {len(rows):,} messages of {topic} "
+            "repeat a stamp; the first pose of each stamp is used",
             stacklevel=4,
         )
     return stamps, poses, frame, child, tuple(find_gaps(stamps, max_gap_ns))

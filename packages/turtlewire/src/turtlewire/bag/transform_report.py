@@ -1,4 +1,4 @@
-"""What the transforms of a bag are like, and what is wrong with them."""
+"""Statistics and problems of the transforms of a bag."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class NewParent(NamedTuple):
 
 @dataclass(repr=False)
 class TransformReport:
-    """What was found in a bag; printed, it is a table of links and a list of what looks wrong.
+    """The transforms of a bag. Printed, it is a table of links and a list of problems.
 
     Attributes:
         name: Name of the bag.
@@ -139,7 +139,7 @@ class TransformReport:
 
 
 def describe(buffer: BaseBuffer, report: TransformReport) -> None:
-    """Add to the report what the filled buffer tells."""
+    """Add the statistics of the filled buffer to the report."""
     report.links = links(buffer)
     report.conflicts = conflicts(buffer)
     often = set(report.two_parents)
@@ -169,7 +169,7 @@ def _note_parents(buffer: BaseBuffer, report: TransformReport, link: Link) -> No
 
 
 def group_jumps(jumps: list[tuple[int, str, int]]) -> list[Jump]:
-    """One jump for all frames that fall back together.
+    """Merge the jumps of frames that fall back together.
 
     Args:
         jumps: Log time, child frame and how far back, of each frame, in the order of the file.
@@ -185,7 +185,7 @@ def group_jumps(jumps: list[tuple[int, str, int]]) -> list[Jump]:
 
 
 def _publishers(count: int) -> str:
-    if not count:  # the recorder noted no QoS, as older ones do not
+    if not count:  # older recorders do not store the QoS
         return "publishers unknown"
     return "1 publisher" if count == 1 else f"{count} publishers"
 

@@ -1,7 +1,8 @@
 """Reads the transforms of a bag into a buffer.
 
 The bytes of the messages go straight into the buffer. Chunks without transforms are skipped by
-their index, and a second thread decompresses the next chunk while the buffer takes the last one.
+their index, and a second thread decompresses the next chunk while the buffer stores the previous
+one.
 """
 
 from __future__ import annotations
@@ -55,7 +56,7 @@ def fill_buffer(
         check_unit(bag.metadata, start_ns=start, end_ns=end)
         name = os.path.basename(os.path.abspath(bag.path))
         report = TransformReport(name)
-        # The names that stand there by default need not be in the bag.
+        # The default names need not be in the bag.
         chosen = (set() if topics == "/tf" else moving) | (
             set() if static_topics == "/tf_static" else fixed
         )
@@ -98,7 +99,7 @@ def _check_topics(bag: Bag, wanted: set[str], chosen: set[str]) -> None:
     missing = sorted(chosen - bag.topics.keys())
     for name in sorted(chosen & bag.topics.keys()):
         topic = bag.topics[name]
-        if topic.type not in (_TF_TYPE, "") and is_cdr(topic):  # a damaged file may not tell
+        if topic.type not in (_TF_TYPE, "") and is_cdr(topic):  # unknown in a damaged file
             text = f"{name} is of type {topic.type}, not {_TF_TYPE}"
             raise BagError(text).with_hint(_what_it_has(bag))
     present = [bag.topics[name] for name in wanted & bag.topics.keys()]

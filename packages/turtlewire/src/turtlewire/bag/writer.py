@@ -58,7 +58,7 @@ __all__ = ["BagWriter"]
 _LAST_TIMES = {"mcap": (1 << 64) - 1, "sqlite3": (1 << 63) - 1}
 
 
-# Weak: a writer that nobody holds any more is finished by its `__del__`.
+# Weak, because `__del__` finishes a writer without references.
 _open_writers: WeakSet[BagWriter] = WeakSet()
 
 
@@ -180,7 +180,7 @@ class BagWriter:
         _open_writers.add(self)
 
     def __del__(self) -> None:
-        if self._process == os.getpid():  # a fork's copy must not write to the file
+        if self._process == os.getpid():  # a copy in a forked process must not write to the file
             self.close()
 
     def __enter__(self) -> Self:
@@ -224,7 +224,7 @@ class BagWriter:
             type_name: ``"tf2_msgs/msg/TFMessage"``.
             qos: What its publishers offer.
             hash_of_type: ``"RIHS01_…"``; None computes it from the definition.
-            definition: Encoding and text of the type's definition; None takes the known type's.
+            definition: Encoding and text of the type's definition; None uses the known type's.
 
         Raises:
             BagError: The topic has another type already, or the type name is invalid.

@@ -1,4 +1,4 @@
-"""What a bag can be written with: options, types and messages, refused with a reason."""
+"""Checks the options, types and messages of a new bag; errors name the reason."""
 
 from __future__ import annotations
 

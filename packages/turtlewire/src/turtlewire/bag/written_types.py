@@ -1,4 +1,4 @@
-"""Types as a bag defines them, and their messages read as ours."""
+"""Types as a bag defines them; converts their messages to ours."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class WrittenType:
         Raises:
             InterfaceError: The type is not known and the definition cannot be read.
         """
-        if self._failure is not None:  # to look for a type again would take long
+        if self._failure is not None:  # looking up a type again would be slow
             raise self._failure
         if not self._is_compared:
             try:
@@ -62,7 +62,7 @@ class WrittenType:
     def _compared(self) -> Evolution | None:
         is_known = has_interface(self.name)
         if not self._has_definition and (not self._is_readable or is_known):
-            load_message(self.name)  # says how to get a type that is not known
+            load_message(self.name)  # the error says how to get an unknown type
             return None
         try:
             written = parse_definition(self.name, self._text)

@@ -1,11 +1,11 @@
-"""The ``turtlewire`` command: what one looks at and checks without any ROS.
+"""The ``turtlewire`` command: inspects and checks transforms, bags and networks without ROS.
 
 ====================  ========================================================================
-module                what it holds
+module                contents
 ====================  ========================================================================
 `main`                the command and its verbs
 `frames`              the verb ``frames``: ages, rates and publishers
-`frame_picture`       that tree at one moment, as text and as JSON
+`frame_picture`       a snapshot of that tree, as text and as JSON
 `bag_commands`        the parsers of ``bag``, ``trajectory`` and ``compare``
 `bag_edit_parsers`    the parsers of ``bag info``, ``cut``, ``filter``, ``merge`` and ``split``
 `bag_edits`           ``bag cut``, ``filter``, ``merge`` and ``split``

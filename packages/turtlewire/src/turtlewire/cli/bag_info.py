@@ -1,4 +1,4 @@
-"""`turtlewire bag info`: what a bag holds, at a glance."""
+"""`turtlewire bag info`: a summary of a bag."""
 
 from __future__ import annotations
 

@@ -70,7 +70,7 @@ def run_compare(args: argparse.Namespace) -> int:
 
 
 def _ape(args: argparse.Namespace, comparison: Comparison) -> PoseErrors:
-    # What only pairs have is, for poses, the distance that it is made of.
+    # APE has no error ratio, so it uses the distance itself.
     ratio = args.relation == "point_distance_error_ratio"
     return comparison.ape("point_distance" if ratio else args.relation)
 

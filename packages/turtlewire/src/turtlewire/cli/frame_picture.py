@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Picture", "Row", "take_picture"]
 
-#: Stamps below are of a simulation, and no system time [ns].
+#: Smaller stamps are simulated time, not system time [ns].
 _WALL_TIME_FROM_NS = 1_000_000_000 * 10**9
 #: A link is stale when its newest sample is older than this [s], and than this many periods of its
 #: rate.
@@ -76,7 +76,7 @@ class Picture(NamedTuple):
     missing: str = ""
 
     def as_json(self) -> str:
-        """In one line; roots have null as parent."""
+        """Return the tree as one line of JSON; the parent of a root is null."""
         frames = [
             {
                 "frame": row.frame,
@@ -131,7 +131,7 @@ def take_picture(
     Args:
         buffer: What to look at.
         wall_ns: System time.
-        top: Take only this frame and those below it; None takes all.
+        top: Take only this frame and those below it; None means all.
         departed: Moving frames whose publisher has left the graph.
     """
     tree = read_frame_tree(buffer)
@@ -170,7 +170,7 @@ def _walk(tree: FrameTree, top: str | None) -> Iterator[tuple[str, str]]:
 
 
 def _by_name(frames: Iterable[str]) -> list[str]:
-    """In the order of names, ``turtle2`` before ``turtle10``."""
+    """Sort by name, ``turtle2`` before ``turtle10``."""
     return sorted(frames, key=lambda frame: (_natural(frame), frame))
 
 

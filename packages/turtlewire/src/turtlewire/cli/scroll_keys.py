@@ -46,11 +46,11 @@ _CONTINUE = "continue"
 
 
 class ScrollKeys:
-    """No keys: for a program whose input is not its own terminal."""
+    """The base without keys, for a program whose input is not its terminal."""
 
     def read(self, seconds: float) -> str:
         """Return the name of the next key, or an empty string after a number of seconds."""
-        threading.Event().wait(seconds)  # nothing sets it: a signal or the time ends the wait
+        threading.Event().wait(seconds)  # never set: a signal or the timeout ends the wait
         return ""
 
 

@@ -1,4 +1,4 @@
-"""Where a trajectory on the command line comes from: a file, a bag's topic or its transforms."""
+"""Reads the trajectories of a command line: from a file, a bag's topic or its transforms."""
 
 from __future__ import annotations
 
@@ -168,7 +168,7 @@ def _names_are_missing(path: str) -> str:
 
 
 def complete_names(path: str) -> list[str]:
-    """For the shell: the topics with poses of a bag, and the frames at its beginning.
+    """Complete names for the shell: a bag's topics with poses, and the frames at its beginning.
 
     A name with control characters is left out: the shell would act on them.
     """

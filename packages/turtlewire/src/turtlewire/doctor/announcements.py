@@ -1,4 +1,4 @@
-"""How DDS participants announce themselves: reads their packets, and writes a question to them.
+"""The announcements of DDS participants: reads their packets, and writes queries to them.
 
 A participant names the addresses at which it receives, each with its kind of transport (SPDP of
 DDSI-RTPS, 8.5.3 and 9.6.3). Cyclone DDS does not pass them on.
@@ -28,18 +28,18 @@ _LEASE, _PROTOCOL, _VENDOR_ID, _DEFAULT_UNICAST, _METATRAFFIC_UNICAST = 2, 0x15,
 _GUID, _ENDPOINTS, _PROPERTIES, _NAME, _KEY_HASH, _STATUS = 0x50, 0x58, 0x59, 0x62, 0x70, 0x71
 _DOMAIN_TAG = 0x4014
 _IS_GONE = b"\x00\x00\x00\x03"
-#: A participant answers those that read announcements, and nobody else.
+#: A participant only answers endpoints that read announcements.
 _READS_ANNOUNCEMENTS = 2
 _LEASE_S = 5
 _OWN_NAME = b"turtlewire doctor\x00"
 
 _TRANSPORTS = {1: "UDPv4", 2: "UDPv6", 4: "TCPv4", 8: "TCPv6"}
-#: Fast DDS 3 sets bits beside it.
+#: Fast DDS 3 also sets other bits.
 _SHARED_MEMORY = 16
 
 
 class Participant(NamedTuple):
-    """What a participant announces.
+    """The announcement of a participant.
 
     Attributes:
         prefix: The first 12 bytes of the gids of all its endpoints.

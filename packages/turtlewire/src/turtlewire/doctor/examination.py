@@ -1,4 +1,4 @@
-"""Examines the setup, the graph and the transforms, and says what is wrong and what to do."""
+"""Examines the setup, the graph and the transforms, and reports problems with advice."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def _silent_findings(graph: Graph, search: FastDdsSearch | None, domain_id: int)
 def _listen(listener: TfListener, graph: Graph) -> None:
     end = time.monotonic() + _LISTEN_S
     heard_all = listener.gather(graph, _LISTEN_S)
-    # What seems to be missing or late may still come.
+    # Messages that seem to be missing may still arrive.
     if not heard_all and tf_findings(graph, listener.traffic()):
         listener.wait(max(0.0, end - time.monotonic()))
 

@@ -156,7 +156,7 @@ def _loses_images(endpoints: Iterable[EndpointInfo]) -> bool:
 
 
 def _default_buffer() -> int:
-    """Return the default size of a socket's receive buffer; large if the system does not tell."""
+    """Return the default size of a socket's receive buffer; large if the system does not say."""
     try:
         return int(_DEFAULT_BUFFER.read_text(encoding="ascii"))
     except (OSError, ValueError):

@@ -34,7 +34,7 @@ class FastDdsSearch:
 
     Args:
         domain_id: The domain.
-        wide: Whether to ask other hosts, too.
+        wide: Whether to ask other hosts as well.
     """
 
     def __init__(self, domain_id: int, *, wide: bool) -> None:
@@ -53,7 +53,7 @@ class FastDdsSearch:
         return self
 
     def __exit__(self, *_: object) -> None:
-        """Take the question back, so that nobody remembers it."""
+        """Withdraw the query, so that participants forget it."""
         for asking, question in self._sockets:
             self._send(asking, question.withdrawal())
         self._open.close()
@@ -111,7 +111,7 @@ def _received(asking: socket.socket) -> Iterator[tuple[bytes, str]]:
             datagram, (address, _) = asking.recvfrom(_LARGEST)
         except BlockingIOError:
             return
-        except OSError:  # on Windows, when a question did not reach anybody
+        except OSError:  # on Windows, if a query did not reach any process
             continue
         yield datagram, address
 

@@ -1,4 +1,4 @@
-"""What the doctor looks at below the middleware: sockets of other domains, and multicast."""
+"""The doctor's checks below the middleware: sockets of other domains, and multicast."""
 
 from __future__ import annotations
 

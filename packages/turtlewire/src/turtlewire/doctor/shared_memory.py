@@ -1,7 +1,8 @@
 """Processes of this host whose participants on Fast DDS receive over shared memory.
 
-Participants that receive over nothing else open no port, so nobody can ask them. But Fast DDS names
-its segments in ``/dev/shm`` after the ports that it would open, and each domain has its own ports.
+Participants that receive only over shared memory open no port, so they cannot be queried. But Fast
+DDS names its segments in ``/dev/shm`` after the ports that it would open, and each domain has its
+own ports.
 """
 
 from __future__ import annotations
@@ -45,7 +46,7 @@ def _names_port(text: str, ports: range) -> bool:
 def _has_udp_port(process: Path, ports: range) -> bool:
     sockets = set()
     for file in (process / "fd").iterdir():
-        with suppress(OSError):  # closed meanwhile
+        with suppress(OSError):  # already closed
             sockets.update(_SOCKET.findall(str(file.readlink())))
     rows = (process / "net" / "udp").read_text("ascii").splitlines()[1:]
     columns = [row.split() for row in rows]

@@ -1,9 +1,9 @@
-"""Transforms that are missing from a steady rhythm: lost on the way, or skipped.
+"""Finds transforms that are missing from a periodic series: lost in transit, or skipped.
 
-A broadcaster with a timer stamps its transforms one period apart. Where some of them get lost, each
-at random, the steps between the rest are multiples of that period, and their lengths follow the
-geometric distribution. Three other rhythms look different, and are not loss: a broadcaster that has
-no period, one that is held up now and then (few gaps, and long ones), and one whose clock ticks
+A broadcaster with a timer stamps its transforms one period apart. If some of them get lost, each at
+random, the steps between the rest are multiples of that period, and their lengths follow the
+geometric distribution. Three other patterns look different, and are not loss: a broadcaster that
+has no period, one that is delayed from time to time (few but long gaps), and one whose clock ticks
 faster than it publishes (all steps nearly as long).
 """
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Gaps", "find_gaps"]
 
-#: With fewer steps, chance looks like a rhythm.
+#: With fewer steps, random steps look periodic.
 _FEWEST_STEPS = 10
 #: Stamps of one moment: what a node publishes in one turn.
 _ONE_MOMENT_NS = 1_000_000
@@ -27,14 +27,14 @@ _LONGEST_SHORTEST = 6
 #: Tolerance of a step, as a fraction of the period; some steps may differ by more.
 _TOLERANCE = 0.2
 _MISFITS = 0.1
-#: Less than this is a broadcaster that was held up for a moment.
+#: A smaller number means that the broadcaster was delayed for a moment.
 _LEAST_SHARE = 0.3
 #: Minimum fraction of what random loss leaves on average: single steps, gaps, and variance.
 _MUCH = 0.4
 
 
 class Gaps(NamedTuple):
-    """What is missing.
+    """The transforms that are missing from a series.
 
     Attributes:
         share: The part that is missing, 0 to 1.

@@ -1,4 +1,4 @@
-"""Listens to the transforms for a while and notes who published what."""
+"""Listens to the transforms for a while and records the publisher of each."""
 
 from __future__ import annotations
 

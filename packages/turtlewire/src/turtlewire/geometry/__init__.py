@@ -11,7 +11,7 @@ Quaternions are ``x, y, z, w``. Poses are ``x, y, z, qx, qy, qz, qw`` and named
 ``parent_from_child``. Matrices act on column vectors from the left.
 
 =============  =========================================================
-module         what it holds
+module         contents
 =============  =========================================================
 `conversions`  the functions of this package, which check their arguments
 `quaternions`  one rotation, as plain tuples; no NumPy

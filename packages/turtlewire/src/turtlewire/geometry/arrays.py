@@ -122,8 +122,8 @@ def from_matrices(m: NDArray[np.float64]) -> NDArray[np.float64]:
     """
     diagonal = np.diagonal(m, axis1=-2, axis2=-1)
     trace = diagonal.sum(axis=-1)
-    # Four ways to the same quaternion, times four of one component. The largest component makes the
-    # one that loses no digits (Shepperd 1978).
+    # Four formulas for the same quaternion, each scaled by four times one component. The formula of
+    # the largest component loses no digits (Shepperd 1978).
     ways = np.empty((*m.shape[:-2], 4, 4))
     for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
         ways[..., i, i] = 1 + 2 * diagonal[..., i] - trace

@@ -1,7 +1,7 @@
 """Quaternions, Euler angles, matrices and poses as NumPy arrays: one, or any number at once.
 
 Every function takes arrays with leading axes of any shape and returns new ones of double precision.
-Quaternions are ``x, y, z, w``; they are normalised first, and those that come out have ``w >= 0``.
+Quaternions are ``x, y, z, w``; inputs are normalised first, and results have ``w >= 0``.
 Matrices act on column vectors from the left. A pose is ``x, y, z, qx, qy, qz, qw``, as batches of
 lookups return it.
 

@@ -10,34 +10,34 @@ Definitions, message classes, the CDR codec and type hashes.
     data = msg.serialize(Twist())
     twist = msg.deserialize(Twist, data)
 
-Classes are made when they are asked for first, codecs when they are used first.
+Classes are created at the first access, codecs at the first use.
 
 ====================  =================================================================
-module                what it holds
+module                contents
 ====================  =================================================================
-`definition`          what an interface file says, after parsing
+`definition`          a parsed interface file
 `types`               types of fields, named as in ROS 2's ``rosidl_parser.definition``
-`parser`              texts of ``.msg``, ``.srv`` and ``.action`` files to definitions
+`parser`              parses ``.msg``, ``.srv`` and ``.action`` files
 `registry`            definitions by name, parsed at first use
-`bundled`             the definitions that each distribution of ROS 2 has
+`bundled`             the definitions of each distribution of ROS 2
 `message`             `Message`, the base of all message classes
 `classes`             the classes of messages, services and actions, made at first use
-`constructor`         their constructors, compiled for each
+`constructor`         compiles the constructors of these classes
 `values`              defaults of fields, and bulk numbers as arrays
 `checks`              ROS 2's checks at every assignment (``check_fields``)
 `cdr`                 `serialize` and `deserialize`
 `encoder`, `decoder`  generated code from messages to CDR bytes and back
-`ros1_decoder`        the same from the bytes of ROS 1
-`evolution`           messages of another definition than ours, such as an older one
-`written_records`     messages by the definitions of their writer
+`ros1_decoder`        generated code from the bytes of ROS 1 to messages
+`evolution`           messages with another definition than ours, such as an older one
+`written_records`     messages decoded by the definitions of their writer
 `wide_text`           ``wstring`` on the wire
-`json_values`         messages as JSON can hold them
-`diagnosis`           which field of a message or of its bytes is wrong
+`json_values`         messages as values for JSON
+`diagnosis`           finds the wrong field of a message or of its bytes
 `type_hash`           type hashes (RIHS01)
 `shell`               lazy classes of modules such as ``geometry_msgs.msg``
 `idl`                 ``.idl`` files as the text of ``.msg``, ``.srv`` and ``.action`` files
-`idl_reader`          reads them, for `idl` and ``rosidl_parser``
-`idl_tokens`          their tokens
+`idl_reader`          parses ``.idl`` files, for `idl` and ``rosidl_parser``
+`idl_tokens`          the tokens of ``.idl`` files
 `generate`, `stubs`   Python packages for a folder of definitions; their ``.pyi``
 `__main__`            ``python -m turtlewire.msg DIR``
 ====================  =================================================================

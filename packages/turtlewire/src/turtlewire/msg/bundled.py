@@ -1,8 +1,8 @@
-"""Where the definitions that come with turtlewire are, and which a distribution of ROS 2 has.
+"""The definitions that come with turtlewire, for each distribution of ROS 2.
 
-``interfaces`` holds Jazzy's definitions and all that came later. ``interfaces_since/DISTRO`` holds
-what a distribution changed. What it does not have is not listed, but can be loaded, for bags and
-robots of other distributions.
+``interfaces`` holds Jazzy's definitions and all later additions. ``interfaces_since/DISTRO`` holds
+the changes of a distribution. Definitions that a distribution does not have are not listed, but can
+be loaded, for bags and robots of other distributions.
 """
 
 from __future__ import annotations

@@ -50,7 +50,7 @@ def encode(message: Message) -> Cdr:
         return message._to_cdr()
     except Exception as error:  # noqa: BLE001 - any; what is wrong is found out below
         fault = str(error)
-    # Outside of the handler: the fault of the generated code explains nothing to users.
+    # Outside of the handler, because the generated code's error would not help users.
     from turtlewire.msg.diagnosis import check_message
 
     if not isinstance(message, Message):
@@ -119,7 +119,7 @@ def deserialize(
         raise CdrError(
             f"{name}: unknown encapsulation {encapsulation.hex(' ') or '(no bytes)'} at offset 0"
         ).with_hint("Plain CDR is read: 00 01 (little endian) and 00 00 (big endian).")
-    # Outside of the handler: the fault of the generated code explains nothing to users.
+    # Outside of the handler, because the generated code's error would not help users.
     if isinstance(interface, str):
         return deserialize(get_message(interface), data)
     from turtlewire.msg.diagnosis import check_bytes

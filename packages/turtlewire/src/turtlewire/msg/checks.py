@@ -1,9 +1,9 @@
-"""The checks at every assignment that ROS 2 offers.
+"""ROS 2's optional checks at every assignment.
 
 ``check_fields=True``, or ``ROS_PYTHON_CHECK_FIELDS=1`` for all messages.
 
-Without them a wrong value shows when the message is encoded, and fields are plain slots. A message
-with checks has a class of its own, derived from the plain one, whose fields are properties. The
+Without them, fields are plain slots, and encoding the message raises the error of a wrong value. A
+message with checks has its own class, derived from the plain one, whose fields are properties. The
 texts are ROS 2's.
 """
 

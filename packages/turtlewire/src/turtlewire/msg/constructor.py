@@ -23,7 +23,7 @@ def make_constructor(
 ) -> Callable[..., None]:
     """Compile ``__init__``: one assignment for each field, defaults as in ROS 2.
 
-    In Lyrical, None stands for the default of every field, and Python itself refuses unknown
+    In Lyrical, None means the default of every field, and Python itself refuses unknown
     keywords.
 
     Args:

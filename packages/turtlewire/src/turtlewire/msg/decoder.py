@@ -1,8 +1,8 @@
 """Generates the function that decodes one message type from CDR, little or big endian.
 
-The generated code reads numbers that follow one another with one ``struct.unpack_from``. It notices
-every malformed input, by an exception of the operation that hits it; ``turtlewire.msg.diagnosis``
-then finds out which field it was. As in the encoder, ``modulus`` and ``remainder`` say what is
+The generated code reads numbers that follow one another with one ``struct.unpack_from``. Every
+malformed input makes one of its operations raise; ``turtlewire.msg.diagnosis`` then finds the field
+that is wrong. As in the encoder, ``modulus`` and ``remainder`` say what is
 known about the position, counted from the end of the four header bytes.
 """
 

@@ -1,4 +1,4 @@
-"""What an interface file says, after parsing.
+"""Parsed interface files.
 
 Fields, constants, and the messages that services and actions imply.
 """

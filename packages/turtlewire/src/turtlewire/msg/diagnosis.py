@@ -1,7 +1,7 @@
-"""Says what is wrong with bytes that did not decode, or with a message that did not encode.
+"""Explains why bytes cannot be decoded, or a message cannot be encoded.
 
 The generated codecs only notice that something is wrong. The readers here walk the definition field
-by field, slowly, until they meet it.
+by field, slowly, until they find the error.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
 """Generates the function that encodes one message type as little endian CDR (XCDR1).
 
 Numbers that follow one another become one ``struct.pack``; nested messages are written inline,
-repeated ones in a loop. While the code is generated, `_Encoder` knows what is known about the
-position: it is ``remainder`` modulo ``modulus`` (1, 2, 4 or 8), counted from the end of the four
-header bytes. Where that decides the padding, the padding is part of the format; elsewhere a table
-lookup on the length so far gives it.
+repeated ones in a loop. While the code is generated, `_Encoder` tracks the position as far as it
+is fixed: it is ``remainder`` modulo ``modulus`` (1, 2, 4 or 8), counted from the end of the four
+header bytes. If that determines the padding, the padding is part of the format; otherwise a table
+lookup by the length so far gives it.
 """
 
 from __future__ import annotations
@@ -213,7 +213,7 @@ class _Encoder:
     def basic(self, type_: BasicType, value: str) -> None:
         code = CODES[type_.typename]
         if code == "?":
-            # `struct` takes the truth of any object; ROS 2 refuses what is neither 0 nor 1.
+            # `struct` accepts any object as a truth value; ROS 2 only accepts 0 and 1.
             flag = self.local(value)
             value = f"{flag} if {flag} is True or {flag} is False else as_bool({flag})"
         self.number(code, value)

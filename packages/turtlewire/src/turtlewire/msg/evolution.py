@@ -1,4 +1,4 @@
-"""Read messages that were written by another definition than ours.
+"""Reads messages that were written with another definition than ours.
 
 ROS 2 sometimes adds fields to its messages: `Range` got ``variance``, `Marker` its textures. In
 ROS 1, each header had a ``seq``. One rule holds for all bags and for the network:

@@ -3,7 +3,7 @@
 Real modules with type stubs, no compiler, no import hook.
 
 The package consists of ``__init__.py``, one module for each of ``msg``, ``srv`` and ``action``,
-their stubs, and a copy of the definitions, which the classes are made of at first access.
+their stubs, and a copy of the definitions, from which the classes are created at first access.
 """
 
 from __future__ import annotations
@@ -86,7 +86,7 @@ def generate_package(source: Path, output: Path, package: str = "") -> Path:
 
 
 def _definition_files(source: Path) -> list[Path]:
-    """The definitions in a folder; an .idl file beside another one is what ROS 2 made of it."""
+    """The definitions in a folder; skips .idl files that ROS 2 generated from another file."""
     found = []
     for kind in KINDS:
         found += sorted((source / kind).glob(f"*.{kind}"))

@@ -1,6 +1,6 @@
 """Translates .idl files of interfaces into the text of .msg, .srv and .action files.
 
-What cannot be said in a .msg file is refused with its line.
+Constructs that .msg files do not have raise an error with the line.
 """
 
 from __future__ import annotations

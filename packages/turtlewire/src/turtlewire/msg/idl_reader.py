@@ -1,7 +1,7 @@
 """Reads .idl files: the part of IDL 4.2 of which ROS 2's interfaces consist.
 
-That is includes, modules, structures, constants, typedefs and annotations. Whatever else IDL has
-(unions, enums, maps) is refused with its line.
+That is includes, modules, structures, constants, typedefs and annotations. Other constructs of
+IDL (unions, enums, maps) raise an error with the line.
 """
 
 from __future__ import annotations

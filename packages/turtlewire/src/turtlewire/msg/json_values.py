@@ -1,4 +1,4 @@
-"""Messages, and other values of Python, as JSON can hold them."""
+"""Converts messages and other Python values to values for JSON."""
 
 from __future__ import annotations
 

@@ -37,7 +37,7 @@ class Message:
     _MISSING_FIELDS: tuple[str, ...] = ()
     _fields_and_field_types = _FieldTypes()
 
-    if TYPE_CHECKING:  # each class gets methods of its own when it is made
+    if TYPE_CHECKING:  # each class gets its own methods when it is created
 
         def __init__(self, **fields: Any) -> None: ...
 

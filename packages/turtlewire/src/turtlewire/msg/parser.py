@@ -132,7 +132,7 @@ def _parts(full_name: str, text: str, count: int) -> list[str]:
     parts: list[list[str]] = [[]]
     for line in text.splitlines():
         if line.strip() == _SEPARATOR:
-            # Blank lines stand for what came before, so that errors contain the line of the file.
+            # Blank lines replace the previous parts, so that errors contain the line of the file.
             parts.append([""] * (len(parts[-1]) + 1))
         else:
             parts[-1].append(line)

@@ -319,7 +319,7 @@ def _nearest(full_name: str) -> str:
     if not difflib.get_close_matches(package, interfaces(), n=1, cutoff=0.85):
         same = _with_package(full_name.rpartition("/")[2])
         own = f"msg.add_package('{package}', folder) adds your own definitions."
-        return f"{same or '`ros2 interface list` shows what there is.'} {own}"
+        return f"{same or '`ros2 interface list` shows all interfaces.'} {own}"
     known = [
         f"{package}/{kind}/{name}"
         for package, kinds in interfaces().items()
@@ -330,5 +330,5 @@ def _nearest(full_name: str) -> str:
     return (
         f"Did you mean {' or '.join(near)}?"
         if near
-        else "`ros2 interface list` shows what there is."
+        else "`ros2 interface list` shows all interfaces."
     )

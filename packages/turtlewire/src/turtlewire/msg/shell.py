@@ -1,4 +1,4 @@
-"""What the modules of interface packages (``geometry_msgs.msg``) consist of: lazy classes."""
+"""Lazy classes: the content of modules such as ``geometry_msgs.msg``."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def lazy_classes(home: str) -> Callable[[str], type]:
 
     Args:
         home: The module's ``__name__``: ``"geometry_msgs.msg"``. Its ``__all__`` lists the
-            interfaces; their parts (``Spawn_Request``) are found, too.
+            interfaces; their parts (``Spawn_Request``) are also found.
 
     Returns:
         A function that makes a class and puts it into the module, so that it is called once for

@@ -1,6 +1,6 @@
-"""The types a field of an interface can have, named as in ROS 2's ``rosidl_parser.definition``.
+"""The types of interface fields, named as in ROS 2's ``rosidl_parser.definition``.
 
-Every type answers ``str(type)`` with ROS 2's spelling (``sequence<double, 3>``,
+``str(type)`` returns ROS 2's spelling (``sequence<double, 3>``,
 ``geometry_msgs/Vector3[2]``), compares by value and is hashable.
 """
 
@@ -138,7 +138,7 @@ class NamespacedType(AbstractNestableType):
 
 
 class NamedType(AbstractNestableType):
-    """A type that is known by a name of its own, as a typedef has.
+    """A type with its own name, such as a typedef.
 
     Attributes:
         name: The name.

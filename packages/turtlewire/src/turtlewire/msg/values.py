@@ -1,4 +1,4 @@
-"""How a field holds its value in Python.
+"""The Python values of fields.
 
 Defaults, conversion at assignment, and the letter or dtype of its storage.
 

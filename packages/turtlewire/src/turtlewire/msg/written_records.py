@@ -1,4 +1,4 @@
-"""Decode and encode messages by the definitions of their writer, whatever ours are."""
+"""Decodes and encodes messages by the definitions of their writer instead of ours."""
 
 from __future__ import annotations
 

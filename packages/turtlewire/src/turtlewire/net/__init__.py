@@ -1,7 +1,7 @@
 """Topics and transforms of a ROS network without ROS's names: ``turtlewire.connect``.
 
 ==============  ===================================================================
-module          what it holds
+module          contents
 ==============  ===================================================================
 `connection`    `connect` and `Connection`, which make the rest
 `publisher`     `Publisher`: messages out

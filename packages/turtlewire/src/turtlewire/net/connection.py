@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from turtlewire.tf.datetimes import Span, Stamp
 
     class Closes(Protocol):
-        """What a connection closes with itself."""
+        """An object that a connection closes."""
 
         def close(self) -> None:
             """Leave the network."""
@@ -57,9 +57,9 @@ def connect(
     Args:
         name: The name of the node that others see.
         namespace: Its namespace, and that of relative topic names.
-        domain_id: None takes ``ROS_DOMAIN_ID``, or 0.
+        domain_id: None uses ``ROS_DOMAIN_ID``, or 0.
         middleware: ``rmw_cyclonedds_cpp``, ``rmw_zenoh_cpp`` or ``local`` (inside this process);
-            None takes the one of the environment.
+            None uses the one of the environment.
 
     Raises:
         TypeError: A name is not a str, or the domain is not an int.
@@ -190,7 +190,7 @@ class Connection:
         Args:
             topic: The name of the topic; relative names are in the namespace of the connection.
             type: The class of the messages, or its name: ``std_msgs/msg/String``.
-            qos: None takes ROS 2's default: reliable, the last 10 messages.
+            qos: None uses ROS 2's default: reliable, the last 10 messages.
 
         Raises:
             InterfaceError: The type does not exist.
@@ -219,7 +219,7 @@ class Connection:
 
         Args:
             topic: The name of the topic; relative names are in the namespace of the connection.
-            type: The class of the messages, or its name; None takes that of the first publisher.
+            type: The class of the messages, or its name; None uses that of the first publisher.
             qos: None fits the publishers that are known when the first of them appears.
 
         Raises:

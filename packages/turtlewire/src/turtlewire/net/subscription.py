@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Subscription"]
 
-#: A subscription that matches the publishers that are there.
+#: A subscription that matches the existing publishers.
 _FITTING = QoS(
     reliability=Reliability.BEST_AVAILABLE,
     durability=Durability.BEST_AVAILABLE,

@@ -1,7 +1,7 @@
 """Carries topics, services and actions between two networks: ``turtlewire relay``.
 
 ================  =================================================================
-module            what it holds
+module            contents
 ================  =================================================================
 `ends`            parses the networks that the command line names
 `renaming`        converts names between the two ends

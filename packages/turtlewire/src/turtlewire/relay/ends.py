@@ -13,7 +13,7 @@ _FAST_DDS = {"fastdds", "fastrtps", "rmw_fastrtps_cpp", "rmw_fastrtps_dynamic_cp
 
 
 class End(NamedTuple):
-    """One network.
+    """One of the two networks.
 
     Attributes:
         middleware: ``rmw_cyclonedds_cpp`` or ``rmw_zenoh_cpp``.

@@ -1,4 +1,4 @@
-"""Adds a prefix to the frames of transforms on the way there, and removes it on the way back."""
+"""Adds a prefix to the frames of transforms in one direction, and removes it in the other."""
 
 from __future__ import annotations
 

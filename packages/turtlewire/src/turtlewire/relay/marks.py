@@ -1,7 +1,7 @@
 """Marks the nodes of relays.
 
-All nodes of a relay are in an enclave of its own. Relays carry nothing that comes from such nodes,
-so nothing runs in circles. The enclave is announced with the participant, before any endpoint.
+All nodes of a relay are in a separate enclave. Relays carry no data from such nodes,
+so no message loops. The enclave is announced with the participant, before any endpoint.
 """
 
 from __future__ import annotations

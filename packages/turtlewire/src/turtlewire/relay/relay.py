@@ -25,7 +25,7 @@ _DISCOVERY_NS = 2_000_000_000
 
 
 class Plan(NamedTuple):
-    """What a relay is to do.
+    """The configuration of a relay.
 
     Attributes:
         near: The network whose names are put into the namespace.

@@ -54,7 +54,7 @@ class ServiceRoute:
         return True
 
     def _carry_requests(self, service: Service) -> None:
-        """On the thread of the far end."""
+        """Carry requests to the server; runs on the thread of the far end."""
         for request_id, cdr in service.take():
             self._call(request_id, cdr)
 
@@ -68,7 +68,7 @@ class ServiceRoute:
             warn_once(f"relay {self._client.service}", error.in_one_line())
 
     def _carry_responses(self) -> None:
-        """On the thread of the near end."""
+        """Carry responses back; runs on the thread of the near end."""
         for number, cdr in self._client.take():
             with self._lock:
                 request_id = self._pending.pop(number, None)

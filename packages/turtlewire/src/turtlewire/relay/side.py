@@ -28,7 +28,7 @@ _NAME = "_turtlewire_relay"
 
 
 class Seen(NamedTuple):
-    """What one end's graph shows at one moment.
+    """A snapshot of one end's graph.
 
     Attributes:
         nodes: All nodes.
@@ -45,7 +45,7 @@ class Seen(NamedTuple):
 
 
 class Side:
-    """One end.
+    """One end of a relay.
 
     Attributes:
         end: The network.
@@ -89,10 +89,10 @@ class Side:
         until = min((end for end in ends if end > now), default=None)
         return Seen(self.graph.nodes(), real, relayed, until)
 
-    # -- nodes that stand for nodes of the other end
+    # -- nodes that represent nodes of the other end
 
     def node_for(self, full_name: str, seen: Seen) -> Node:
-        """Return the node that stands for one of the other end.
+        """Return the node that represents one of the other end.
 
         It is the relay's own node if a node of this name is here already, or if it is hidden.
         """
@@ -111,7 +111,7 @@ class Side:
         return self._nodes[full_name]
 
     def keep_nodes(self, used: set[Node]) -> None:
-        """Close the nodes that stand for others and own nothing any more."""
+        """Close the representing nodes that own nothing any more."""
         for full_name, node in list(self._nodes.items()):
             if node not in used:
                 del self._nodes[full_name]

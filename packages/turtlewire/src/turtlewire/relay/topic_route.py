@@ -32,7 +32,7 @@ class _Kind(NamedTuple):
 
 
 class _Copy(NamedTuple):
-    """A publisher at the far end that stands for one at the near end."""
+    """A publisher at the far end that represents one at the near end."""
 
     publisher: Publisher
     node: Node
@@ -95,7 +95,7 @@ class TopicRoute:
             publishers: Those at the near end.
             subscriptions: Those at the far end.
             relayed: The gids of endpoints of relays at the near end.
-            node_for: Returns the node at the far end that stands for an endpoint's.
+            node_for: Returns the node at the far end that represents an endpoint's.
 
         Returns:
             When to look again (monotonic seconds), or None.
@@ -147,10 +147,10 @@ class TopicRoute:
             self._near.forget(self._subscriptions.pop(key))
 
     def _carry(self, kind: _Kind, subscription: Subscription) -> None:
-        """On the thread of the near end."""
+        """Carry messages; runs on the thread of the near end."""
         for cdr, info in subscription.take():
             copy = self._copy_of(info.publisher_gid)
-            # A publisher can match several of our subscriptions: the one of its own kind counts.
+            # A publisher can match several of our subscriptions; only that of its kind counts.
             if copy is None or (copy.kind != kind and copy.kind in self._subscriptions):
                 continue
             converted = cdr if self._convert is None else self._convert(cdr)
@@ -158,7 +158,7 @@ class TopicRoute:
                 copy.publisher.publish(converted)
 
     def _copy_of(self, gid: bytes) -> _Copy | None:
-        """Return the publisher that stands for another; None for one of a relay."""
+        """Return the publisher that represents another; None for one of a relay."""
         copy = self._copies.get(gid)
         if copy is None and gid not in self._relayed:
             with self._known:

@@ -1,15 +1,15 @@
 """Command lines, keys and text of terminals, for every command of every package.
 
 ==================  =================================================================
-module              what it holds
+module              contents
 ==================  =================================================================
-`parser`            a parser that suggests the nearest word; options shared
+`parser`            a parser that suggests the nearest word; shared options
 `file_arguments`    arguments that name files: completion, and errors in one line
 `suggestion`        the nearest names to one that does not exist
 `printable`         text from other processes, made safe for a terminal
 `keyboard`          keys one by one, on the current platform
 `posix_keyboard`    keys of a terminal of POSIX
 `console_keyboard`  keys of the console of Windows
-`signal_watch`      signals that are acted on while the main thread waits
+`signal_watch`      handles signals while the main thread waits
 ==================  =================================================================
 """

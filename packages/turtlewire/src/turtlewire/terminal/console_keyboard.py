@@ -34,7 +34,7 @@ class ConsoleKeyboard:
 
     Args:
         fd: Ignored; for the same signature as `PosixKeyboard`.
-        read_character: Waits for a character; None takes the console's.
+        read_character: Waits for a character; None uses the console's.
 
     Raises:
         OSError: The process has no console.

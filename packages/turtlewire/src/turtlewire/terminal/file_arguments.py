@@ -37,7 +37,7 @@ def reporting_errors(
 
     Args:
         command: The word after ``turtlewire``.
-        run: Returns the exit status; None stands for 0.
+        run: Returns the exit status; None means 0.
         expected: The expected errors; by default errors of bags, files and transforms.
     """
 

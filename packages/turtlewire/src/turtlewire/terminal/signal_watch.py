@@ -1,4 +1,4 @@
-"""Signals that are acted on while the main thread waits."""
+"""Handles signals while the main thread waits."""
 
 from __future__ import annotations
 

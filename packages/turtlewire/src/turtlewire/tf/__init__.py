@@ -1,6 +1,6 @@
-"""The transform buffer, what fills it, and what shows it.
+"""The transform buffer, its listener, and its diagrams.
 
-Many classes are called some kind of Buffer. From the inside out:
+Several classes are named Buffer. From the inside out:
 
 ========================  ======================================================================
 ``Tree``                  frames, links, samples and tf2's search; no lock. Once in C++
@@ -9,7 +9,7 @@ Many classes are called some kind of Buffer. From the inside out:
 ``BufferObject``          C++: the Python object around a ``SharedBuffer``
 ``BaseBuffer``            the Python class of ``BufferObject``, or its plain twin
                           ``turtlewire.tf.plain.Buffer``
-``turtlewire.Buffer``     what programs use: a ``BaseBuffer`` that knows bags, trajectories and
+``turtlewire.Buffer``     the class for programs: a ``BaseBuffer`` with bags, trajectories and
                           pickling; see :mod:`turtlewire.tf.buffer`
 ``tf2_py.BufferCore``     ROS 2's lowest interface, with messages; holds a ``turtlewire.Buffer``
 ``tf2_ros.Buffer``        ROS 2's buffer: a ``BufferCore`` that transforms messages of any type
@@ -17,33 +17,33 @@ Many classes are called some kind of Buffer. From the inside out:
 ========================  ======================================================================
 
 =========================  =========================================================================
-module                     what it holds
+module                     contents
 =========================  =========================================================================
 `buffer`                   `Buffer`: the chosen core, with bags, trajectories, pickling
 `implementation`           chooses the compiled core or its plain twin
 `products`                 products of transforms, and interpolation
 `archive`                  a buffer as a file
-`file_names`               refuses names of files that promise another format
+`file_names`               rejects file names with the suffix of another format
 `datetimes`                stamps given as ``datetime64``
 `plain`                    the plain-Python twin of the compiled core
-`answers`                  answers of a buffer that have several parts
+`answers`                  results of a buffer that have several parts
 `array_arguments`          stamps and points given as arrays
 `pose_rows`                poses given as an array of rows or of matrices
-`number_errors`            errors for vectors and quaternions of another kind
+`number_errors`            errors for values that are not vectors or quaternions
 `text_tree`                the tree as text
 `listener`                 `TransformListener`: puts the bytes of TF messages into buffers
-`full_buffers`             warnings of buffers that take no more frames
+`full_buffers`             warnings about full buffers
 `tf_topics`                the topics of transforms, and their type
 `publisher_names`          the node that published a message
 `links`                    the links of a buffer with rates and ages
-`faults`                   refused transforms, malformed messages, and conflicts of senders
-`restarts`                 notices that a simulation has started again
+`faults`                   rejected transforms, malformed messages, and conflicts
+`restarts`                 detects that a simulation has restarted
 `arrays`                   a transform as an array
-`frame_tree`               the frames with the figures of their links, for pictures
+`frame_tree`               the frames with statistics of their links, for diagrams
 `tidy_tree`                positions of the nodes of a drawn tree
-`tree_drawing`, `drawing`  the picture of the tree; boxes, lines and text on a page
+`tree_drawing`, `drawing`  the diagram of the tree; boxes, lines and text on a page
 `svg`                      elements of SVG documents
 `pdf`                      a PDF file of one page
-`notebook`                 how buffers and transforms show themselves in Jupyter
+`notebook`                 the display of buffers and transforms in Jupyter
 =========================  =========================================================================
 """

@@ -1,4 +1,4 @@
-"""Answers of a buffer that have several parts."""
+"""Results of a buffer that have several parts."""
 
 from __future__ import annotations
 

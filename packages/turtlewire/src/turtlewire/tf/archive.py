@@ -93,7 +93,7 @@ def read(file: BinaryIO, name: str, buffer_type: type[AnyBuffer]) -> AnyBuffer:
         if start == _START:
             remedy = "it was cut off or damaged; save the buffer again"
         raise ValueError(f"{name} is not a saved buffer: {error}; {remedy}") from error
-    except Exception as error:  # a damaged archive raises errors of many kinds
+    except Exception as error:  # damaged archives raise many kinds of errors
         raise ValueError(f"{name} is not a saved buffer: {error}") from error
 
 

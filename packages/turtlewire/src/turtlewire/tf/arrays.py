@@ -22,7 +22,7 @@ class HasPose(Protocol):
 
     @property
     def translation(self) -> tuple[float, float, float]:
-        """In metres."""
+        """The translations, in metres."""
         ...
 
     @property

@@ -1,4 +1,4 @@
-"""The transform buffer of programs: the chosen core, with what Python adds to it."""
+"""The transform buffer for programs: the chosen core with methods in Python."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ class Buffer(BaseBuffer):
     _bag_report: TransformReport
     _hint_if_empty: str  # set by what fills the buffer, else missing
 
-    # Bags and trajectories lie in rooms above the buffer: their code is imported when it is called.
+    # Bags and trajectories belong to higher layers: their code is imported when it is called.
 
     @classmethod
     def from_bag(

@@ -1,6 +1,6 @@
-"""Times that are not integers: NumPy's ``datetime64``, and what can be made one, as pandas' times.
+"""Times that are not integers: ``datetime64``, and times that convert to it, such as pandas'.
 
-This module does not import NumPy: a caller that has such a time has imported it.
+This module does not import NumPy: a caller with such a time has already imported it.
 """
 
 from __future__ import annotations

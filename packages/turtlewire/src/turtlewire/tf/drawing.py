@@ -72,7 +72,7 @@ def text_width(text: str, size: float, *, bold: bool = False) -> float:
 
 
 def svg_from_drawing(drawing: Drawing) -> str:
-    """Return the drawing as a complete SVG document, which may stand in a page as it is."""
+    """Return the drawing as a complete SVG document, which a page can include unchanged."""
     return svg.document(drawing.width, drawing.height, map(_element, drawing.shapes))
 
 

@@ -22,7 +22,7 @@ __all__ = [
 
 
 class Refused(NamedTuple):
-    """What was refused of one child frame."""
+    """The rejected transforms of one child frame."""
 
     counts: dict[str, int]
     """Counts by reason.

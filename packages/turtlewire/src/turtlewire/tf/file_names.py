@@ -1,4 +1,4 @@
-"""File names that promise another format than the one that is written."""
+"""Rejects file names with the suffix of another format than the one that is written."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ class FrameLink(NamedTuple):
         child: Frame id.
         parent: Frame id.
         broadcaster: Who sent the newest sample.
-        is_static: Whether it holds at all times; it has no time of its own then.
+        is_static: Whether the transform holds at all times; it then has no time.
         rate_hz: As tf2 reckons it: samples by time, of which there is at least 100 microseconds.
         newest: Stamp of the newest sample.
         oldest: Stamp of the oldest sample.

@@ -1,11 +1,12 @@
-"""Chooses the compiled core of the buffer, or its plain-Python twin where that is missing.
+"""Chooses the compiled core of the buffer, or the plain-Python core if that is missing.
 
 The environment decides when this module is first imported:
 
-- ``TURTLEWIRE_CORE=python`` takes the twin, ``TURTLEWIRE_CORE=native`` insists on the compiled
-  core; any other value is ignored with one line on stderr (by :mod:`turtlewire.platforms`);
-- without it the compiled core is taken if it is there (``scripts/setup`` and ``turtlewire doctor``
-  say how to get it);
+- ``TURTLEWIRE_CORE=python`` chooses the plain-Python core, ``TURTLEWIRE_CORE=native`` requires the
+  compiled one; any other value is ignored with one line on stderr (by
+  :mod:`turtlewire.platforms`);
+- without it the compiled core is used if it is installed (``scripts/setup`` and
+  ``turtlewire doctor`` say how to get it);
 - ``TURTLEWIRE_REQUIRE_NATIVE=1`` makes a missing compiled core an ImportError.
 """
 

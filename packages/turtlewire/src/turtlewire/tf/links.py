@@ -1,7 +1,7 @@
 """The links of a buffer: the sender of each, its rate, and its first stamp.
 
-Pictures of a buffer need no more than this, so a buffer that shows itself does not import what
-makes new buffers.
+Diagrams of a buffer need only this module, so showing a buffer does not import the modules that
+create buffers.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class HasLinks(Protocol):
 
 
 class Sender(NamedTuple):
-    """Who has sent samples of a link, with which parent."""
+    """A publisher of a link's samples, and the parent that it names."""
 
     name: str
     parent_frame: str
@@ -38,7 +38,7 @@ class Sender(NamedTuple):
 
 
 class Link(NamedTuple):
-    """One link of the tree: how a child frame lies in its parent."""
+    """A link of the tree: the transform from a child frame to its parent."""
 
     child_frame: str
     parent_frame: str

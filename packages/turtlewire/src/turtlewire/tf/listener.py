@@ -2,10 +2,10 @@
 
 The bytes of each ``TFMessage`` go into the buffer as they are, on a thread of the wire.
 
-No message object is made and no executor takes part, so a lookup may wait for data wherever it is
-called. All buffers of one context that listen to a topic share one subscription, and each keeps its
-own store. With the compiled core Python is asked once for the name of each publisher, and gets
-malformed messages: all others go the short way, through an ``Intake``.
+No message object or executor is involved, so a lookup may wait for data wherever it is called. All
+buffers of one context that listen to a topic share one subscription, and each keeps its own data.
+With the compiled core, Python only looks up the name of each publisher once and handles malformed
+messages: native code, an ``Intake``, stores all others.
 """
 
 from __future__ import annotations
@@ -62,9 +62,9 @@ __all__ = [
     "new_node_name",
 ]
 
-#: Where transforms that change are published.
+#: The topic of transforms that change.
 TOPIC = "/tf"
-#: Where transforms that stay are published, for late joiners as well.
+#: The topic of static transforms, latched for late joiners.
 STATIC_TOPIC = "/tf_static"
 TYPE_NAME = "tf2_msgs/msg/TFMessage"
 QOS = QoS(depth=100)
@@ -162,7 +162,8 @@ class _Feed:
     def members(self, members: tuple[_Member, ...]) -> None:
         self._members = members
         if self.intake is not None:
-            # With any other store among them Python feeds all, so that a message has one way only.
+            # With any other store among them, Python fills all, so that each message takes one
+            # path.
             buffers = tuple(member.store for member in members if type(member.store) is Buffer)
             self.intake.feed(buffers if len(buffers) == len(members) else ())
 
@@ -216,7 +217,7 @@ def _most_kept(qos: QoS) -> int:
 
 
 class _Channel:
-    """One subscription that feeds several buffers. It belongs to the node of the first of them."""
+    """A subscription that fills several buffers. It belongs to the node of the first one."""
 
     def __init__(self, topic: str, qos: QoS, *, static: bool) -> None:
         self._topic = topic
@@ -325,7 +326,7 @@ class TransformListener:
     Args:
         buffer: What to fill.
         node: Whose subscription it is in the graph; close the listener before the node. None makes
-            a node of its own.
+            its own node.
         context: The participant that ``node`` belongs to; None joins the domain of the environment.
         topic: Fully qualified name of the topic of changing transforms; None listens to static ones
             only.

@@ -1,4 +1,4 @@
-"""How a buffer and a transform show themselves in a notebook."""
+"""The display of buffers and transforms in a notebook."""
 
 from __future__ import annotations
 

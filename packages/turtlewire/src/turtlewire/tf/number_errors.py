@@ -1,6 +1,6 @@
-"""Errors for vectors and quaternions of another kind, for both cores.
+"""Errors for values that are not vectors or quaternions, for both cores.
 
-This module does not import NumPy: it only reads what values have.
+This module does not import NumPy: it only reads attributes of the values.
 """
 
 from __future__ import annotations

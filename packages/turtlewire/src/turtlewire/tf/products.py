@@ -1,4 +1,4 @@
-"""Operators of transforms, for both cores: products, and interpolation."""
+"""Operators of transforms, for both cores: products and interpolation."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
         @property
         def translation(self) -> Vector:
-            """In metres."""
+            """The translation, in metres."""
             ...
 
         @property

@@ -1,4 +1,4 @@
-"""Who published a message: the node's name, found in the graph once for each publisher."""
+"""Finds the name of the node that published a message, once for each publisher."""
 
 from __future__ import annotations
 

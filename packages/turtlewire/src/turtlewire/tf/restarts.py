@@ -1,4 +1,4 @@
-"""Notices that time has jumped back: a simulation or a bag has started again."""
+"""Detects jumps back in time: a simulation or a bag has restarted."""
 
 from __future__ import annotations
 

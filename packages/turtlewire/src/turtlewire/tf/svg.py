@@ -15,7 +15,7 @@ _NOT_IN_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 def document(width: float, height: float, elements: Iterable[str]) -> str:
-    """Return a complete SVG document, which may stand in a page as it is."""
+    """Return a complete SVG document, which a page can include unchanged."""
     opening = (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.0f}" height="{height:.0f}" '
         f'viewBox="0 0 {width:.0f} {height:.0f}" '

@@ -6,7 +6,7 @@ __all__ = ["TF_TYPE", "refuse_other_types"]
 
 TF_TYPE = "tf2_msgs/msg/TFMessage"
 _SAMPLE_TYPE = "geometry_msgs/msg/TransformStamped"
-_NAMES = {"tf", "tf_static"}  # also in the namespace of a robot
+_NAMES = {"tf", "tf_static"}  # also in a robot's namespace
 
 
 def refuse_other_types(topic: str, type_name: str) -> None:

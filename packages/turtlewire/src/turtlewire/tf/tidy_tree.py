@@ -1,6 +1,6 @@
 """Positions of the nodes of a drawn tree.
 
-Children stand beside each other, centred below their parent, and subtrees as close as possible.
+Children are side by side, centred below their parent, and subtrees are as close as possible.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def _parents_first(roots: Sequence[str], children: Mapping[str, Sequence[str]]) 
 def _side_by_side(
     outlines: list[list[tuple[float, float]]], gap: float
 ) -> tuple[list[tuple[float, float]], list[float]]:
-    """One outline around all, and where the top node of each stands in it."""
+    """Return the common outline, and the position of each top node in it."""
     merged: list[tuple[float, float]] = []
     places: list[float] = []
     for outline in outlines:

@@ -1,6 +1,6 @@
-"""The picture of a tree of frames.
+"""The diagram of a tree of frames.
 
-Each frame is a card with the figures of the link to its parent.
+Each frame is a box with statistics of the link to its parent.
 """
 
 from __future__ import annotations

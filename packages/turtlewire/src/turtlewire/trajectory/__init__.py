@@ -1,4 +1,4 @@
-"""Trajectories: out of transforms, from and to files, compared with each other.
+"""Trajectories: sampled from transforms, read and written, compared with each other.
 
 ::
 
@@ -10,14 +10,14 @@
     print(compare(Trajectory.load("ground_truth.tum"), estimate, "se3").table())
 
 =============  =========================================================
-module         what it holds
+module         contents
 =============  =========================================================
 `trajectory`   `Trajectory`: stamps, poses and gaps
-`stamps`       their conversion, and the gaps between them
-`sampling`     the poses of a frame out of a buffer
+`stamps`       conversion of stamps, and gaps between them
+`sampling`     the poses of a frame from a buffer
 `files`        TUM, KITTI, EuRoC and CSV
 `comparison`   `compare`: association, alignment and errors in one call
-`alignment`    nearest stamps; Umeyama's and others' alignment
+`alignment`    nearest stamps; alignment by Umeyama and others
 `metrics`      APE, RPE and their statistics
 `drawing`      `plot`: several trajectories or errors in one plot
 `plots`        plots of paths, positions, angles and speeds

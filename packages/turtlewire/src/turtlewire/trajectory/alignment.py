@@ -109,7 +109,7 @@ def _check_units(first: NDArray[np.int64], second: NDArray[np.int64]) -> None:
 
 
 def _nearest(few: NDArray[np.int64], many: NDArray[np.int64]) -> NDArray[np.intp]:
-    """For each of ``few`` the row of the nearest of ``many``; of two as near the earlier."""
+    """Return the row of the nearest of ``many`` for each of ``few``; of ties, the earlier one."""
     if not len(many):
         raise ValueError("a trajectory without poses cannot be compared")
     after = np.clip(np.searchsorted(many, few), 1, max(1, len(many) - 1))

@@ -217,8 +217,8 @@ def _paired_by_number(reference: Trajectory, estimate: Trajectory) -> tuple[Traj
     """
     if len(reference) != len(estimate):
         raise ValueError(
-            "a trajectory without times is compared with one of as many poses; these have "
-            f"{len(reference)} and {len(estimate)} poses (KITTI's times are read from "
+            "without times, both trajectories must have the same number of poses; these have "
+            f"{len(reference)} and {len(estimate)} (KITTI's times are read from "
             "<name>_times.txt)"
         )
     if reference.timed or estimate.timed:

@@ -1,10 +1,10 @@
 """Trajectories in files: TUM, KITTI, EuRoC and CSV.
 
-Stamps are written and read as integers (``seconds.nanoseconds``), so that no nanosecond is lost:
-a double holds the seconds since 1970 only to 0.24 microseconds. Numbers are written so that they
-read back as the same doubles. The formats do not store gaps: `Trajectory.load`
-derives them from pauses. Repeated stamps and quaternions of another length than 1 are accepted, and
-a remark says what was done about them.
+Stamps are written and read as integers (``seconds.nanoseconds``), so that no nanosecond is lost: a
+double holds the seconds since 1970 only to 0.24 microseconds. Numbers are written so that reading
+them gives the same doubles. The formats do not store gaps: `Trajectory.load` derives them from
+pauses. Repeated stamps and quaternions that are not unit quaternions are accepted; a remark reports
+the correction.
 """
 
 from __future__ import annotations
@@ -140,7 +140,7 @@ def _read_kitti(
 
 
 def _read_kitti_alone(path: str | os.PathLike[str]) -> FileContents:
-    """Read KITTI's poses with the times of a file beside them, if there is one."""
+    """Read KITTI's poses, with the times of the file next to them if it exists."""
     if os.path.exists(kitti_times(path)):
         return _read_kitti(path, kitti_times(path))
     of_sequence = os.path.join(os.path.dirname(os.fspath(path)), "times.txt")
@@ -151,7 +151,7 @@ def _read_kitti_alone(path: str | os.PathLike[str]) -> FileContents:
     except ValueError as error:  # they may belong to another sequence
         found, remark = _read_kitti(path), f"times.txt is not used: {error}"
     else:
-        remark = f"{os.fspath(path)}: the times are taken from times.txt in the same folder"
+        remark = f"{os.fspath(path)}: the times come from times.txt in the same folder"
     return found._replace(remarks=(*found.remarks, remark))
 
 
@@ -164,7 +164,7 @@ def _write_kitti(stamps: Stamps, poses: Poses, path: str | os.PathLike[str]) -> 
 
 
 def kitti_times(path: str | os.PathLike[str]) -> str:
-    """Return the file beside KITTI's poses that has their times."""
+    """Return the file next to KITTI's poses that contains their times."""
     return os.path.splitext(os.fspath(path))[0] + "_times.txt"
 
 
@@ -287,7 +287,7 @@ def _read_table(
     with open(path, encoding="utf-8-sig") as file:
         for number, line in enumerate(file, start=1):
             if _is_comment(line) and not (rows and line.strip()[:1].isalpha()):
-                continue  # words are a heading, which has its place above the numbers
+                continue  # words are a heading, which must precede the numbers
             items = line.split(separator)
             try:
                 if len(items) < columns or (exact and len(items) > columns):
@@ -357,7 +357,7 @@ def _contents(
     remarks = [
         f"{os.fspath(path)}: {count:,} of {len(array):,} {what}"
         for count, what in (
-            (np.count_nonzero(~first), "stamps repeat the one before; the first pose is taken"),
+            (np.count_nonzero(~first), "stamps repeat the previous one; the first pose is used"),
             (np.count_nonzero(np.abs(lengths - 1.0) > _ROUNDING), "quaternions are normalised"),
         )
         if count

@@ -1,4 +1,4 @@
-"""PoseErrors of an estimated trajectory against a reference: APE, RPE and their statistics.
+"""Errors of an estimated trajectory against a reference: APE, RPE and their statistics.
 
 Source: Sturm et al., "A Benchmark for the Evaluation of RGB-D SLAM Systems", IROS 2012; names and
 definitions of the variants are the program evo's, so that figures can be compared.
@@ -55,8 +55,8 @@ RELATIONS: dict[Relation, str] = {
 #: Of `rpe`'s ``delta``, in words.
 UNITS: dict[Unit, str] = {"f": "frames", "m": "m", "d": "deg", "r": "rad"}
 
-#: An angle reaches a bound if it is short of it by this share. Three turns by 10 degrees make 30,
-#: however the doubles are rounded; in evo, rounding decides.
+#: An angle also reaches a bound if it is smaller by this fraction. Three turns by 10 degrees make
+#: 30, however the doubles are rounded; in evo, rounding decides.
 _ROUNDING = 1e-9
 
 
@@ -208,7 +208,7 @@ def _rpe_of_distances(
     if relation == "point_distance_error_ratio":
         moved = q > 0
         if not moved.any():
-            raise ValueError("the reference does not move, and the ratio is one of its distances")
+            raise ValueError("no ratio of distances: the reference does not move")
         errors, j = errors[moved] / q[moved] * 100, j[moved]
     return PoseErrors("RPE", relation, errors, j)
 
@@ -327,7 +327,7 @@ def _turned(first: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray[
 def _distance_pairs(
     along: NDArray[np.float64], delta: float, tolerance: float
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """For each row the later one whose distance is nearest to ``delta``, if it is near enough.
+    """Return for each row the later one whose distance is nearest to ``delta``, if near enough.
 
     Of several as near the first is taken.
     """

@@ -116,7 +116,7 @@ def _text(element: Element, height: float) -> str:
     x, y = _number(element, "x"), height - _number(element, "y")
     share = {"middle": 0.5, "end": 1.0}.get(element.get("text-anchor", "start"), 0.0)
     before = share * text_width(text, size, bold=bold)
-    if element.get("transform"):  # the charts turn texts upright, and in no other way
+    if element.get("transform"):  # the charts only rotate text to vertical
         place = f"0 1 -1 0 {x:.2f} {y - before:.2f} Tm"
     else:
         place = f"{x - before:.2f} {y:.2f} Td"

@@ -116,7 +116,7 @@ def _angles(trajectory: Drawable) -> Numbers:
 def _speeds(trajectory: Drawable) -> Numbers:
     """(N, 1) the speed at each pose: the mean speed of the way to the next one."""
     values = np.append(trajectory.speeds, 0.0)
-    for run in runs_of(trajectory):  # the last one's way leads into a gap
+    for run in runs_of(trajectory):  # the last segment leads into a gap
         values[run.stop - 1] = values[run.stop - 2] if run.stop - run.start > 1 else 0.0
     return values[:, None]
 
@@ -175,7 +175,7 @@ def _over_time(
     labels: list[str],
     values_of: Callable[[Drawable], Numbers],
 ) -> Plot:
-    """One row for each column of the values."""
+    """Draw one row for each column of the values."""
     shown = [
         (name, each, colour) for (name, each), colour in zip(named.items(), colours(), strict=False)
     ]

@@ -1,4 +1,4 @@
-"""The trajectory of a frame out of a transform buffer."""
+"""The trajectory of a frame, sampled from a transform buffer."""
 
 from __future__ import annotations
 

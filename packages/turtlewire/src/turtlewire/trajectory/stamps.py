@@ -72,7 +72,7 @@ def as_stamps(stamps: ArrayLike) -> NDArray[np.int64]:
 def find_gaps(stamps_ns: NDArray[np.int64], max_gap_ns: Span | None = None) -> list[Gap]:
     """Pauses in increasing stamps (N,) that are longer than ``max_gap_ns``.
 
-    None takes ten times the median pause, and at least half a second.
+    None uses ten times the median pause, and at least half a second.
     """
     pauses = np.diff(stamps_ns)
     if not len(pauses):

@@ -99,7 +99,7 @@ class Trajectory:
 
         Args:
             path: The file.
-            format: Its format; None takes it from the ending ``.tum``, ``.kitti`` or ``.euroc``,
+            format: Its format; None derives it from the ending ``.tum``, ``.kitti`` or ``.euroc``,
                 and otherwise from the separator and the columns.
             times: A file with the times of a KITTI file, one time in seconds a line. None reads
                 ``<name>_times.txt``, or ``times.txt`` with as many times as there are poses, in
@@ -137,7 +137,7 @@ class Trajectory:
             topic: A topic with odometry, or with poses or transforms that have a header.
             start_ns: When the first message to take was received.
             end_ns: When the last message to take was received.
-            max_gap_ns: Longer pauses are gaps; None takes ten times the median pause, and at least
+            max_gap_ns: Longer pauses are gaps; None uses ten times the median pause, and at least
                 half a second.
             progress: Called with the share that was read; by default a line is drawn on a terminal.
 
@@ -164,7 +164,7 @@ class Trajectory:
 
         Args:
             path: The file.
-            format: Its format; None takes it from the ending ``.tum``, ``.kitti``, ``.euroc`` or
+            format: Its format; None derives it from the ending ``.tum``, ``.kitti``, ``.euroc`` or
                 ``.csv``, and TUM for names without an ending or with an unknown one.
 
         Raises:
@@ -208,7 +208,7 @@ class Trajectory:
 
     @property
     def duration_ns(self) -> int:
-        """From the first to the last pose."""
+        """The time from the first to the last pose."""
         return int(self.stamps_ns[-1] - self.stamps_ns[0]) if len(self) else 0
 
     @property

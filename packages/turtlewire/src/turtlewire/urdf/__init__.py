@@ -8,7 +8,7 @@
     poses = robot.link_poses({"shoulder": [0.0, 0.1], "elbow": 0.5})   # (2, links, 7)
 
 ==================  ==============================================================
-module              what it holds
+module              contents
 ==================  ==============================================================
 `robot`             `Robot`: a description with forward kinematics
 `model`             links, joints and their properties: metres, radians, kilograms
@@ -16,9 +16,9 @@ module              what it holds
 `elements`          XML as a tree of elements with their lines
 `bodies`, `joints`  ``link`` and ``material`` elements; ``joint`` elements
 `values`            numbers and vectors in attributes
-`versions`          what versions 1.1 and 1.2 add
-`tree`              checks that links and joints are one tree
-`faults`            what is logged about errors and warnings of a URDF
+`versions`          the additions of versions 1.1 and 1.2
+`tree`              checks that links and joints form a tree
+`faults`            log lines about errors and warnings of a URDF
 `joint_model`       transforms of joints at given positions, as arrays
 `mimic`             joints that follow other joints
 `kinematics`        forward kinematics for many joint states at once

@@ -1,4 +1,4 @@
-"""XML as a tree of elements that know their line; entities and endless nesting are refused."""
+"""XML as a tree of elements with their lines; entities and deep nesting raise errors."""
 
 from __future__ import annotations
 

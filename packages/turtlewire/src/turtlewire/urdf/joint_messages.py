@@ -1,8 +1,8 @@
-"""From the bytes of a JointState to the bytes of the TFMessage that it means.
+"""Converts the bytes of a JointState to the bytes of a TFMessage.
 
 A publisher of joint states sends the same names again and again. So the names are read once, and a
-:class:`Layout` holds all that follows from them: which joints move, what drives them, and a
-TFMessage in which only stamps and poses are left to write.
+:class:`Layout` keeps the results: the joints that move, the columns that drive them, and a
+TFMessage in which only stamps and poses have to be filled in.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class _Drive(NamedTuple):
 
 
 class Layout:
-    """What the names in a JointState mean for a robot.
+    """The meaning of the names in a JointState for a robot.
 
     Attributes:
         names: The names.
@@ -163,7 +163,7 @@ def _drive(robot: Description, joint: Joint, drives: dict[str, _Drive | None]) -
     chain = []
     name = joint.name
     while name not in drives:
-        drives[name] = None  # if the chain comes back here, nothing drives it
+        drives[name] = None  # if the chain returns to this joint, no joint drives it
         part = robot.joints.get(name)
         if part is None or part.mimic is None:
             break

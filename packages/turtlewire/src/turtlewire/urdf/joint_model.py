@@ -1,4 +1,4 @@
-"""What a joint does at a given position, as numbers: the pose of its child in its parent.
+"""The transform of a joint at a given position: the pose of its child in its parent.
 
 A rotation about the unit axis ``a`` by the angle ``q`` after the origin's rotation ``r`` is
 ``cos(q/2) r + sin(q/2) (r * a)``, with ``a`` as a quaternion. A translation by ``q`` is that of the

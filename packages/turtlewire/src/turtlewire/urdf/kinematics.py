@@ -1,4 +1,4 @@
-"""Forward kinematics: where all links are, for many joint states at once."""
+"""Forward kinematics: the poses of all links, for many joint states at once."""
 
 from __future__ import annotations
 
@@ -192,7 +192,7 @@ class Kinematics:
         return poses
 
     def _drives(self, joints: list[str]) -> tuple[NDArray[np.intp], Array, Array]:
-        """For each joint the column that drives it, factor and offset."""
+        """Return for each joint the column that drives it, its factor and its offset."""
         sources = np.full(len(joints), len(self.joints), dtype=np.intp)  # the column of zeros
         factors, offsets = np.ones(len(joints)), np.zeros(len(joints))
         for number, name in enumerate(joints):

@@ -15,7 +15,7 @@ __all__ = ["Follower", "followers_of"]
 
 @dataclass(frozen=True, slots=True)
 class Follower:
-    """How a joint follows a free one: ``position = multiplier * position of leader + offset``.
+    """A joint that follows a free one: ``position = multiplier * position of leader + offset``.
 
     Attributes:
         leader: Name of the joint at the end of the chain, which follows none.

@@ -1,4 +1,4 @@
-"""What a URDF describes: links, joints and their properties, in metres, radians and kilograms."""
+"""The content of a URDF: links, joints and their properties, in metres, radians and kilograms."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ Geometry: TypeAlias = Box | Sphere | Cylinder | Capsule | Mesh
 
 @dataclass(frozen=True, slots=True)
 class Material:
-    """How a visual looks.
+    """The colour and texture of a visual.
 
     Attributes:
         name: Name of the material.
@@ -127,7 +127,7 @@ class Material:
 
 @dataclass(frozen=True, slots=True)
 class Visual:
-    """What a link looks like; a ``geometry`` of None draws nothing."""
+    """A visible shape of a link; nothing is drawn if ``geometry`` is None."""
 
     geometry: Geometry | None
     origin: Pose = Pose()
@@ -260,7 +260,7 @@ class Joint:
 
 @dataclass(frozen=True)
 class Description:
-    """What a URDF describes: a tree of links and joints.
+    """The content of a URDF: a tree of links and joints.
 
     Attributes:
         name: Name of the robot.

@@ -1,4 +1,4 @@
-"""Reads a URDF with the rules and the error texts of urdfdom, and says where an error is."""
+"""Reads a URDF with urdfdom's rules and error texts, and reports the positions of errors."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _LIMITED = frozenset({"revolute", "prismatic"})
 
 
 def parse_urdf(text: str | bytes) -> Description:
-    """Return what a URDF describes.
+    """Return the robot that a URDF describes.
 
     Elements that urdfdom does not know (``gazebo``, ``transmission``, ``ros2_control``) are
     ignored.

@@ -1,4 +1,4 @@
-"""A robot: what a URDF describes, with forward kinematics."""
+"""A robot: the content of a URDF, with forward kinematics."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def _with_file(error: UrdfError, path: str, content: bytes) -> UrdfError:
     for tag, name in (("<sdf>", "SDF"), ("<mujoco", "MJCF")):
         if error.element.startswith(tag):
             parts.append(f"It is {name}; Robot.load reads URDF")
-    fresh = UrdfError(str(error))  # without a position, which would be a note of its own
+    fresh = UrdfError(str(error))  # without a position, which would add a note
     fresh.reports, fresh.line, fresh.element = error.reports, error.line, error.element
     fresh.with_hint(". ".join(parts))
     return fresh

@@ -1,4 +1,4 @@
-"""Whether links and joints are one tree, with urdfdom's texts and order of checks."""
+"""Checks that links and joints form a tree, with urdfdom's texts and order of checks."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def _check_ends(joint: Joint, links: dict[str, Link]) -> None:
 
 
 def _check_loops(root: str, links: dict[str, Link], above: dict[str, Joint]) -> None:
-    hanging = {root}  # links that are known to hang from the root
+    hanging = {root}  # links that are known to descend from the root
     for name in links:
         way: list[str] = []
         seen: set[str] = set()

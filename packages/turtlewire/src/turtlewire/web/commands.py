@@ -1,7 +1,7 @@
 """Commands of a page: JSON from the browser, checked and turned into tuples.
 
-A kind of command is a class of named tuples. Its annotations say what the fields take: text, true
-or false, numbers, lists or objects.
+A kind of command is a class of named tuples. Its annotations are the types of the fields: text,
+true or false, numbers, lists or objects.
 ``Annotated[float, Between(0, 10)]`` narrows the size of a number or the length of a text. A field
 with a default may be missing, and is null if the annotation is a union with None.
 """

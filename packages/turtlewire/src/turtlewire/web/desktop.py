@@ -1,4 +1,4 @@
-"""Where a page is shown: the user's browser, and the port to serve it at."""
+"""The user's browser, and the port at which a page is served."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""Files of a page as they are sent: compressed, and only if the browser does not have them.
+"""Compresses the files of a page, and sends them only to browsers that do not have them.
 
-Nothing else is compressed. The length of a compressed answer can reveal a secret that stands in it
-beside a text of an attacker's choice (the BREACH attack). A file of the page holds neither the
-token of the address nor anything of the request.
+Nothing else is compressed. The length of a compressed answer can reveal a secret in it if the
+answer also contains text of an attacker's choice (the BREACH attack). A file of the page contains
+neither the token of the address nor a part of the request.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""What a page consists of: its files, known by their paths when the server starts, and the headers.
+"""The files of a page, found when the server starts, and the headers of its responses.
 
-A page may hold import maps, ``<script type="importmap">``: the only scripts that must stand in the
-page itself. The policy allows them by their hashes.
+A page may hold import maps, ``<script type="importmap">``: the only scripts that must be inline.
+The policy allows them by their hashes.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ def find_files(root: Path, prefix: str = "/") -> dict[str, File]:
 
 
 def policy(files: Mapping[str, File], sources: Mapping[str, str]) -> str:
-    """The ``Content-Security-Policy`` of a page; ``{host}`` stands for the request's ``Host``.
+    """The ``Content-Security-Policy`` of a page; ``{host}`` is replaced by the request's ``Host``.
 
     Args:
         files: The page's files; the import maps of those in HTML are allowed.

@@ -1,7 +1,7 @@
-"""A page for other devices of the network, on purpose: its token, its addresses, its QR code.
+"""Serves a page to other devices of the network: its token, its addresses, its QR code.
 
-The token stands in the path of the page's address, so files, WebSocket and reloads carry it without
-a cookie, which other servers of this computer would get as well.
+The token is part of the path of the page's address, so files, WebSocket and reloads carry it
+without a cookie, which other servers of this computer would get as well.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _TOKEN_LENGTH = 16
 #: An address that no computer has (RFC 5737). Connecting a UDP socket to it sends nothing, but
 #: chooses the interface of the default route.
 _ANYWHERE = ("192.0.2.1", 9)
-#: Black on white whatever the terminal's colours are: light codes on dark are not read by all.
+#: Always black on white, because some readers cannot read light codes on dark.
 _QR_COLOURS = "\x1b[38;5;16;48;5;231m"
 _RESET = "\x1b[0m"
 #: Upper and lower module of a character: light or dark.
@@ -43,7 +43,7 @@ def new_token() -> str:
 def path_below(token: str, path: str) -> str | None:
     """The path behind ``/token``, empty if nothing follows; None if it begins with another word.
 
-    The time of the comparison tells nothing of the token.
+    The comparison takes constant time, which reveals nothing about the token.
     """
     import hmac
 

@@ -1,4 +1,4 @@
-"""Calls of other threads on the thread of an asyncio loop."""
+"""Calls from other threads to the thread of an asyncio loop."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class LoopCalls:
             if self._is_closed:
                 return
             self._waiting.append((call, arguments))
-            if len(self._waiting) == 1:  # waking the loop is dear: one message has many receivers
+            if len(self._waiting) == 1:  # waking the loop is slow: once for many receivers
                 self._loop.call_soon_threadsafe(self._run)
 
     def close(self) -> None:

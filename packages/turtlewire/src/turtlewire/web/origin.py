@@ -1,8 +1,8 @@
-"""Answer only requests of this machine's browsers for a page of this server.
+"""Restricts the server to requests of this machine's browsers for its own pages.
 
 A browser sends in ``Host`` the name that it looked up and in ``Origin`` the page that makes the
-request. A foreign page can make the user's browser connect to 127.0.0.1, also under a name of its
-own that resolves to it (DNS rebinding). These two headers reveal both.
+request. A page of another site can make the user's browser connect to 127.0.0.1, also through a
+host name that resolves to it (DNS rebinding). These two headers reveal both.
 
 A server for the network answers to every address and to this computer's name besides. A page that
 rebinds its own name still fails, and does not know the token (:mod:`turtlewire.web.lan`).
@@ -18,7 +18,7 @@ _LOOPBACK_NAMES = frozenset({"localhost", "[::1]"})
 
 
 def refusal(hosts: list[str], origins: list[str], *, lan: bool = False) -> str | None:
-    """Why a request is refused, as one sentence, or None if it is allowed.
+    """Return why a request is refused, as one sentence, or None if it is allowed.
 
     Args:
         hosts: All ``Host`` headers. Any port is allowed, as a forwarded port has another number.

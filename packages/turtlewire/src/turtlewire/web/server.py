@@ -151,7 +151,7 @@ class Server:
 
         file = self._files[path]
         gzipped = takes_gzip(request.headers.get_all("Accept-Encoding"))
-        # In another thread: compressing takes its time, and the streams go on.
+        # In another thread, so that slow compression does not delay the streams.
         encoded = await asyncio.to_thread(self._encoder.read, file, gzipped=gzipped)
         fields = {**self._headers(path, host), **encoded.caching}
         if has_tag(request.headers.get_all("If-None-Match"), encoded.caching["ETag"]):
@@ -167,7 +167,7 @@ class Server:
 
         if self._computed is None:
             return None
-        try:  # in another thread: it may read long files, and the streams go on
+        try:  # in another thread, so that reading large files does not delay the streams
             return await asyncio.to_thread(self._computed, unquote(path))
         except Exception:
             logging.getLogger(_NAME).exception("Internal error while serving %s", path)

@@ -1,4 +1,4 @@
-"""A thread that serves WebSockets and ends in time, whatever its clients do."""
+"""A thread that serves WebSockets and stops promptly, whatever its clients do."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class ServerThread:
 
     def close(self) -> None:
         """Close all WebSockets and end, within a second. Idempotent; not for the thread itself."""
-        self._started.wait()  # before that there is no loop that could be stopped
+        self._started.wait()  # earlier, there is no loop to stop
         if self._stopping is not None:
             self.soon(self._stopping.set)
         self._thread.join()

@@ -1,8 +1,9 @@
-"""One browser's connection, as the server of a page sees it.
+"""The server's side of one browser's connection.
 
-All messages are objects with a ``type``. A page sends commands as JSON texts
-(:mod:`turtlewire.web.commands`). It gets JSON texts, too, and packets, which also carry arrays
-(:mod:`turtlewire.web.packets`). A wrong command is answered by ``{"type": "error", "text": ...}``.
+All messages are objects with a ``type``. A page sends commands as JSON
+(:mod:`turtlewire.web.commands`). It receives JSON, and packets, which also carry arrays
+(:mod:`turtlewire.web.packets`). The answer to a wrong command is ``{"type": "error", "text":
+...}``.
 """
 
 from __future__ import annotations

@@ -1,29 +1,29 @@
-"""Middleware: moves bytes, knows QoS, names and the graph; knows no messages.
+"""The middleware layer: moves bytes and handles QoS, names and the graph, but not messages.
 
-:func:`open_context` joins a domain. The contract of what it returns is :mod:`turtlewire.wire.base`.
+:func:`open_context` joins a domain. :mod:`turtlewire.wire.base` defines the contract of a context.
 
 ================  ================================================================
-module            what it holds
+module            contents
 ================  ================================================================
 `base`            the contract that every middleware fulfils
-`records`         names, stamps and counts that it takes and returns
+`records`         records of names, stamps and counts
 `qos`             `QoS`, with the numbers of ROS 2's rmw
 `names`           rules and expansion of ROS names, and their spelling on the wire
-`environment`     the environment variables that decide whom a process talks to
-`libddsc`         where the library of Cyclone DDS is, and its binary interface
+`environment`     the environment variables of discovery
+`libddsc`         finds the library of Cyclone DDS, and its binary interface
 `security`        the environment variables of SROS 2
-`lingering`       whether the end waits for acknowledgements
+`lingering`       decides if the shutdown waits for acknowledgements
 `loopback`        binds sockets to the loopback interface
-`graph`           what the graphs of all middlewares share; ``ros_discovery_info``
+`graph`           the common part of all graphs; ``ros_discovery_info``
 `matching`        why a publisher and a subscription are not connected
-`conflicts`       two types on one topic or service, two nodes of one name
+`conflicts`       two types on one topic or service, two nodes with one name
 `encapsulation`   the four bytes in front of every serialized message
 `events`          counters of endpoints' events
 `services`        services over two topics
 `report`          warnings on stderr, each printed once
 `reader_thread`   the thread that calls callbacks
 `queue_wait_set`  wait sets over queues of Python
-`wheels`          for which platforms PyPI has wheels of the libraries
+`wheels`          the platforms for which PyPI has wheels of the libraries
 `cyclone`         Cyclone DDS
 `zenoh`           Zenoh, as rmw_zenoh_cpp speaks it
 `local`           the in-process middleware
@@ -51,9 +51,9 @@ def open_context(
     """Join a domain.
 
     Args:
-        domain_id: None takes ``ROS_DOMAIN_ID``, or 0.
+        domain_id: None uses ``ROS_DOMAIN_ID``, or 0.
         middleware: ``rmw_cyclonedds_cpp`` (Cyclone DDS), ``rmw_zenoh_cpp`` (Zenoh) or ``local``
-            (inside this process); None takes :func:`.environment.middleware_name`.
+            (inside this process); None uses :func:`.environment.middleware_name`.
         enclave: The enclave of the first nodes. A participant of DDS announces it from the start.
 
     Raises:

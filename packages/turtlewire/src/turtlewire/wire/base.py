@@ -1,7 +1,7 @@
 """The contract of a middleware: bytes in, bytes out, QoS, names and the graph. No messages.
 
-A middleware implements the abstract classes below; everything above it (rclpy, the TF listener, the
-command line) uses nothing else. Topic and service names are fully qualified ROS names
+A middleware implements the abstract classes below; the code above it (rclpy, the TF listener, the
+command line) uses only these. Topic and service names are fully qualified ROS names
 (``/turtle1/pose``); a middleware mangles them itself. ``cdr`` always means a serialized message
 with its four encapsulation bytes (``00 01 00 00``).
 
@@ -161,7 +161,7 @@ class Publisher(Entity):
 
     @abstractmethod
     def wait_for_acknowledgments(self, timeout_ns: int) -> bool:
-        """Block until all reliable subscriptions have received all that was published.
+        """Block until all reliable subscriptions have received all published messages.
 
         False when the time is over before.
         """
@@ -219,7 +219,7 @@ class Client(Entity):
 
     @abstractmethod
     def is_ready(self) -> bool:
-        """Return True if a server is there that gets a request and whose response arrives here."""
+        """Return True if a server is available that receives requests and can answer them."""
 
 
 class Service(Entity):
@@ -326,7 +326,7 @@ class Node(Entity):
 
 
 class Graph(ABC):
-    """What this process knows of all nodes and endpoints, its own included."""
+    """The nodes and endpoints that this process has discovered, and its own."""
 
     @abstractmethod
     def nodes(self) -> list[NodeInfo]:
@@ -394,11 +394,11 @@ class Graph(ABC):
 
     @abstractmethod
     def hurry(self) -> None:
-        """From now on, ask the peers that keep silent, instead of waiting for them to repeat.
+        """Query peers that have not announced anything, instead of waiting for them to repeat.
 
-        It is for short-lived programs: beside Fast DDS the graph is complete in a few dozen
-        milliseconds instead of four seconds, but every process of the domain sees a participant
-        come and go.
+        It is for short-lived programs: with nodes on Fast DDS, the graph is complete in a few
+        dozen milliseconds instead of four seconds, but every process of the domain sees a
+        participant come and go.
         """
 
     @abstractmethod
@@ -441,7 +441,7 @@ class Context(ABC):
         """Call ``call()`` once, when a subscription, client or service has something to take.
 
         It is called at once if there is something already, on any thread, perhaps with locks held:
-        it may only wake something up. This is the way to wait without a thread of one's own.
+        it may only wake a thread. Use it to wait without a separate thread.
 
         Args:
             entity: What to wait for. It has one such call at a time.

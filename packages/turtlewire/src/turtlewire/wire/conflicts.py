@@ -1,4 +1,4 @@
-"""Mistakes that the graph shows: two types on one topic or service, two nodes of one name."""
+"""Finds conflicts in the graph: two types on one topic or service, two nodes with one name."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ if TYPE_CHECKING:
 
 __all__ = ["EndpointTypes", "NodeNames", "as_compared", "warn_of_types"]
 
-#: The kind of endpoints whose types are compared with one's own. A server has none: its clients
-#: have to use its type.
+#: The kind of endpoints whose types are compared with a new endpoint's. A server is not compared:
+#: its clients have to use its type.
 _OTHER = {"publisher": "subscription", "subscription": "publisher", "client": "service"}
 _NO_MESSAGES = ": no messages get through. Use the topic's type, or another topic name."
 _NO_REQUESTS = ": no requests get through. Use the service's type, or another service name."
@@ -29,7 +29,7 @@ _TEXTS = {
 _TURTLESIMS = {"turtlesim", "turtlesim_msgs"}
 _OTHER_DISTRIBUTION = (
     " The two packages belong to different distributions of ROS 2. Type export ROS_DISTRO=lyrical "
-    "in both terminals; both names then stand for the same types."
+    "in both terminals; then both names mean the same types."
 )
 _OF_REQUESTS = {"publisher": "client", "subscription": "service"}
 
@@ -132,7 +132,7 @@ class NodeNames:
             self._warn(name)
 
     def gone(self, participant: bytes) -> None:
-        """Another participant has left."""
+        """Forget a participant that has left."""
         self._others.pop(participant, None)
 
     def own(self, name: str) -> None:

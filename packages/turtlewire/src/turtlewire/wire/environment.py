@@ -1,4 +1,4 @@
-"""The environment variables that decide whom a process talks to, read as ROS 2 reads them."""
+"""The environment variables of discovery, read as in ROS 2."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ MAX_DOMAIN_ID = 232
 
 
 class Range(Enum):
-    """How far a process looks for others (``ROS_AUTOMATIC_DISCOVERY_RANGE``)."""
+    """The range of discovery (``ROS_AUTOMATIC_DISCOVERY_RANGE``)."""
 
     LOCALHOST = "LOCALHOST"
     SUBNET = "SUBNET"
@@ -115,7 +115,7 @@ def compares_qos() -> bool:
 
 
 def is_installed(middleware: str) -> bool:
-    """Return True if the library that a middleware stands on is there."""
+    """Return True if the library of a middleware is installed."""
     if middleware == "rmw_cyclonedds_cpp":
         # What is loaded stays: it needs no file, of which a process may have no more left.
         return _CYCLONE in sys.modules or find_libddsc().library is not None

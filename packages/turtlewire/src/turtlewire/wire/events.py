@@ -1,4 +1,4 @@
-"""Events of endpoints: counters that the middleware feeds and their owner takes."""
+"""Events of endpoints: counters that the middleware increments and their owner reads."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The graph: what all middlewares share, and the message that makes ROS nodes visible.
+"""The graph: the common part of all middlewares, and the message that announces ROS nodes.
 
 A DDS endpoint does not say which node owns it. Every ROS process therefore publishes its nodes and
 their endpoints on ``ros_discovery_info``; :func:`pack_discovery_info` and

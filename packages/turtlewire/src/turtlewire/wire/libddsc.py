@@ -1,9 +1,8 @@
-"""Where ``libddsc`` of Cyclone DDS is, and which of its binary interfaces it has.
+"""Finds ``libddsc`` of Cyclone DDS, and determines its binary interface.
 
-The ``cyclonedds`` wheel brings one for most platforms. Elsewhere, that of a ROS 2 installation or
-of the system does as well: Debian, Ubuntu and Raspberry Pi OS have it as ``libddsc0debian``, newer
-ones (from Debian 13 on) as ``libddsc0t64``.
-Nothing is loaded here.
+The ``cyclonedds`` wheel brings one for most platforms. Elsewhere, the library of a ROS 2
+installation or of the system also works: Debian, Ubuntu and Raspberry Pi OS have it as
+``libddsc0debian``, newer ones (from Debian 13 on) as ``libddsc0t64``. Nothing is loaded here.
 """
 
 from __future__ import annotations
@@ -21,9 +20,9 @@ __all__ = ["ABIS", "Abi", "Libddsc", "Search", "find_libddsc"]
 
 
 class Abi(NamedTuple):
-    """What differs between the versions of Cyclone DDS that are spoken here.
+    """The differences between the supported versions of Cyclone DDS.
 
-    All that is not named here is the same in them: the topic descriptor, the sample info, the
+    Everything else is the same in all versions: the topic descriptor, the sample info, the
     statuses, built-in topics, opcodes and the functions of serdata.
 
     Attributes:
@@ -65,17 +64,17 @@ class Libddsc(NamedTuple):
 
     @property
     def abi(self) -> Abi | None:
-        """Its binary interface; None for a version that is not spoken here."""
+        """The binary interface of the library; None for an unsupported version."""
         numbers = ".".join(self.version.split(".")[:2])
         return next((abi for abi in ABIS if abi.version == numbers), None)
 
     def __str__(self) -> str:
-        """One phrase for people."""
+        """Return a phrase for messages."""
         return f"Cyclone DDS {self.version or 'of unknown version'} of {self.origin} ({self.path})"
 
     @property
     def reason(self) -> str:
-        """Why it is taken."""
+        """The reason for choosing this library."""
         return _REASONS[self.origin]
 
 
@@ -100,7 +99,7 @@ _SYSTEM = ("/usr/local", "/usr", "/opt/homebrew")
 
 
 class Search(NamedTuple):
-    """What a search for the library found.
+    """The result of a search for the library.
 
     Attributes:
         library: The one to take; None without one.

@@ -1,7 +1,7 @@
-"""Whether the end of a process waits until what it sent last was acknowledged.
+"""Decides if the end of a process waits for acknowledgements of its last messages.
 
-Cyclone waits for up to a second, and for a tenth to three tenths as a rule. A program that asks and
-has its answer need not wait.
+Cyclone waits for up to a second, and for a tenth to three tenths as a rule. A program that has
+received the answer to its request need not wait.
 """
 
 from __future__ import annotations

@@ -1,9 +1,8 @@
-"""Keeps the datagrams of other computers out where a middleware uses the loopback interface alone.
+"""Keeps out datagrams of other computers if a middleware uses only the loopback interface.
 
-Cyclone and Zenoh bind the sockets that they receive with to all addresses, have no setting for
-that, and take whatever arrives there. One datagram from a computer of the same network could so
-announce publishers to Cyclone, or let Zenoh connect to that computer. Linux can bind a socket to an
-interface afterwards.
+Cyclone and Zenoh bind their receiving sockets to all addresses, have no setting for that, and
+accept any datagram. So one datagram from a computer of the same network could announce publishers
+to Cyclone, or make Zenoh connect to that computer. Linux can bind a socket to an interface later.
 """
 
 from __future__ import annotations
@@ -37,7 +36,7 @@ def open_sockets() -> dict[str, int]:
         return found
     with suppress(FileNotFoundError):  # no /proc
         for number in os.listdir(_FILES):
-            with suppress(FileNotFoundError):  # closed meanwhile, as the listing itself is
+            with suppress(FileNotFoundError):  # already closed, as the listing itself is
                 name = os.readlink(os.path.join(_FILES, number))
                 if name.startswith("socket:"):
                     found[name] = int(number)

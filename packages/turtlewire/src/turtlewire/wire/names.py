@@ -1,4 +1,4 @@
-"""ROS names: their rules, their expansion, and how the middleware spells them.
+"""ROS names: their rules, their expansion, and their spelling in the middleware.
 
 A name travels in three spellings::
 
@@ -6,8 +6,7 @@ A name travels in three spellings::
     ROS        /turtle1/pose     turtlesim/msg/Pose            /spawn
     DDS        rt/turtle1/pose   turtlesim::msg::dds_::Pose_   rq/spawnRequest, rr/spawnReply
 
-The checks answer with the texts and the index of ROS 2's own validators; who raises what on them is
-rclpy's business.
+The checks return the texts and the index of ROS 2's validators; rclpy raises the errors.
 """
 
 from __future__ import annotations
@@ -49,7 +48,7 @@ _DDS_TYPE = re.compile(r"(.+)::dds_::([^:]+)_")
 
 
 class NameFault(NamedTuple):
-    """Why a name is not valid.
+    """The reason why a name is not valid.
 
     Attributes:
         message: ROS 2's text, for example ``topic name must not be empty string``.

@@ -57,7 +57,7 @@ class Durability(IntEnum):
 
 
 class Liveliness(IntEnum):
-    """Who asserts that a writer is alive."""
+    """The party that asserts that a writer is alive."""
 
     SYSTEM_DEFAULT = 0
     AUTOMATIC = 1

@@ -1,4 +1,4 @@
-"""Names, stamps and counts that a middleware takes and returns beside bytes."""
+"""Records of names, stamps and counts that a middleware accepts and returns."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ __all__ = [
 
 
 class TypeId(NamedTuple):
-    """What a peer must know of a type.
+    """The name and hash of a type, which peers compare.
 
     Attributes:
         name: ROS name, for example ``tf2_msgs/msg/TFMessage`` or ``turtlesim/srv/Spawn_Request``.
@@ -38,7 +38,7 @@ class TypeId(NamedTuple):
 
 
 class ServiceTypes(NamedTuple):
-    """What a peer must know of the type of a service.
+    """The names and hashes of a service's types, which peers compare.
 
     Attributes:
         name: ROS name (``turtlesim/srv/Spawn``).
@@ -62,7 +62,7 @@ class ServiceTypes(NamedTuple):
 
 
 class MessageInfo(NamedTuple):
-    """What is known of a received message beside its bytes.
+    """The metadata of a received message.
 
     Attributes:
         source_timestamp_ns: When the sender wrote it, system time.

@@ -46,7 +46,7 @@ def call_guarded(
     """
     try:
         on_message(*message)
-    except Exception as error:  # noqa: BLE001 - the thread must go on
+    except Exception as error:  # noqa: BLE001 - the thread must continue
         warn_once(
             f"on_message {topic}", f"a message on {topic} was lost, its callback raised {error!r}"
         )

@@ -1,6 +1,6 @@
-"""The variables of SROS 2: a process that must be secure refuses to start instead of ignoring them.
+"""The variables of SROS 2: a process that must be secure does not start, instead of ignoring them.
 
-turtlewire has no DDS Security, and Zenoh's TLS has settings of its own.
+turtlewire has no DDS Security, and Zenoh's TLS has its own settings.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _REFUSED = (
     "does not start"
 )
 REMEDY = (
-    "For encryption, use Zenoh with TLS (docs/how-to/secure_networks.md). With it, or to go on "
+    "For encryption, use Zenoh with TLS (docs/how-to/secure_networks.md). With it, or to run "
     f"without security, unset {_ENABLE}."
 )
 

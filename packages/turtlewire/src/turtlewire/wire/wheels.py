@@ -1,7 +1,7 @@
-"""For which platforms PyPI has wheels of what the middlewares stand on; as pyproject.toml has it.
+"""The platforms for which PyPI has wheels of the middlewares' libraries, as in pyproject.toml.
 
-Advice must not end in a build from source: that of Cyclone DDS needs an installed Cyclone, that of
-Zenoh needs Rust.
+Advice must not lead to a build from source: building the wheel of Cyclone DDS needs an installed
+Cyclone, and building Zenoh's needs Rust.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _PACKAGES = "libddsc0debian, in newer ones libddsc0t64"
 
 
 class Platform(NamedTuple):
-    """What decides whether there is a wheel.
+    """The properties of a platform that decide if a wheel exists.
 
     Attributes:
         system: As ``sys.platform`` has it.
@@ -47,7 +47,7 @@ class Platform(NamedTuple):
 
 
 def this_platform() -> Platform:
-    """Return the one that this process runs on."""
+    """Return the platform of this process."""
     musl = "musl" in getattr(sys.implementation, "_multiarch", "")
     cpython = sys.implementation.name == "cpython"
     usual = cpython and not musl and not sysconfig.get_config_var("Py_GIL_DISABLED")

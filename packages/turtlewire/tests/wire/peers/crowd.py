@@ -1,4 +1,4 @@
-"""One of many processes.
+"""Run one of many processes.
 
 Says when its node is there, and when it sees so many nodes and their endpoints (arguments: how
 many, in turn).

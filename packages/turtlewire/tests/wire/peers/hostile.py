@@ -1,4 +1,4 @@
-"""A process that sends what no sane peer sends.
+"""Sends messages that no correct peer sends.
 
 Each line of its input is a topic (one without a leading slash is a DDS topic), a type, a type hash
 and a message in hex, until an empty line.

@@ -1,4 +1,4 @@
-"""What sessions and routers are opened with, and the variables that change it."""
+"""The configuration of sessions and routers, and the variables that change it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Batches of a channel on their way into a native sink."""
+"""Passing batches of a channel to a native sink."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def named_attachment(number: int) -> bytes:
 
 
 def sample(payload: bytes, beside: bytes | None) -> SimpleNamespace:
-    """As much of a zenoh.Sample as is read."""
+    """Return a stand-in for a zenoh.Sample with the attributes that are read."""
     return SimpleNamespace(
         payload=SimpleNamespace(to_bytes=lambda: payload),
         attachment=None if beside is None else SimpleNamespace(to_bytes=lambda: beside),

@@ -1,4 +1,4 @@
-"""Topics and services with PyPI's zenoh-ros2-sdk, over a router, in processes of their own."""
+"""Topics and services with PyPI's zenoh-ros2-sdk, over a router, in separate processes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The commands of docs/how-to/secure_networks.md, and what is said when they do not fit."""
+"""The commands of docs/how-to/secure_networks.md, and the errors of wrong settings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tokens, QoS texts and attachments: what rmw_zenoh_cpp writes, and what it may read."""
+"""Tokens, QoS texts and attachments, as rmw_zenoh_cpp writes and reads them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-// The page of a class: a card for each student, drawn anew with each picture of the server.
+// The page of a class: a card for each student, redrawn with each picture of the server.
 // All texts of the network are set as text, never as HTML.
 
 import { Connection } from "../kit/connection.js";

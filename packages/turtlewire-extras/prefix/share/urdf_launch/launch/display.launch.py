@@ -1,4 +1,4 @@
-"""Shows a robot with sliders for its joints, in RViz or the 3D view that stands for it."""
+"""Shows a robot with sliders for its joints, in RViz, which here opens the 3D view."""
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription

@@ -25,5 +25,5 @@ class ProcessExited(RunningProcessEvent):
 
     @property
     def returncode(self) -> int:
-        """Its exit status, negative for the signal that ended it."""
+        """The exit status of the process, negative for the signal that ended it."""
         return self._returncode

@@ -52,7 +52,7 @@ class RunningProcessEvent(Event):
 
     @property
     def execute_process_action(self) -> ProcessRunner:
-        """The same, by its older name."""
+        """The action, under its old name."""
         return self._action
 
     @property
@@ -62,20 +62,20 @@ class RunningProcessEvent(Event):
 
     @property
     def cmd(self) -> list[str]:
-        """Its command line."""
+        """The command line of the process."""
         return self._cmd
 
     @property
     def cwd(self) -> str | None:
-        """Its working directory, None for that of the launch."""
+        """The working directory of the process; None means the directory of the launch."""
         return self._cwd
 
     @property
     def env(self) -> Mapping[str, str] | None:
-        """Its environment, None for that of the launch."""
+        """The environment of the process; None means the environment of the launch."""
         return self._env
 
     @property
     def pid(self) -> int:
-        """Its process id."""
+        """The process id."""
         return self._pid

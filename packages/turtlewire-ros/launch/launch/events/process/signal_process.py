@@ -43,5 +43,5 @@ class SignalProcess(ProcessTargetedEvent):
 
     @property
     def signal_name(self) -> str:
-        """Its name, for example ``SIGINT``."""
+        """The name of the signal, for example ``SIGINT``."""
         return self._signal.name

@@ -1,4 +1,4 @@
-"""What passes: parameters, injected objects, marks, processes of single tests."""
+"""Tests that pass: parameters, injected objects, marks, processes of single tests."""
 
 import sys
 import unittest

@@ -1,4 +1,4 @@
-"""What fails: a test, the launch itself, and a test after the shutdown."""
+"""Tests that fail: a test, the launch itself, and a test after the shutdown."""
 
 import sys
 import unittest

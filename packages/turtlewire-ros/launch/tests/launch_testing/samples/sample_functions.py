@@ -1,4 +1,4 @@
-"""What passes with launch_pytest: functions, coroutines and generators, in the right order."""
+"""Tests that pass with launch_pytest: functions, coroutines and generators, in the right order."""
 
 import sys
 

@@ -13,7 +13,7 @@ __all__ = ["NamedNode", "matches_node_name"]
 
 
 class NamedNode(Protocol):
-    """What events know of a ``Node`` or ``LifecycleNode``."""
+    """The attributes of a ``Node`` or ``LifecycleNode`` that matchers read."""
 
     @property
     def node_name(self) -> str:

@@ -35,7 +35,7 @@ export class Camera {
     this.#lastTime = now;
   }
 
-  /** Show the upper left corner: what there is when nothing is followed. */
+  /** Show the upper left corner, as when no turtle is followed. */
   rest() {
     this.left = this.top = 0;
     this.#lastTime = null;

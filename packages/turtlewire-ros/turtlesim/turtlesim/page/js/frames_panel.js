@@ -6,7 +6,7 @@ import { transformInWords } from "./words.js";
 
 const STALE_SECONDS = 1;
 const MOST_FRAMES = 200;
-const FEW = 8; // so many are seen at a glance
+const FEW = 8; // a number that users see at a glance
 
 export class FramesPanel {
   #onWatch;

@@ -1,4 +1,4 @@
-// The texts around the field: who is where, who is driven, what is missing.
+// The texts around the field: positions, the driven turtle, missing turtles.
 
 import { byId, setText } from "../kit/dom.js";
 import { byName } from "../kit/names.js";
@@ -36,7 +36,7 @@ export class Panel {
     setText(byId("words"), this.#sentences(poses, driven).join(" · "));
   }
 
-  /** For a screen reader; called now and then, as it is read aloud. */
+  /** For a screen reader; called only from time to time, because it is read aloud. */
   describeField(poses) {
     byId("turtles").setAttribute("aria-label", fieldInWords(this.#names, poses));
   }

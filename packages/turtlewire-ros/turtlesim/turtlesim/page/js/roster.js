@@ -5,7 +5,7 @@ import { lookOf } from "./looks.js";
 import { byName, isFound } from "../kit/names.js";
 
 const MOST_ROWS = 60; // more are found by a search
-const FEW = 8; // so many are seen at a glance
+const FEW = 8; // a number that users see at a glance
 
 export class Roster {
   #rows = new Map();

@@ -1,4 +1,4 @@
-// Where things are, said in plain words.
+// Positions in plain words.
 
 const NOTHING_METRES = 0.005;
 const NOTHING_DEGREES = 0.5;

@@ -1,4 +1,4 @@
-"""Two simulators, each in a namespace of its own."""  # noqa: INP001 -- data, not a module
+"""Two simulators, each in its own namespace."""  # noqa: INP001 -- data, not a module
 
 from launch import LaunchDescription
 from launch_ros.actions import Node

@@ -1,4 +1,4 @@
-// How many points the page bears: told to the server, from the time that pictures take.
+// The number of points that the page can draw, from the time per picture; sent to the server.
 
 const SLOW_MS = 40;
 const FAST_MS = 22;

@@ -232,7 +232,7 @@ export class Cameras {
   }
 }
 
-/** None for an empty box. */
+/** Return null for an empty box. */
 function cornersOf(box) {
   if (box.isEmpty()) return [];
   const { min, max } = box;

@@ -1,4 +1,4 @@
-// Where the parts of a display stand: at a pose, or below a frame that moves.
+// The parts of a display, each at a pose or below a frame that moves.
 
 import { Group } from "three";
 

@@ -25,7 +25,7 @@ export class Displays {
     });
   }
 
-  /** What is there: { id, kind, topic, options, schema, items, visible, level, text }. */
+  /** All displays: { id, kind, topic, options, schema, items, visible, level, text }. */
   get list() {
     return [...this.#entries.values()];
   }

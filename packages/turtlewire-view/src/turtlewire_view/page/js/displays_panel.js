@@ -41,7 +41,7 @@ export class DisplaysPanel {
     setText(byId("other-topics"), others.length ? `No display shows: ${list}${rest}` : "");
   }
 
-  /** The list anew; items that stay keep their focus. */
+  /** Rebuild the list; items that stay keep their focus. */
   show() {
     const list = this.#displays.list;
     const ids = new Set(list.map(({ id }) => id));

@@ -106,7 +106,7 @@ export class FrameDrawing {
     this.#path.show(count);
   }
 
-  /** The arrow from the last frame of the path to the first: what the relation's numbers tell. */
+  /** The arrow from the last frame of the path to the first, as in the relation panel. */
   #drawStraight(frames, path) {
     const [source, target] = [path[0], path.at(-1)];
     const isShown = path.length > 2 && frames.isShown(source) && frames.isShown(target);

@@ -1,4 +1,4 @@
-// What is known of all frames: names, parents, poses, and how old they are.
+// The data of all frames: names, parents, poses and ages.
 
 import { AgeClock } from "./age_clock.js";
 import { offsetsOfTrees } from "./trees.js";

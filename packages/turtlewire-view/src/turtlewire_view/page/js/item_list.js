@@ -1,4 +1,4 @@
-// Check boxes for the named things of a display: namespaces of markers, links of a robot.
+// Check boxes for the named items of a display: namespaces of markers, links of a robot.
 
 import { make } from "../kit/dom.js";
 import { byName } from "../kit/names.js";

@@ -1,4 +1,4 @@
-// Texts drawn once into one texture, each in a slot of its own.
+// Texts drawn once into one texture, each in its own slot.
 
 import { CanvasTexture, LinearFilter, NearestFilter } from "three";
 

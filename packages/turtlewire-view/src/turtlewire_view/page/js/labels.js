@@ -10,7 +10,7 @@ const CHOOSE_MS = 250;
 const RANKS = { selected: -4, hovered: -3, target: -2, root: -1, path: 0 };
 const ALWAYS = new Set(["selected", "hovered"]); // on another side where there is no room
 const STAYING = 0.8; // a frame keeps its label unless another one is clearly nearer
-/** Sides of its origin where a name may stand, by preference: [to the right, below]. */
+/** Positions of a name next to its origin, by preference: [to the right, below]. */
 const SIDES = [[true, true], [false, true], [true, false], [false, false]];
 const [BESIDE, BELOW] = [4, 12]; // [CSS pixels] from the origin to the text's edge and middle
 const HALF_HEIGHT = 9; // [CSS pixels]
@@ -48,7 +48,7 @@ export class Labels {
   object;
   /** The names in the last picture, and where: { text, box: [left, right, top, bottom] }. */
   shown = [];
-  /** Whether names stand at frames other than those selected or under the pointer. */
+  /** Whether names are shown for frames that are neither selected nor under the pointer. */
   showAll = true;
   #atlas;
   #geometry = new BufferGeometry();
@@ -82,7 +82,7 @@ export class Labels {
     };
   }
 
-  /** Choose anew before the next picture. */
+  /** Choose again before the next picture. */
   refresh() {
     this.#chosenAt = -Infinity;
   }
@@ -134,7 +134,7 @@ export class Labels {
 
   /**
    * Where a name stands beside its origin at { x, y }, without touching those in `taken`: its
-   * `box`, and what it is `aside` of the origin, with y upwards; null without room.
+   * `box`, and its offset `aside` from the origin, with y upwards; null if there is no space.
    */
   #spotFor({ style, width }, { x, y }, taken) {
     const last = Math.max(0, this.#view.viewport.width - width); // in the picture

@@ -219,7 +219,7 @@ function notice(text, level, passes = true) {
   if (said !== standing) noticeTimer = setTimeout(() => notice("", "ok"), NOTICE_MS);
 }
 
-/** What the page lacks of a loaded file stays until the user dismisses it or loads another. */
+/** The list of unsupported settings stays until the user dismisses it or loads another file. */
 function showUnread(text) {
   byId("unread").hidden = !text;
   setText(byId("unread").querySelector("span"), text);

@@ -1,4 +1,4 @@
-// A menu that lies over the page is closed before anything else happens.
+// While a menu is open over the page, a click or Escape only closes it.
 
 /** Let Escape, and a press elsewhere, close an open `details`; the picture takes no such press. */
 export function closeFirst(menu) {

@@ -1,4 +1,4 @@
-// Where one frame is as another sees it: the sentence, the numbers, or why there is no answer.
+// The pose of one frame in another: the sentence, the numbers, or the reason why it is unknown.
 
 import { byId, make, setFacts, setText } from "../kit/dom.js";
 import { byName } from "../kit/names.js";
@@ -37,7 +37,7 @@ export class RelationPanel {
     return this.#target === FIXED ? this.#frames.fixed : this.#target;
   }
 
-  /** Choose both; the target "" is the fixed frame, whatever it is. */
+  /** Choose both; the target "" is the current fixed frame. */
   choose(source, target = FIXED) {
     this.#source = source;
     this.#target = target;
@@ -77,7 +77,7 @@ export class RelationPanel {
     if (!relation.error) this.#showNumbers(relation);
   }
 
-  /** What the tree knows of the selected frame. */
+  /** The tree's data about the selected frame. */
   showFacts(row) {
     if (!this.#source || !row) return setFacts(byId("facts"), []);
     const k = this.#frames.index(this.#source);

@@ -96,7 +96,7 @@ export class View {
     for (const act of this.#after) act(now);
   }
 
-  /** The browser may take the context, as when a graphics driver starts anew, and give it back. */
+  /** The browser may take the context, as when a graphics driver restarts, and give it back. */
   #listenForLoss() {
     this.canvas.addEventListener("webglcontextlost", () => this.#tellLoss(true));
     this.canvas.addEventListener("webglcontextrestored", () => {

@@ -9,7 +9,7 @@ import { Trails } from "./trails.js";
 
 const FADING_MS = 150;
 const KEEP_MS = 100; // between two looks whether the frames are still in view
-const SETTLE_MS = 300; // names are chosen anew when a movement has ended
+const SETTLE_MS = 300; // names are chosen again when a movement has ended
 
 export class Stage {
   view;

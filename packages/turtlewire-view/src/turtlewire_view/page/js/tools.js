@@ -46,7 +46,7 @@ export class Tools {
   #pointer = null;
   #refusal = "";
 
-  /** `say(text, passes)` tells the user something, for a while if it passes; "" ends it. */
+  /** `say(text, passes)` shows a message, briefly if `passes` is true; "" removes it. */
   constructor(stage, frames, send, say) {
     this.#stage = stage;
     this.#frames = frames;
@@ -158,7 +158,7 @@ export class Tools {
     this.#start = null;
   }
 
-  /** Where the pointer meets what is drawn, or the ground of the fixed frame; null in the sky. */
+  /** The point of the scene, or of the ground, under the pointer; null in the sky. */
   #place(event, onGround = this.#tool().drags) {
     const { camera, viewport, displays } = this.#stage.view;
     const ray = new Raycaster();

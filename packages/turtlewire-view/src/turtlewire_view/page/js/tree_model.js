@@ -1,4 +1,4 @@
-// Which rows the tree of frames has: order, search, what is folded.
+// The rows of the tree of frames: order, search, folded branches.
 
 import { byName } from "../kit/names.js";
 
@@ -15,7 +15,7 @@ export class TreeModel {
     this.#frames = frames;
   }
 
-  /** After other names: order anew. */
+  /** After other names: order again. */
   rebuild() {
     const { names, parents, trees, fixed } = this.#frames;
     const main = trees[this.#frames.index(fixed)];
@@ -84,7 +84,7 @@ export class TreeModel {
     return children.map((child, n) => ({ k: child, depth, place: n + 1, count })).reverse();
   }
 
-  /** Frames whose name or publisher holds what is searched for. */
+  /** Frames whose name or publisher contains the search text. */
   #matches() {
     const rows = this.#order.flatMap((k) => {
       const name = this.#frames.names[k];

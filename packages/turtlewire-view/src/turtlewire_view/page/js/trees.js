@@ -1,4 +1,4 @@
-// Where trees that are not connected with the fixed frame stand: in a row beside it.
+// Places trees that are not connected to the fixed frame in a row next to it.
 
 const POSE = 7;
 const GAP = 1.5;

@@ -3,19 +3,19 @@
 It gives the same answers as the compiled core, whose files have the same names.
 
 =====================  ==================================================
-module                 what it holds
+module                 contents
 =====================  ==================================================
-`link`                 the history of one link
-`tree`                 the tree of frames and tf2's search in it
+`link`                 the history of a link
+`tree`                 the tree of frames, and tf2's search in it
 `rules`                how the releases of tf2 differ
 `shared_tree`          the tree with a lock, waiting and listeners
 `buffer`               the public class
 `additions`            its methods that add transforms
 `batch`                its methods that take and return arrays
 `inspection`           its methods that show, remove and load samples
-`arguments`, `checks`  arguments that are arrays; all others
+`arguments`, `checks`  array arguments; all other arguments
 `transform`            the result of a lookup
-`failure`              why a lookup has no answer, in tf2's words
+`failure`              the errors of lookups, in tf2's words
 `status`               the outcomes of a lookup
 `refusals`             refused transforms, counted by frame
 `report`               tf2's texts about the whole tree

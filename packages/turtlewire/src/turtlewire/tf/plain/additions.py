@@ -1,4 +1,4 @@
-"""Data in: the methods of the buffer that add transforms."""
+"""The methods of the buffer that add transforms."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The public class: data in, questions and descriptions, as the compiled core has them."""
+"""The public class, with the methods of the compiled core."""
 
 from __future__ import annotations
 
@@ -211,7 +211,7 @@ class Buffer(SharedTree):
             self._tree.rules = rules_of(year)
 
     def _latest_common_time(self, target_frame: str, source_frame: str) -> int:
-        """ROS 2's question; its time 0 stands for static links."""
+        """ROS 2's question; its time 0 means static links."""
         check_frames(target_frame=target_frame, source_frame=source_frame)
         with self._lock:
             try:
@@ -311,7 +311,7 @@ class Buffer(SharedTree):
         if fixed is not None:
             self._check_names(target, source, fixed, question)
             steps = [(target, fixed, target_stamp), (fixed, source, stamp)]
-        # tf2 goes on behind a cleared static link, and then reports the other half's failure.
+        # tf2 continues past a cleared static link, and then reports the failure of the other half.
         for cleared in reversed([_cleared_static(look, step) for step in steps]):
             if cleared is not None:
                 raise cleared.without_reason()

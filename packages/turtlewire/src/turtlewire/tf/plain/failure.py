@@ -1,4 +1,4 @@
-"""Why a question has no answer, and why a transform was refused, in tf2's words."""
+"""The reasons for failed lookups and rejected transforms, in tf2's words."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _STATIC_CACHE_IS_EMPTY = "Static cache is empty"
 
 
 def seconds(stamp: int) -> float:
-    """As tf2 turns times and durations into seconds; its texts show the rounding."""
+    """Convert nanoseconds to seconds as tf2 does, whose error texts show the rounding."""
     whole, rest = divmod(stamp, 1_000_000_000)
     return whole + 1e-9 * rest
 
@@ -109,7 +109,7 @@ def connection_failure(target: str, source: str, target_root: str, source_root: 
 
 
 def loop_failure(frames: str) -> Failure:
-    """Return a walk that does not end."""
+    """Return the failure of a walk in a loop."""
     return Failure(
         f"The tf tree is invalid because it contains a loop.\n{frames}\n", LookupStatus.LOOP
     )
@@ -177,7 +177,7 @@ def _values(numbers: Sequence[float]) -> str:
 
 
 class Verdict(Enum):
-    """What became of a transform that was sent; the values are the names in statistics."""
+    """The outcome of adding a transform; the values are the names in statistics."""
 
     ACCEPTED = "accepted"
     SELF_TRANSFORM = "self_transform"
@@ -206,7 +206,7 @@ _REFUSAL_REASONS: dict[Verdict, Any] = {
 
 
 class Refusal(NamedTuple):
-    """What became of a transform; it was refused unless the verdict is ACCEPTED."""
+    """The outcome of adding a transform, with the reason if the verdict is not ACCEPTED."""
 
     verdict: Verdict
     parent: str

@@ -1,4 +1,4 @@
-"""One link of the tree: how a child frame lies in its parent, over time or forever."""
+"""A link of the tree: the pose of a child frame in its parent, over time or static."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class PoseSample(NamedTuple):
 
 
 class LinkSamples:
-    """What is known of one child frame: a static pose, or samples in order of time.
+    """The data of one child frame: a static pose, or samples in order of time.
 
     Samples of one stamp are in order of arrival.
     """
@@ -146,7 +146,7 @@ class LinkSamples:
         if sample in self.samples[first:end]:
             return True  # tf2 accepts a repetition and stores it once
         if end - first >= MOST_PER_STAMP:
-            # A broadcaster whose clock stands still would fill the memory; the newest value counts.
+            # A broadcaster with a stopped clock would fill the memory; the newest value is kept.
             self.samples[end - 1] = sample
             self.dropped[stamp] = self.dropped.get(stamp, 0) + 1
         else:

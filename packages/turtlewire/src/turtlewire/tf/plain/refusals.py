@@ -1,4 +1,4 @@
-"""What was refused, counted and remembered by frame."""
+"""Rejected transforms, counted by frame."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class MalformedMessages(NamedTuple):
 
 
 class RefusalRecord:
-    """How often transforms of one child frame were refused for which reason, and the last one."""
+    """The number of rejected transforms of a child frame by reason, and the last of them."""
 
     def __init__(self, last: Refusal) -> None:
         self.counts: Counter[Verdict] = Counter()

@@ -13,7 +13,7 @@ __all__ = ["ENGINE", "Rules", "rules_of"]
 
 
 class Rules(NamedTuple):
-    """What a tree does where the releases differ.
+    """The behaviour of a tree where the releases of tf2 differ.
 
     Attributes:
         no_time: A newest stamp that does not count for the latest common time; None: each counts.

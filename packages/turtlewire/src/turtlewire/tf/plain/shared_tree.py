@@ -1,4 +1,4 @@
-"""The tree with a lock, so that many threads can share it: asking, waiting and change listeners."""
+"""The tree with a lock, for many threads: lookups, waiting and change listeners."""
 
 from __future__ import annotations
 

@@ -112,7 +112,7 @@ class Tree:
             link.rename_sender(name, shown)
 
     def remove(self, children: Iterable[str]) -> list[str]:
-        """Forget links, and the names that then stand for nothing; the children that had a link."""
+        """Forget links, and names that are then unused; returns the children that had a link."""
         removed = {child: link for child in children if (link := self.links.pop(child, None))}
         if removed:
             self.is_full = False
@@ -153,10 +153,12 @@ class Tree:
 
         Args:
             target: The frame in which the answer is expressed.
-            source: The frame whose pose is asked for.
-            stamp: The time; None: the latest common time. An answer without a time is static.
-            question: Who asks; tf2 words its reasons by it.
-            beyond: How far outside of a link's data its motion is taken to go on; never in tf2.
+            source: The frame whose pose is requested.
+            stamp: The time; None requests the latest common time. A result without a time is
+                static.
+            question: The method that asks; tf2's reasons depend on it.
+            beyond: How far outside of a link's data its motion is extrapolated; tf2 never does
+                this.
         """
         if target == source:
             link = self.links.get(target)
@@ -204,7 +206,7 @@ class Tree:
                 break
             reading = read(link)
             if isinstance(reading, LookupStatus):
-                # Not raised yet: the target's own way up may meet the source's below this link.
+                # Not raised yet: the target's chain may join the source's chain below this link.
                 stopped = self._time_failure(reading, top, link, stamp, target, source)
                 reached = link.newest
                 break

@@ -29,7 +29,7 @@ ANNOUNCEMENT_INTERVAL_NS = 20_000_000
 
 
 class NodeRecord:
-    """What is announced of one node.
+    """The announcement of one node.
 
     Its owner adds and removes gids and then calls :meth:`Announcer.changed`.
     """
@@ -55,7 +55,7 @@ class Announcer:
         self._records: list[NodeRecord] = []
         self._scheduled = False
         self._not_before = 0
-        # Who looks at the graph waits for each participant, those without nodes included.
+        # Readers of the graph wait for each participant, including participants without nodes.
         reader.call_at(time.monotonic_ns() + ANNOUNCEMENT_INTERVAL_NS, self._publish_first)
 
     def add(self, record: NodeRecord) -> None:
@@ -94,7 +94,7 @@ class Announcer:
             self.changed()
 
     def _publish(self) -> None:
-        """On the reader thread."""
+        """Publish the announcement; runs on the reader thread."""
         with self._lock:
             self._scheduled = False
             self._not_before = time.monotonic_ns() + ANNOUNCEMENT_INTERVAL_NS

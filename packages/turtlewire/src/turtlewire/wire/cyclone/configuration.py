@@ -1,4 +1,4 @@
-"""Cyclone's configuration for a domain, made from what the environment says about discovery."""
+"""Cyclone's configuration for a domain, from the environment variables of discovery."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .ports import max_processes
 __all__ = ["domain_configuration", "stays_on_loopback"]
 
 #: Receive buffers above Cyclone's 1 MB, as far as the system lets it: a message of some megabytes,
-#: or the heartbeats of a crowd, arrive in one burst. (Heartbeats are left alone: rarer ones would
+#: or the heartbeats of a crowd, arrive in one burst. (Heartbeats are not changed: rarer ones would
 #: calm a crowd that starts, and make `ros2 node list` beside it wait for seconds.)
 _BUFFER = '<SocketReceiveBufferSize max="10 MB"/>'
 #: Fast DDS takes notice of the end of an endpoint only when its key comes in this form. Without it,
@@ -24,7 +24,7 @@ _BUFFER = '<SocketReceiveBufferSize max="10 MB"/>'
 _KEYHASH = "<GenerateKeyhash>true</GenerateKeyhash>"
 _NO_LINGER = "<WriterLingerDuration>0 s</WriterLingerDuration>"
 #: Cyclone 11 announces a participant to each address once, and then not for half a minute: one lost
-#: datagram in the crowd of a launch would keep two processes apart for good.
+#: datagram in the crowd of a launch would keep two processes apart permanently.
 _ANNOUNCEMENT_INTERVAL = "5s"
 #: Loopback carries datagrams of 64 KB whole: an image of 6 MB takes 95 of them instead of the 423
 #: of Cyclone's default, and more than twice as many images get through. Every DDS reads them.

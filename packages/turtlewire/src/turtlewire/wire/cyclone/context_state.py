@@ -1,4 +1,4 @@
-"""What a context shares with its nodes."""
+"""The state that a context shares with its nodes."""
 
 from __future__ import annotations
 

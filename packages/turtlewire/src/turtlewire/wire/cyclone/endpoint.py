@@ -1,6 +1,6 @@
-"""What publishers and subscriptions have in common.
+"""The common base of publishers and subscriptions.
 
-A place in the graph, and statuses that change.
+It has an identity in the graph, and statuses that change.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ __all__ = [
 
 
 class EndpointSpec(NamedTuple):
-    """What to create.
+    """The specification of a new endpoint.
 
     Attributes:
         name: ROS name of the topic or service, for messages to people.
@@ -67,7 +67,7 @@ class EndpointSpec(NamedTuple):
 
 
 class StatusSource(NamedTuple):
-    """Where the counters of an event come from.
+    """The source of an event's counters.
 
     The status bit, the function that reads and resets them, and their translation.
     """
@@ -106,7 +106,7 @@ class Endpoint(Entity):
         self._events: dict[EventKind, StatusEvent] = {}
 
     def _created(self, handle: int) -> None:
-        """To be called with the new reader or writer, or the error that came instead."""
+        """Store the new reader or writer; raises if creating it failed."""
         self.handle = dds.check(handle, f"create an endpoint of {self.spec.name}")
         self.gid = dds.guid_of(self.handle)
         dds.set_status_mask(self.handle, sum(source.bit for source in self._sources.values()))
@@ -128,7 +128,7 @@ class Endpoint(Entity):
             return self._events.setdefault(kind, StatusEvent(kind))
 
     def statuses_changed(self) -> None:
-        """On the reader thread: read and reset all statuses that changed, and pass them on."""
+        """Read, reset and forward all changed statuses; runs on the reader thread."""
         changed = ctypes.c_uint32()
         if dds.get_status_changes(self.handle, changed) < 0:
             return  # it has been deleted

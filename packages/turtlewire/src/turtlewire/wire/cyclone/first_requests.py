@@ -7,8 +7,9 @@ Cyclone waits for that heartbeat before it sends anything.)
 
 So the server sends itself two heartbeats in the name of the new client before the client's own: the
 first lists no sample, the second lists one, which Cyclone then requests. Fast DDS sends it again if
-it exists and was meant for this server; otherwise it sends nothing. Native code sends them, because
-it needs no GIL: the client's own heartbeat comes within milliseconds.
+it exists and was meant for this server; otherwise it sends nothing. Native code sends the
+heartbeats, because it does not wait for the GIL: the client's own heartbeat arrives within
+milliseconds.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""The graph as this participant sees it.
+"""This participant's view of the graph.
 
-Cyclone's builtin topics, and the ``ros_discovery_info`` of the others.
+It comes from Cyclone's builtin topics and the ``ros_discovery_info`` of other participants.
 """
 
 from __future__ import annotations
@@ -271,7 +271,7 @@ class CycloneGraph(GraphView):
 
         Each ROS participant has announced its nodes, and each endpoint of theirs is known.
         """
-        # A process that has bound a port of the domain but is not discovered yet is still to come.
+        # A process that has bound a port of the domain will be discovered soon.
         on_host = processes_on_host(self._domain_id)
         self._look_first()
         with self._lock:
@@ -321,13 +321,13 @@ class CycloneGraph(GraphView):
             for service, gid, _ in readers:
                 if service in twice:
                     foreign.setdefault(gid, (service, middleware_of(gid), True))
-            if not foreign:  # as nearly always: spare the search for the owners
+            if not foreign:  # nearly always; avoids the search for the owners
                 return []
             owners = {endpoint.gid: endpoint.node for endpoint in self.endpoints()}
             return [
                 ForeignServer(service, owners[gid], middleware, is_rival)
                 for gid, (service, middleware, is_rival) in foreign.items()
-                if gid in owners  # it may have left meanwhile
+                if gid in owners  # it may have left by now
             ]
 
     def middlewares(self) -> dict[str, int]:

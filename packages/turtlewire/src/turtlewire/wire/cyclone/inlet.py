@@ -1,4 +1,4 @@
-"""Messages that Cyclone's own thread hands to a sink, without Python."""
+"""Passes messages from Cyclone's thread to a sink, without Python."""
 
 from __future__ import annotations
 

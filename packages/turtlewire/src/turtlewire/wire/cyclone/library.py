@@ -1,4 +1,4 @@
-"""Loads ``libddsc``, and declares what we call of it.
+"""Loads ``libddsc``, and declares the functions that we call.
 
 A function is declared in one of two ways:
 

@@ -3,7 +3,7 @@
 Cyclone writes a line on stderr for every datagram that the network refuses or a peer garbles, and
 has no setting for it; its ``dds_set_log_sink`` is not exported by the library in the wheel. A
 domain writes to what C's ``stderr`` was when it was made; so for that moment ``stderr`` is a pipe,
-which a thread of ours reads. (Python writes on file descriptor 2, which stays as it is.) When
+which one of our threads reads. (Python writes on file descriptor 2, which stays as it is.) When
 Cyclone aborts the process, the compiled core writes on stderr what the pipe still holds.
 """
 
@@ -34,7 +34,7 @@ _BLOCK = 1 << 16
 # patterns, compiled when there is something to say
 _HEAD = r"[\d.]+ \[\w*\] +\S+: "
 _REFUSED = r"ddsi_udp_conn_write to udp/(.+):\d+ failed"
-#: Fast DDS counts packets in submessages of its own (0x80), and has endpoints of its own for that.
+#: Fast DDS counts packets in its own submessages (0x80), and has its own endpoints for that.
 #: Cyclone cannot read them, loses nothing by it, and no user can act on it.
 _STATISTICS = (
     r"malformed packet received from vendor 1\.15 state parse:UNKNOWN\(80\)|"
@@ -106,7 +106,7 @@ class CycloneLog:
         libc = ctypes.CDLL(None)
         try:
             self._stderr = ctypes.c_void_p.in_dll(libc, _STDERR[sys.platform])
-        except ValueError:  # a C library of another kind: Cyclone goes on writing on stderr
+        except ValueError:  # another C library: Cyclone keeps writing to stderr
             return
         self._read_end, self._write_end = os.pipe()
         # Lines are lost when the pipe is full: a thread of Cyclone's must not wait for one of ours,

@@ -1,4 +1,4 @@
-"""The compiled half of this package; None where it is missing or not wanted."""
+"""The compiled half of this package; None if it is missing or disabled."""
 
 from __future__ import annotations
 

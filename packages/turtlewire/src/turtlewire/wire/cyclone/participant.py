@@ -1,4 +1,4 @@
-"""A DDS participant, its topics, and the domain that it lives in."""
+"""A DDS participant, its topics and its domain."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class _Domains:
         self._keeps_library = False
 
     def join(self, domain_id: int) -> None:
-        """Make the domain, unless it is there."""
+        """Make the domain, unless it exists."""
         with self._lock:
             self._notice_fork()
             if not self._users.get(domain_id):
@@ -135,7 +135,7 @@ def _require_files(domain_id: int) -> None:
 
 
 def _failure(code: int, domain_id: int, said: list[str]) -> TurtlewireError:
-    """Why a domain could not be made: what Cyclone said, and what may have caused it."""
+    """Return the error of a domain that could not be created: Cyclone's text and likely causes."""
     reason = "; ".join(said) or dds.return_code_text(code).decode()
     error = WireError(f"join domain {domain_id}: Cyclone DDS says {reason}")
     processes, limit = processes_on_host(domain_id), max_processes(domain_id)

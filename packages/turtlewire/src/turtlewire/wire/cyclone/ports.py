@@ -1,8 +1,8 @@
 """How many processes of this host take part in a domain, by the UDP ports that they have bound.
 
 A DDS participant binds a port whose number follows from domain and participant index (DDSI-RTPS
-9.6.1.1); Cyclone's participants of one process share one. So one can tell without waiting whether
-discovery still owes an answer.
+9.6.1.1); Cyclone's participants of one process share a port. So the number of ports shows, without
+waiting, if discovery has found all processes.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""QoS in Cyclone's words, and back."""
+"""Converts QoS to Cyclone's objects and back."""
 
 from __future__ import annotations
 

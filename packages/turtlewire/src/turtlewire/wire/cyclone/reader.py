@@ -1,4 +1,4 @@
-"""The one thread of a context.
+"""The reader thread of a context.
 
 It serves subscriptions with ``on_message``, and everything about the graph.
 """

@@ -1,7 +1,8 @@
-"""The type of an entity as Cyclone holds it, of which samples are made.
+"""Cyclone's internal type of an entity, from which samples are created.
 
-Cyclone 11 has a function for it. In 0.10 it is a pointer in the structure of the topic, whose place
-depends on how the library was built: it is the one that leads to Cyclone's table of default types.
+Cyclone 11 has a function for it. In 0.10 it is a pointer in the structure of the topic. The
+offset depends on the build of the library; the right pointer leads to Cyclone's table of default
+types.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ def sertype_of(entity: int) -> int:
 
 
 class _Place:
-    """Where in a ``dds_topic`` the pointer is: the same for all topics of a library."""
+    """The offset of the pointer in a ``dds_topic``, the same for all topics of a library."""
 
     word: int | None = None
 

@@ -1,14 +1,14 @@
-"""Which servers of a service get requests, and why others get none.
+"""Chooses the servers of a service that get requests, and explains the others.
 
 rmw_cyclonedds writes 16 bytes in front of the fields of a request; the other middlewares carry them
-elsewhere. A server on Fast DDS would read these bytes as fields: it takes a length out of them, and
-allocates gigabytes or never answers again. So no such request may ever reach such a server.
+elsewhere. A server on Fast DDS would read these bytes as fields: it interprets some of them as a
+length, and allocates gigabytes or never answers again. So such a request must never reach it.
 
-Two measures together see to that:
+Two measures together prevent that:
 
 - :class:`Servers` looks at all matching servers before each request.
 - The writer of these requests is in the partition `ONLY_CYCLONE`, because a server may begin to
-  match between that look and the request. Cyclone matches that partition with the default one, Fast
+  match between the check and the request. Cyclone matches that partition with the default one, Fast
   DDS does not, and drops what comes from a writer that it does not match. Requests in the layout of
   Fast DDS come out of another writer (see `fast_dds`).
 """

@@ -1,6 +1,6 @@
 """Services in the layout of rmw_cyclonedds and in that of Fast DDS.
 
-On rmw_cyclonedds, the user data of endpoints says which reader and writer belong together.
+On rmw_cyclonedds, the user data of endpoints links the reader and the writer of a service.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ __all__ = ["CycloneClient", "CycloneService", "format_service_id"]
 #: How long a response waits for the client's end of the reply topic to be discovered.
 _PATIENCE_NS = 1_000_000_000
 _KNOWN_CLIENTS = 1000
-#: The bit of the last byte of a GUID that tells readers from writers.
+#: The bit of the last byte of a GUID that distinguishes readers from writers.
 _READER = 4
 
 
@@ -239,7 +239,7 @@ class CycloneService(TopicService):
         return requests
 
     def _warn_unidentified(self) -> None:
-        """Say that a request may have another layout; nobody waits for its response."""
+        """Warn that a request may have another layout; no client waits for the response."""
         warn_once(
             f"{self.service} request unidentified",
             f"dropped a request of service {self.service}: its client has left, before it was "
@@ -305,7 +305,7 @@ class CycloneService(TopicService):
         return client in self._reachable
 
     def matched(self) -> None:
-        """On the reader thread: the matching subscriptions of the reply topic are others now."""
+        """Handle a change of the reply topic's subscriptions; runs on the reader thread."""
         if self._waiting:
             self.send_waiting()
 
@@ -326,5 +326,5 @@ class CycloneService(TopicService):
             try:
                 self._send(waiting.reply)
             except WireError as error:  # noqa: PERF203 - one client's trouble is not another's
-                if not self.replies.closed:  # another thread may close the service meanwhile
+                if not self.replies.closed:  # another thread may have closed the service
                     warn_once(f"reply {self.service}", str(error))

@@ -1,12 +1,13 @@
 """Asks peers of other vendors to repeat what Cyclone did not receive.
 
-A peer tells each new participant at once which endpoints it has, and each new reader what it keeps
-for late joiners. Fast DDS does so before Cyclone has taken note of the peer, so Cyclone drops it.
-Fast DDS then repeats its endpoints after one second and its messages after three, because it does
-not heed the form in which Cyclone asks for what it never received (an ACKNACK whose count is 0).
+A peer immediately sends its endpoints to each new participant, and its messages for late joiners to
+each new reader. Fast DDS does so before Cyclone has registered the peer, so Cyclone drops the data.
+Fast DDS then repeats its endpoints after one second and its messages after three, because it
+ignores the form in which Cyclone requests data that it never received (an ACKNACK whose count is
+0).
 
-Another participant, or another reader, makes Fast DDS speak at once. Cyclone has taken note of the
-peer by then, and asks for all that was said, in a form that Fast DDS heeds.
+A new participant, or a new reader, makes Fast DDS send again at once. By then, Cyclone has
+registered the peer, and requests all of the data in a form that Fast DDS accepts.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Bytes from a DDS reader."""
+"""Subscriptions: read bytes from a DDS reader."""
 
 from __future__ import annotations
 

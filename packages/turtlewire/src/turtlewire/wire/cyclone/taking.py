@@ -1,4 +1,4 @@
-"""Messages out of a reader: by native code, or through ctypes without it."""
+"""Takes messages from a reader, by native code or through ctypes."""
 
 from __future__ import annotations
 

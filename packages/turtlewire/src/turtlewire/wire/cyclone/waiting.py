@@ -1,4 +1,4 @@
-"""Blocking for many things at once: a ``dds_waitset`` with a guard condition that wakes it."""
+"""Waits for many entities at once: a ``dds_waitset`` with a guard condition that wakes it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Messages into a writer: by native code, or through ctypes without it."""
+"""Writes messages to a writer, by native code or through ctypes."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
             ...
 
         def close(self) -> None:
-            """To be called before the DDS writer is deleted: the type goes with it."""
+            """Close the native writer; call this before the DDS writer and its type are deleted."""
             ...
 
 

@@ -1,16 +1,15 @@
 """The in-process middleware: the same contract as the real one, without a wire.
 
-All contexts of one process and one domain see each other. Messages are handed over inside
-``publish``, so what was published before a ``take`` is there at the ``take``: tests need no
-waiting.
+All contexts of one process and one domain see each other. ``publish`` delivers messages
+before it returns, so a later ``take`` always finds them: tests need not wait.
 
 ===========================  ==========================================================
-module                       what it holds
+module                       contents
 ===========================  ==========================================================
 `bus`                        nodes and endpoints of a domain, and which endpoints match
 `context`                    a participant and its graph
-`node`, `node_state`         a node; what it shares with its endpoints
-`endpoint`                   what publishers and subscriptions have in common
+`node`, `node_state`         a node; the state that it shares with its endpoints
+`endpoint`                   the common base of publishers and subscriptions
 `publisher`, `subscription`  the two kinds of endpoints
 ===========================  ==========================================================
 """

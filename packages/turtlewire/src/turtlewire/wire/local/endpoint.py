@@ -1,4 +1,4 @@
-"""What publishers and subscriptions of the in-process middleware have in common."""
+"""The common base of publishers and subscriptions of the in-process middleware."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def new_gid() -> bytes:
 
 
 class LocalEndpointSpec(NamedTuple):
-    """What an endpoint is created from.
+    """The specification of a new endpoint.
 
     Attributes:
         name: ROS name of the topic, or of the service that the endpoint belongs to.
@@ -56,7 +56,7 @@ class LocalEndpointSpec(NamedTuple):
 
 
 class LocalEndpoint(Entity):
-    """What publishers and subscriptions have in common. The bus's lock guards all of it.
+    """The common base of publishers and subscriptions. The bus's lock guards all of it.
 
     Attributes:
         matched: The endpoints of the other kind that it matches.

@@ -1,4 +1,4 @@
-"""What a node shares with its endpoints."""
+"""The state that a node shares with its endpoints."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What travels beside each message, request and response."""
+"""The attachment of each message, request and response."""
 
 from __future__ import annotations
 

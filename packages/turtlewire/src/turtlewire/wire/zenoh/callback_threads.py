@@ -29,7 +29,7 @@ class CallbackThreads:
         self._ended: list[threading.Thread] = []
 
     def declare(self, call: Callable[[Any], None], declare: Callable[[Any], _T]) -> _T:
-        """Declare something whose callbacks run on a thread of its own, which the library makes.
+        """Declare something whose callbacks run on a separate thread, which the library starts.
 
         Args:
             call: The callback.

@@ -1,4 +1,4 @@
-"""Calls into Zenoh's library, which must have returned before the interpreter ends."""
+"""Counts calls into Zenoh's library, which must return before the interpreter ends."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a context shares with its nodes and endpoints."""
+"""The state that a context shares with its nodes and endpoints."""
 
 from __future__ import annotations
 

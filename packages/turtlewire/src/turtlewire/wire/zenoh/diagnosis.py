@@ -1,4 +1,4 @@
-"""Why a session cannot be opened: Zenoh says "Timeout!" for every reason.
+"""Explains why a session cannot be opened, because Zenoh only says "Timeout!".
 
 Each address is tried again with Python's own sockets and TLS, and the same certificates.
 """
@@ -69,7 +69,7 @@ _VERIFIED = {
 
 
 class ConnectFault(NamedTuple):
-    """What keeps a session from an address.
+    """The reason why a session cannot connect to an address.
 
     Attributes:
         text: What is wrong.
@@ -88,7 +88,7 @@ class _Address(NamedTuple):
 
 
 def fault_of(configuration: zenoh.Config, reason: str) -> ConnectFault:
-    """Why a session cannot be opened, for which Zenoh gives a ``reason``."""
+    """Return why a session cannot be opened, given Zenoh's ``reason``."""
     if not re.match("Unable to connect|Timeout", reason, re.IGNORECASE):
         return ConnectFault(reason, _ORIGIN)
     addresses = list(_flat(_value(configuration, "connect/endpoints")))

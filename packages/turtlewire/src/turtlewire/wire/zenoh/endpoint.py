@@ -1,4 +1,4 @@
-"""What all endpoints have in common."""
+"""The common base of all endpoints."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from .token import Token
 
     class Declared(Protocol):
-        """What Zenoh returns for a publisher, a subscriber and the like."""
+        """An object that Zenoh returns for a publisher, a subscriber and the like."""
 
         def undeclare(self) -> None:
             """Take it back."""

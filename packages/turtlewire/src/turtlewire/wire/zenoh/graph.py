@@ -42,14 +42,14 @@ class Matching(Protocol):
     token: Token
 
     def meet(self, partner: Token) -> None:
-        """An endpoint of the other kind and the same key is there."""
+        """Match an endpoint of the other kind and the same key."""
 
     def part(self, partner: Token) -> None:
-        """It is not there any more."""
+        """Forget a partner that has left."""
 
 
 class ZenohGraph(GraphView):
-    """Collects tokens, and tells this context's endpoints who matches.
+    """Collects tokens, and notifies this context's endpoints of matches.
 
     Attributes:
         lock: Guards all of it.
@@ -71,7 +71,7 @@ class ZenohGraph(GraphView):
         self._is_complete = False
 
     def start(self, session: zenoh.Session, threads: CallbackThreads) -> None:
-        """Collect the tokens that are there, and from now on."""
+        """Collect existing and future tokens."""
         self._session_id = str(session.zid())
         liveliness, key = session.liveliness(), graph_key(self._domain_id)
         self._subscriber = threads.declare(
@@ -98,7 +98,7 @@ class ZenohGraph(GraphView):
             (self.remove if sample.kind == SampleKind.DELETE else self.add)(token)
 
     def add(self, token: Token) -> None:
-        """A node or endpoint is there. Thread-safe; not with locks held."""
+        """Add a node or endpoint. Thread-safe; call without locks held."""
         with self.lock:
             if token.text in self._tokens:
                 return

@@ -70,7 +70,7 @@ class ZenohSinkSubscription(ZenohSubscription):
         return subscriber
 
     def _receive(self, channel: Any) -> None:
-        """Empty the channel until the subscriber is taken back; on a thread of its own."""
+        """Empty the channel until the subscriber is taken back; on its own thread."""
         try:
             while True:
                 batch = [channel.recv()]

@@ -1,4 +1,4 @@
-"""Whether ``eclipse-zenoh`` is here, and its errors; the others import it at their top."""
+"""Imports ``eclipse-zenoh`` if it is installed, and defines its errors, for the other modules."""
 
 from __future__ import annotations
 

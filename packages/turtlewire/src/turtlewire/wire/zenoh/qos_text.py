@@ -1,4 +1,4 @@
-"""A QoS as a liveliness token spells it.
+"""A QoS in the notation of liveliness tokens.
 
 ``<reliability>:<durability>:<history>,<depth>:<deadline>:<lifespan>:<liveliness>,<lease>`` with
 numbers of rmw, durations as ``<s>,<ns>``, and nothing where a value is rmw_zenoh's default.

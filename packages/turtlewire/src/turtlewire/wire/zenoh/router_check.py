@@ -35,7 +35,7 @@ def wait_for_router(session: zenoh.Session) -> None:
     """Wait for a router as long as ``ZENOH_ROUTER_CHECK_ATTEMPTS`` says.
 
     A positive number is that many seconds (rmw_zenoh's attempts are a second apart), 0 means no
-    limit, a negative number no check. The session goes on without a router, after a warning.
+    limit, a negative number no check. The session continues without a router, after a warning.
     """
     attempts = _attempts()
     if attempts < 0:

@@ -1,6 +1,7 @@
-"""What a router's library says about peers that it refuses, in words for people.
+"""Rewords the messages of a router's library about rejected peers.
 
-Zenoh logs on standard output, which is a pipe meanwhile; the sentences go to standard error. With
+Zenoh logs to standard output, which this module replaces by a pipe; the reworded sentences go to
+standard error. With
 ``RUST_LOG``, the log is left as it is.
 """
 

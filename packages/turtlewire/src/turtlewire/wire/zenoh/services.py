@@ -110,7 +110,7 @@ class ZenohClient(_QueuedEndpoint, Client):
         return number
 
     def _on_reply(self, reply: zenoh.Reply) -> None:
-        """On a thread of Zenoh."""
+        """Queue the message; runs on a thread of Zenoh."""
         sample = reply.ok
         if sample is None or sample.attachment is None:
             return  # the time is over, or the server has gone: both end as no answer
@@ -144,7 +144,7 @@ class ZenohService(_QueuedEndpoint, Service):
         self.announce(queryable)
 
     def _on_query(self, query: zenoh.Query) -> None:
-        """On a thread of Zenoh."""
+        """Queue the message; runs on a thread of Zenoh."""
         try:
             attachment = Attachment.unpack(bytes(query.attachment or b""))
         except ValueError as error:

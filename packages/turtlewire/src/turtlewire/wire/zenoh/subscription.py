@@ -38,7 +38,7 @@ __all__ = ["ZenohSubscription"]
 
 
 class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
-    """A subscriber that queues on a thread of its own, which the library makes.
+    """A subscriber that queues on its own thread, which the library makes.
 
     Queuing on Zenoh's receiving thread would stop the whole link while another thread computes.
     """
@@ -80,7 +80,7 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
 
     def _declare(self, handler: Any) -> Declared:
         if self.qos.durability != Durability.TRANSIENT_LOCAL:
-            # Not an advanced one, as rmw_zenoh has it: without sequence numbers of its own, it
+            # Not an advanced one, as rmw_zenoh has it: without its own sequence numbers, it
             # drops what is older than the last message of the same session, so publishers of two
             # threads lose messages. On the wire both are the same.
             return self._core.session.declare_subscriber(self.token.data_key, handler)
@@ -97,7 +97,7 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
         )
 
     def _on_sample(self, sample: zenoh.Sample) -> None:
-        """On the subscription's own thread."""
+        """Queue the message; runs on the subscription's own thread."""
         try:
             attachment, cdr = _read(sample)
         except ValueError:
@@ -130,7 +130,7 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
             self._report_lost(missing)
 
     def _report_lost(self, missing: int) -> None:
-        """With the lock held."""
+        """Report lost messages; call with the lock held."""
         self._lost_count += missing
         self._event(EventKind.MESSAGE_LOST).add(EventStatus(self._lost_count, missing))
 

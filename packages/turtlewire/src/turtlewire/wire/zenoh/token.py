@@ -1,4 +1,4 @@
-"""Liveliness tokens: the text by which a node or an endpoint is in the graph."""
+"""Liveliness tokens: texts that announce nodes and endpoints."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-// Marker and MarkerArray: what there is of each namespace and id, until its lifetime ends.
+// Marker and MarkerArray: the markers by namespace and id, until their lifetimes end.
 
 import { BufferAttribute, Group } from "three";
 import { clear, free, setPose } from "./parts/common.js";

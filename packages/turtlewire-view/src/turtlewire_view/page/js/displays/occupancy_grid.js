@@ -43,7 +43,7 @@ export default class OccupancyGrid {
     this.update();
   }
 
-  /** After each packet of frames: the server tells only why a map has no place at its stamp. */
+  /** After each packet of frames: the server only reports why a map has no pose at its stamp. */
   update() {
     const isLost = this.#frame !== null && this.#view.poseOf(this.#frame) === null;
     this.#view.report(isLost ? `No transform from the map's frame '${this.#frame}'` : "");

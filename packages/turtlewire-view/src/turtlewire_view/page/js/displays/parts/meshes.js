@@ -1,4 +1,4 @@
-// Files of meshes: STL, DAE, OBJ, GLB; a box stands for what cannot be loaded.
+// Files of meshes: STL, DAE, OBJ, GLB; a box replaces a mesh that cannot be loaded.
 
 import {
   Box3, BoxGeometry, EdgesGeometry, Group, LineBasicMaterial, LineSegments, LoadingManager, Mesh,
@@ -61,7 +61,7 @@ export async function loadMesh(mesh, bytes = null) {
   return { object: copyOf(object), ...rest };
 }
 
-/** A box of wires in place of a mesh. */
+/** A wireframe box in place of a mesh. */
 export function makePlaceholder() {
   const box = new BoxGeometry(PLACEHOLDER_SIZE, PLACEHOLDER_SIZE, PLACEHOLDER_SIZE);
   const edges = new EdgesGeometry(box);
@@ -69,7 +69,7 @@ export function makePlaceholder() {
   return new LineSegments(edges, new LineBasicMaterial({ color: PLACEHOLDER_COLOR }));
 }
 
-/** Paint all of an object in a colour (RGB bytes), or what has no material of its own. */
+/** Paint an object in a colour (RGB bytes): all of it, or the parts without a material. */
 export function paint(object, color) {
   const tint = litColor(color ?? PLAIN_COLOR);
   object.traverse((each) => {
@@ -82,7 +82,7 @@ export function paint(object, color) {
 }
 
 async function fetchMesh({ url, name }) {
-  const address = new URL(`.${url}`, document.baseURI); // the page may have a path of its own
+  const address = new URL(`.${url}`, document.baseURI); // the page may have its own path
   const answer = await fetch(address);
   if (!answer.ok) throw new Error(`'${name}' cannot be loaded: ${(await answer.text()).trim()}`);
   const bytes = await answer.arrayBuffer();
@@ -114,7 +114,7 @@ async function parse(name, bytes, folder) {
     free(object);
     throw new Error(`'${name}' contains no triangles to draw`);
   }
-  const holder = new Group(); // the object has a scale and a turn of its own
+  const holder = new Group(); // the object has its own scale and rotation
   holder.add(object);
   return { object: holder, isOwn, problem };
 }
@@ -146,7 +146,7 @@ function keepSolids(object) {
   for (const each of others) each.removeFromParent();
 }
 
-/** A copy with materials of its own. */
+/** A copy with its own materials. */
 function copyOf(object) {
   const copy = object.clone();
   copy.traverse((each) => {

@@ -24,7 +24,7 @@ export async function loadTexture({ url, name }, bytes) {
 }
 
 async function fetchImage(url, name) {
-  const address = new URL(`.${url}`, document.baseURI); // the page may have a path of its own
+  const address = new URL(`.${url}`, document.baseURI); // the page may have its own path
   const answer = await fetch(address);
   if (!answer.ok) throw new Error(`'${name}' cannot be loaded: ${(await answer.text()).trim()}`);
   return answer.blob();
