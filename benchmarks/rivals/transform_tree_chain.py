@@ -1,5 +1,6 @@
 """transform-tree (`import tf_tree`): interpolated linearly and by SLERP, as tf2 does."""
 
+import itertools
 import os
 import sys
 
@@ -11,7 +12,7 @@ from world import FIRST, FRAMES, RECENT, SAMPLES, STEP, pose, random_stamps
 
 
 def filled():
-    edges = list(zip(FRAMES[:-1], FRAMES[1:], strict=True))
+    edges = list(itertools.pairwise(FRAMES))
     tree = tf_tree.build(edges, capacity=2 * SAMPLES, interp="lerpslerp")
     stamps = np.arange(SAMPLES, dtype=np.int64) * STEP + FIRST
     for link, (parent, child) in enumerate(edges):
