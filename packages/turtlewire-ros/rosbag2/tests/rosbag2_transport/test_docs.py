@@ -24,7 +24,7 @@ def shell(run, tmp_path, monkeypatch):
 
 def test_the_page_does_what_it_says(shell, run, tmp_path):
     blocks = re.findall(r"^```(\w+)\n(.*?)^```$", PAGE.read_text(), re.MULTILINE | re.DOTALL)
-    assert len(blocks) == 10
+    assert len(blocks) == 11
     for kind, text in blocks:
         if kind == "yaml":
             (tmp_path / "wanted.yaml").write_text(text)
