@@ -11,7 +11,7 @@ PAGE = HOW_TO / "tf_buffer.md"
 
 def test_the_examples_do_what_the_page_says() -> None:
     failed, tried = doctest.testfile(str(PAGE), module_relative=False)
-    assert (failed, tried) == (0, 32)
+    assert (failed, tried) == (0, 35)
 
 
 def test_the_page_has_both_ways_in() -> None:

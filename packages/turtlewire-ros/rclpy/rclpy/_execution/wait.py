@@ -70,8 +70,10 @@ class ExecutorWait(Generic[T]):
 
     def _detach_left(self) -> None:
         with self._lock:
-            while self._left:
-                self._wait_set.detach(self._left.pop())
+            left = list(self._left)
+            self._left.clear()
+            for wire in left:
+                self._wait_set.detach(wire)
 
     def notify(self, entity: T) -> None:
         """Report ``entity`` at once."""

@@ -133,7 +133,7 @@ def test_the_first_message_of_a_file_announces_the_file_in_each_round(peer, tmp_
         writer.add_topic("/text", "std_msgs/msg/String")
         for time in (START, START + 10, START + 21):
             writer.write("/text", String(), time)
-    player, splits = BagPlayer(peer.node, str(tmp_path / "bag"), PlayOptions()), []
+    player, splits = BagPlayer(peer.node, [str(tmp_path / "bag")], PlayOptions()), []
     PlayerServices(peer.node, player)._splits = SimpleNamespace(publish=splits.append)
     for count in (1, 2):
         player.play()

@@ -38,6 +38,7 @@ module                     contents
 `links`                    the links of a buffer with rates and ages
 `faults`                   rejected transforms, malformed messages, and conflicts
 `restarts`                 detects that a simulation has restarted
+`departures`               frames whose publisher has left the graph
 `arrays`                   a transform as an array
 `frame_tree`               the frames with statistics of their links, for diagrams
 `tidy_tree`                positions of the nodes of a drawn tree
