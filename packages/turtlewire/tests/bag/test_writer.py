@@ -308,6 +308,17 @@ def test_a_message_at_the_end_of_a_file_belongs_to_it(tmp_path, max_file_ns, cou
     assert [file.message_count for file in writer.metadata.files] == counts
 
 
+@pytest.mark.parametrize(("chunk_bytes", "chunks"), [(77, 3), (78, 3), (79, 2)])
+def test_a_chunk_ends_when_its_size_is_reached(tmp_path, chunk_bytes, chunks):
+    with BagWriter(tmp_path / "made", chunk_bytes=chunk_bytes) as writer:
+        writer.add_topic("/a", "std_msgs/msg/String")
+        for time in range(6):
+            writer.write("/a", bytes(8), time)  # a record of 39 bytes
+    with open(tmp_path / "made" / "made_0.mcap", "rb") as file:
+        indexes = make_reader(file).get_summary().chunk_indexes
+    assert sum(bool(index.message_index_offsets) for index in indexes) == chunks
+
+
 def test_the_length_of_a_file_counts_from_its_first_message_after_a_split(tmp_path):
     with BagWriter(tmp_path / "made", max_file_ns=10) as writer:
         writer.add_topic("/a", "std_msgs/msg/String")

@@ -36,6 +36,11 @@ def test_a_payload_too_short_for_the_header_is_none():
     assert split_header(b"\x00\x01\x00\x00" + bytes(15)) is None
 
 
+def test_a_payload_may_end_behind_the_header():
+    cdr = b"\x00\x01\x00\x00"
+    assert split_header(cdr + bytes(16)) == (RequestId(0, 0), cdr)
+
+
 def test_service_ids_are_spelled_like_those_of_rmw_cyclonedds():
     participant = bytes.fromhex("0110a83ed762017dd5286bfb000001c1")
     assert format_service_id(participant, 1) == " 1.10.a8.3e.d7.62.1.7d.d5.28.6b.fb.0.0.0.1"

@@ -213,3 +213,12 @@ def test_without_services(context):
     assert not any("change_state" in service.srv_name for service in managed.services)
     assert managed.trigger_configure() is SUCCESS
     managed.destroy_node()
+
+
+def test_a_destroyed_publisher_takes_part_in_no_transition(managed):
+    gone, kept = (managed.create_lifecycle_publisher(Int32, topic, 1) for topic in ("a", "b"))
+    managed.trigger_configure()
+    assert managed.destroy_lifecycle_publisher(gone)
+    managed.trigger_activate()
+    assert (gone.is_activated, kept.is_activated) == (False, True)
+    assert not managed.destroy_lifecycle_publisher(gone)

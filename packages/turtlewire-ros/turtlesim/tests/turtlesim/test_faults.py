@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
+from types import SimpleNamespace
 
 import pytest
 from tests.places import ROOT
@@ -12,11 +13,14 @@ import rclpy
 from geometry_msgs.msg import TransformStamped
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.serialization import serialize_message
 from rclpy.time import Time
+from tf2_msgs.msg import TFMessage
 from tf2_ros import Buffer, StaticTransformBroadcaster, TransformBroadcaster, TransformListener
 from turtlesim.testing import Simulation
 from turtlesim.testing.faults import (
     Delay,
+    FaultyTransforms,
     Loss,
     MissingStatic,
     TwoPublishers,
@@ -278,3 +282,15 @@ def test_an_error_of_main_comes_through_and_rclpy_is_as_before():
     with Simulation() as simulation, pytest.raises(ZeroDivisionError):
         simulation.start_program(main)
     assert rclpy.spin is spin
+
+
+@pytest.mark.parametrize(("steps", "arrived"), [(9, 0), (10, 1), (11, 1)])
+def test_a_delay_ends_with_its_last_step(steps, arrived):
+    """The sum of ten tenths is a little less than 1."""
+    got, faulty = [], FaultyTransforms(SimpleNamespace(tamper=None))
+    sender = SimpleNamespace(topic="/tf", deliver=got.append)
+    faulty.faults.append(Delay(1.0))
+    cdr = serialize_message(TFMessage(transforms=[TransformStamped()]))
+    faulty._tamper(sender, (cdr, None))
+    faulty.advance(sum([0.1] * steps))
+    assert len(got) == arrived
