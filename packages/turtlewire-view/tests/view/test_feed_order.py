@@ -120,6 +120,15 @@ def test_a_page_that_takes_nothing_fills_no_memory(page):
     assert sum(map(len, kept)) < 1_000_000
 
 
+def test_the_newest_thousand_events_are_kept(page):
+    page.know("base")
+    for number in range(1001):
+        page.send(marker(number))
+        page.send(marker(number, action=2))
+    deleted = [packet["delete"][0][1] for packet in page.take() if "delete" in packet]
+    assert deleted == list(range(1, 1001))
+
+
 def test_other_options_show_the_last_message_again():
     page = Page(PointCloudDisplay(), {"/t": "sensor_msgs/msg/PointCloud2"})
     page.know("base")

@@ -72,6 +72,16 @@ def test_odometry_keeps_what_moved():
     assert Removal(first.part) in odometry(0.2, 0.2)
 
 
+@pytest.mark.parametrize(("x", "shown"), [(0.4375, False), (0.5, True), (0.5625, True)])
+def test_odometry_as_far_away_as_the_tolerance_is_shown(x, shown):
+    display = OdometryDisplay({"position_tolerance": 0.5})
+    for place in (0.0, x):
+        message = new("nav_msgs/msg/Odometry", frame="odom")
+        message.pose.pose = pose(place)
+        outputs = display.content(message)
+    assert (len(outputs) == 2) == shown  # content and status
+
+
 def test_poses():
     content, _ = PoseDisplay().content(new("geometry_msgs/msg/PoseStamped", pose=pose(2.0, 1.0)))
     assert content.header["at"] == pytest.approx(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from types import SimpleNamespace
 
 import pytest
 from tests.places import GOLDEN
@@ -64,6 +65,24 @@ def client(world):
     assert client.wait_for_services(timeout_sec=60)
     assert client.services_are_ready()
     return client
+
+
+def test_all_services_share_one_timeout(world, monkeypatch):
+    client = AsyncParameterClient(world.asker, "server")
+    now, waits = [100.0], []
+
+    class Slow:
+        def wait_for_service(self, timeout_sec):
+            waits.append(timeout_sec)
+            now[0] += 4.0
+            return True
+
+    monkeypatch.setattr(client, "_clients", lambda: [Slow()] * 4)
+    monkeypatch.setattr("rclpy.parameter_client.time", SimpleNamespace(monotonic=lambda: now[0]))
+    assert client.wait_for_services(timeout_sec=10.0)
+    assert waits == [10.0, 6.0, 2.0, 0.0]
+    assert client.wait_for_services()
+    assert waits[4:] == [None] * 4
 
 
 def test_get(world, client):

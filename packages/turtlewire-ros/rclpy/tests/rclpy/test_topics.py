@@ -379,6 +379,7 @@ def test_wait_for_message(context, node):
     )
     start = time.monotonic()
     assert wait_for_message(Int32, node, "silence", time_to_wait=0.05) == (False, None)
+    assert wait_for_message(Int32, node, "silence", time_to_wait=0) == (False, None)
     assert time.monotonic() - start >= 0.05
     assert not any(each.topic_name in ("/number", "/silence") for each in node.subscriptions)
 
