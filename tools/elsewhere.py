@@ -112,7 +112,7 @@ def main() -> int:
 
 
 def run_tests(place: OtherSystem) -> None:
-    """The compiled core is there, and tests pass with it."""
+    """Check that the compiled core exists, and run tests with it."""
     trial = "import platform, turtlewire.tf.buffer as b; print(platform.machine(), b.CORE)"
     told = run(place.python, "-c", trial, what="the import").strip()
     if told != f"{place.machine} native":

@@ -94,7 +94,7 @@ def _robot() -> Buffer:
 
 
 def _compared_runs() -> str:
-    """Return the paths of two estimates beside the true one."""
+    """Return the paths of two estimates next to the true one."""
     angle = np.linspace(0.0, 2 * np.pi, 400)
     poses = np.zeros((400, 7))
     poses[:, 0], poses[:, 1] = 5 * np.cos(angle), 3 * np.sin(2 * angle)

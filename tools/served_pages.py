@@ -85,7 +85,7 @@ def address_of(process: subprocess.Popen[str]) -> str:
 
 @contextlib.contextmanager
 def view() -> Iterator[str]:
-    """Serve the 3D view beside the robot of the URDF tutorial."""
+    """Serve the 3D view of the robot of the URDF tutorial."""
     with tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as programs:
         share = Path(folder) / "share"
         index = share / "ament_index" / "resource_index" / "packages"

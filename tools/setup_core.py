@@ -64,7 +64,7 @@ def compiler_version() -> str:
 
 
 def provide_core(key: str) -> None:
-    """Put the compiled core of a key beside the Python modules, or say why it is missing."""
+    """Put the compiled core of a key next to the Python modules, or report why it is missing."""
     CORE.unlink(missing_ok=True)  # one of other sources
     if not key:
         remedy = "install a C++ compiler and Python's headers, then type the same again"

@@ -104,7 +104,7 @@ class DomainWatch:
         }
 
     def rest(self) -> None:
-        """No page is open: do not read the transforms until the next picture."""
+        """Stop reading transforms until the next picture, because no page is open."""
         self._listen(False)
 
     def examine(self, ended: threading.Event, seconds: float) -> None:

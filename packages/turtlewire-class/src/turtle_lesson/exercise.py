@@ -50,7 +50,7 @@ class FramePlace(NamedTuple):
 
 
 class Exercise:
-    """The simulation, the student's files in it, and a TF buffer beside them.
+    """The simulation, the student's files in it, and a TF buffer.
 
     Attributes:
         simulation: Turtlesim and all nodes, in lock-step.

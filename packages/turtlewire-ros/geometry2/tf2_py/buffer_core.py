@@ -252,9 +252,9 @@ def _line(parents: dict[str, str], frame: str) -> list[str]:
 
 
 def _succeeds(reason: str) -> int:
-    """Return what can_transform_core returns beside a reason.
+    """Return the first item of can_transform_core's result, given the reason.
 
-    Lyrical's tf2 takes a static transform that was cleared for a success, but gives half a reason.
+    Lyrical's tf2 reports success for a cleared static transform, but with half a reason.
     """
     return int(not reason or (since(LYRICAL) and reason.startswith(", when looking up")))
 

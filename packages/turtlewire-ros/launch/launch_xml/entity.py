@@ -41,7 +41,7 @@ class Entity(BaseEntity):
 
     @property
     def children(self) -> list[BaseEntity]:
-        """The elements in it."""
+        """The child elements."""
         # Then the action has read all of them.
         self._read_children |= {child.type_name for child in self._children}
         return list(self._children)

@@ -179,7 +179,7 @@ class AsyncParameterClient:
         use_wildcard: bool = False,
         callback: Callable[[Future], None] | None = None,
     ) -> Future:
-        """Set what a YAML file says, one value after the other.
+        """Set the parameters of a YAML file, one value after the other.
 
         See :func:`rclpy.parameter.parameter_dict_from_yaml_file`.
         """

@@ -86,7 +86,7 @@ class IntrospectedEndpoint(ClosingEntity):
         service_event_qos_profile: QoSProfile,
         introspection_state: ServiceIntrospectionState,
     ) -> None:
-        """Publish what is sent and received on ``<service>/_service_event``.
+        """Publish requests and responses on ``<service>/_service_event``.
 
         Args:
             clock: Gives the stamps.

@@ -270,7 +270,7 @@ class Task(Future[T]):
         self._finish(**outcome)
 
     def _when_runnable(self, resume: Callable[[], None]) -> None:
-        """Call ``resume()`` once, as soon as another step makes sense."""
+        """Call ``resume()`` once, when the task can run its next step."""
         awaited, self._awaited = self._awaited, None
         if isinstance(awaited, Future):
             awaited._add_waiter(resume)

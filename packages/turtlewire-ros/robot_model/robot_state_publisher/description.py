@@ -40,7 +40,7 @@ def parse_description(text: str) -> Robot:
 
 
 def oddities(robot: Robot) -> Iterator[str]:
-    """The warnings of kdl_parser: inertia of the root link, joints that it takes for fixed ones."""
+    """The warnings of kdl_parser: inertia of the root link, joints that it treats as fixed."""
     if robot.links[robot.root].inertial is not None:
         yield (
             f"The root link {robot.root} has an inertia specified in the URDF, but KDL does not"

@@ -19,7 +19,7 @@ robot_description. The description is the parameter robot_description; a file as
 the old way.
 
 parameters: robot_description   the URDF; what `xacro FILE` prints
-            publish_frequency   at most so many joint states a second are published (default 20.0)
+            publish_frequency   maximum number of published joint states per second (default 20.0)
             ignore_timestamp    publish every joint state, whatever its stamp (default false)
             frame_prefix        is put before the names of all frames, without a slash"""
 

@@ -29,7 +29,7 @@ __all__ = [
 # Other hosts have this much time to answer; participants of this host are counted. Measured on
 # two cores: the last of 50 participants answers 70 ms after the first question.
 _ANSWER_S = 0.15
-# Fast DDS repeats every three seconds what got lost.
+# Fast DDS repeats lost data every three seconds.
 _PATIENCE_S = 4.0
 
 # With their hashes, so that no definition has to be read.

@@ -24,7 +24,7 @@ __all__ = ["MissingTurtles", "find_missing"]
 _PATIENCE_S = 2.0
 #: Time between two hints: the lines of a node that waits push the last one off the screen [s].
 _REMINDER_S = 10.0
-#: With more turtles than this there are no hints: looking at the endpoints of so many turtles
+#: With more turtles than this there are no hints: checking the endpoints of that many turtles
 #: would delay the simulator.
 _MOST_TURTLES = 200
 #: Only the simulator publishes these, so a node that subscribes to one waits for a turtle.

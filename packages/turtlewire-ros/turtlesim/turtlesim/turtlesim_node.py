@@ -162,7 +162,7 @@ class TurtlesimNode(CppNode):
             self._hold()
 
     def _hold(self) -> None:
-        """Obey the pages, and show where turtles stand in a pause."""
+        """Handle the pages' commands, and show the turtles during a pause."""
         self._page.carry_out()
         ticks = hold(self.world.in_order())
         for tick in ticks:

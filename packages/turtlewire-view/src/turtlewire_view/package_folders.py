@@ -25,7 +25,7 @@ class PackageFolders:
 
     Args:
         named: Folders by names of packages; they come first.
-        file: A URDF file. A package whose ``package.xml`` lies above it, or in a folder beside
+        file: A URDF file. A package whose ``package.xml`` is above it, or in a folder next to
             those above it, is found without the index, and its meshes may have paths.
         roots: Folders with packages that need no ``package.xml``: a folder's name is the package's.
     """

@@ -142,7 +142,7 @@ class ParameterWatch:
             for client in self._wait_set.wait():
                 if isinstance(client, Client):
                     for number, cdr in self._responses(client):
-                        with self._lock:  # the request's number may not be known before
+                        with self._lock:  # the request's number may be unknown earlier
                             if number == self._asked:
                                 self._answers.append(self._answer(cdr))
             while self._answers and not self._is_closed:

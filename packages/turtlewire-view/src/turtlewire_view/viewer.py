@@ -46,8 +46,8 @@ _EMBEDDED = {
 class Viewer:
     """Serves the page until it is closed.
 
-    Two threads beside the server's: one notifies the pages of news at most thirty times a second,
-    one makes geometry of messages.
+    Two threads in addition to the server's: one notifies the pages of changes up to 30 times a
+    second, one makes geometry of messages.
 
     Args:
         source: Where frames and messages come from; closed with the view.

@@ -33,7 +33,7 @@ class Visitable(Protocol[Context_contra]):
         """Take effect; the returned entities are visited next."""
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
-        """Return what is done when the entity has completed, or None if a visit is all."""
+        """Return the future of the entity's completion, or None if a visit completes it."""
 
 
 class EventHandling(Protocol[Context_contra]):

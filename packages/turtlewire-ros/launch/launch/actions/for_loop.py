@@ -25,7 +25,7 @@ __all__ = ["ForEach", "ForLoop"]
 
 @expose_action("for_each")
 class ForEach(Action):
-    """Visits what a function returns for each of several mappings.
+    """Visits the entities that a function returns for each of several mappings.
 
     Args:
         input_values: Mappings in YAML, separated by semicolons:

@@ -326,7 +326,7 @@ class Scheduler:
                 self._advance(task)
 
     def _advance(self, task: Task[Any]) -> None:
-        """Run one step of a task; have it run again when what it awaits is done."""
+        """Run one step of a task; schedule the next step for when the awaited future is done."""
         task()
         if not task.done():
             task._when_runnable(lambda: self._schedule(task))

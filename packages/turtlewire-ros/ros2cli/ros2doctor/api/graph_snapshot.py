@@ -63,7 +63,7 @@ def one_snapshot() -> Iterator[None]:
 
 
 def snapshot() -> GraphSnapshot:
-    """Return what can be discovered now, or what the first call in the block returned."""
+    """Return the endpoints of the graph now, or the result of the first call in the block."""
     if not _shared:
         return _discover()
     found = _shared[-1] or _discover()

@@ -54,7 +54,7 @@ _GROUPS = {
     "triangle_list": (3, 3),
     "arrow_strip": (2, 1),
 }
-#: Items that may be left out evenly when there are too many; lines are cut off instead.
+#: Items of which some may be omitted evenly if there are too many; lines are truncated instead.
 _THINNED = frozenset({"cube_list", "sphere_list", "points", "line_list", "triangle_list"})
 _LONGEST_TEXT = 10_000
 _LARGEST_FILE = 32 * 2**20

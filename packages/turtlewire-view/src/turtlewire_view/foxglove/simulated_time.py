@@ -42,7 +42,7 @@ class SimulatedTime:
         )
 
     def close(self) -> None:
-        """Follow it no longer."""
+        """Stop following the clock."""
         self._subscription.close()
 
     def _receive(self, cdr: bytes, _info: MessageInfo) -> None:

@@ -275,7 +275,7 @@ def _view(field: ColumnField, data: bytes, begin: int, count: int) -> Any:
 
 
 def _objects(values: Any, count: int) -> NDArray[Any]:
-    """Return an array of objects, which NumPy would make a matrix of if they are alike."""
+    """Return an array of objects; NumPy would make a matrix if they have the same shape."""
     array = np.empty(count, object)
     for number, value in enumerate(values):
         array[number] = value

@@ -89,7 +89,7 @@ class Ros1File:
             pass
 
     def forget(self, chunk: ChunkIndex) -> None:
-        """Give the memory of a chunk's pages back; they are read again when they are needed."""
+        """Release the memory of a chunk's pages; they are read again when they are needed."""
         if sys.platform != "win32" and hasattr(mmap, "MADV_DONTNEED"):
             start = chunk.offset // mmap.PAGESIZE * mmap.PAGESIZE
             self._map.madvise(mmap.MADV_DONTNEED, start, chunk.offset + chunk.length - start)

@@ -86,7 +86,7 @@ def generate_package(source: Path, output: Path, package: str = "") -> Path:
 
 
 def _definition_files(source: Path) -> list[Path]:
-    """The definitions in a folder; an .idl file beside another one is what ROS 2 made of it."""
+    """The definitions in a folder; skips .idl files that ROS 2 generated from another file."""
     found = []
     for kind in KINDS:
         found += sorted((source / kind).glob(f"*.{kind}"))

@@ -46,7 +46,7 @@ class Broadcaster:
         self._publish(TOPIC, [_message(found)])
 
     def send_static(self, parent: str, child: str, translation: Any, rotation: Any) -> None:
-        """Send a transform that holds at all times; late listeners get all that were sent."""
+        """Send a transform that holds at all times; late listeners get all static transforms."""
         checked = Buffer()
         checked.set_static_transform(parent, child, translation, rotation)
         found = checked.lookup_transform(checked.frames()[1], checked.frames()[0])

@@ -31,7 +31,7 @@ def plot(
         named: Trajectories, or what `Comparison.ape` or `Comparison.rpe` returned, by name.
         kind: For trajectories ``path``, ``positions``, ``angles`` or ``speeds``; for errors ``box``
             or ``histogram``. None uses the first of them.
-        reference: A trajectory drawn dashed and grey beside the others.
+        reference: A trajectory that is drawn dashed and grey, next to the others.
         plane: The axes of ``path``: ``xy``, ``xz``, ``yz`` or the other way round.
 
     Raises:

@@ -140,7 +140,7 @@ def _read_kitti(
 
 
 def _read_kitti_alone(path: str | os.PathLike[str]) -> FileContents:
-    """Read KITTI's poses with the times of a file beside them, if there is one."""
+    """Read KITTI's poses, with the times of the file next to them if it exists."""
     if os.path.exists(kitti_times(path)):
         return _read_kitti(path, kitti_times(path))
     of_sequence = os.path.join(os.path.dirname(os.fspath(path)), "times.txt")
@@ -164,7 +164,7 @@ def _write_kitti(stamps: Stamps, poses: Poses, path: str | os.PathLike[str]) -> 
 
 
 def kitti_times(path: str | os.PathLike[str]) -> str:
-    """Return the file beside KITTI's poses that has their times."""
+    """Return the file next to KITTI's poses that contains their times."""
     return os.path.splitext(os.fspath(path))[0] + "_times.txt"
 
 

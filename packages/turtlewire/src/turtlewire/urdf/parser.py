@@ -25,7 +25,7 @@ _LIMITED = frozenset({"revolute", "prismatic"})
 
 
 def parse_urdf(text: str | bytes) -> Description:
-    """Return what a URDF describes.
+    """Return the robot that a URDF describes.
 
     Elements that urdfdom does not know (``gazebo``, ``transmission``, ``ros2_control``) are
     ignored.

@@ -161,7 +161,7 @@ class Publisher(Entity):
 
     @abstractmethod
     def wait_for_acknowledgments(self, timeout_ns: int) -> bool:
-        """Block until all reliable subscriptions have received all that was published.
+        """Block until all reliable subscriptions have received all published messages.
 
         False when the time is over before.
         """

@@ -47,7 +47,7 @@ class Platform(NamedTuple):
 
 
 def this_platform() -> Platform:
-    """Return the one that this process runs on."""
+    """Return the platform of this process."""
     musl = "musl" in getattr(sys.implementation, "_multiarch", "")
     cpython = sys.implementation.name == "cpython"
     usual = cpython and not musl and not sysconfig.get_config_var("Py_GIL_DISABLED")

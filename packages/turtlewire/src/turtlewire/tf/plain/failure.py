@@ -109,7 +109,7 @@ def connection_failure(target: str, source: str, target_root: str, source_root: 
 
 
 def loop_failure(frames: str) -> Failure:
-    """Return a walk that does not end."""
+    """Return the failure of a walk in a loop."""
     return Failure(
         f"The tf tree is invalid because it contains a loop.\n{frames}\n", LookupStatus.LOOP
     )

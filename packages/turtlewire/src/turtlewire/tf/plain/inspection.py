@@ -59,7 +59,7 @@ def time_range(self: SharedTree, target_frame: str, source_frame: str) -> tuple[
 
 
 def _links_between(tree: Tree, target: str, source: str) -> tuple[int | None, list[str]]:
-    """The latest common time, and the children of the links between two frames then."""
+    """Return the latest common time, and the children of the links between two frames then."""
     tree.check_name(target, "lookupTransform", "target_frame")
     tree.check_name(source, "lookupTransform", "source_frame")
     if target == source:
@@ -135,7 +135,7 @@ def set_transforms(
     errors: Literal["raise", "skip"] = "raise",
     sender: str = "default_authority",
 ) -> int:
-    """set_transform for many samples of one frame; how many the buffer now holds."""
+    """Add many samples of one frame; returns how many the buffer now holds."""
     from turtlewire.tf.pose_rows import pose_rows
 
     check_frames(parent_frame=parent_frame, child_frame=child_frame, sender=sender)

@@ -112,7 +112,7 @@ class CycloneNode(Node):
         return server
 
     def _identity(self, key: str, types: ServiceTypes) -> dict[str, str]:
-        """Return what both halves of a client or server announce beside the hash of a message."""
+        """Return the user data of both halves of a client or server, without message hashes."""
         number = self._core.next_service_number()
         identity = {key: format_service_id(self.context.gid, number)}
         service_hash = types.announced_hash()

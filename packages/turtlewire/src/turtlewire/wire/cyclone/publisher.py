@@ -75,7 +75,7 @@ class CyclonePublisher(Endpoint, Publisher):
             self._refused(code, joined(cdr))
 
     def publish_identified(self, cdr: bytes, guid: bytes, number: int) -> None:
-        """Send a message of a service with the identity of a request beside it, as Fast DDS does.
+        """Send a message of a service with the identity of a request in its QoS, as Fast DDS does.
 
         Its type was prepared for that.
         """

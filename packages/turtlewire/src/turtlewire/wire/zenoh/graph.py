@@ -42,7 +42,7 @@ class Matching(Protocol):
     token: Token
 
     def meet(self, partner: Token) -> None:
-        """An endpoint of the other kind and the same key is there."""
+        """Match an endpoint of the other kind and the same key."""
 
     def part(self, partner: Token) -> None:
         """Forget a partner that has left."""
@@ -98,7 +98,7 @@ class ZenohGraph(GraphView):
             (self.remove if sample.kind == SampleKind.DELETE else self.add)(token)
 
     def add(self, token: Token) -> None:
-        """A node or endpoint is there. Thread-safe; not with locks held."""
+        """Add a node or endpoint. Thread-safe; call without locks held."""
         with self.lock:
             if token.text in self._tokens:
                 return
