@@ -320,7 +320,7 @@ def browser_3d(chromium):
 
 
 class Outcome:
-    """What a launch did: exit status, lines on the screen, its context and log folder."""
+    """The result of a launch: exit status, lines on the screen, its context and log folder."""
 
     def __init__(self, status, text, context, log_dir):
         self.status = status

@@ -65,7 +65,7 @@ class Member:
         )
 
     def next_time(self) -> float:
-        """When it saw the next count."""
+        """Return the time of the next count."""
         assert self.process.stdout is not None
         for line in self.process.stdout:
             what, when = line.split()

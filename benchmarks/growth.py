@@ -1,4 +1,4 @@
-"""How cost grows with the number of nodes, topics, frames, turtles … and with the length of a bag.
+"""Growth of cost with the number of nodes, topics, frames, turtles … and with the length of a bag.
 
 `scripts/bench growth` prints a row for each size and draws all of them into
 ``build/growth.svg``, with logarithmic axes. Each size runs in its own process.
@@ -217,7 +217,7 @@ def cpu_each_second(pids: list[int]) -> list[float]:
 
 
 def cpu_ns(pid: int) -> int:
-    """What all threads of a process have used."""
+    """Return the CPU time of all threads of a process."""
     threads = Path(f"/proc/{pid}/task").iterdir()
     return sum(int((thread / "schedstat").read_text().split()[0]) for thread in threads)
 

@@ -79,7 +79,7 @@ def throughput(environment: dict[str, str]) -> dict[str, float]:
 
 
 def pair(first: str, second: str, environment: dict[str, str]) -> dict[str, float]:
-    """What two processes say of themselves."""
+    """Return the figures that two processes print."""
     command = [sys.executable, "-m", __name__]
     with (
         subprocess.Popen(

@@ -74,7 +74,7 @@ class Record:
         self.cpu = 0.0
 
     def add(self, sent: str) -> bool:
-        """Whether there are enough."""
+        """Return True if there are enough."""
         self.latencies.append(time.perf_counter_ns() - int(sent))
         if len(self.latencies) == WARM_UP:
             self.cpu = time.process_time()

@@ -1,4 +1,4 @@
-"""How much gets through rclpy between two processes: goals, short messages and large ones.
+"""Throughput of rclpy between two processes: goals, short messages and large ones.
 
 The real rclpy is not on this machine. It was measured beside commit 16a1ae2 of this repository,
 alternating in one run: that commit served 0.76 to 0.82 times as many goals, published 70,000

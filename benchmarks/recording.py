@@ -157,7 +157,7 @@ def timing() -> None:
 
 
 def rows() -> Iterator[Row]:
-    """How late messages are published at three rates."""
+    """Measure the delay of published messages at three rates."""
     for rate, errors in lateness():
         middle, late = statistics.median(errors), errors[int(len(errors) * 0.99)]
         yield Row(f"{rate:g}x, {len(errors)} messages", Figure(middle, late, "ms"))

@@ -1,4 +1,4 @@
-"""What a `ros2` command line costs: from the shell's start of the process to its end."""
+"""Cost of a `ros2` command line: from the shell's start of the process to its end."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a TransformListener costs, and how soon a waiting lookup has its answer.
+"""Cost of a TransformListener, and the delay of the answer to a waiting lookup.
 
 The publisher is another process at 1 kHz.
 

@@ -1,6 +1,6 @@
 """Rejects docstrings, comments and test names that break docs/style.md.
 
-A function's docstring starts with a verb, not with "Whether" or "What". Some phrases are not
+A docstring starts with a verb or a noun, not with "Whether" or "What". Some phrases are not
 idiomatic English, or hide the noun that a reader needs. A file that a docstring names must exist.
 The name of a test says what it tests.
 """
@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parent.parent
 #: Neither tests nor programs that users write.
 LEFT_OUT = re.compile(r"(^|/)(tests|benchmarks|lessons|exercises)/")
 RIDDLE = re.compile(
-    r"(Whether|What|Those|How|That|Which|Who|Whose|Where|When|Until|See|Of|Likewise)\b"
+    r"(Whether|What|Those|How|That|Which|Who|Whose|Where|When|Why|Until|Its|See|Of|Likewise)\b"
 )
 PHRASES = re.compile(
     r"\b(whoever|somebody|so many \w+s|for ever|anew|thus|mend(s|ed|ing)?|hangs? on (?!for)\w+"
@@ -86,9 +86,8 @@ def faults_of(source: str, names: set[str]) -> Iterator[tuple[int, str]]:
         if not isinstance(node, Documented) or not (text := ast.get_docstring(node)):
             continue
         line = getattr(node, "lineno", 1)
-        is_function = isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))
-        if is_function and (opening := RIDDLE.match(text)):
-            yield line, f"the docstring starts with {opening[0]!r}: start with a verb"
+        if opening := RIDDLE.match(text):
+            yield line, f"the docstring starts with {opening[0]!r}: start with a verb or a noun"
         for phrase in PHRASES.finditer(text):
             yield line, f"the docstring says {phrase[0]!r}"
         if entry := NO_SUBJECT.search(text):

@@ -50,7 +50,7 @@ def writing(path):
 
 
 def plain_walk(path):
-    """What is done without the native walk: records in Python, samples in the native store."""
+    """Read without the native walk: records in Python, samples in the native store."""
     buffer, walk = Buffer(None), RecordWalk(0, (1 << 64) - 1)
     with open_bag(path) as bag:
         for file in bag.files():

@@ -42,7 +42,7 @@ class NotYet(Exception):
 
 
 class FramePlace(NamedTuple):
-    """Where a frame is: metres ahead and to the left, and radians to the left."""
+    """The pose of a frame: metres ahead and to the left, and radians to the left."""
 
     x: float
     y: float

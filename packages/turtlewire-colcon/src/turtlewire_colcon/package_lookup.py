@@ -1,4 +1,4 @@
-"""Which packages a CMakeLists.txt may ask for."""
+"""Finds the packages that a CMakeLists.txt may request."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where the index is."""
+"""The location of the index."""
 
 from __future__ import annotations
 

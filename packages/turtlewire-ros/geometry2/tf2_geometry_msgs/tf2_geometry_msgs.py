@@ -1,4 +1,4 @@
-"""What ROS 2's module of this name has; new code imports it from the package."""
+"""The names of ROS 2's module of this name; new code imports them from the package."""
 
 from __future__ import annotations
 

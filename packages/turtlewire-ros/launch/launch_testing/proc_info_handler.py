@@ -1,4 +1,4 @@
-"""Which processes of a launch have started, and how they ended."""
+"""The started processes of a launch, and their exit codes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What ``ros2 run PACKAGE EXECUTABLE`` runs.
+"""Finds the executable that ``ros2 run PACKAGE EXECUTABLE`` runs.
 
 An executable is a file: ``<prefix>/lib/PACKAGE/EXECUTABLE`` of a prefix, or the console script of a
 package that pip installed (pip puts those into the environment's ``bin``). A file that starts with

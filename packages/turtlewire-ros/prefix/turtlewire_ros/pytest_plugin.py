@@ -1,4 +1,4 @@
-"""What pytest loads at each start, because it finds this distribution's entry point.
+"""The plugin that pytest loads at each start through this distribution's entry point.
 
 It defines the options and markers of launch tests, and imports their packages only if a test file
 mentions them: other tests neither wait for `launch` nor see its fixtures. Test files of

@@ -1,4 +1,4 @@
-"""What a command prints."""
+"""The output of a command."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ __all__ = ["Command"]
 
 @expose_substitution("command")
 class Command(Substitution):
-    """What a command prints to stdout.
+    """The stdout of a command.
 
     Args:
         command: The command line.

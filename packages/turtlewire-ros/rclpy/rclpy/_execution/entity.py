@@ -1,4 +1,4 @@
-"""What an executor serves: subscriptions, timers, services, clients, guard conditions, waitables.
+"""The entities of an executor: subscriptions, timers, services, clients and others.
 
 Programs derive from some of these classes. Therefore all names that ROS 2 does not define begin
 with an underscore, although the scheduler uses them.

@@ -19,14 +19,14 @@ T = TypeVar("T")
 
 
 class TimerQueue(Generic[T]):
-    """A heap of due moments on the monotonic clock. Thread-safe.
+    """A heap of due times on the monotonic clock. Thread-safe.
 
-    A rescheduled or removed timer leaves its old entry behind; entries carry a ticket, and only the
-    newest ticket of a timer counts. Old entries are swept out before they outnumber the others.
+    A rescheduled or removed timer leaves its old entry in the heap. Each entry has a ticket, and
+    only a timer's newest ticket is valid. Old entries are removed before they outnumber the others.
 
     Args:
-        on_earlier: Called, without locks held, when a timer becomes due before the moment until
-            which :meth:`time_until_next` lets a thread wait, so that it can wait again.
+        on_earlier: Called, without locks held, when a timer becomes due before the end of a thread's
+            wait (see :meth:`time_until_next`), so that the thread can shorten it.
     """
 
     def __init__(self, on_earlier: Callable[[], None]) -> None:

@@ -1,4 +1,4 @@
-"""Which offered and requested profiles match, with ROS 2's reasons.
+"""Compares offered and requested profiles, with ROS 2's reasons.
 
 Used by :func:`rclpy.qos.qos_check_compatible`.
 """

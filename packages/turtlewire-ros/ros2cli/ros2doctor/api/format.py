@@ -1,4 +1,4 @@
-"""How reports and warnings are printed."""
+"""Prints reports and warnings."""
 
 from __future__ import annotations
 

@@ -98,7 +98,7 @@ def str_megabytes(num_bytes: float) -> str:
 
 
 class _Arrivals:
-    """When the messages of one topic came, and how large they were."""
+    """The arrival times and sizes of the messages of one topic."""
 
     def __init__(self) -> None:
         self.times: list[float] = []

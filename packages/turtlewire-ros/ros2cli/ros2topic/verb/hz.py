@@ -86,7 +86,7 @@ def spread(values: Collection[float]) -> tuple[float, float]:
 
 
 class _Arrivals:
-    """When the messages of one topic came, in nanoseconds of the clock."""
+    """The arrival times of the messages of one topic, in nanoseconds of the clock."""
 
     def __init__(self) -> None:
         self.times: list[int] = []  # between two messages each

@@ -1,4 +1,4 @@
-"""Which node publishes, subscribes and serves what."""
+"""The publishers, subscriptions and services of each node."""
 
 from __future__ import annotations
 

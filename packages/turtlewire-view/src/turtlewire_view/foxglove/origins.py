@@ -1,4 +1,4 @@
-"""Which web pages may connect.
+"""Checks which web pages may connect.
 
 A browser lets every page open a WebSocket to this machine and says in ``Origin`` which page it is.
 Without a check any page that the user visits could read the robot's topics, and drive it.

@@ -61,7 +61,7 @@ _IN_MSG_FILE = {"boolean": "bool", "octet": "byte", "float": "float32", "double"
 
 
 class AbstractType:
-    """What all types share: equality and hash by their parts."""
+    """Base of all types, with equality and hash by their parts."""
 
     __slots__ = ()
 

@@ -1,4 +1,4 @@
-"""How the releases of tf2 differ, the same as in the compiled core."""
+"""The differences between the releases of tf2, as in the compiled core."""
 
 from __future__ import annotations
 

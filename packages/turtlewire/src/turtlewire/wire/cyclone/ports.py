@@ -1,4 +1,4 @@
-"""How many processes of this host take part in a domain, by the UDP ports that they have bound.
+"""Counts the processes of this host in a domain by the UDP ports that they have bound.
 
 A DDS participant binds a port whose number follows from domain and participant index (DDSI-RTPS
 9.6.1.1); Cyclone's participants of one process share a port. So the number of ports shows, without
