@@ -25,8 +25,8 @@ class TimerQueue(Generic[T]):
     only a timer's newest ticket is valid. Old entries are removed before they outnumber the others.
 
     Args:
-        on_earlier: Called, without locks held, when a timer becomes due before the end of a thread's
-            wait (see :meth:`time_until_next`), so that the thread can shorten it.
+        on_earlier: Called, without locks held, when a timer becomes due before a thread's wait ends
+            (see :meth:`time_until_next`), so that the thread can shorten it.
     """
 
     def __init__(self, on_earlier: Callable[[], None]) -> None:
