@@ -69,6 +69,7 @@ def _graph(args: argparse.Namespace) -> int:
 def _save(path: str, selection: Selection) -> int:
     """Write a file."""
     from turtlewire import wire
+    from turtlewire.doctor import network
     from turtlewire.doctor.discovery import wait_for_graph
     from turtlewire_view.graph.files import writer_for
     from turtlewire_view.graph.picture import read_graph
@@ -80,6 +81,12 @@ def _save(path: str, selection: Selection) -> int:
         picture = read_graph(context.graph, context.domain_id)
     with open(path, "w", encoding="utf-8") as file:
         file.write(writer(picture, selection))
+    if not picture.nodes and (others := network.other_domains(picture.domain_id)):
+        print(
+            f"Domain {picture.domain_id} has no nodes. This computer has nodes on domain "
+            f"{', '.join(map(str, others))}: export ROS_DOMAIN_ID={others[0]}",
+            file=sys.stderr,
+        )
     shown = select(picture, selection)
     print(
         f"Wrote {path}: nodes {len(shown.nodes)}, topics {len(shown.topics)}, "

@@ -12,6 +12,9 @@ from xml.etree import ElementTree as ET
 import pytest
 from websockets.sync.client import connect
 
+from turtlewire.cli.main import main
+from turtlewire.doctor import network
+
 BIN = Path(sys.executable).parent
 TALKER = """
 import threading
@@ -91,6 +94,14 @@ def test_the_graph_is_saved(graph, talker, tmp_path, suffix):
         assert json.loads(text)["nodes"] == [{"node": "/talker", "count": 1}]
     if suffix == "svg":
         assert ET.fromstring(text).tag.endswith("svg")
+
+
+def test_an_empty_domain_is_said_if_others_have_nodes(monkeypatch, capsys, tmp_path):
+    monkeypatch.setattr(network, "other_domains", lambda domain: [3, 5])
+    assert main(["graph", "--save", str(tmp_path / "graph.json")]) == 0
+    said = capsys.readouterr()
+    assert said.out.endswith("graph.json: nodes 0, topics 0, mismatches 0\n")
+    assert said.err.endswith("This computer has nodes on domain 3, 5: export ROS_DOMAIN_ID=3\n")
 
 
 def test_a_wrong_suffix_is_refused_before_the_network_is_joined(graph, tmp_path):

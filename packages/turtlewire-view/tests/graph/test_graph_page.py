@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 
 import pytest
-from tests.needs import HAS_CYCLONE_DDS
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
@@ -41,7 +40,6 @@ def test_the_page_itself_is_not_part_of_the_graph(nodes, graph_page, peer):
     assert not [name for name in node_names(message) if "turtlewire_graph" in name]
 
 
-@pytest.mark.skipif(not HAS_CYCLONE_DDS, reason="Zenoh matches whatever the QoS is")
 def test_a_mismatch_is_found_in_the_live_graph(nodes, peer):
     nodes.publisher("lidar", "/scan", BEST_EFFORT)
     nodes.subscription("slam", "/scan")
