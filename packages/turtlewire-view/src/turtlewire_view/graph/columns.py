@@ -29,7 +29,7 @@ _ROUNDS = 8
 
 
 class Place(NamedTuple):
-    """Where a box or joint is.
+    """The position of a box or joint.
 
     Attributes:
         x: Its left end.

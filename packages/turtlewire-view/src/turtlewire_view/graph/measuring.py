@@ -36,7 +36,7 @@ _LATCHED = (
 
 
 class Reading(NamedTuple):
-    """What is known of a topic that is measured.
+    """The rate, bandwidth and newest value of a measured topic.
 
     Attributes:
         rate: Messages a second [Hz]; None before the second one.

@@ -1,4 +1,4 @@
-"""Which nodes and topics of a picture are shown."""
+"""Selects the nodes and topics that a picture shows."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _DEBUG_NODE = re.compile(
 
 
 class Selection(NamedTuple):
-    """What is shown of a graph.
+    """The parts of a graph that are shown.
 
     Attributes:
         topics: ``all``, ``connected`` (only those with a publisher and a subscription), or

@@ -1,4 +1,4 @@
-"""Why a middleware does not connect a publisher with a subscription of the same topic.
+"""The reasons why a middleware does not connect a publisher and a subscription of one topic.
 
 A pair connects if the publisher offers at least what the subscription requests. Both must also use
 the same type.
