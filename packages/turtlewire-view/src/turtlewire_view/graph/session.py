@@ -20,7 +20,7 @@ _MOST_TOPICS = 16
 
 
 class GraphHost(Protocol):
-    """The part of the page that a session needs; it is :class:`turtlewire_view.graph.graph_page.GraphPage`."""
+    """The part of :class:`turtlewire_view.graph.graph_page.GraphPage` that a session needs."""
 
     selection: Selection
 
