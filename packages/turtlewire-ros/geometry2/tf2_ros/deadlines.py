@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import heapq
 import itertools
+import sys
 import threading
 import time
 from typing import TYPE_CHECKING
@@ -44,7 +45,11 @@ class Deadlines:
 
     def _run(self) -> None:
         while (call := self._next()) is not None:
-            call()
+            try:
+                call()
+            except BaseException:  # noqa: BLE001 - reported as for any thread; later calls still run
+                arguments = (*sys.exc_info(), threading.current_thread())
+                threading.excepthook(threading.ExceptHookArgs(arguments))
 
     def _next(self) -> Callable[[], None] | None:
         """Block until a call is due; None if no call is left."""

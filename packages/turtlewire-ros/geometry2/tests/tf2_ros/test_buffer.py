@@ -418,6 +418,22 @@ def test_deadlines_come_in_order_and_leave_no_thread():
     assert again.wait(60)
 
 
+def test_a_deadline_that_raises_is_reported_and_later_ones_come(monkeypatch):
+    from tf2_ros.deadlines import Deadlines
+
+    reported = []
+    monkeypatch.setattr(threading, "excepthook", reported.append)
+    deadlines, come = Deadlines(), threading.Event()
+
+    def fail():
+        raise LookupError("no such loop")
+
+    deadlines.call_after(0.0, fail)
+    deadlines.call_after(0.05, come.set)
+    assert come.wait(60)
+    assert [str(each.exc_value) for each in reported] == ["no such loop"]
+
+
 @given(
     delays=st.lists(st.floats(0.0, 0.01), min_size=1, max_size=4),
     timeout=st.floats(0.0, 0.02),
