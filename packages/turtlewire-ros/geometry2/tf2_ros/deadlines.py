@@ -45,11 +45,7 @@ class Deadlines:
 
     def _run(self) -> None:
         while (call := self._next()) is not None:
-            try:
-                call()
-            except BaseException:  # noqa: BLE001 - reported as for any thread; later calls still run
-                arguments = (*sys.exc_info(), threading.current_thread())
-                threading.excepthook(threading.ExceptHookArgs(arguments))
+            _call_guarded(call)
 
     def _next(self) -> Callable[[], None] | None:
         """Block until a call is due; None if no call is left."""
@@ -69,3 +65,12 @@ class Deadlines:
             self._due.clear()
             self._running = False
             return None
+
+
+def _call_guarded(call: Callable[[], None]) -> None:
+    """Report an exception as for any thread, so that later calls still run."""
+    try:
+        call()
+    except BaseException:  # noqa: BLE001
+        arguments = (*sys.exc_info(), threading.current_thread())
+        threading.excepthook(threading.ExceptHookArgs(arguments))
