@@ -8,6 +8,7 @@ import sys
 import pytest
 
 from ros2cli.main import main
+from turtlewire import wire
 
 SERVERS = """
 import threading
@@ -27,9 +28,23 @@ rclpy.spin(node)
 """
 
 
+def start(run, program):
+    """Start the servers, and wait until they have announced which node has which endpoint."""
+    run(sys.executable, "-c", program).wait_for("ready")
+    context = wire.open_context()
+    topic, ours = "rq/sleepRequest", context.graph.endpoints_of
+
+    def are_named():
+        ends = [*ours(topic, "publisher"), *ours(topic, "subscription")]
+        return len(ends) >= 2 and all(end.node is not None for end in ends)
+
+    assert context.graph.wait_for(are_named, 60_000_000_000), context.graph.endpoints()
+    context.close()
+
+
 @pytest.fixture
 def servers(run):
-    run(sys.executable, "-c", SERVERS).wait_for("ready")
+    start(run, SERVERS)
 
 
 def told(capsys, words, status=0):
@@ -113,7 +128,7 @@ def test_each_client_of_a_node_has_its_own_endpoints(run, capsys):
     program = SERVERS.replace(
         'print("ready"', 'another = node.create_client(SetBool, "/sleep")\nprint("ready"'
     )
-    run(sys.executable, "-c", program).wait_for("ready")
+    start(run, program)
     shown, _ = told(capsys, "info -v /sleep")
     assert shown.count("Endpoint type: CLIENT\nEndpoint count: 2\n") == 2
     assert len(set(re.findall(r"(?:[0-9a-f]{2}\.){15}[0-9a-f]{2}", shown))) == 6
