@@ -292,7 +292,7 @@ a joint that mimics another mimic joint moves only if their names sort in the ri
   robot_state_publisher/test_node.py test_a_mimic_joint_of_a_mimic_joint_moves
 joints that mimic each other in a loop are accepted in silence
   robot_state_publisher/test_node.py test_mimic_joints_in_a_loop_are_told_and_the_rest_moves
-joint states are skipped in silence, because of `publish_frequency` or a stamp that stands
+joint states are skipped in silence, because of `publish_frequency` or a stamp that does not advance
   robot_state_publisher/test_node.py test_skipped_messages_are_told_once test_unchanged_stamps_are_reported
 joint states without a known joint are ignored silently
   robot_state_publisher/test_node.py test_unknown_joints_are_told_after_a_while
@@ -300,9 +300,9 @@ a floating joint is not published, in silence
   robot_state_publisher/test_node.py test_floating_joint_is_reported
 `publish_frequency` 0 divides by zero
   robot_state_publisher/test_node.py test_zero_frequency_publishes_every_forward_stamp
-kdl_parser warns twice of a new `robot_description`
+kdl_parser warns twice about a new `robot_description`
   robot_state_publisher/test_golden.py test_scenario
-a wrong start aborts with 250
+a failed start aborts with 250
   robot_state_publisher/test_golden.py test_a_wrong_start
 `urdf_to_graphviz` needs Graphviz for the PDF
   urdfdom/test_programs.py test_drawings
@@ -363,7 +363,7 @@ a subscription that joins a playback late gets the last ten messages of `/tf_sta
   rosbag2_transport/test_record_options.py test_it_tells_once_what_it_waits_for
 a QoS override that prevents a recorder from receiving anything is applied silently
   rosbag2_transport/test_record_options.py test_simulated_time_splits_compression_and_overrides
-Ctrl-C does not end `ros2 bag play --wait-for-all-acked 0` while a subscription stands still
+Ctrl-C does not end `ros2 bag play --wait-for-all-acked 0` while a subscription has stopped reading
   rosbag2_transport/test_play_options.py test_a_listener_that_stands_still_does_not_hold_back_ctrl_c
 a recorder loses latched messages that come during a pause
   rosbag2_transport/test_recorder.py test_latched_messages_that_come_during_a_pause_are_kept
@@ -415,7 +415,7 @@ a start that fails, and errors in a launch file, print a traceback
   launch/test_launch_service.py test_debug_shows_tracebacks_and_events
 a component container must be named in full
   launch_ros/test_composable_nodes.py test_nodes_of_a_container
-a container loads libraries of C++
+a container loads C++ libraries
   rclpy_components/test_component_manager.py test_a_class_has_the_name_of_a_component_of_cpp
 a daemon is started by the first command and answers queries about the graph
   test_compatibility.py test_no_daemon_is_running
@@ -442,7 +442,7 @@ without a route to the group, `ros2 multicast` ends with `No such device`
   joint_state_publisher/test_golden.py test_dependent_joints_outlive_the_description
 a mimic joint of an unknown joint ends joint_state_publisher with `KeyError`
   joint_state_publisher/test_golden.py test_a_mimic_of_an_unknown_joint_does_not_end_the_node
-a circle of mimic joints ends joint_state_publisher
+a cycle of mimic joints ends joint_state_publisher
   joint_state_publisher/test_golden.py test_a_circle_of_mimics_is_refused
 joint_state_publisher also reads COLLADA robots
   joint_state_publisher/test_description.py test_errors

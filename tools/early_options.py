@@ -80,7 +80,7 @@ def page_audit(words: list[str]) -> argparse.Namespace:
     parser.add_argument("pages", nargs="*", metavar="PAGE", help=", ".join(PAGES))
     options = parser.parse_args(words)
     if unknown := [name for name in options.pages if name not in PAGES]:
-        parser.error(f"there is no page {', '.join(unknown)}; there are {', '.join(PAGES)}")
+        parser.error(f"there is no page {', '.join(unknown)}; choose from {', '.join(PAGES)}")
     return options
 
 

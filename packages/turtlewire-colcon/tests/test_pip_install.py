@@ -91,7 +91,7 @@ def test_packages_that_cannot_be_ordered(tmp_path):
     for sources, text in (
         (
             [one, two],
-            "packages need each other in a circle: one_msgs needs two_msgs needs one_msgs",
+            "packages depend on each other in a cycle: one_msgs needs two_msgs needs one_msgs",
         ),
         ([one, one], f"{one} and {one} are both called one_msgs"),
         ([tmp_path / "none"], f"there is no folder {tmp_path}/none"),

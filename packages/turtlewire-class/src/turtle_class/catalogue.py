@@ -88,7 +88,7 @@ ros2 run turtlesim turtle_teleop_key
 turtlewire frames
 # the transform of this exercise, in numbers
 {echo}
-# the checks, which say what they saw and what helps
+# the checks, which report what they saw and give hints
 turtlewire class check .. -e {self.name}
 ```
 """
@@ -109,7 +109,7 @@ def chosen(names: Sequence[str]) -> list[ExerciseFolder]:
     for name in names:
         if name not in known:
             raise ClassError(
-                f"there is no exercise {name!r}; there are {', '.join(known)}. "
+                f"there is no exercise {name!r}; choose from {', '.join(known)}. "
                 f"{did_you_mean(name, list(known))}".strip()
             )
     return [known[name] for name in names] if names else list(known.values())

@@ -42,7 +42,7 @@ class ClassPage:
 
     Raises:
         WireError: A domain cannot be joined.
-        OSError: No port can be had.
+        OSError: No port is free.
     """
 
     def __init__(

@@ -1,6 +1,6 @@
 """A script that runs a command, and ends it with every process that it started.
 
-``python supervise.py SECONDS BYTES COMMAND…`` ends when the command ends, when the time is over, or
+``python supervise.py SECONDS BYTES COMMAND…`` ends when the command ends, when the time is up, or
 when its stdin ends, which happens when the program that started it ends. On Linux it also ends
 processes that have left the session, because it is the parent of orphans. Elsewhere it ends the
 command's process group, or on Windows its tree.

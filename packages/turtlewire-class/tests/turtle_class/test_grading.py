@@ -319,7 +319,7 @@ def test_first_files_are_written_once(tmp_path, capsys):
         (["grade", "nowhere"], "there is no folder nowhere"),
         (["grade", "."], "holds no folders: it must have one for each student"),
         (["check", "."], "holds no exercise"),
-        (["check", ".", "-e", "statik"], "there is no exercise 'statik'; there are static"),
+        (["check", ".", "-e", "statik"], "there is no exercise 'statik'; choose from static"),
         (["start", ".", "-e", "fixd_carrot"], "Did you mean: fixed_carrot"),
     ],
 )

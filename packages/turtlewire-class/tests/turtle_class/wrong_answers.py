@@ -109,7 +109,7 @@ WRONG_ANSWERS = [
         "meeting_point",
         "on_world",
         (("frame_id = 'turtle1'", "frame_id = 'world'"),),
-        "as turtle1 sees it",
+        "in turtle1's frame",
     ),
     WrongAnswer(
         "meeting_point",

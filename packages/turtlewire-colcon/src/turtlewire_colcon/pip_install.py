@@ -24,7 +24,7 @@ def main(argv: list[str] | None = None) -> int:
     """Run the command line; returns the exit status."""
     parser = SuggestingParser(
         prog="python -m turtlewire_colcon.pip_install",
-        description="Installs ament_cmake packages of Python, data and interfaces into this "
+        description="Installs ament_cmake packages with Python, data and interfaces into this "
         "Python's environment. Each is built after its dependencies among them, and all "
         "are installed at the end. `pip uninstall NAME` removes them.",
     )

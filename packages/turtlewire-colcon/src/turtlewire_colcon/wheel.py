@@ -57,7 +57,7 @@ def build_package_wheels(
         The wheels, in the order in which they were built.
 
     Raises:
-        WheelError: A package cannot be installed, or packages need each other in a circle.
+        WheelError: A package cannot be installed, or packages depend on each other in a cycle.
     """
     wheels = []
     environment = dict(os.environ)
@@ -93,7 +93,7 @@ def _in_order_of_need(sources: Iterable[Path]) -> list[tuple[Path, Manifest]]:
         order = [*TopologicalSorter(needs).static_order()]
     except CycleError as error:
         circle = " needs ".join(reversed(error.args[1]))
-        raise WheelError(f"packages need each other in a circle: {circle}") from error
+        raise WheelError(f"packages depend on each other in a cycle: {circle}") from error
     return [packages[name] for name in order]
 
 

@@ -191,7 +191,7 @@ class Buffer(BufferCore, BufferInterface):
             timeout: How long to wait; None waits without limit.
 
         Raises:
-            TransformException: As :meth:`lookup_transform`, when the time is over, or when no
+            TransformException: As :meth:`lookup_transform`, after the timeout, or when no
                 later data can bring the answer.
         """
         return await _outcome(

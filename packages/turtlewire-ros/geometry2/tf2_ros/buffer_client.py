@@ -203,7 +203,7 @@ class BufferClient(BufferInterface):
         """Return the result of a future.
 
         Raises:
-            TimeoutException: The time is over, or one of the servers has left the graph.
+            TimeoutException: The timeout has passed, or one of the servers has left the graph.
         """
         until, news = time.monotonic() + seconds, threading.Event()
         future.add_done_callback(lambda _future: news.set())

@@ -25,7 +25,7 @@ def frame_id(text: str) -> str:
     if text.startswith("/"):
         raise argparse.ArgumentTypeError(
             f"in tf2 frame_ids cannot start with a '/': "
-            f"say {text.lstrip('/')!r} instead of {text!r}"
+            f"write {text.lstrip('/')!r} instead of {text!r}"
         )
     return text
 

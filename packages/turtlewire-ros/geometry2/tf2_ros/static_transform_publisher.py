@@ -171,7 +171,7 @@ class StaticTransformPublisher(Node):
         letters = string.ascii_letters + string.digits
         suffix = "".join(random.choices(letters, k=16))  # noqa: S311 -- no secret
         super().__init__(f"static_transform_publisher_{suffix}")
-        # ROS 2's is a node of C++, and each of those listens to this topic.
+        # ROS 2's is a C++ node, and each of those listens to this topic.
         self.create_subscription(
             ParameterEvent, "/parameter_events", lambda _: None, qos_profile_parameter_events
         )

@@ -61,7 +61,7 @@ class TransformFutures:
     def add(self, question: PendingLookup, timeout_ns: int | None = None) -> Future:
         """Return a future for the answer.
 
-        It gets the exception of the lookup when the time is over, and at once if there can be no
+        It gets the exception of the lookup after the timeout, and at once if there can be no
         answer: a frame id is invalid, or the requested time has left the cache.
 
         Args:

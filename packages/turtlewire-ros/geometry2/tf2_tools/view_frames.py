@@ -126,7 +126,7 @@ def _parse(args: Sequence[str]) -> Any:
     parser.add_argument(
         "-o",
         "--output",
-        help="name of the files, without an ending (default: frames_<date>_<time>)",
+        help="name of the files, without a suffix (default: frames_<date>_<time>)",
     )
     parser.add_argument(
         "--tf_topic",

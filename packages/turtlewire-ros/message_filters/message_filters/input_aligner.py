@@ -94,7 +94,7 @@ class InputAligner:
             self._connections.append((each, each.registerCallback(self.add, index)))
 
     def disconnectAll(self) -> None:  # noqa: N802 -- ROS 2's name
-        """Listen to no filter any more; messages that wait are kept."""
+        """Stop listening to all filters; messages that wait are kept."""
         for each, number in self._connections:
             each.unregisterCallback(number)
         self._connections.clear()

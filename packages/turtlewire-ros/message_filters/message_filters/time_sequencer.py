@@ -32,7 +32,7 @@ class TimeSequencer(SimpleFilter):
     Args:
         input_filter: The filter to listen to; None if you :meth:`add` messages yourself.
         delay: How long after its stamp a message is passed on [s]; the node's clock measures it.
-        update_rate: The time between two looks at the waiting messages [s].
+        update_rate: The time between two checks of the waiting messages [s].
         queue_size: How many messages may wait; then the one with the oldest stamp is dropped. 0
             sets no limit.
         node: Its executor runs the callbacks.
@@ -55,7 +55,7 @@ class TimeSequencer(SimpleFilter):
         period_s = _nanoseconds(update_rate) / 1e9
         if period_s <= 0.0:
             raise ValueError(
-                "update_rate is the time between two looks at the waiting messages, in seconds or "
+                "update_rate is the time between two checks of the waiting messages, in seconds or "
                 f"as a Duration; it must be above 0, not {period_s:g}"
             )
         self._delay_ns = _nanoseconds(delay)

@@ -44,11 +44,11 @@ _PLUGINS = {
 
 
 class _AbsentLinter(pytest.Module):
-    """A test file that cannot be imported, since its linter is not here."""
+    """A test file that cannot be imported, since its linter is not included."""
 
     def collect(self) -> NoReturn:
         """Skip the file."""
-        pytest.skip("a linter of ROS 2, which is not here", allow_module_level=True)
+        pytest.skip("a ROS 2 linter, which is not included", allow_module_level=True)
 
 
 def pytest_addhooks(pluginmanager: pytest.PytestPluginManager) -> None:

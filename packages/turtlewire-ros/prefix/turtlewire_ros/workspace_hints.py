@@ -70,12 +70,12 @@ def executable_hint(package: str, executable: str) -> str:
     if executable in compiled:
         return (
             f"{executable} is a C++ program, which turtlewire does not compile. Run it on a "
-            "computer with ROS 2: the nodes there and here see each other"
+            "computer with ROS 2: its nodes and yours discover each other"
         )
     script = Path(package_prefix(package) or os.devnull, "bin", executable)
     if script.is_file():
         return (
-            f"{_shown(script)} is where `ros2 run` does not look. setup.cfg needs, below "
+            f"`ros2 run` does not find {_shown(script)}. setup.cfg needs, below "
             f"[install]: install_scripts=$base/lib/{package}"
         )
     source = _source_of_installed(package)

@@ -308,7 +308,7 @@ def spin(node: Node, executor: Executor | None = None) -> None:
 def spin_until_future_complete(
     node: Node, future: Future, executor: Executor | None = None, timeout_sec: float | None = None
 ) -> None:
-    """Run the callbacks of ``node`` until ``future`` is done or the time is over.
+    """Run the callbacks of ``node`` until ``future`` is done or the timeout has passed.
 
     It also ends when the context is shut down.
 

@@ -201,7 +201,7 @@ class Executor:
     def spin_until_future_complete(
         self, future: Future[Any], timeout_sec: float | None = None
     ) -> None:
-        """Run callbacks until ``future`` is done, or the time is over.
+        """Run callbacks until ``future`` is done, or the timeout has passed.
 
         It also ends when the executor or its context is shut down.
         """

@@ -95,7 +95,7 @@ def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
     except KeyError:
         known = ", ".join(severity.name for severity in LoggingSeverity)
         raise RuntimeError(
-            f"There is no log severity '{log_severity}'; there are {known}"
+            f"There is no log severity '{log_severity}'; choose from {known}"
         ) from None
 
 

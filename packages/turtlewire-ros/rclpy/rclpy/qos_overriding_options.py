@@ -178,5 +178,5 @@ def _from_parameter(present: Any, value: Any, field: str) -> Any:
     except KeyError:
         known = ", ".join(type(present).short_keys())
         raise ValueError(
-            f"Unexpected QoS override for policy `{field}`: `{value}`; there are {known}"
+            f"Unexpected QoS override for policy `{field}`: `{value}`; choose from {known}"
         ) from None

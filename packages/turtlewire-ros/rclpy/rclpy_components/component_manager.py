@@ -138,14 +138,14 @@ def _component_class(plugin: str, package: str) -> Any:
     except ModuleNotFoundError as error:
         raise _UnknownPluginError(
             "Could not find requested resource in ament index",
-            f"'{plugin}' is a component of C++, and no class of Python has its name: {error}. "
+            f"'{plugin}' is a C++ component, and no Python class has its name: {error}. "
             "Load a class of nodes in Python: 'package.module.Class'",
         ) from error
     if not hasattr(module, class_name):
         names = ", ".join(getattr(module, "__all__", ())) or "no components"
         raise _UnknownPluginError(
             "Failed to find class with the requested plugin name.",
-            f"'{plugin}' is a component of C++, and no class of Python has its name: "
+            f"'{plugin}' is a C++ component, and no Python class has its name: "
             f"{module_name} has {names}",
         )
     return getattr(module, class_name)

@@ -156,11 +156,11 @@ class JointStatePublisher(Node):
 
         Raises:
             DescriptionError: The description is invalid; the joints stay unchanged.
-            LoggedError: Likewise, because joints mimic each other in a circle.
+            LoggedError: The description is rejected, because joints mimic each other in a cycle.
         """
         joints = read_joints(text, self._options, self._warn)
         try:
-            # Raises if joints mimic each other in a circle; the joints in use are replaced only
+            # Raises if joints mimic each other in a cycle; the joints in use are replaced only
             # below.
             joints.state()
         except MimicLoopError as error:

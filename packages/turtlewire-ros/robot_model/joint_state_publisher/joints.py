@@ -13,7 +13,7 @@ __all__ = ["FreeJoint", "JointSet", "MimicLoopError", "MimicRule", "State"]
 
 
 class MimicLoopError(ValueError):
-    """Joints mimic each other in a circle."""
+    """Joints mimic each other in a cycle."""
 
 
 @dataclass

@@ -99,5 +99,5 @@ def _add_options(parser: argparse.ArgumentParser) -> None:
         "--lan",
         action="store_true",
         default=wanted_lan(),
-        help="also serve the page to other devices in the network that have its address",
+        help="also serve the page to other devices on the network that have its address",
     )

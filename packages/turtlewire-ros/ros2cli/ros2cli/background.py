@@ -55,7 +55,7 @@ class PicklerForProcess(pickle.Pickler):
         return socket.socket(fileno=data)
 
     def reduce_event(self, obj: threading.Event) -> tuple[Any, tuple[bool]]:
-        """Return how the process makes the event; it starts as it is now, and is another one."""
+        """Return how the process makes the event; the new event starts in the current state."""
         return _event, (obj.is_set(),)
 
 

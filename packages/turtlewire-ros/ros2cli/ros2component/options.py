@@ -20,8 +20,8 @@ COMPONENT_ARGUMENTS = (
     argument("package_name", help="Name of the package", completer=packages),
     argument(
         "plugin_name",
-        help="Name of the component: package.module.Class of a node of Python,"
-        " package::Class in a container of C++",
+        help="Name of the component: package.module.Class of a Python node,"
+        " package::Class in a C++ container",
     ),
     argument("-n", "--node-name", default="", help="Name of the node"),
     argument("--node-namespace", default="", help="Namespace of the node"),

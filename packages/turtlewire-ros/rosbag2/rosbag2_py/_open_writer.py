@@ -100,7 +100,7 @@ def _mcap_options(storage_options: StorageOptions) -> dict[str, Any]:
     preset = storage_options.storage_preset_profile
     if preset not in PRESETS:
         raise RuntimeError(
-            f"unknown MCAP storage preset profile '{preset}'; there are "
+            f"unknown MCAP storage preset profile '{preset}'; choose from "
             f"{', '.join(name for name in PRESETS if name)}"
         )
     options = dict(PRESETS[preset])

@@ -159,7 +159,7 @@ class Player:
         """Wait for the first message's turn, at most this many seconds; negative: no limit.
 
         Returns:
-            False if the time is over before.
+            False if the timeout passes first.
         """
         return self._steered().wait_until_started(None if timeout < 0 else timeout)
 
@@ -167,7 +167,7 @@ class Player:
         """Wait for the end of the playback, at most this many seconds; negative: no limit.
 
         Returns:
-            False if the time is over before.
+            False if the timeout passes first.
 
         Raises:
             RuntimeError: The bag is damaged.

@@ -17,7 +17,7 @@ __all__ = ["MessageOrder", "NumberedEnum", "PlayOptions", "RecordOptions", "Serv
 
 
 class NumberedEnum(enum.Enum):
-    """An enum that ``int()`` takes, as the classes of C++ are in ROS 2."""
+    """An enum that ``int()`` takes, as the C++ classes are in ROS 2."""
 
     def __int__(self) -> int:
         return int(self.value)

@@ -329,7 +329,7 @@ class BagPlayer:
             return done
 
     def wait_until_started(self, timeout: float | None) -> bool:
-        """Wait for the first message's turn; False if the time is over before."""
+        """Wait for the first message's turn; False if the timeout passes first."""
         with self.changed:
             return self.changed.wait_for(lambda: self._ready, timeout)
 

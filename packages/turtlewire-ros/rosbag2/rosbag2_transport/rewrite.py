@@ -47,7 +47,7 @@ def rewrite(inputs: Sequence[Bag], outputs: Sequence[Output]) -> list[str]:
     Args:
         inputs: Open bags.
         outputs: They are closed at the end. They are removed if nothing was written before an
-            error, and by Ctrl-C, because half a bag looks whole.
+            error, and by Ctrl-C, because a partial bag looks complete.
 
     Returns:
         What is left out, one sentence for each topic: topics that are not in CDR, and messages

@@ -279,6 +279,6 @@ def parse_primitive_value_string(type_: BaseType, value_string: str) -> Any:
     """Return the value of a text that is not a list.
 
     Raises:
-        InvalidValue: The text is none of the type.
+        InvalidValue: The text is not a value of the type.
     """
     return parse_value_string(Type(str(type_)), value_string)

@@ -210,7 +210,7 @@ def parse_value_string(type_: Type, value_string: str) -> Any:
     """Return the value of a text; an int for ``byte``.
 
     Raises:
-        InvalidValue: The text is none of the type.
+        InvalidValue: The text is not a value of the type.
     """
     try:
         value = parser.parse_value(parser.parse_type("unused", str(type_)), value_string)

@@ -31,7 +31,7 @@ def parse_options(args: list[str]) -> argparse.Namespace:
         "--lan",
         action="store_true",
         default=wanted_lan(),
-        help="also serve the page to other devices in the network that have its address",
+        help="also serve the page to other devices on the network that have its address",
     )
     parser.add_argument(
         "--speed",

@@ -23,9 +23,9 @@ Serves topics, services and parameters to Foxglove and Lichtblick over a WebSock
 parameters: port                    TCP port (default 8765; 0: a free one)
             address                 where to listen (default 127.0.0.1, this machine only)
             topic_whitelist         regular expressions of topics (default all)
-            service_whitelist       likewise of services
-            param_whitelist         likewise of parameters, /node.name
-            client_topic_whitelist  likewise of topics that clients may publish on
+            service_whitelist       regular expressions of services (default all)
+            param_whitelist         regular expressions of parameters, /node.name (default all)
+            client_topic_whitelist  regular expressions of topics that clients may publish on
             capabilities            what clients are offered (default all)
             asset_uri_allowlist     regular expressions of package:// files that clients may read
             send_buffer_limit       bytes that may wait for a slow client (default 10000000)
@@ -58,7 +58,7 @@ class FoxgloveBridge(Node):
 
     Raises:
         ValueError: A parameter is out of its range, or asks for what does not exist here.
-        OSError: The address or port cannot be had.
+        OSError: The address or port cannot be used.
     """
 
     def __init__(self, **options: Any) -> None:

@@ -46,7 +46,7 @@ def add_graph_command(commands: Any) -> None:
     parser.add_argument(
         "--debug",
         action="store_true",
-        help="Show also /rosout, /parameter_events, hidden names and the nodes of tools",
+        help="Also show /rosout, /parameter_events, hidden names and the nodes of tools",
     )
     add_page_options(parser)
     parser.set_defaults(run=reporting_errors("graph", _graph), parser=parser)

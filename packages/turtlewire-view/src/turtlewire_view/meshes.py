@@ -116,7 +116,7 @@ def mesh_address(uri: str, packages: PackageFolders, *, texture: bool = False) -
 
 
 def file_of_package(uri: str, packages: PackageFolders) -> str | None:
-    """The path of a ``package://`` address; None if it is none, or there is no such package."""
+    """The path of a ``package://`` address; None for another address or an unknown package."""
     package, _, path = uri.removeprefix("package://").partition("/")
     path = unquote(path)
     return None if _problem(package, path) else _file_in(packages.folder(package), path) or None

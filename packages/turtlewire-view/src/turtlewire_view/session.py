@@ -62,7 +62,7 @@ class SessionHost(Protocol):
         ...
 
     def forget(self, session: ViewSession) -> None:
-        """A page is gone."""
+        """Forget a page that was closed."""
         ...
 
 
@@ -142,7 +142,7 @@ class ViewSession(CommandSession):
         self._due.clear()
 
     def closed(self) -> None:
-        """The page is gone."""
+        """The page was closed."""
         for feed in self._feeds.values():
             feed.close()
         self._feeds.clear()

@@ -47,7 +47,7 @@ def tool_message(
         ValueError: The tool does not exist, or a number is not finite.
     """
     if tool not in TOOLS:
-        raise ValueError(f"there is no tool '{tool}'; there are {', '.join(TOOLS)}")
+        raise ValueError(f"there is no tool '{tool}'; choose from {', '.join(TOOLS)}")
     if len(position) != 3 or not all(map(math.isfinite, (*position, yaw))):
         raise ValueError("a tool needs a position of three finite numbers and a finite yaw")
     if not frame_id:

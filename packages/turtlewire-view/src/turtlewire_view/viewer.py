@@ -63,7 +63,7 @@ class Viewer:
         documents: The files that pages have loaded, by their tokens.
 
     Raises:
-        OSError: No port can be had.
+        OSError: No port is free.
     """
 
     def __init__(
@@ -206,7 +206,7 @@ class Viewer:
         self._work.set()
 
     def forget(self, session: ViewSession) -> None:
-        """A page is gone."""
+        """Forget a page that was closed."""
         with self._lock:
             self._sessions.remove(session)
 

@@ -95,12 +95,12 @@ def test_wrong_words(foxglove, words, answer):
 
 def test_an_address_for_others_is_said_plainly(foxglove):
     program = foxglove("--port", "0", "--address", "0.0.0.0", "--read-only")
-    program.wait_for(r"^Everybody who reaches 0\.0\.0\.0 can read all topics\.$")
+    program.wait_for(r"^Anyone who can reach 0\.0\.0\.0 can read all topics\.$")
     program.signal_group(signal.SIGINT)
     assert program.wait() == 130
     program = foxglove("--port", "0", "--address", "::")
     program.wait_for(r"connect to ws://\[::\]:\d+ ")
-    program.wait_for(r"^Everybody who reaches :: can read all topics, publish, call services\.$")
+    program.wait_for(r"^Anyone who can reach :: can read all topics, publish, call services\.$")
 
 
 def test_without_a_network_it_says_so(foxglove):

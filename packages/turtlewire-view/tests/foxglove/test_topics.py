@@ -257,10 +257,10 @@ def test_clients_hear_each_other(client):
         ({"schemaName": "std_msgs/Strang"}, "/said: unknown interface 'std_msgs/msg/Strang' Did"),
         ({"schemaName": "std_srvs/srv/Empty"}, "/said: 'std_srvs/srv/Empty' is not a message"),
         ({"schemaName": "x"}, "/said: "),
-        ({"schemaName": 3}, '"schemaName" is a text'),
+        ({"schemaName": 3}, '"schemaName" must be a string'),
         ({"topic": None}, '"topic" is missing'),
-        ({"id": -1}, '"id" is an integer from 0 to 4294967295'),
-        ({"id": True}, '"id" is an integer from 0 to 4294967295'),
+        ({"id": -1}, '"id" must be an integer from 0 to 4294967295'),
+        ({"id": True}, '"id" must be an integer from 0 to 4294967295'),
     ],
 )
 def test_wrong_channels_are_refused_with_a_reason(serve, client, change, answer):

@@ -79,7 +79,7 @@ def test_json_of_other_programs_is_understood():
         ("std_msgs/msg/Float64", '{"data": null}', "data: expected a number, got null"),
         ("sensor_msgs/msg/Imu", '{"orientation_covariance": [1]}', "orientation_covariance"),
         ("sensor_msgs/msg/Image", '{"data": [256]}', "data"),
-        ("sensor_msgs/msg/Image", '{"data": "*"}', "data: no base64: "),
+        ("sensor_msgs/msg/Image", '{"data": "*"}', "data: invalid base64: "),
         ("sensor_msgs/msg/Image", '{"data": {}}', "data: expected a list, got {}"),
         (
             "geometry_msgs/msg/Twist",

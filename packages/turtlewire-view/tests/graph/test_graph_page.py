@@ -140,8 +140,8 @@ def test_a_topic_with_another_type_is_subscribed_again(nodes, peer):
     ("command", "text"),
     [
         ({"type": "show", "topics": "some", "debug": False, "words": ""},
-         "topics is one of all, connected, none, not 'some'"),
-        ({"type": "measure", "topics": [7]}, "topics is a list of the names of topics"),
+         "topics must be one of all, connected, none, not 'some'"),
+        ({"type": "measure", "topics": [7]}, "topics must be a list of topic names"),
         ({"type": "measure", "topics": [f"/t{n}" for n in range(17)]},
          "A page measures at most 16 topics."),
         ({"type": "publish"}, "expected an object whose type is one of show, measure"),

@@ -1,4 +1,4 @@
-"""The places of boxes and the ways of arrows."""
+"""The positions of boxes and the paths of arrows."""
 
 from __future__ import annotations
 

@@ -361,7 +361,7 @@ def test_echo_says_what_it_waits_for(tool):
         (
             "/world robot",
             1,
-            "in tf2 frame_ids cannot start with a '/': say 'world' instead of '/world'",
+            "in tf2 frame_ids cannot start with a '/': write 'world' instead of '/world'",
         ),
         ("world robot --limit -1", 1, "'-1' is not a whole number, 0 or more"),
         ("world robot --precision 18", 1, "'18' is not a whole number from 0 to 17"),

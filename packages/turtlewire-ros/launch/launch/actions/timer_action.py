@@ -136,7 +136,7 @@ class TimerAction(Action):
             self._completed.set_result(None)
 
     def handle(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
-        """Return the actions; called when the time is over.
+        """Return the actions; called when the period has passed.
 
         In a group with its own scope they find what the group had set, as without the timer.
         """
@@ -146,7 +146,7 @@ class TimerAction(Action):
         return [*self._scope, *self._actions, PopEnvironment(), PopLaunchConfigurations()]
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
-        """Done when the time is over or the timer is cancelled."""
+        """Done when the period has passed or the timer is cancelled."""
         return self._completed
 
     def _is_mine(self, event: Event) -> bool:

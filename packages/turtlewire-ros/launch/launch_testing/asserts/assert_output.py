@@ -88,7 +88,7 @@ def assertInStream(  # noqa: N802  ROS 2's name
     Raises:
         AssertionError: No process wrote the text.
         NoMatchingProcessException: No process matches.
-        ValueError: ``stream`` is none, or ``output_filter`` cannot be called.
+        ValueError: ``stream`` is another string, or ``output_filter`` cannot be called.
     """
     if stream not in ("stdout", "stderr"):
         raise ValueError(f"stream must be 'stdout' or 'stderr', not {stream!r}")

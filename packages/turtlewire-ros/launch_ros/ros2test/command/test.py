@@ -32,7 +32,7 @@ ARGUMENTS = (
         "--show-args",
         "--show-arguments",
         action="store_true",
-        help="Show the arguments of the launch test, and end",
+        help="Show the arguments of the launch test, and exit",
     ),
     argument(
         "--package-name", help="Name for the report; by default the file's name without extension"

@@ -41,7 +41,7 @@ def test_tests_of_absent_linters_are_skipped(tmp_path):
     )
     done = pytest_in(tmp_path, "-rs")
     assert "1 passed, 3 skipped" in done.stdout, done.stdout + done.stderr
-    assert "a linter of ROS 2, which is not here" in done.stdout
+    assert "a ROS 2 linter, which is not included" in done.stdout
     assert done.returncode == 0
 
 

@@ -119,7 +119,7 @@ def test_a_program_of_cpp_that_was_left_out(sourced, capsys):
     sourced.write(index / "turtlewire_compiled_targets/p", "library\ntalker")
     hint = (
         "talker is a C++ program, which turtlewire does not compile. Run it on a computer with "
-        "ROS 2: the nodes there and here see each other"
+        "ROS 2: its nodes and yours discover each other"
     )
     assert main(["run", "p", "talker"]) == 1
     assert capsys.readouterr().err == f"No executable found\n{hint}\n"

@@ -45,7 +45,7 @@ class BlockingCall(NamedTuple):
 
 
 def wait_for_response(future: Future[Any], call: BlockingCall, timeout_sec: float | None) -> None:
-    """Block until ``future`` is done, or the time is over.
+    """Block until ``future`` is done, or the timeout has passed.
 
     Outside of the executor's thread this waits for the thread that spins, and warns if there is
     none. In a callback of a single-threaded executor it serves the responses itself.

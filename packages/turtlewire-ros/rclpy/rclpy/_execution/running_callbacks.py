@@ -40,7 +40,7 @@ class RunningCallbacks:
         return self._counts.get(threading.get_ident(), 0)
 
     def wait_for_others(self, timeout_sec: float | None) -> bool:
-        """Block until no other thread runs a callback; False when the time is over before."""
+        """Block until no other thread runs a callback; False if the timeout passes first."""
         me = threading.get_ident()
         with self._lock:
             return self._changed.wait_for(lambda: not self._counts.keys() - {me}, timeout_sec)

@@ -191,7 +191,7 @@ class Scheduler:
                 self.warn_of_nested_spin()
 
     def check_alive(self) -> None:
-        """Raise if nothing may run any more."""
+        """Raise if the executor or its context is shut down."""
         if self.is_shutdown:
             raise ShutdownException
         if not self.context.ok():

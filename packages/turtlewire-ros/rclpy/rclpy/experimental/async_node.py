@@ -55,7 +55,7 @@ class AsyncNode(BaseNode):
     ``async with node:`` serves it, ``await node.run()`` does so until it is destroyed. Callbacks
     are ``def`` or ``async def``. The task of each subscription, service, client and timer belongs
     to a task group of the node: an exception in a callback cancels the other callbacks and the
-    block, and comes out of ``async with`` in an ``ExceptionGroup``.
+    block, and ``async with`` raises it in an ``ExceptionGroup``.
 
     Like asyncio itself, it is used in the thread of the loop. Only the shutdown of its context may
     come from other threads.

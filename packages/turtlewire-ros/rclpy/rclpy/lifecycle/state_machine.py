@@ -152,6 +152,6 @@ class StateMachine:
             raise RCLError(
                 "Failed to trigger lifecycle state machine transition: no transition matching "
                 f"{wanted} found for current state "
-                f"{self.current_state.label}; there are: {possible or 'none'}"
+                f"{self.current_state.label}; possible transitions: {possible or 'none'}"
             )
         return found[0]

@@ -242,7 +242,7 @@ def test_wrong_overrides(context):
     options = QoSOverridingOptions.with_default_policies()
     with pytest.raises(
         ValueError,
-        match=r"^Unexpected QoS override for policy `reliability`: `maybe`; there are "
+        match=r"^Unexpected QoS override for policy `reliability`: `maybe`; choose from "
         r"system_default, reliable",
     ):
         node.create_publisher(String, "a", 1, qos_overriding_options=options)

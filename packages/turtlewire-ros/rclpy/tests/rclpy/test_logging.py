@@ -153,7 +153,7 @@ def test_errors_of_names_and_levels(logger):
         with pytest.raises(ValueError):
             call()
     assert rclpy.logging.get_logging_severity_from_string("warn") is LoggingSeverity.WARN
-    with pytest.raises(RuntimeError, match="there are UNSET, DEBUG, INFO, WARN, ERROR, FATAL"):
+    with pytest.raises(RuntimeError, match="choose from UNSET, DEBUG, INFO, WARN, ERROR, FATAL"):
         rclpy.logging.get_logging_severity_from_string("loud")
 
 

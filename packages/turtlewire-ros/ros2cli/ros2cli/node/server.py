@@ -65,7 +65,7 @@ class RequestHandler(SimpleXMLRPCRequestHandler):
 
     def do_POST(self) -> None:  # noqa: N802  the name is that of the base
         """Answer a call."""
-        # A browser names the page that sends a request, and no page has business here.
+        # A browser names the page that sends a request; web pages must not use the daemon.
         if "Origin" in self.headers:
             self.send_error(403)
         else:

@@ -44,7 +44,7 @@ ARGUMENTS = (
         "--build-type",
         default="ament_python",
         choices=["ament_cmake", "ament_python"],
-        help="ament_cmake for interfaces and data; programs of C++ need a real ROS",
+        help="ament_cmake for interfaces and data; C++ programs need a real ROS",
     ),
     argument("--dependencies", nargs="+", default=[], help="Packages that it depends on"),
     argument("--maintainer-email", help="Address of the maintainer"),
@@ -71,7 +71,7 @@ def main(args: argparse.Namespace) -> str | None:
         )
     if args.node_name is not None and args.build_type == "ament_cmake":
         return (
-            "Nodes of ament_cmake packages are programs of C++, which need a real ROS: use"
+            "Nodes of ament_cmake packages are C++ programs, which need a real ROS: use"
             " --build-type ament_python"
         )
     if args.node_name == args.package_name:

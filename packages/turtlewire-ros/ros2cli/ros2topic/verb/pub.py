@@ -58,7 +58,7 @@ ARGUMENTS = (
         argument(
             "--yaml-file",
             metavar="FILE",
-            help="Publish the YAML documents of this file, one after the other, and end",
+            help="Publish the YAML documents of this file, one after the other, and exit",
             completer=files,
         ),
     ),
@@ -185,7 +185,7 @@ def _filled(kind: Any, values: dict[str, Any]) -> tuple[Any, list[Any]]:
 def _wait_for_subscriptions(
     direct: DirectNode, publisher: Any, wanted: int, limit: float | None
 ) -> str | None:
-    """Wait; return a message if the time is over."""
+    """Wait; return a message after a timeout."""
     deadline = None if limit is None else time.monotonic() + limit
     while (count := publisher.get_subscription_count()) < wanted:
         print(f"Waiting for at least {wanted} matching subscription(s)...")

@@ -181,7 +181,7 @@ ARGUMENTS = (
         type=unsigned_int,
         # rosbag2's default.
         default=100,
-        help="Interval between two looks at the graph [ms]",
+        help="Interval between two checks of the graph [ms]",
     ),
     argument(
         "--ignore-leaf-topics", action="store_true", help="Leave out topics without subscriptions"

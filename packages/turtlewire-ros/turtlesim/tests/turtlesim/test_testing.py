@@ -110,7 +110,7 @@ def test_nodes_are_started_with_names_and_parameters(simulation):
 
 
 def test_mistakes_are_named(simulation):
-    with pytest.raises(KeyError, match="no turtle named 'turtle9'; there are: turtle1"):
+    with pytest.raises(KeyError, match="no turtle named 'turtle9'; the turtles are: turtle1"):
         simulation.pose("turtle9")
     with pytest.raises(ValueError, match="cannot spawn a turtle named 'turtle1'"):
         simulation.spawn("turtle1", x=1.0, y=1.0)

@@ -110,7 +110,7 @@ class Simulation(Stage):
         pose = self.node.pose_of(turtle)
         if pose is None:
             raise KeyError(
-                f"no turtle named {turtle!r}; there are: "
+                f"no turtle named {turtle!r}; the turtles are: "
                 f"{', '.join(sorted(self.node.world.turtles)) or 'none'}"
             )
         return pose

@@ -144,7 +144,7 @@ def check_option(kind: str, name: str, value: object) -> None:
     table = option_table(kind)
     display = kind.replace("_", " ")
     if name not in table:
-        hint = did_you_mean(name, table) or f"There are {', '.join(table)}"
+        hint = did_you_mean(name, table) or f"Choose from {', '.join(table)}"
         raise OptionError(f"there is no option {name!r:.100} of a {display}. {hint}")
     if not table[name].accepts(value):
         raise OptionError(

@@ -21,7 +21,7 @@ _LONGEST_URI = 4096
 
 
 class AssetError(Exception):
-    """A file cannot be had; the text says why."""
+    """A file cannot be served; the text says why."""
 
 
 def share_folder(package: str) -> str | None:

@@ -73,7 +73,7 @@ class FoxgloveChannel:
         }
 
     def fit(self, publishers: Iterable[EndpointInfo]) -> None:
-        """Subscribe so that all of these publishers match, if anybody receives."""
+        """Subscribe so that all of these publishers match, if any client receives."""
         publishers = list(publishers)
         keepers = [end for end in publishers if end.qos.durability == Durability.TRANSIENT_LOCAL]
         others = [end for end in publishers if end.qos.durability != Durability.TRANSIENT_LOCAL]
@@ -105,7 +105,7 @@ class FoxgloveChannel:
             raise
 
     def remove(self, outbox: Outbox) -> None:
-        """Give a client nothing any more."""
+        """Stop sending messages to a client."""
         self._receivers = tuple(each for each in self._receivers if each[0] is not outbox)
         own = self._own.pop(outbox, None)
         if own is not None:

@@ -71,7 +71,7 @@ class GraphWatch:
         return True
 
     def close(self) -> None:
-        """Call nothing any more."""
+        """Stop all further calls."""
         self._stop_listening()
         if self._timer is not None:
             self._timer.cancel()

@@ -87,7 +87,7 @@ def _values(type_: AbstractNestedType, value: Any, path: str) -> Any:
         try:
             value = list(base64.b64decode(value, validate=True))
         except (binascii.Error, ValueError) as error:
-            raise CdrError(f"{path}: no base64: {error}") from error
+            raise CdrError(f"{path}: invalid base64: {error}") from error
     if not isinstance(value, list):
         raise CdrError(f"{path}: expected a list, got {_shown(value)}")
     return [_value(inner, item, f"{path}[{index}]") for index, item in enumerate(value)]

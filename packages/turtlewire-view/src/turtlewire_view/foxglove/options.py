@@ -59,12 +59,12 @@ class BridgeOptions:
 
     Attributes:
         port: TCP port; 0 takes a free one.
-        address: Where it listens. Everybody who reaches another address than a loopback one can
+        address: Where it listens. Anyone who can reach an address other than loopback can
             read all topics, and publish.
         topic_whitelist: Regular expressions of the topics that are offered.
-        service_whitelist: Likewise of services.
-        param_whitelist: Likewise of parameters, ``/node.name``.
-        client_topic_whitelist: Likewise of topics that clients may publish on.
+        service_whitelist: Regular expressions of the services that are offered.
+        param_whitelist: Regular expressions of the parameters, ``/node.name``.
+        client_topic_whitelist: Regular expressions of topics that clients may publish on.
         include_hidden: Whether topics and services are offered whose names have a part that
             begins with an underscore.
         send_buffer_limit: How many bytes of messages may wait for a client before it loses old
@@ -127,7 +127,7 @@ class BridgeOptions:
             rights.append("publish")
         if "services" in self.capabilities:
             rights.append("call services")
-        return f"Everybody who reaches {self.address} can {', '.join(rights)}."
+        return f"Anyone who can reach {self.address} can {', '.join(rights)}."
 
     def patterns(self, name: str) -> Patterns:
         """Return the compiled expressions of one of the lists."""

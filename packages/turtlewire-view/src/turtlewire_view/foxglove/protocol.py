@@ -87,7 +87,7 @@ def text(op: str, **fields: Any) -> str:
 
 
 def status(level: int, message: str, *, status_id: str | None = None) -> str:
-    """Return a line for the client's user; one with an id replaces the former of that id."""
+    """Return a line for the client's user; it replaces the line with the same id."""
     return text("status", level=level, message=message, id=status_id)
 
 
@@ -141,7 +141,7 @@ def parse_binary(frame: bytes) -> ClientMessage | ServiceRequest:
     """Parse a client's binary frame.
 
     Raises:
-        ProtocolError: The frame is none, or ends too early.
+        ProtocolError: The frame is unknown or ends too early.
     """
     if not frame:
         raise ProtocolError("a binary frame is empty")

@@ -126,7 +126,7 @@ class FoxgloveServer:
     def _refusal(self, headers: Headers) -> str | None:
         """Return why a request is refused, and log a warning; None if it is allowed.
 
-        Other computers' names are checked on loopback only: elsewhere, everybody who reaches the
+        Other computers' names are checked on loopback only: elsewhere, anyone who can reach the
         server is served, and under whatever name it has there.
         """
         pages, hosts = headers.get_all("Origin"), headers.get_all("Host")

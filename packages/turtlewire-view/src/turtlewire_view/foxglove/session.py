@@ -121,7 +121,7 @@ class FoxgloveSession:
         return self._follows_all or name in self._followed
 
     def close(self) -> None:
-        """The client is gone: leave the wire as far as it was only for this client."""
+        """The client has left: close everything that only this client used."""
         self._bridge.remove(self)
         for number in self._subscriptions.values():
             self._bridge.offers.channels[number].remove(self.outbox)

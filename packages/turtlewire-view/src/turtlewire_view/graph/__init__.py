@@ -1,14 +1,14 @@
-"""The graph page: nodes, topics and what keeps them apart, live or as a file.
+"""The graph page: nodes, topics and their mismatches, live or as a file.
 
 ===============  ================================================================
-module           what it holds
+module           contents
 ===============  ================================================================
 `picture`        `Picture`: the graph at one moment, with its mismatches
 `selection`      which nodes and topics of it are shown
 `diagram`        the boxes and arrows of a picture
 `layers`         the column of each box, and the order in it
-`layout`         the places of boxes and the ways of arrows
-`columns`        the places within one connected part of the diagram
+`layout`         the positions of boxes and the paths of arrows
+`columns`        the positions within one connected part of the diagram
 `files`          the picture as SVG, Graphviz and JSON
 `measuring`      rates and values of the topics that pages ask for
 `page_commands`  what the page may send

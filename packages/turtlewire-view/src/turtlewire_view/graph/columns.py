@@ -1,4 +1,4 @@
-"""The places of boxes and joints within one connected part of the diagram.
+"""The positions of boxes and joints within one connected part of the diagram.
 
 Columns keep their order from top to bottom. Each box gets as near as possible to the middle of what
 it is connected to. A column of many boxes becomes several, side by side, so that the whole has
@@ -34,8 +34,8 @@ class Place(NamedTuple):
     Attributes:
         x: Its left end.
         y: Its middle.
-        left: From where arrows come: the left end of the column if other boxes stand in between.
-        right: Where arrows leave, likewise.
+        left: The x at which arrows arrive: the left end of the column if other boxes are between.
+        right: The x at which arrows leave, in the same way.
     """
 
     x: float
@@ -45,7 +45,7 @@ class Place(NamedTuple):
 
 
 class Places(NamedTuple):
-    """The places of all boxes and joints, and the size of the whole."""
+    """The positions of all boxes and joints, and the size of the whole."""
 
     of: dict[int, Place]
     width: float
@@ -53,7 +53,7 @@ class Places(NamedTuple):
 
 
 def find_places(layers: Layers, widths: Sequence[float]) -> Places:
-    """Return the places of boxes and joints.
+    """Return the positions of boxes and joints.
 
     Args:
         layers: Their columns and order.
@@ -81,7 +81,7 @@ def _fill(
     heights: dict[int, float],
     places: dict[int, Place],
 ) -> float:
-    """Give the rows of a column their places; returns the right end of the column."""
+    """Set the positions of the rows of a column; returns the right end of the column."""
     count = max(map(len, column))
     wide = [
         max((widths[row[n]] for row in column if n < len(row) and row[n] < len(widths)), default=0)
@@ -144,7 +144,7 @@ def _heights(columns: list[list[list[int]]], layers: Layers, boxes: int) -> dict
 
 
 def _wish(row: list[int], sides: Sequence[Neighbours], heights: dict[int, float]) -> float:
-    """Return the middle of what a row is connected to."""
+    """Return the mean height of the boxes that a row is connected to."""
     near = [heights[each] for side in sides for box in row for each in side[box]]
     return sum(near) / len(near) if near else heights[row[0]]
 
@@ -152,10 +152,10 @@ def _wish(row: list[int], sides: Sequence[Neighbours], heights: dict[int, float]
 def _place_rows(
     column: list[list[int]], wishes: list[float], heights: dict[int, float], boxes: int
 ) -> None:
-    """Put rows where they wish to be, but in order and without overlaps.
+    """Put rows as near to their wanted heights as order and size allow, without overlaps.
 
-    The sum of the squared distances from the wishes is the least: rows that would overlap become a
-    block, which stands at the mean of their wishes ("pool adjacent violators").
+    The sum of the squared distances from the wanted heights is minimal: rows that would overlap
+    form a block at the mean of their wanted heights ("pool adjacent violators").
     """
     offsets, offset, before = [], 0.0, 0.0
     for row in column:

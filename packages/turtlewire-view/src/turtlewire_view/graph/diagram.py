@@ -1,4 +1,4 @@
-"""The boxes and arrows of a picture, before they have a place."""
+"""The boxes and arrows of a picture, before they have positions."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ def writer_for(path: str) -> Callable[[Picture, Selection], str]:
     """Return the function that makes the text of a file.
 
     Raises:
-        ValueError: The name does not end with the suffix of a format.
+        ValueError: The suffix of the path is not that of a format.
     """
     writers: dict[str, Callable[[Picture, Selection], str]] = {
         ".svg": as_svg,

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 __all__ = ["GraphPage"]
 
 _PAGE = Path(__file__).parent / "page"
-#: Changes of the graph come in groups; so long after the first of them the others are waited for.
+#: Changes of the graph come in groups; this long the page waits for more.
 _REST_S = 0.05
 #: Between two readings of the topics that pages measure.
 _READING_S = 1.0
@@ -39,20 +39,20 @@ _READING_S = 1.0
 class GraphPage:
     """Serves the page until it is closed.
 
-    A thread beside the server's draws the graph after its changes, and measures topics. Without a
-    change and without a topic to measure it sleeps.
+    A second thread, next to the server's, draws the graph after each change and measures topics. It
+    sleeps while nothing changes and no topic is measured.
 
     Args:
         context: The participant whose graph is shown.
         selection: What pages show first.
-        port: Preferred TCP port; None takes turtlesim's rule (`TURTLEWIRE_PORT`, 7070).
+        port: Preferred TCP port; None follows turtlesim's rule (`TURTLEWIRE_PORT`, 7070).
         lan: Whether to serve all devices of the network (see :mod:`turtlewire.web.lan`).
 
     Attributes:
         url: The page's address.
 
     Raises:
-        OSError: No port can be had.
+        OSError: No port is free.
     """
 
     def __init__(
@@ -95,7 +95,7 @@ class GraphPage:
         self._asked.set()
 
     def forget(self, session: GraphSession) -> None:
-        """A page is gone."""
+        """Forget a page that was closed."""
         with self._lock:
             self._sessions.remove(session)
         self.ask()

@@ -2,8 +2,8 @@
 
 This is Sugiyama's method: a box stands to the right of all that send to it, and sweeps over the
 columns put boxes near the boxes that they are connected to. An arrow that crosses columns gets a
-joint in each of them. Boxes that send to each other in a circle stand in the order in which a
-message reaches them, so that a few arrows lead back to the left.
+joint in each of them. Boxes in a cycle stand in the order in which a message reaches them, so that
+a few arrows lead back to the left.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ class Layers(NamedTuple):
 
     Attributes:
         columns: The boxes and joints of each column, from top to bottom.
-        left: The neighbours in the column before.
-        right: The neighbours in the column behind.
+        left: The neighbours in the previous column.
+        right: The neighbours in the next column.
         joints: The joints of each arrow, from left to right.
         steps: How many columns each arrow leads to the right; negative to the left.
     """
@@ -80,7 +80,7 @@ def make_layers(starts: Sequence[int], arrows: Sequence[tuple[int, int]]) -> Lay
 
 
 def _columns(starts: Sequence[int], arrows: Sequence[tuple[int, int]]) -> list[int]:
-    """Return the column of each box: behind all that lead to it, unless they form a circle."""
+    """Return the column of each box: after all that lead to it, except in a cycle."""
     after: list[list[int]] = [[] for _ in starts]
     before: list[list[int]] = [[] for _ in starts]
     for start, end in arrows:
@@ -107,7 +107,7 @@ def _columns(starts: Sequence[int], arrows: Sequence[tuple[int, int]]) -> list[i
 def _walk(
     entries: dict[int, int], after: list[list[int]], inside: set[int], column: list[int]
 ) -> None:
-    """Give the boxes of a circle their columns, by the number of steps from its entries."""
+    """Set the columns of the boxes of a cycle, by the number of steps from its entries."""
     waiting = [(place, box) for box, place in entries.items()]
     heapq.heapify(waiting)
     is_done: set[int] = set()

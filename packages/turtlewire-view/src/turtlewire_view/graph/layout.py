@@ -1,4 +1,4 @@
-"""The places of boxes and the ways of arrows, for the page and for files. Lengths are pixels."""
+"""The positions of boxes and the paths of arrows, for the page and for files, in pixels."""
 
 from __future__ import annotations
 
@@ -45,8 +45,8 @@ class Way(NamedTuple):
 
     Attributes:
         path: The curve and the head as SVG writes paths.
-        x: A place beside the middle of its last part, for a word.
-        y: Likewise.
+        x: The position of a word, next to the middle of the last part.
+        y: The same for the vertical axis.
     """
 
     path: str
@@ -75,7 +75,7 @@ class _Part(NamedTuple):
 
 
 def make_layout(diagram: Diagram) -> Layout:
-    """Return the places of boxes and arrows; the same for the same diagram."""
+    """Return the positions of boxes and arrows; the same for the same diagram."""
     labels = [_label(box) for box in diagram.boxes]
     widths = [_WIDER * text_width(label, TEXT_SIZE) + 2 * _PADDING for label in labels]
     parts = [

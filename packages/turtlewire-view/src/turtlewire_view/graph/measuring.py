@@ -25,7 +25,7 @@ __all__ = ["Measuring", "Reading"]
 
 _QOS = QoS(depth=10, reliability=Reliability.BEST_EFFORT)
 _WINDOW_NS = 5 * 10**9
-#: Rates are of at most so many messages, and of at least so many, however old they are.
+#: The most and the fewest messages that a rate covers; the fewest count however old they are.
 _MOST, _FEWEST = 5_000, 2
 #: Larger messages, such as images, are not shown.
 _LARGEST = 20_000
@@ -39,8 +39,8 @@ class Reading(NamedTuple):
     """The rate, bandwidth and newest value of a measured topic.
 
     Attributes:
-        rate: Messages a second [Hz]; None before the second one.
-        bandwidth: Bytes a second; likewise.
+        rate: Messages a second [Hz]; None before the second message.
+        bandwidth: Bytes a second; None before the second message.
         age: How long ago the last message arrived [s]; None without one.
         value: The last message as lines of text; empty without one.
         note: Why something is missing.
@@ -54,7 +54,7 @@ class Reading(NamedTuple):
 
 
 class Measuring:
-    """Subscribes to the topics that are asked for. For one thread.
+    """Subscribes to the topics that pages measure. For one thread.
 
     Args:
         graph: Knows the publishers and their types.
@@ -99,7 +99,7 @@ class _MeasuredTopic:
         self._decoded = (self._last, "", "")
 
     def fit(self, publishers: list[EndpointInfo]) -> None:
-        """Subscribe to the types of these publishers, if that is not so yet."""
+        """Subscribe to the types of these publishers, unless it already has."""
         self._has_publisher = bool(publishers)
         durabilities = {each.qos.durability for each in publishers}
         self._is_latched = durabilities == {Durability.TRANSIENT_LOCAL}

@@ -13,7 +13,7 @@ __all__ = ["TOPICS", "Selection", "select"]
 #: What `Selection.topics` may be.
 TOPICS = ("all", "connected", "none")
 _DEBUG_TOPICS = {"/rosout", "/parameter_events"}
-#: Nodes that look at the graph, or stand behind another node.
+#: Nodes of tools that read the graph, and helpers of another node.
 _DEBUG_NODE = re.compile(
     r"/(rqt|rviz|foxglove_bridge|launch_ros_\d|turtlewire_view_\d|transform_listener_impl_)"
 )

@@ -29,7 +29,7 @@ class GraphHost(Protocol):
         ...
 
     def forget(self, session: GraphSession) -> None:
-        """A page is gone."""
+        """Forget a page that was closed."""
         ...
 
 
@@ -80,17 +80,17 @@ class GraphSession(CommandSession):
         self._host.ask()
 
     def closed(self) -> None:
-        """The page is gone."""
+        """The page was closed."""
         self._host.forget(self)
 
     def _select(self, command: page_commands.ShowGraph) -> None:
         if command.topics not in TOPICS:
-            raise CommandError(f"topics is one of {', '.join(TOPICS)}, not {command.topics!r}")
+            raise CommandError(f"topics must be one of {', '.join(TOPICS)}, not {command.topics!r}")
         self.selection = Selection(*command)
 
     def _measure(self, command: page_commands.MeasureTopics) -> None:
         if not all(isinstance(each, str) and each.startswith("/") for each in command.topics):
-            raise CommandError("topics is a list of the names of topics")
+            raise CommandError("topics must be a list of topic names")
         if len(command.topics) > _MOST_TOPICS:
             raise CommandError(f"A page measures at most {_MOST_TOPICS} topics.")
         self.topics = frozenset(command.topics)

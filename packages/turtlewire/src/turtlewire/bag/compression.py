@@ -61,8 +61,8 @@ def decompress(
     Args:
         compression: ``""`` (none), ``"zstd"`` or ``"lz4"``.
         data: The compressed bytes.
-        size: The number of bytes that must come out; None if it is not known.
-        cut: Whether the data may end early; what they begin with comes out.
+        size: The decompressed number of bytes; None if it is not known.
+        cut: Whether the data may end early; the intact beginning is returned.
 
     Raises:
         BagError: The bytes are damaged, do not have that size, hold more than `most_bytes` or more
@@ -176,7 +176,7 @@ def _zstd() -> Any:
         else:
             from backports import zstd
     except ModuleNotFoundError:
-        raise BagError("the package 'backports.zstd' is missing, which zstd needs").with_hint(
+        raise BagError("zstd needs the package 'backports.zstd', which is missing").with_hint(
             "Install it with `pip install backports.zstd`, which compiles it where there is no "
             "wheel; Python 3.14 needs no package."
         ) from None
@@ -187,7 +187,7 @@ def _lz4_frame() -> Any:
     try:
         import lz4.frame
     except ImportError:
-        raise BagError(
-            "this bag is compressed with lz4, and the package 'lz4' is missing"
-        ).with_hint("Install it with `pip install lz4`.") from None
+        raise BagError("this bag needs the package 'lz4', which is missing").with_hint(
+            "Install it with `pip install lz4`."
+        ) from None
     return lz4.frame

@@ -50,7 +50,7 @@ def _number(name: str) -> int:
 
 
 def file_name(folder: str, number: int, ros_distro: str) -> str:
-    """Return the name of a new storage file of a bag, without its ending.
+    """Return the name of a new storage file of a bag, without its suffix.
 
     Args:
         folder: The folder of the bag.
@@ -113,7 +113,7 @@ def joined(paths: list[str], parts: list[BagMetadata]) -> BagMetadata:
 
 
 def open_storage(path: str) -> StorageFile:
-    """Open a ``.mcap`` or ``.db3`` file; its first bytes decide which of both it is.
+    """Open a ``.mcap`` or ``.db3`` file; its first bytes decide which format it has.
 
     Raises:
         FileNotFoundError: The file does not exist.

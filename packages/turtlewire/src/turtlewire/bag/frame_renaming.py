@@ -39,7 +39,7 @@ class FrameRenaming:
     def __init__(self, names: Mapping[str, str]) -> None:
         for old, new in names.items():
             if not old or not new:
-                raise BagError(f"a frame has no empty name: {old}:={new}")
+                raise BagError(f"the name of a frame must not be empty: {old}:={new}")
             if new.startswith("/"):
                 raise BagError(f"the frame name '{new}' begins with a slash, which tf2 refuses")
         self._names = dict(names)

@@ -211,7 +211,7 @@ class McapFile:
         if not start:
             return False
         if start > footer:
-            self.problems.append(f"{self.path}: the footer points behind the file's end")
+            self.problems.append(f"{self.path}: the footer points past the end of the file")
             return False
         if expected_crc and zlib.crc32(data[start : len(data) - len(MAGIC) - 4]) != expected_crc:
             self.problems.append(f"{self.path}: the summary at byte {start} is damaged")

@@ -125,7 +125,7 @@ class TransformReport:
         return [printable(line) for line in lines]
 
     def _steps_without_jumps(self) -> list[tuple[str, StepsBack]]:
-        """Return the frames that step back otherwise than by their jumps."""
+        """Return the frames that step back in other ways than by their jumps."""
         jumps = Counter(child for jump in self.jumps for child in jump.frames)
         return [each for each in self.steps_back.items() if each[1].times > jumps[each[0]]]
 

@@ -101,7 +101,7 @@ def known_definition(type_name: str) -> tuple[str, str]:
         return ENCODING, definition_text(type_name)
     except InterfaceError as error:
         warnings.warn(
-            f"the bag gets no definition of {type_name}, readers must know it: {error}",
+            f"the bag has no definition of {type_name}, so readers need one: {error}",
             stacklevel=3,
         )
         return "unknown", ""  # what rosbag2 writes for a definition that it does not find

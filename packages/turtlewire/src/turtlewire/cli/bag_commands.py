@@ -184,7 +184,7 @@ def _add_file(parser: Any, name: str, metavar: str, text: str, nargs: str | None
 
 
 def what_to_do_with_bag(path: str) -> str:
-    """Return the commands that show a bag; an empty string if the path is none."""
+    """Return the commands that show a bag; an empty string if it is not a bag."""
     if not _is_bag(Path(path)):
         return ""
     bag = shlex.quote(path)
@@ -195,7 +195,7 @@ def what_to_do_with_bag(path: str) -> str:
 
 
 def _is_bag(path: Path) -> bool:
-    """Return True for a bag: a folder of the same name as a frame is none."""
+    """Return True for a bag: a folder named like a frame does not count."""
     try:
         files = list(path.iterdir()) if path.is_dir() else [path] if path.is_file() else []
     except OSError:

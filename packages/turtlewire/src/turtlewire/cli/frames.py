@@ -71,7 +71,7 @@ def _with_hint(picture: Picture, buffer: Buffer) -> Picture:
 
 
 def _browse(keys: ScrollKeys, window: Window, seconds: float) -> str:
-    """Scroll as the keys say until the time is over or the user quits; the last key."""
+    """Scroll as the keys say until the time is up or the user quits; the last key."""
     end = time.monotonic() + seconds
     key = ""
     while key != _QUIT and (rest := end - time.monotonic()) > 0.0:

@@ -108,7 +108,7 @@ def _meant(word: str) -> str:
 
 
 def _add_doctor(commands: Any) -> None:
-    summary = "Find problems of the installation, the graph and the transforms, or of a bag"
+    summary = "Find problems in the installation, the graph and the transforms, or in a bag"
     parser = commands.add_parser("doctor", help=summary, description=summary)
     bag = parser.add_argument(
         "bag", nargs="?", metavar="BAG", help="Check this bag instead of the network"

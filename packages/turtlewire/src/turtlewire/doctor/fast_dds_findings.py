@@ -29,11 +29,11 @@ _MORE_ROOM = (
     "subscription be reliable."
 )
 _TOGETHER = (
-    "Topics pass between them; docs/compatibility.md says where services do not, and what is out "
-    "of reach."
+    "Topics work between them; docs/compatibility.md lists where services do not, and which nodes "
+    "cannot be reached."
 )
 _WITHOUT_SERVER = (
-    "Unset it for the robot's nodes, too, or run both ends with RMW_IMPLEMENTATION=rmw_zenoh_cpp "
+    "Also unset it for the robot's nodes, or run both ends with RMW_IMPLEMENTATION=rmw_zenoh_cpp "
     "and a router."
 )
 _BY_UDP = "Start them without that variable, or with FASTDDS_BUILTIN_TRANSPORTS=DEFAULT."

@@ -27,7 +27,7 @@ _PLAIN_CORE = "The plain-Python core is in use; lookups are many times slower."
 _INSTALL_COMPILER = (
     "Install g++ and the Python headers (Debian: g++ python3-dev), then install turtlewire again."
 )
-_OTHER_LIBRARY = "Let CYCLONEDDS_HOME name the prefix of another one, or unset it."
+_OTHER_LIBRARY = "Set CYCLONEDDS_HOME to the prefix of another library, or unset it."
 _NO_WHEEL = "You need not do anything: it reaches the same robots."
 _INSTALL_LIBDDSC = (
     "For robots that run rmw_cyclonedds_cpp or rmw_fastrtps_cpp, install a libddsc (Debian 13: apt "
@@ -35,8 +35,8 @@ _INSTALL_LIBDDSC = (
 )
 _BLIND = "Nodes of this computer that run on Fast DDS (rmw_fastrtps_cpp) are not found."
 _OWN_ADDRESS = (
-    "Cyclone DDS 0.10 finds them only by an address that is not the loopback one. To let it, and "
-    "the network in: export ROS_STATIC_PEERS=ADDRESS, an address of this computer."
+    "Cyclone DDS 0.10 finds them only at an address other than loopback. To allow this, which also "
+    "admits the network: export ROS_STATIC_PEERS=ADDRESS, with an address of this computer."
 )
 _OTHER_DISTRO = (
     "Use a shell in which no other ROS is sourced, or choose one with ROS_DISTRO=jazzy, kilted or "

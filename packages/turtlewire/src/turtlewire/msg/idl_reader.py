@@ -235,7 +235,7 @@ class IdlReader(IdlTokens):
 
 
 def _number(text: str) -> int | float | None:
-    """Return the value of a number as IDL writes it; None if it is none."""
+    """Return the value of a number as IDL writes it; None if it is not a number."""
     sign, digits = (text[0], text[1:]) if text[0] in "+-" else ("", text)
     octal = len(digits) > 1 and digits[0] == "0" and digits.isdigit()
     try:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 __all__ = ["INVALID_CHOICE", "SuggestingParser", "add_tf_topics", "seconds", "tf_topics"]
 
-#: argparse's message about a word that is none of the known ones.
+#: argparse's message about a word that is not one of the known ones.
 INVALID_CHOICE = re.compile(r"invalid choice: '([^']*)' \(choose from")
 _UNRECOGNIZED = re.compile(r"unrecognized arguments: (\S+)")
 

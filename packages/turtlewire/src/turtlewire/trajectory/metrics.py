@@ -260,7 +260,7 @@ def pairs(
         raise ValueError(f"unknown unit '{unit}'; choose from f, m, d and r")
     if not isinstance(delta, (int, float, np.number)):
         raise TypeError(
-            f"delta must be a number, not {type(delta).__name__}; its unit is given apart: "
+            f"delta must be a number, not {type(delta).__name__}; pass its unit separately: "
             "delta=10, unit='m'"
         )
     if not 0 < delta < np.inf:

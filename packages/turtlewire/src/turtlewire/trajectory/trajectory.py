@@ -99,7 +99,7 @@ class Trajectory:
 
         Args:
             path: The file.
-            format: Its format; None derives it from the ending ``.tum``, ``.kitti`` or ``.euroc``,
+            format: Its format; None derives it from the suffix ``.tum``, ``.kitti`` or ``.euroc``,
                 and otherwise from the separator and the columns.
             times: A file with the times of a KITTI file, one time in seconds a line. None reads
                 ``<name>_times.txt``, or ``times.txt`` with as many times as there are poses, in
@@ -164,8 +164,8 @@ class Trajectory:
 
         Args:
             path: The file.
-            format: Its format; None derives it from the ending ``.tum``, ``.kitti``, ``.euroc`` or
-                ``.csv``, and TUM for names without an ending or with an unknown one.
+            format: Its format; None derives it from the suffix ``.tum``, ``.kitti``, ``.euroc`` or
+                ``.csv``, and TUM for names without a suffix or with an unknown one.
 
         Raises:
             ValueError: The format does not exist, or the name ends in the suffix of a format that

@@ -77,7 +77,7 @@ def _checked(name: str, hint: Any, value: Any) -> Any:
     """Return a field's value.
 
     Raises:
-        CommandError: The value is none that the field takes.
+        CommandError: The field does not accept the value.
     """
     limits = None
     if typing.get_origin(hint) is Annotated:

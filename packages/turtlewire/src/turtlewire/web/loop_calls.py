@@ -31,7 +31,7 @@ class LoopCalls:
                 self._loop.call_soon_threadsafe(self._run)
 
     def close(self) -> None:
-        """Call nothing any more."""
+        """Stop all further calls."""
         with self._lock:
             self._is_closed = True
             self._waiting.clear()

@@ -15,7 +15,7 @@ def add_page_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--lan",
         action="store_true",
-        help="Also serve other devices in the network, at an address with a random token",
+        help="Also serve other devices on the network, at an address with a random token",
     )
 
 

@@ -37,7 +37,7 @@ class PageSession(Protocol):
         ...
 
     def closed(self) -> None:
-        """The browser is gone."""
+        """The browser has disconnected."""
         ...
 
 
@@ -85,4 +85,4 @@ class CommandSession:
         raise NotImplementedError
 
     def closed(self) -> None:
-        """The browser is gone."""
+        """The browser has disconnected."""

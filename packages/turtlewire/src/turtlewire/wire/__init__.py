@@ -85,4 +85,4 @@ def open_context(
 
         return ZenohContext(domain_id)
     error = WireError(f"middleware {name!r} is not available")
-    raise error.with_hint(f"There are {', '.join(environment.MIDDLEWARES)}.")
+    raise error.with_hint(f"Choose from {', '.join(environment.MIDDLEWARES)}.")

@@ -163,7 +163,7 @@ class Publisher(Entity):
     def wait_for_acknowledgments(self, timeout_ns: int) -> bool:
         """Block until all reliable subscriptions have received all published messages.
 
-        False when the time is over before.
+        False if the timeout passes first.
         """
 
 
@@ -256,7 +256,7 @@ class WaitSet(Entity):
 
     @abstractmethod
     def wait(self, timeout_ns: int | None = None) -> list[Entity]:
-        """Block until an attached entity is ready, :meth:`wake` is called, or the time is over.
+        """Block until an attached entity is ready, :meth:`wake` is called, or the timeout passes.
 
         Args:
             timeout_ns: None waits forever, 0 looks once.

@@ -176,5 +176,5 @@ def _inside(folder: str, origin: str) -> Iterator[Libddsc]:
 def _listed(folder: str) -> list[str]:
     try:
         return os.listdir(folder)
-    except OSError:  # it does not exist, or is none of ours to read
+    except OSError:  # it does not exist, or this user may not read it
         return []

@@ -240,7 +240,7 @@ def with_certificate(name: str) -> str:
         (
             USER,
             "SETTINGS+=('transport/auth/usrpwd/password=\"looking-glass\"')",
-            "no session is given to user 'alice' with this password",
+            "the other side rejects user 'alice' with this password",
             "its user and password are not in the file",
         ),
     ],

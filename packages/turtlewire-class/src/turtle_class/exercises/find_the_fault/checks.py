@@ -15,7 +15,7 @@ def check_names(exercise: Exercise) -> None:
     for turtle in _TURTLES:
         exercise.expect(
             turtle in frames,
-            f"There is no frame {turtle}. There are: {known}.",
+            f"There is no frame {turtle}. The frames are: {known}.",
             "`turtlewire frames` shows one turtle only, published by two nodes: which name does "
             "each of them give its frame? It is in self.turtlename.",
         )

@@ -17,14 +17,14 @@ def check_parent(exercise: Exercise) -> None:
     frames = exercise.frames()
     exercise.expect(
         "meeting_point" in frames,
-        f"There is no frame meeting_point. There are: {', '.join(sorted(frames))}.",
+        f"There is no frame meeting_point. The frames are: {', '.join(sorted(frames))}.",
         "Call sendTransform in the timer when the lookup has succeeded. At now() no transform has "
         "arrived yet: look up the latest one, rclpy.time.Time().",
     )
     exercise.expect(
         frames["meeting_point"] == "turtle1",
         f"the parent of meeting_point is {frames['meeting_point']}.",
-        "What you compute is as turtle1 sees it: header.frame_id = 'turtle1'.",
+        "Your result is a position in turtle1's frame: header.frame_id = 'turtle1'.",
     )
 
 

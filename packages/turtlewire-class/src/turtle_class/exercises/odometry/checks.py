@@ -25,7 +25,8 @@ def check_frames(exercise: Exercise) -> None:
                     "Two nodes run this file. Each needs names of its own: "
                     f"f'{{self.turtlename}}/{child}'."
                 )
-            exercise.expect(name in frames, f"There is no frame {name}. There are: {known}.", hint)
+            seen = f"There is no frame {name}. The frames are: {known}."
+            exercise.expect(name in frames, seen, hint)
             exercise.expect(
                 frames[name] == parent,
                 f"the parent of {name} is {frames[name]}.",

@@ -38,7 +38,7 @@ def check_noses(exercise: Exercise) -> None:
                 "Two nodes run this file, one for each turtle. Each needs a name of its own: "
                 "child_frame_id = f'{self.turtlename}_nose'."
             )
-        exercise.expect(nose in frames, f"There is no frame {nose}. There are: {known}.", hint)
+        exercise.expect(nose in frames, f"There is no frame {nose}. The frames are: {known}.", hint)
 
 
 def check_parent(exercise: Exercise) -> None:

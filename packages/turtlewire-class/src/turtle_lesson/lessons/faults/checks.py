@@ -6,7 +6,7 @@ from turtle_lesson.exercise import Exercise
 from turtlesim.testing.faults import Delay, Loss, WrongFrame
 
 _AGE = (
-    "The transform says of when it is: t.header.stamp. age = self.get_clock().now() - "
+    "The time of the transform is t.header.stamp. age = self.get_clock().now() - "
     "rclpy.time.Time.from_msg(t.header.stamp); publish nothing if age.nanoseconds > 1e9."
 )
 

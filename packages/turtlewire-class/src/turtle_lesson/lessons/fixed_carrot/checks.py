@@ -11,7 +11,7 @@ def check_parent(exercise: Exercise) -> None:
     frames = exercise.frames()
     exercise.expect(
         "carrot1" in frames,
-        f"There is no frame carrot1. There are: {', '.join(sorted(frames))}.",
+        f"There is no frame carrot1. The frames are: {', '.join(sorted(frames))}.",
         "Keep child_frame_id = 'carrot1', and send the transform in the timer's callback.",
     )
     exercise.expect(

@@ -14,7 +14,7 @@ export class Displays {
   #onChange;
   #entries = new Map(); // id to entry
 
-  /** `onChange()`: the list or a status is another one. `view` is null without WebGL. */
+  /** `onChange()`: the list or a status has changed. `view` is null without WebGL. */
   constructor(view, frames, send, onChange) {
     this.#view = view;
     this.#frames = frames;

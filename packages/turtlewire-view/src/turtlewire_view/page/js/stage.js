@@ -55,7 +55,7 @@ export class Stage {
     });
   }
 
-  /** Something that is drawn is another one. */
+  /** Something that is drawn has changed. */
   change() {
     this.#isDirty = true;
     this.labels.refresh();

@@ -49,7 +49,7 @@ export function isNumber(value) {
   return typeof value === "number" && Number.isFinite(value);
 }
 
-/** With so many digits; what rounds to zero has no sign. */
+/** With this number of digits; a number that rounds to zero has no sign. */
 export function fixed(value, digits) {
   return value.toFixed(digits).replace(/^-(0(\.0*)?)$/, "$1");
 }

@@ -1,4 +1,4 @@
-// Shortcuts of one letter can be switched off: speech input, or a slip of the hand, types letters.
+// One-letter shortcuts can be switched off: speech input, or a slip of the hand, types letters.
 
 const NAME = "turtlewire-letter-keys";
 

@@ -35,7 +35,7 @@ class Attachment(NamedTuple):
         """Read either layout.
 
         Raises:
-            ValueError: The bytes are none of both.
+            ValueError: The bytes have neither layout.
         """
         for layout in (_LAYOUT, _NAMED_LAYOUT):
             if len(data) == layout.size:

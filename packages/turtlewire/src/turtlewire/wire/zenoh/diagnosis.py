@@ -29,7 +29,7 @@ _FORM = 'An address is PROTOCOL/HOST:PORT: connect/endpoints=["tcp/robot.example
 _ORIGIN = (
     "It is a setting in the file that ZENOH_SESSION_CONFIG_URI names, or in ZENOH_CONFIG_OVERRIDE."
 )
-#: A message of one byte that is none of Zenoh's: who has accepted the certificate hangs up on it.
+#: One byte that is not a Zenoh message: a peer that accepted the certificate closes the connection.
 _NO_MESSAGE = b"\x01\x00\x00"
 
 #: What OpenSSL calls the reasons for which the other side ends a handshake.
@@ -240,7 +240,7 @@ def _session_fault(address: _Address, configuration: zenoh.Config) -> ConnectFau
     user = _value(configuration, "transport/auth/usrpwd/user")
     if user:
         return ConnectFault(
-            f"no session is given to user {user!r} with this password",
+            f"the other side rejects user {user!r} with this password",
             "A line user:password must be in the file that transport/auth/usrpwd/dictionary_file "
             "of the router names.",
         )

@@ -113,7 +113,7 @@ class ZenohClient(_QueuedEndpoint, Client):
         """Queue the message; runs on a thread of Zenoh."""
         sample = reply.ok
         if sample is None or sample.attachment is None:
-            return  # the time is over, or the server has gone: both end as no answer
+            return  # the timeout has passed, or the server has left: neither is an answer
         try:
             attachment = Attachment.unpack(bytes(sample.attachment))
         except ValueError as error:

@@ -67,14 +67,14 @@ class Token(NamedTuple):
 
     @property
     def gid(self) -> bytes:
-        """16 bytes that anybody with the text can compute: XXH3 of it, low half first."""
+        """16 bytes that anyone with the text can compute: XXH3 of it, low half first."""
         from xxhash import xxh3_128_digest
 
         return xxh3_128_digest(self.text.encode())[::-1]
 
     @classmethod
     def parse(cls, text: str) -> Token | None:
-        """Read a token; None when it is none, or one of a kind that is not known.
+        """Read a token; None if the text is not a token or has an unknown kind.
 
         Newer versions may add fields at the end.
         """

@@ -56,7 +56,7 @@ export class Details {
     }));
     const isPinned = this.#actions.isPinned(name);
     const pin = make("button", { type: "button", id: "pin", textContent: "Keep rate" });
-    pin.title = "Show the rate in the picture also when something else is selected";
+    pin.title = "Keep showing the rate in the picture when you select something else";
     pin.setAttribute("aria-pressed", String(isPinned));
     pin.onclick = () => this.#actions.pin(name);
     const head = make("p", { className: "title" }, make("b", { textContent: name }), pin);

@@ -140,7 +140,7 @@ export default class RobotModel {
   }
 }
 
-/** Make all materials below an object so much clearer than they are. */
+/** Make all materials below an object more transparent by this factor. */
 function fade(object, alpha) {
   object.traverse((each) => {
     for (const material of [each.material].flat()) {
