@@ -27,7 +27,6 @@ module              contents
 `protocol`          the frames of the protocol
 `fields`            fields of clients' requests, checked
 `schemas`           definitions of types, requests and responses
-`json_messages`     messages as JSON, and back
 ==================  ===================================================================
 """
 

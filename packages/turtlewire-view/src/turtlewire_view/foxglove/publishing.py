@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.errors import CdrError, InterfaceError, WireError
 from turtlewire.msg import type_hash
+from turtlewire.msg.json_messages import cdr_from_json
 from turtlewire.msg.registry import load_message
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.names import validate_full_topic_name
 from turtlewire.wire.qos import Durability, QoS
-from turtlewire_view.foxglove.json_messages import cdr_from_json
 from turtlewire_view.foxglove.protocol import ENCODINGS, ProtocolError
 from turtlewire_view.foxglove.schemas import full_name
 

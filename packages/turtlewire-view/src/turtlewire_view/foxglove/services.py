@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtlewire.errors import CdrError
 from turtlewire.msg import deserialize, get_message
+from turtlewire.msg.json_messages import cdr_from_json, json_from_message
 from turtlewire.wire.encapsulation import is_message
 from turtlewire_view.foxglove.caller import ServiceCallError
-from turtlewire_view.foxglove.json_messages import cdr_from_json, json_from_message
 from turtlewire_view.foxglove.protocol import ENCODINGS
 from turtlewire_view.foxglove.schemas import ENCODING, schema
 

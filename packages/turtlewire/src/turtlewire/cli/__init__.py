@@ -15,6 +15,8 @@ module                contents
 `trajectory_command`  the verb ``trajectory``
 `compare_command`     the verb ``compare``
 `relay_command`       the verb ``relay``
+`mcp_command`         the verb ``mcp``
+`assistant`           the tools of ``mcp``, a package of its own
 `trajectory_sources`  trajectories of bags and files, for these verbs
 `scroll_keys`         keys with which ``frames`` is scrolled
 ====================  ========================================================================

@@ -10,6 +10,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.cli.bag_commands import add_bag_commands, what_to_do_with_bag
+from turtlewire.cli.mcp_command import add_mcp
 from turtlewire.cli.relay_command import add_relay
 from turtlewire.plugins import declared
 from turtlewire.program import program
@@ -96,6 +97,7 @@ def _parser() -> SuggestingParser:
     )
     _add_doctor(commands)
     _add_frames(commands)
+    add_mcp(commands)
     add_relay(commands)
     add_bag_commands(commands)
     for _, entry in sorted(declared(_COMMANDS).items()):

@@ -32,6 +32,7 @@ module                contents
 `written_records`     messages decoded by the definitions of their writer
 `wide_text`           ``wstring`` on the wire
 `json_values`         messages as values for JSON
+`json_messages`       messages as JSON, and from JSON
 `diagnosis`           finds the wrong field of a message or of its bytes
 `type_hash`           type hashes (RIHS01)
 `shell`               lazy classes of modules such as ``geometry_msgs.msg``

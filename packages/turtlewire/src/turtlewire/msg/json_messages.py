@@ -13,7 +13,8 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.errors import CdrError
-from turtlewire.msg import get_message, serialize
+from turtlewire.msg.cdr import serialize
+from turtlewire.msg.classes import get_message
 from turtlewire.msg.json_values import json_value
 from turtlewire.msg.types import (
     FLOATING_POINT_TYPES,
@@ -25,9 +26,9 @@ from turtlewire.msg.types import (
 )
 
 if TYPE_CHECKING:
-    from turtlewire.msg import Message
+    from turtlewire.msg.message import Message
 
-__all__ = ["cdr_from_json", "json_from_message"]
+__all__ = ["cdr_from_json", "json_from_message", "message_from_values"]
 
 _SPECIAL = {"NaN": math.nan, "Infinity": math.inf, "-Infinity": -math.inf}
 _BYTES = {"octet", "uint8"}
@@ -43,12 +44,21 @@ def cdr_from_json(type_name: str, payload: bytes) -> bytes:
         values = json.loads(payload)
     except (ValueError, RecursionError) as error:
         raise CdrError(f"no JSON: {error}") from error
-    return serialize(_message(type_name, values, type_name))
+    return serialize(message_from_values(type_name, values))
 
 
 def json_from_message(message: Message) -> bytes:
     """Return a message as a JSON object with all of its fields."""
     return json.dumps(json_value(message), separators=(",", ":"), allow_nan=False).encode()
+
+
+def message_from_values(type_name: str, values: Any) -> Message:
+    """Return a message from a dictionary with some or all of its fields, as JSON holds them.
+
+    Raises:
+        CdrError: ``values`` does not match the type; the message names the field.
+    """
+    return _message(type_name, values, type_name)
 
 
 def _message(type_name: str, values: Any, path: str) -> Message:

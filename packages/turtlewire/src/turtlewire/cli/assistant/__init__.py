@@ -1,0 +1,15 @@
+"""``turtlewire mcp``: tools with which an assistant looks at a network, over the MCP protocol.
+
+===============  ==========================================================================
+module           contents
+===============  ==========================================================================
+`server`         the MCP server: its tools, and the standard streams that it speaks on
+`looking`        the tools that only read
+`acting`         the tools that publish, drive and call services
+`permissions`    the names that ``--allow`` gave; the errors that an assistant reads
+`limits`         how often tools are called, and how long answers are
+`network`        the connection: waits for the graph, types of topics, names that are near
+`service_call`   a request to a service, and its response
+`plots`          a numeric field of a topic, and its picture
+===============  ==========================================================================
+"""
