@@ -40,6 +40,15 @@ It refuses requests with another `Host`
   foxglove/test_hostile.py test_a_foreign_name_is_refused_with_one_line
   foxglove/test_hostile.py test_other_pages_are_refused_with_one_line
   foxglove/test_hostile.py test_pages_of_foxglove_and_of_this_machine_connect
+`turtlewire mcp` speaks on stdin and stdout
+  cli/test_mcp.py test_it_listens_on_no_port test_a_drive_that_is_ended_stops_the_robot
+They can read, and publish to and call only what `--allow` names
+  cli/test_mcp.py test_without_allow_nothing_is_changed test_the_assistant_does_what_is_allowed
+  cli/test_assistant_limits.py test_names_are_allowed_as_a_whole_or_by_their_beginning
+Limits hold for the calls in a minute
+  cli/test_mcp.py test_too_many_calls_are_refused test_a_long_message_is_cut
+  cli/test_mcp.py test_wrong_names_and_numbers_are_explained
+  cli/test_mcp.py test_a_drive_that_is_ended_stops_the_robot
 The daemon of `ros2 daemon start` listens on loopback only
   ros2cli/test_daemon.py test_any_program_may_ask_but_no_web_page
   ros2cli/test_daemon.py test_the_port_is_that_of_the_domain
@@ -82,6 +91,11 @@ A page that `--lan` opens is not encrypted
 With another `--address`, the Foxglove server is not protected by a token
   foxglove/test_hostile.py test_all_names_are_served_to_the_network_and_to_all_pages
   foxglove/test_command.py test_an_address_for_others_is_said_plainly
+An assistant that uses `turtlewire mcp`
+  cli/test_mcp.py test_it_reads_and_subscribes_only_while_it_reads test_transforms
+  cli/test_mcp.py test_a_long_message_is_cut
+Names and texts of the robot's programs may contain instructions
+  cli/test_mcp.py test_the_assistant_does_what_is_allowed
 Launch files are programs
   test_security.py test_launching_a_file_runs_its_code
 `ros2 launch --show-args` and `--print` run the code of Python files only

@@ -78,8 +78,8 @@ def offered(line, answers):
             "turtlewire ",
             [
                 "--version",
-                *("bag", "class", "compare", "doctor", "foxglove", "frames", "graph", "relay"),
-                *("trajectory", "view"),
+                *("bag", "class", "compare", "doctor", "foxglove", "frames", "graph", "mcp"),
+                *("relay", "trajectory", "view"),
             ],
         ),
         ("turtlewire d", ["doctor"]),

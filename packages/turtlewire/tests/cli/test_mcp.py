@@ -13,6 +13,7 @@ from pathlib import Path
 import anyio
 import pytest
 from mcp import Client, StdioServerParameters, stdio_client
+from tests.needs import needs_cyclone_dds
 
 import turtlewire
 from turtlewire import msg
@@ -149,12 +150,13 @@ def test_transforms(connection):
 
 def test_without_allow_nothing_is_changed(simulator):
     async def dialogue(assistant):
+        message = {"message": {}, "type": "std_msgs/msg/Empty"}
         for tool, arguments, name, action in (
             ("drive", {"topic": "turtle1/cmd_vel"}, "/turtle1/cmd_vel", "drive on"),
-            ("publish", {"topic": "/turtle1/cmd_vel", "message": {}}, "/turtle1/cmd_vel", "publish to"),
-            ("publish", {"topic": "/a", "type": "std_msgs/msg/Empty", "message": {}}, "/a", "publish to"),
+            ("publish", {"topic": "/turtle1/cmd_vel", **message}, "/turtle1/cmd_vel", "publish to"),
+            ("publish", {"topic": "/a", **message}, "/a", "publish to"),
             ("call_service", {"service": "/kill", "request": {"name": "turtle1"}}, "/kill", "call"),
-        ):  # fmt: skip
+        ):
             text = await assistant.refused(tool, **arguments)
             assert f"Refused to {action} {name}. Allowed: nothing." in text
             assert text.endswith(f"turtlewire mcp --allow {name}")
@@ -163,7 +165,7 @@ def test_without_allow_nothing_is_changed(simulator):
     assert "kill" not in simulator.text.lower()
 
 
-def test_what_is_allowed_is_done(simulator, connection):
+def test_the_assistant_does_what_is_allowed(simulator, connection):
     received = connection.subscribe("/turtle1/cmd_vel", "geometry_msgs/msg/Twist", qos=DEEP)
     chatter = connection.subscribe("/chatter", "std_msgs/msg/String", qos=DEEP)
 
@@ -361,6 +363,21 @@ def test_a_drive_that_is_ended_stops_the_robot(connection, end):
                 assert json.loads(line)["jsonrpc"] == "2.0"
         said = client.process.stderr.read().decode()
     assert said.splitlines() == ["turtlewire mcp: assistants may read, and use: /turtle1/*"]
+
+
+@needs_cyclone_dds  # Zenoh listens for other peers
+@pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+def test_it_listens_on_no_port():
+    with RawClient() as client:
+        process = Path(f"/proc/{client.process.pid}")
+        own = {os.readlink(each) for each in (process / "fd").iterdir()}
+        table = [
+            line.split()
+            for name in ("tcp", "tcp6")
+            for line in (process / "net" / name).read_text().splitlines()[1:]
+        ]
+    listening = {f"socket:[{row[9]}]" for row in table if row[3] == "0A"}
+    assert not own & listening
 
 
 def test_ctrl_c_ends_it_in_a_terminal(run):

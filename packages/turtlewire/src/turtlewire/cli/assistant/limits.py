@@ -38,7 +38,7 @@ class RateLimit:
         """Count a call. A refused call does not count.
 
         Raises:
-            RefusedCallError: There were too many.
+            RefusedCallError: The last minute had too many calls.
         """
         now = self._clock()
         while self._calls and now - self._calls[0] >= _PERIOD_S:
@@ -56,7 +56,7 @@ def seconds_within(value: float, name: str, most: float) -> float:
     """Return a duration that a tool may take.
 
     Raises:
-        RefusedCallError: It is not above 0, or too long.
+        RefusedCallError: The duration is not above 0, or too long.
     """
     if not 0.0 < value <= most:  # also refuses NaN
         raise RefusedCallError(

@@ -83,7 +83,7 @@ class Network:
         """Return the full name and the type of a topic.
 
         Raises:
-            RefusedCallError: It does not exist, or has several types.
+            RefusedCallError: The name does not exist, or has several types.
         """
         return _only_type("topic", name, await self.topics())
 
@@ -91,7 +91,7 @@ class Network:
         """Return the full name and the type of a service.
 
         Raises:
-            RefusedCallError: It does not exist, or has several types.
+            RefusedCallError: The name does not exist, or has several types.
         """
         return _only_type("service", name, await self.services())
 

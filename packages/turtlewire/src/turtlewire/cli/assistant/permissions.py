@@ -60,7 +60,7 @@ class Permissions:
             action: What was asked for, such as ``publish to``.
 
         Raises:
-            RefusedCallError: It may not be used.
+            RefusedCallError: The name is not allowed.
         """
         if not self.allow(name):
             raise RefusedCallError(

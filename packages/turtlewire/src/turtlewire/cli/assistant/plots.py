@@ -33,7 +33,7 @@ def number_at(message: Message, path: str) -> float:
         path: Such as ``pose.position.x`` or ``ranges[3]``.
 
     Raises:
-        RefusedCallError: There is no such field, or it is not a number.
+        RefusedCallError: The field does not exist, or is not a number.
     """
     value: Any = message
     place = 0

@@ -34,7 +34,7 @@ async def call(
         limit_s: How long to wait, for the service and for its response.
 
     Raises:
-        RefusedCallError: It did not answer in time.
+        RefusedCallError: The service did not answer in time.
         UncallableServiceError: Its server would misread the request.
     """
     require_callable(network.graph, service)
