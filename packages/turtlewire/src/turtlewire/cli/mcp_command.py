@@ -55,11 +55,7 @@ def _mcp(args: argparse.Namespace) -> int:
     except ValueError as error:
         args.parser.error(f"--allow: {error}")
     try:
-        from turtlewire.cli.assistant.server import (
-            make_server,
-            make_stdin_endable,
-            serve,
-        )
+        from turtlewire.cli.assistant import server
     except ImportError as error:  # also of version 1, which has other names
         if (error.name or "").partition(".")[0] not in {"mcp", "mcp_types", "anyio"}:
             raise
@@ -77,10 +73,10 @@ def _mcp(args: argparse.Namespace) -> int:
         print(f"turtlewire mcp: {error.in_one_line()}", file=sys.stderr)
         return 2
     in_terminal = sys.stdin.isatty()
-    make_stdin_endable()
+    server.make_stdin_endable()
     with network:
         _announce(permissions, in_terminal=in_terminal)
-        serve(make_server(network, permissions, args.rate))
+        server.serve(server.make_server(network, permissions, args.rate))
     return 0
 
 

@@ -1,5 +1,9 @@
 """``turtlewire mcp``: tools with which an assistant looks at a network, over the MCP protocol.
 
+An assistant reads the names, arguments and docstrings of the tools, and gets JSON or the text of an
+error. All of them share one node; each subscribes only while it is called. What needs the SDK is
+imported when the command runs, because the SDK takes a second to load.
+
 ===============  ==========================================================================
 module           contents
 ===============  ==========================================================================

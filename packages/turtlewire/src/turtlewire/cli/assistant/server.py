@@ -54,6 +54,24 @@ def make_server(network: Network, permissions: Permissions, rate: int) -> MCPSer
     limit = RateLimit(rate)
     looking, acting = Looking(network, permissions), Acting(network, permissions)
 
+    reading = (
+        looking.list_topics,
+        looking.list_services,
+        looking.echo,
+        looking.list_frames,
+        looking.lookup_transform,
+        _plot_tool(looking),
+    )
+    for tool in (*reading, acting.publish, acting.drive, acting.call_service):
+        server.add_tool(
+            _guarded(tool, limit),
+            annotations=ToolAnnotations(read_only_hint=tool in reading, open_world_hint=False),
+            structured_output=False,
+        )
+    return server
+
+
+def _plot_tool(looking: Looking) -> Callable[..., Awaitable[list[Any]]]:
     async def plot(topic: str, field: str, seconds: float = 5.0) -> list[Any]:
         """Record a numeric field of a topic, and return its curve as an image with a summary.
 
@@ -65,23 +83,7 @@ def make_server(network: Network, permissions: Permissions, rate: int) -> MCPSer
         summary, png = await looking.record(topic, field, seconds)
         return [summary, Image(data=png, format="png")]
 
-    for tool, reads in (
-        (looking.list_topics, True),
-        (looking.list_services, True),
-        (looking.echo, True),
-        (looking.list_frames, True),
-        (looking.lookup_transform, True),
-        (plot, True),
-        (acting.publish, False),
-        (acting.drive, False),
-        (acting.call_service, False),
-    ):
-        server.add_tool(
-            _guarded(tool, limit),
-            annotations=ToolAnnotations(read_only_hint=reads, open_world_hint=False),
-            structured_output=False,
-        )
-    return server
+    return plot
 
 
 def _guarded(
