@@ -99,6 +99,11 @@ class MujocoRobot(Node):
             )
             return None
 
+    def close_camera(self) -> None:
+        """Free the OpenGL context: MuJoCo 3 cannot free it while Python exits."""
+        if self._camera is not None:
+            self._camera.renderer.close()
+
     def _on_command(self, command: Float64MultiArray) -> None:
         if len(command.data) != self.model.nu:
             self.get_logger().error(
@@ -158,7 +163,7 @@ class Camera:
 
     def __init__(self, robot: MujocoRobot) -> None:
         self._robot = robot
-        self._renderer = mujoco.Renderer(robot.model, HEIGHT, WIDTH)
+        self.renderer = mujoco.Renderer(robot.model, HEIGHT, WIDTH)
         self._frame = (robot.model.camera(0).name or "camera") + "_optical_frame"
         self._images = robot.create_publisher(Image, "camera/image_raw", qos_profile_sensor_data)
         self._infos = robot.create_publisher(
@@ -179,8 +184,8 @@ class Camera:
 
     def publish(self, stamp: Time) -> None:
         """Render and publish an image and the calibration."""
-        self._renderer.update_scene(self._robot.data, camera=0)
-        pixels = array.array("B", self._renderer.render().tobytes())
+        self.renderer.update_scene(self._robot.data, camera=0)
+        pixels = array.array("B", self.renderer.render().tobytes())
         image = Image(height=HEIGHT, width=WIDTH, encoding="rgb8", step=3 * WIDTH, data=pixels)
         focal = HEIGHT / 2 / math.tan(math.radians(self._robot.model.cam_fovy[0]) / 2)
         x, y = (WIDTH - 1) / 2, (HEIGHT - 1) / 2
@@ -197,11 +202,13 @@ class Camera:
 def main() -> None:
     """Simulate until Ctrl-C."""
     rclpy.init()
+    robot = MujocoRobot()
     try:
-        rclpy.spin(MujocoRobot())
+        rclpy.spin(robot)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
+        robot.close_camera()
         rclpy.try_shutdown()
 
 
