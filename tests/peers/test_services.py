@@ -256,6 +256,8 @@ def test_a_killed_server_is_noticed_by_both_sides(real, serve, context, ours, ec
     seer.wait_for("server: True")
     server.process.kill()
     seer.wait_for("gone")
+    graph = context.graph  # else the client would be ready for the server that was killed
+    assert graph.wait_for(lambda: "/echo" not in graph.service_names_and_types(), LONG)
     client = ours.create_client("/echo", echo[0], QoS())
     peer = real("node", **dict.fromkeys(variables, profile))
     assert context.graph.wait_for(client.is_ready, LONG)
