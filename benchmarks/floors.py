@@ -70,16 +70,6 @@ def sleep_cpu(period_s: float = 0.01) -> Figure:
     return Figure(min(runs), statistics.median(runs))
 
 
-def interpreter_start() -> Figure:
-    """Return the time of ``python -c pass``."""
-    runs = []
-    for _ in range(9):
-        begin = time.perf_counter_ns()
-        subprocess.run([sys.executable, "-c", "pass"], check=True)
-        runs.append(time.perf_counter_ns() - begin)
-    return Figure(min(runs), statistics.median(runs))
-
-
 def transfer(size: int) -> Figure:
     """Return the time in which one process gets ``size`` bytes from a thread over loopback."""
     data, count = bytes(size), 60

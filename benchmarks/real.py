@@ -83,7 +83,6 @@ def _pythons() -> dict[str, list[str]]:
 def _floors() -> dict[str, Figure]:
     found = {
         "timer_cpu": floors.sleep_cpu(rclpy_programs.TICK_S),
-        "imported": floors.interpreter_start(),
         "image": floors.transfer(rclpy_programs.IMAGE_SIZE),
     }
     if (wire := floors.one_way()) is not None:
