@@ -78,11 +78,7 @@ FirstRequests::FirstRequests(const Functions& at, const Guid& reader, Targets ta
       free_endpoint_(reinterpret_cast<decltype(free_endpoint_)>(at[1])),
       reader_(reader),
       targets_(std::move(targets)),
-      process_(process_id()) {
-#if defined(__linux__)
-  socket_ = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-#endif
-}
+      process_(process_id()) {}
 
 FirstRequests::~FirstRequests() {
   close();
@@ -97,8 +93,16 @@ void FirstRequests::ask(const Guid& writer) {
   const std::lock_guard lock(mutex_);
   if (closed_) return;
   for (const auto delay : kDelays) due_.emplace(now + delay, writer);
-  if (!sender_.joinable()) sender_ = std::thread(&FirstRequests::send_when_due, this);
+  if (!sender_.joinable()) start();
   changed_.notify_one();
+}
+
+// Call with the lock held. Most servers have no client on Fast DDS, and need no socket.
+void FirstRequests::start() {
+#if defined(__linux__)
+  if (socket_ < 0) socket_ = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+#endif
+  sender_ = std::thread(&FirstRequests::send_when_due, this);
 }
 
 void FirstRequests::send_when_due() {

@@ -26,7 +26,7 @@ struct MatchedStatus {
 };
 
 // Asks each new client of one server for its first request, with heartbeats in the client's name.
-// A separate thread sends them; it starts with the first client on Fast DDS.
+// A separate thread sends them; it and its socket begin with the first client on Fast DDS.
 class FirstRequests {
  public:
   using Guid = decltype(Identity::guid);
@@ -53,6 +53,7 @@ class FirstRequests {
 
   // Asks a client, unless the writer of requests is not one on Fast DDS.
   void ask(const Guid& writer);
+  void start();
   void send_when_due();
   void send(const Guid& writer) const noexcept;
 

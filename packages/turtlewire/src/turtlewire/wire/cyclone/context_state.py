@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import itertools
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from .announcer import Announcer
+from .first_requests import receiving_addresses
 from .participant import Participant
 from .reader import CycloneReaderThread
 
@@ -31,6 +33,11 @@ class CycloneContextState:
         self.graph: CycloneGraph | None = None
         self.closing = False
         self._service_numbers = itertools.count(1)
+
+    @cached_property
+    def receiving_addresses(self) -> list[tuple[int, int]]:
+        """The IPv4 addresses, as numbers, and ports at which this process receives."""
+        return receiving_addresses(self.participant.domain_id)
 
     def graph_changed(self) -> None:
         """Notify the graph's listeners; called when a predicate on the graph may have changed."""

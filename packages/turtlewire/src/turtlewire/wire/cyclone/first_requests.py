@@ -23,7 +23,7 @@ from . import library as dds
 from .native import address_of
 from .ports import unicast_ports_of
 
-__all__ = ["FirstRequests"]
+__all__ = ["FirstRequests", "receiving_addresses"]
 
 _ELSEWHERE = ("192.0.2.1", 9)  # an address of no computer (RFC 5737)
 _KEEP_STATUS = False  # else the reader thread would not see that something has matched
@@ -37,15 +37,13 @@ class FirstRequests:
     Args:
         handle: The reader of requests.
         reader: Its GUID.
-        domain_id: The domain that it is in.
+        targets: What `receiving_addresses` returns.
     """
 
-    def __init__(self, handle: int, reader: bytes, domain_id: int) -> None:
+    def __init__(self, handle: int, reader: bytes, targets: list[tuple[int, int]]) -> None:
         from turtlewire._native import CycloneFirstRequests
 
         functions = [address_of(dds.matched_publication_data), address_of(dds.free_endpoint)]
-        ports = ports_of_sockets(unicast_ports_of(domain_id))
-        targets = [(address, port) for port in ports for address in _own_addresses()]
         self._handle = handle
         self._native = CycloneFirstRequests(functions, reader, targets)
         callback, argument = self._native.listener()
@@ -58,6 +56,15 @@ class FirstRequests:
         """Ask no more clients; wait for the end of a call of native code."""
         dds.set_listener(self._handle, None)
         self._native.close()
+
+
+def receiving_addresses(domain_id: int) -> list[tuple[int, int]]:
+    """Return the IPv4 addresses, as numbers, and ports at which this process receives.
+
+    It looks at all open files, so call it once for each context.
+    """
+    ports = ports_of_sockets(unicast_ports_of(domain_id))
+    return [(address, port) for port in ports for address in _own_addresses()]
 
 
 def _own_addresses() -> set[int]:

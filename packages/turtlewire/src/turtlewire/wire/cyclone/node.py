@@ -106,7 +106,7 @@ class CycloneNode(Node):
             EndpointSpec(service, names.request_topic(service), types.request, qos, identity)
         )
         server = CycloneService(
-            service, requests, replies, self._core.reader, self.context.domain_id
+            service, requests, replies, self._core.reader, self._core.receiving_addresses
         )
         replies.on_matched.append(server.matched)
         return server

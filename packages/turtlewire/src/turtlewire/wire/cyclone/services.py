@@ -204,7 +204,7 @@ class CycloneService(TopicService):
         requests: CycloneSubscription,
         replies: CyclonePublisher,
         reader: CycloneReaderThread,
-        domain_id: int,
+        addresses: list[tuple[int, int]],
     ) -> None:
         super().__init__(service, requests, replies)
         self._reader = reader
@@ -217,7 +217,7 @@ class CycloneService(TopicService):
         # Before others learn of the match: they may take requests then.
         requests.on_matched.insert(0, requests.learn_publishers)
         if not FAST_DDS.obstacle:
-            first_requests = FirstRequests(requests.handle, requests.gid, domain_id)
+            first_requests = FirstRequests(requests.handle, requests.gid, addresses)
             requests.on_closing.append(first_requests.close)
 
     def take(self, limit: int = 32) -> list[tuple[RequestId, bytes]]:
