@@ -7,7 +7,10 @@ import sys
 
 import pytest
 
+from turtlewire import msg, wire
+from turtlewire.wire.base import ServiceTypes, TypeId
 from turtlewire.wire.loopback import ANY_PORT, bind_to_loopback, open_sockets
+from turtlewire.wire.qos import QoS
 
 pytestmark = pytest.mark.skipif(
     sys.platform != "linux", reason="only Linux binds sockets to interfaces"
@@ -67,3 +70,18 @@ def test_a_kernel_that_refuses_is_warned_of(udp, capfd, monkeypatch):
     monkeypatch.setattr(socket, "SO_BINDTODEVICE", 9999)
     bind_to_loopback(former, ANY_PORT)
     assert "datagrams from other computers reach this process" in capfd.readouterr().err
+
+
+def test_a_service_opens_no_socket():
+    """So that many nodes of a process, each with seven services, stay below its limit of files."""
+    context = wire.open_context(middleware="rmw_cyclonedds_cpp")
+    node = context.create_node("served")
+    names = ("std_srvs/srv/Empty_Request", "std_srvs/srv/Empty_Response")
+    types = [TypeId(name, msg.type_hash(name)) for name in names]
+    service = ServiceTypes("std_srvs/srv/Empty", *types, msg.type_hash)
+    node.create_service("/first", service, QoS())
+    before = open_sockets()
+    for number in range(10):
+        node.create_service(f"/service_{number}", service, QoS())
+    assert open_sockets() == before
+    context.close()
