@@ -42,8 +42,8 @@ class ExecutorWait(Generic[T]):
         self.background: set[Any] = set()  # of BackgroundEvents
         self._wait_set = wait_set
         self._by_wire: dict[base.Entity, T] = {}
-        # Left, but still attached: `rclpy.spin_once` removes a node after each call, and adds it
-        # again before the next one. Closing an endpoint detaches it.
+        # Endpoints that are no longer watched but still attached: `rclpy.spin_once` removes a node
+        # after each call and adds it again before the next one. Closing an endpoint detaches it.
         self._left: WeakSet[base.Waitable] = WeakSet()
         # Also held by finalizers, which run in the middle of anything.
         self._lock = threading.RLock()

@@ -46,7 +46,7 @@ def install() -> None:
 
 def note_signal() -> None:
     """Note a signal that shuts contexts down: errors that follow from it are not the program's."""
-    global _signal_came  # noqa: PLW0603 - as above
+    global _signal_came  # noqa: PLW0603 - there is one in the process
     _signal_came = True
 
 
@@ -89,7 +89,7 @@ def _thread_hook(arguments: threading.ExceptHookArgs) -> None:
 
 
 def _unraisable_hook(arguments: sys.UnraisableHookArgs) -> None:
-    global _dropped  # noqa: PLW0603 - as above
+    global _dropped  # noqa: PLW0603 - there is one in the process
     if (
         not issubclass(arguments.exc_type, KeyboardInterrupt)
         or threading.current_thread() is not threading.main_thread()
