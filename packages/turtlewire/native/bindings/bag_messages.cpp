@@ -1,5 +1,6 @@
 #include "bag_messages.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include "../feeds/bag_records.hpp"
 #include "../feeds/column_reader.hpp"
 #include "../feeds/ros1_to_cdr.hpp"
+#include "../feeds/sqlite_table.hpp"
 #include "bytes.hpp"
 
 namespace turtlewire::python {
@@ -98,27 +100,45 @@ void make_conversion(Ros1ToCdr* self, const nb::list& rows) {
   new (self) Ros1ToCdr(steps_of<ConversionStep, 4>(rows, last));
 }
 
-void make_reader(ColumnReader* self, const nb::list& rows, std::uint32_t columns) {
+// The columns of messages, and when these were recorded.
+struct LoggedColumns {
+  ColumnReader reader;
+  std::vector<std::int64_t> log_times;
+};
+
+void make_reader(LoggedColumns* self, const nb::list& rows, std::uint32_t columns) {
   constexpr auto last = static_cast<std::uint32_t>(ColumnStep::Kind::kRepeat);
   auto steps = steps_of<ColumnStep, 5>(rows, last);
   for (const ColumnStep& step : steps)
     if (step.column != ColumnStep::kNoColumn && step.column >= columns)
       throw std::invalid_argument("there is no such column");
-  new (self) ColumnReader(std::move(steps), columns);
+  new (self) LoggedColumns{ColumnReader(std::move(steps), columns), {}};
 }
 
-bool take(ColumnReader& self, const nb::list& messages) {
+bool take(LoggedColumns& self, const nb::list& messages) {
   for (const nb::handle message : messages) {
+    if (!PyTuple_Check(message.ptr()) || tuple_size(message.ptr()) < 2)
+      throw std::invalid_argument("a message is a tuple of log time and bytes");
+    const long long log_time = PyLong_AsLongLong(tuple_item(message.ptr(), 0));
+    if (log_time == -1 && PyErr_Occurred() != nullptr) throw nb::python_error();
     Bytes bytes;
-    if (!bytes.read(nb::cast<nb::tuple>(message)[3].ptr())) throw nb::python_error();
-    if (!self.take(bytes.span())) return false;
+    PyObject* const data = tuple_item(message.ptr(), tuple_size(message.ptr()) - 1);
+    if (!bytes.read(data)) throw nb::python_error();
+    if (!self.reader.take(bytes.span())) return false;
+    self.log_times.push_back(log_time);
   }
   return true;
 }
 
-nb::list columns(const ColumnReader& self) {
+nb::object log_times(const LoggedColumns& self) {
+  const std::span<const std::int64_t> times(self.log_times);
+  return checked(PyBytes_FromStringAndSize(reinterpret_cast<const char*>(times.data()),
+                                           static_cast<Py_ssize_t>(times.size_bytes())));
+}
+
+nb::list columns(const LoggedColumns& self) {
   nb::list found;
-  for (const auto& column : self.columns()) found.append(bytes_of(column));
+  for (const auto& column : self.reader.columns()) found.append(bytes_of(column));
   return found;
 }
 
@@ -128,6 +148,75 @@ nb::object convert(const Ros1ToCdr& self, nb::handle message) {
   std::vector<unsigned char> cdr;
   return self.convert(bytes.span(), cdr) ? bytes_of(cdr) : nb::none();
 }
+
+// The messages of a sqlite3 file, from the first row to the last.
+class MessageTable {
+ public:
+  MessageTable(nb::handle file, std::size_t page_bytes, std::size_t usable_bytes,
+               std::uint32_t root)
+      : table_(bytes_of_file(file), page_bytes, usable_bytes) {
+    // 480 usable bytes are the fewest that SQLite accepts.
+    if (usable_bytes < 480 || page_bytes < usable_bytes || page_bytes > 1 << 16)
+      throw std::invalid_argument("SQLite has no pages of this size");
+    is_whole_ = table_.find_leaves(root, leaves_);
+    if (!is_whole_) leaves_.clear();
+  }
+
+  bool read(nb::handle topics, std::int64_t start, std::int64_t end, std::size_t bytes,
+            const nb::list& into) {
+    Wanted is_wanted(topics);
+    SqliteRow row;
+    for (; leaf_ < leaves_.size(); ++leaf_, row_ = 0) {
+      for (const std::size_t rows = table_.rows_on(leaves_[leaf_]); row_ < rows; ++row_) {
+        if (bytes == 0) return true;
+        if (!table_.read(row, leaves_[leaf_], row_) || row.topic < 0 || row.topic > UINT32_MAX)
+          return stop();
+        const bool in_time = start <= row.log_time && row.log_time <= end;
+        if (in_time && is_wanted(static_cast<std::uint32_t>(row.topic))) {
+          if (!append(row, into)) return stop();
+          bytes -= std::min(bytes, row.data_size + 1);
+        }
+        last_id_ = row.id;
+      }
+    }
+    return false;
+  }
+
+  bool is_whole() const { return is_whole_; }
+  std::int64_t last_id() const { return last_id_; }
+
+ private:
+  std::span<const unsigned char> bytes_of_file(nb::handle file) {
+    if (!file_.read(file.ptr())) throw nb::python_error();
+    return file_.span();
+  }
+
+  bool append(const SqliteRow& row, const nb::list& into) const {
+    const auto size = static_cast<Py_ssize_t>(row.data_size);
+    const nb::object data = checked(PyBytes_FromStringAndSize(nullptr, size));
+    auto* const start = reinterpret_cast<unsigned char*>(bytes_start(data.ptr()));
+    if (!table_.copy_data(row, start)) return false;
+    const nb::object log_time = checked(PyLong_FromLongLong(row.log_time));
+    const nb::object message = checked(PyTuple_New(2));
+    set_tuple_item(message.ptr(), 0, Py_NewRef(log_time.ptr()));
+    set_tuple_item(message.ptr(), 1, Py_NewRef(data.ptr()));
+    if (PyList_Append(into.ptr(), message.ptr()) != 0) throw nb::python_error();
+    return true;
+  }
+
+  bool stop() {
+    is_whole_ = false;
+    leaf_ = leaves_.size();
+    return false;
+  }
+
+  Bytes file_;
+  SqliteTable table_;
+  std::vector<std::uint32_t> leaves_;
+  std::size_t leaf_ = 0, row_ = 0;  // where the next row is
+  std::int64_t last_id_ = INT64_MIN;
+  bool is_whole_ = true;
+};
 
 constexpr char kMessagesDoc[] =
     "Appends the messages of a chunk's records to a list, up to a record of another kind.\n\n"
@@ -155,16 +244,37 @@ void add_bag_message_types(nb::module_& module) {
       .def("convert", &convert, "message"_a,
            "The CDR of a message; None for bytes that do not follow the steps, or that hold text\n"
            "beyond ASCII.");
-  nb::class_<ColumnReader>(module, "ColumnReader",
-                           "Collects fields of many messages of one type.\n\n"
-                           "Args:\n"
-                           "    steps: Kind, size, alignment, body and column of each step; see\n"
-                           "        turtlewire.bag.column_steps.\n"
-                           "    columns: The number of columns.")
+  nb::class_<MessageTable>(
+      module, "MessageTable",
+      "Reads the table of messages of a rosbag2 file of sqlite3, without SQL.\n\n"
+      "Args:\n"
+      "    file: The bytes of the file.\n"
+      "    page_bytes: The size of a page.\n"
+      "    usable_bytes: How much of a page is in use.\n"
+      "    root: The first page of the table.")
+      .def(nb::init<nb::handle, std::size_t, std::size_t, std::uint32_t>(), "file"_a,
+           "page_bytes"_a, "usable_bytes"_a, "root"_a)
+      .def("read", &MessageTable::read, "topics"_a, "start_ns"_a, "end_ns"_a, "block_bytes"_a,
+           "into"_a,
+           "Appends log time and bytes of the next messages to a list, until there are enough\n"
+           "bytes. False at the end of the table, or before a row of another form.")
+      .def_prop_ro("is_whole", &MessageTable::is_whole,
+                   "False if a row has another form than the rows of rosbag2.")
+      .def_prop_ro("last_id", &MessageTable::last_id,
+                   "The id of the last row that was read; the lowest number before the first.");
+  nb::class_<LoggedColumns>(module, "ColumnReader",
+                            "Collects fields of many messages of one type.\n\n"
+                            "Args:\n"
+                            "    steps: Kind, size, alignment, body and column of each step; see\n"
+                            "        turtlewire.bag.column_steps.\n"
+                            "    columns: The number of columns.")
       .def("__init__", &make_reader, "steps"_a, "columns"_a)
       .def("take", &take, "messages"_a,
-           "Adds the fields of messages, whose bytes are the fourth items of tuples. False, and\n"
-           "the columns are of no use, if one is not little endian CDR of the type.")
+           "Adds the fields of messages: tuples whose first item is the log time and whose last\n"
+           "is the bytes. False, and the columns are of no use, if one is not little endian CDR\n"
+           "of the type. Raises OverflowError for a log time beyond 63 bits.")
+      .def_prop_ro("log_times", &log_times,
+                   "The log times of the messages in nanoseconds, 64 bits each.")
       .def_prop_ro("columns", &columns,
                    "The bytes of each column: numbers; of texts and sequences where they begin in "
                    "their message, and how many elements they have, 64 bits each.");

@@ -54,6 +54,7 @@ module              contents
 `mcap_records`      the records of MCAP as bytes and objects
 `mcap_writer`       writes MCAP files
 `sqlite_reader`     rosbag2's sqlite3 schema, versions 1 to 4
+`sqlite_table`      the rows of its messages, natively
 `ros1_storage`      that interface for bags of ROS 1
 `ros1_file`         the format of ROS 1's bags: connections, chunks, bags without an end
 `ros1_messages`     converts messages of ROS 1 to CDR

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from turtlewire.bag.channels import BagChannel
     from turtlewire.bag.message import BagMessage
     from turtlewire.bag.metadata import BagMetadata, TopicInfo
-    from turtlewire.bag.record_messages import RawMessage
+    from turtlewire.bag.record_messages import LoggedBytes, RawMessage
     from turtlewire.bag.storage import StorageFile
 
 __all__ = ["Columns", "read_columns"]
@@ -181,8 +181,9 @@ def _read_natively(
         channels = [channel for channel in file.channels() if channel.topic.name == topic]
         if not all(_has_our_fields(each, type_name) for each in channels):
             return None
-        blocks = file.blocks(lambda each: each.name == topic, start_ns, end_ns, damage.append)
-        for block in blocks:
+        for block in file.unordered_blocks(
+            lambda each: each.name == topic, start_ns, end_ns, damage.append
+        ):
             if not collector.take(block):
                 return None
     if damage:
@@ -217,25 +218,26 @@ class _Collector:
     def __init__(self, reader: Any, fields: list[ColumnField]) -> None:
         self._reader = reader
         self._fields = fields
-        self._log_times: list[NDArray[np.int64]] = []
         self._keeps_messages = any(_is_view(field) for field in fields)
         self._messages: list[bytes] = []
 
-    def take(self, block: list[RawMessage]) -> bool:
-        self._log_times.append(_int64([message[0] for message in block]))
+    def take(self, block: list[RawMessage] | list[LoggedBytes]) -> bool:
         if self._keeps_messages:
-            self._messages += [message[3] for message in block]
-        taken: bool = self._reader.take(block)
+            self._messages += [message[-1] for message in block]
+        try:
+            taken: bool = self._reader.take(block)
+        except OverflowError:
+            raise _log_time_error() from None
         return taken
 
     def finished(self) -> tuple[NDArray[np.int64], dict[str, NDArray[Any]]]:
         """Return log times and columns in order of the log times."""
-        log_times = np.concatenate([np.empty(0, np.int64), *self._log_times])
+        log_times = np.frombuffer(bytearray(self._reader.log_times), np.int64)
         columns = [
             _column(field, content, self._messages)
             for field, content in zip(self._fields, self._reader.columns, strict=True)
         ]
-        if np.any(log_times[1:] < log_times[:-1]):  # files whose times overlap
+        if np.any(log_times[1:] < log_times[:-1]):
             order = np.argsort(log_times, kind="stable")
             log_times, columns = log_times[order], [column[order] for column in columns]
         names = [field.path for field in self._fields]
@@ -311,7 +313,11 @@ def _int64(log_times: list[int]) -> NDArray[np.int64]:
     try:
         return np.array(log_times, np.int64)
     except OverflowError:
-        raise BagError("a log time does not fit into 64 bits with a sign") from None
+        raise _log_time_error() from None
+
+
+def _log_time_error() -> BagError:
+    return BagError("a log time does not fit into 64 bits with a sign")
 
 
 def _reader(field: ColumnField) -> tuple[Any, Any]:

@@ -182,6 +182,8 @@ class McapStorage:
         }
         return converted_blocks(blocks, converters, self.path, damaged) if converters else blocks
 
+    unordered_blocks = blocks
+
     def _blocks(
         self,
         wanted: Callable[[TopicInfo], bool],

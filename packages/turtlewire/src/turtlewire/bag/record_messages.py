@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     _Split = Callable[[bytes | memoryview, int, Container[int] | None, "list[RawMessage]"], int]
 
 __all__ = [
+    "LoggedBytes",
     "RawMessage",
     "mcap_messages",
     "plain_mcap_messages",
@@ -25,6 +26,9 @@ __all__ = [
 
 #: Log time, channel, publish time and bytes of a message.
 RawMessage = tuple[int, int, int, bytes]
+
+#: Log time and bytes of a message.
+LoggedBytes = tuple[int, bytes]
 
 _MCAP_MESSAGE = struct.Struct("<HIQQ")  # channel, sequence, log time, publish time
 _U32 = struct.Struct("<I")

@@ -149,6 +149,8 @@ class Ros1Storage:
         }
         return converted_blocks(blocks, converters, self.path, damaged)
 
+    unordered_blocks = blocks
+
     def _blocks(
         self,
         connections: set[int],

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from turtlewire.bag.channels import BagChannel
     from turtlewire.bag.extents import Extent
     from turtlewire.bag.message import BagMessage
-    from turtlewire.bag.record_messages import RawMessage
+    from turtlewire.bag.record_messages import LoggedBytes, RawMessage
     from turtlewire.bag.storage import TransformTarget
 
 __all__ = ["SqliteStorage"]
@@ -118,5 +118,19 @@ class SqliteStorage:
         topics = [number for number, topic in self.file.topics.items() if wanted(topic)]
         try:
             yield from self.file.blocks(topics, start_ns, end_ns)
+        except BagError as error:
+            damaged(error)
+
+    def unordered_blocks(
+        self,
+        wanted: Callable[[TopicInfo], bool],
+        start_ns: int,
+        end_ns: int,
+        damaged: Callable[[BagError], None],
+    ) -> Iterator[list[RawMessage] | list[LoggedBytes]]:
+        """Yield messages in the order of the table."""
+        topics = [number for number, topic in self.file.topics.items() if wanted(topic)]
+        try:
+            yield from self.file.unordered_blocks(topics, start_ns, end_ns)
         except BagError as error:
             damaged(error)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from turtlewire.bag.extents import Extent
     from turtlewire.bag.message import BagMessage
     from turtlewire.bag.metadata import BagMetadata, TopicInfo
-    from turtlewire.bag.record_messages import RawMessage
+    from turtlewire.bag.record_messages import LoggedBytes, RawMessage
     from turtlewire.errors import BagError
 
 __all__ = ["StorageFile", "TransformTarget", "class_of_channel", "messages_of_blocks"]
@@ -91,6 +91,18 @@ class StorageFile(Protocol):
             start_ns: The first log time.
             end_ns: The last log time.
             damaged: Called for each part that cannot be read.
+        """
+
+    def unordered_blocks(
+        self,
+        wanted: Callable[[TopicInfo], bool],
+        start_ns: int,
+        end_ns: int,
+        damaged: Callable[[BagError], None],
+    ) -> Iterator[list[RawMessage] | list[LoggedBytes]]:
+        """Return the messages in any order, some at a time; the arguments are those of `blocks`.
+
+        The log time is the first item of a message, its bytes are the last.
         """
 
     def extents(self) -> dict[str, Extent]:
