@@ -246,7 +246,7 @@ class SqliteFile:
         columns = "CAST(timestamp AS INTEGER), CAST(data AS BLOB)"
         where = f"timestamp BETWEEN ? AND ? AND id > ? AND topic_id IN ({_numbers(topic_ids)})"
         query = f"SELECT {columns} FROM messages WHERE {where}"  # noqa: S608 - numbers
-        yield from self._in_blocks(self._database.execute(query, (*window, after)))
+        yield from self._in_blocks(self._tuples(query, (*window, after)))
 
     def _in_blocks(self, rows: Iterator[_Row]) -> Iterator[list[_Row]]:
         size = _FIRST_BLOCK

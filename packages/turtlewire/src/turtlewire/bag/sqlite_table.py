@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import mmap
 import os
+import sqlite3
 from typing import TYPE_CHECKING
 
 from turtlewire.platforms import asked_core
 
 if TYPE_CHECKING:
-    import sqlite3
     from collections.abc import Collection, Generator
 
     from turtlewire._native import MessageTable
@@ -41,14 +41,17 @@ def table_blocks(
         None if all messages were read. Otherwise the id of the last row that was read: the rows
         after it are for SQL, because they are damaged or not in rosbag2's form.
     """
-    root = _root_page(database)
-    if root is None or asked_core() == "python" or os.path.exists(path + "-wal"):
+    if asked_core() == "python" or os.path.exists(path + "-wal"):
         return BEFORE_ALL_IDS
-    guard = database.execute("SELECT id FROM messages")
-    guard.fetchone()  # the open statement has a lock for reading
+    guard = database.cursor()
     try:
-        table = _table(path, root)
-        if table is None:
+        root = _root_page(database)
+        guard.execute("SELECT id FROM messages").fetchone()  # an open statement locks the file
+    except (sqlite3.Error, UnicodeDecodeError):  # SQL will say what is damaged
+        return BEFORE_ALL_IDS
+    try:
+        table = root and _table(path, root)
+        if not table:
             return BEFORE_ALL_IDS
         is_more = True
         while is_more:

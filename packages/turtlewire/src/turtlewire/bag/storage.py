@@ -100,7 +100,7 @@ class StorageFile(Protocol):
         end_ns: int,
         damaged: Callable[[BagError], None],
     ) -> Iterator[list[RawMessage] | list[LoggedBytes]]:
-        """Return the messages in any order, some at a time; the arguments are those of `blocks`.
+        """Return the messages in any order, some at a time, with the arguments of `blocks`.
 
         The log time is the first item of a message, its bytes are the last.
         """
