@@ -23,6 +23,7 @@ module              contents
 `column_fields`     fields that can be columns, and their offsets
 `sensor_arrays`     images and point clouds as arrays
 `overview`          `describe_bag`: the contents of a bag, topic by topic
+`notebook`          the display of bags in Jupyter
 `extents`           counts, sizes and times of the messages of a file
 `editing`           `copy_bag`, `merge_bags`, `split_bag`: new bags from others
 `selection`         the topics that go into a new bag, and their new names

@@ -124,6 +124,11 @@ class Bag:
             f"{seconds:.3f} s>"
         )
 
+    def _repr_html_(self) -> str:
+        from turtlewire.bag.notebook import bag_html
+
+        return bag_html(self)
+
     def close(self) -> None:
         """Release the files; decompressed copies are deleted."""
         for file in self._files.values():

@@ -46,5 +46,6 @@ module                     contents
 `svg`                      elements of SVG documents
 `pdf`                      a PDF file of one page
 `notebook`                 the display of buffers and transforms in Jupyter
+`html_table`               tables for notebooks, with escaped names
 =========================  =========================================================================
 """

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
             ...
 
 
-__all__ = ["buffer_svg", "transform_html"]
+__all__ = ["buffer_svg", "projected", "transform_html"]
 
 #: A picture of more links is unreadable and takes a browser seconds to show.
 _MOST_LINKS = 500
@@ -129,8 +129,15 @@ def _axes_of_both(transform: Stamped) -> Drawing:
 
 def _ends(matrix: NDArray[np.float64], length: float) -> list[tuple[float, float]]:
     """Return the origin and the tips of the axes of a frame as one sees them; y downwards."""
-    x, y, z = matrix[:3, 3, None] + length * matrix[:3, [3, 0, 1, 2]] * (0, 1, 1, 1)
+    points = matrix[:3, 3, None] + length * matrix[:3, [3, 0, 1, 2]] * (0, 1, 1, 1)
+    right, down = projected(points)
+    return list(zip(right.tolist(), down.tolist(), strict=True))
+
+
+def projected(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return where one sees points (3, N) from above and behind: rightwards and downwards."""
+    x, y, z = points
     towards = x * math.cos(_AZIMUTH) + y * math.sin(_AZIMUTH)
     right = y * math.cos(_AZIMUTH) - x * math.sin(_AZIMUTH)
     up = z * math.cos(_ELEVATION) - towards * math.sin(_ELEVATION)
-    return list(zip(right.tolist(), (-up).tolist(), strict=True))
+    return right, -up

@@ -23,6 +23,7 @@ module              contents
 `mimic`             joints that follow other joints
 `kinematics`        forward kinematics for many joint states at once
 `robot_buffer`      the transforms of all links in a buffer
+`notebook`          the display of robots in Jupyter
 `frames_writer`     TFMessages in CDR, with other stamps and poses
 `joint_messages`    bytes of a JointState to bytes of a TFMessage
 ==================  ==============================================================

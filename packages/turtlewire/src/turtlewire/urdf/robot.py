@@ -67,7 +67,7 @@ def _with_file(error: UrdfError, path: str, content: bytes) -> UrdfError:
     }
 )
 @explain_calls
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Robot(Description):
     """A tree of links and joints, and the poses of its links at given positions of its joints.
 
@@ -87,13 +87,25 @@ class Robot(Description):
         xml: The URDF itself.
     """
 
-    xml: str = field(default="", repr=False, compare=False)
+    xml: str = field(default="", compare=False)
 
     def __new__(cls, *arguments: object, **parts: object) -> Self:
         """Refuse a single argument, for example XML or a path."""
         if len(arguments) == 1 and not parts:
             raise TypeError("call Robot.from_xml(text) for XML, or Robot.load(path) for a file")
         return super().__new__(cls)
+
+    def __repr__(self) -> str:
+        moving = sum(joint.moves for joint in self.joints.values())
+        return (
+            f"<Robot {self.name!r}: {len(self.links)} links, {len(self.joints)} joints, "
+            f"{moving} moving>"
+        )
+
+    def _repr_html_(self) -> str:
+        from turtlewire.urdf.notebook import robot_html
+
+        return robot_html(self)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Robot:
