@@ -35,6 +35,7 @@ module              contents
 `rviz_options`      options of RViz's displays and of the page's
 `tools`             what Publish Point, 2D Pose Estimate and 2D Goal Pose publish
 `showing`           ``turtlewire.show``
+`notebook`          the view in the output of a cell of Jupyter
 `view_command`      ``turtlewire view``
 `graph`             the page of nodes and topics, and its files
 `graph_command`     ``turtlewire graph``

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
-import sys
 from typing import TYPE_CHECKING
 
 from turtlewire.bag import Bag
@@ -19,6 +18,7 @@ from turtlewire_view.bag_source import BagSource
 from turtlewire_view.buffer_source import BufferSource
 from turtlewire_view.live import LiveSource
 from turtlewire_view.named_robots import find_robot
+from turtlewire_view.notebook import is_notebook
 from turtlewire_view.package_folders import PackageFolders
 from turtlewire_view.robot_source import RobotSource
 from turtlewire_view.rviz_file import load_rviz
@@ -53,7 +53,7 @@ def show(
     if port is not None and not 0 <= port <= _LAST_PORT:
         raise ValueError(f"port is {port}; ports have numbers from 0 to {_LAST_PORT}")
     saved = None if config is None else load_rviz(config)
-    embeds = _is_notebook()
+    embeds = is_notebook()
     with contextlib.ExitStack() as stack:
         source, folders = _source(what, positions, _named(packages or {}))
         stack.callback(source.close)
@@ -126,9 +126,3 @@ def _unknown(what: object) -> TypeError:
         "show accepts a Buffer, a Robot, a Connection, the path of a bag or of a .urdf file, the "
         f"name of a robot, or None for the network; got {given}{advice}"
     )
-
-
-def _is_notebook() -> bool:
-    """Return True in a kernel, which shows the page in the output of a cell."""
-    ipython = sys.modules.get("IPython")
-    return ipython is not None and hasattr(ipython.get_ipython(), "kernel")

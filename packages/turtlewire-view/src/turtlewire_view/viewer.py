@@ -16,6 +16,7 @@ from turtlewire_view.display_feed import DisplayFeed
 from turtlewire_view.displays import display_for, display_types
 from turtlewire_view.displays.options import OptionError
 from turtlewire_view.meshes import MeshLibrary
+from turtlewire_view.notebook import EMBEDDING, view_html
 from turtlewire_view.package_folders import PackageFolders
 from turtlewire_view.session import ViewSession
 
@@ -37,10 +38,6 @@ _MOST_DOCUMENTS = 16
 
 #: GLTF files may hold their pictures and numbers themselves.
 _SOURCES = {"connect-src": "data: blob:"}
-#: The servers of notebooks run on this computer, or are reached through a tunnel to it.
-_EMBEDDED = {
-    "frame-ancestors": "http://localhost:* http://127.0.0.1:* https://localhost:* vscode-webview:"
-}
 
 
 class Viewer:
@@ -98,7 +95,7 @@ class Viewer:
             lan=lan,
             answer=self._meshes.answer,
             immutable="/vendor/",
-            sources=_SOURCES | (_EMBEDDED if embeds else {}),
+            sources=_SOURCES | (EMBEDDING if embeds else {}),
         )
         self.url = self._server.url
         self._threads = [
@@ -138,11 +135,8 @@ class Viewer:
         self.close()
 
     def _repr_html_(self) -> str:
-        """Return the page for a notebook, and a link for kernels on other computers."""
-        return (
-            f'<iframe src="{self.url}" width="100%" height="480" style="border: 0"></iframe>'
-            f'<p><a href="{self.url}" target="_blank">{self.url}</a></p>'
-        )
+        """Return the page for the output of a notebook's cell."""
+        return view_html(self.url)
 
     def hello(self) -> bytes:
         """Return the first packet of a page."""

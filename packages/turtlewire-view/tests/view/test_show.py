@@ -3,11 +3,7 @@
 from __future__ import annotations
 
 import doctest
-import re
-import sys
 import threading
-import types
-from urllib.request import urlopen
 
 import pytest
 from tests.bags import write_bag
@@ -156,19 +152,6 @@ def test_wait_returns_when_the_view_is_closed(buffer):
     view.close()
     thread.join(120)
     assert not thread.is_alive()
-
-
-def test_only_notebooks_may_embed_the_page(buffer, monkeypatch):
-    with turtlewire.show(buffer, port=0) as view, urlopen(view.url) as answer:
-        assert "frame-ancestors 'none'" in answer.headers["Content-Security-Policy"]
-    kernel = types.SimpleNamespace(get_ipython=lambda: types.SimpleNamespace(kernel=object()))
-    monkeypatch.setitem(sys.modules, "IPython", kernel)
-    with turtlewire.show(buffer, port=0) as view, urlopen(view.url) as answer:
-        policy = answer.headers["Content-Security-Policy"]
-        assert re.search(r"frame-ancestors http://localhost:\*", policy)
-        html = view._repr_html_()
-        assert f'<iframe src="{view.url}"' in html
-        assert f'<a href="{view.url}"' in html
 
 
 def test_without_the_view_the_error_says_what_to_install(monkeypatch):
