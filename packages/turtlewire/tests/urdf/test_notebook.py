@@ -9,7 +9,8 @@ from turtlewire.urdf import Robot
 SVG = "{http://www.w3.org/2000/svg}"
 LIMIT = '<limit lower="-1.5" upper="0.25" effort="1" velocity="1"/>'
 ARM = f"""<robot name="arm">
-  <link name="base"/><link name="upper"/><link name="slide"/><link name="finger"/><link name="wheel"/>
+  <link name="base"/><link name="upper"/><link name="slide"/><link name="finger"/>
+  <link name="wheel"/>
   <joint name="lift" type="revolute"><parent link="base"/><child link="upper"/>
     <origin xyz="0 0 1"/>{LIMIT}</joint>
   <joint name="reach" type="prismatic"><parent link="upper"/><child link="slide"/>
@@ -111,8 +112,8 @@ def test_a_loop_of_mimic_joints_is_reported_below_the_table():
 
 
 def test_warnings_are_counted():
-    xml = '<robot name="odd"><link name="l"><visual><geometry><sphere radius="1"/></geometry><material name="m"/></visual></link></robot>'
-    robot = Robot.from_xml(xml)
+    visual = '<visual><geometry><sphere radius="1"/></geometry><material name="m"/></visual>'
+    robot = Robot.from_xml(f'<robot name="odd"><link name="l">{visual}</link></robot>')
     assert len(robot.warnings) == 1
     assert parsed(robot).find(".//p").text == "1 warning; see robot.warnings"
 
