@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parent.parent
 FOREIGN = re.compile(
     r"tests/golden/|.*/vendor/|tests/tutorial/verbatim/|.*\.svg$|LICENSE$|\.importlinter$"
     r"|.*/package-lock\.json$|tools/locks/"
-    r"|.*/test_surface\.py$|tests/test_compatibility\.py$"
+    r"|.*\.ipynb$|.*/test_surface\.py$|tests/test_compatibility\.py$"
     r"|.*/urdf/test_parser\.py$|.*/page/packages\.json$"
 )
 #: What Python prints for a message or an error.

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import contextlib
 import sys
-import threading
 import types
-from functools import partial
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from urllib.request import urlopen
 
 import pytest
+from tests.plain_server import plain_server
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
@@ -19,11 +17,6 @@ from turtlewire_view.notebook import view_html
 
 LIMIT_MS = 120_000
 FOREIGN = "https://notebook.example/"
-
-
-class Quiet(SimpleHTTPRequestHandler):
-    def log_message(self, *_):
-        pass
 
 
 @pytest.fixture
@@ -45,13 +38,8 @@ def view(kernel):
 @pytest.fixture
 def jupyter(tmp_path):
     """Return the port of a server of the pages in ``tmp_path``."""
-    handler = partial(Quiet, directory=tmp_path)
-    with ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
-        thread = threading.Thread(target=server.serve_forever)
-        thread.start()
-        yield server.server_address[1]
-        server.shutdown()
-        thread.join()
+    with plain_server(tmp_path) as port:
+        yield port
 
 
 @pytest.fixture

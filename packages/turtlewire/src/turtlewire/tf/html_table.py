@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from turtlewire.terminal.printable import printable
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
 
 __all__ = ["MOST_ROWS", "counted", "html_table", "html_text"]
 
@@ -35,7 +35,7 @@ def html_text(text: str) -> str:
 
 
 def html_table(
-    title: str, caption: str, heads: Sequence[str], rows: Iterable[Sequence[str | int]]
+    title: str, caption: str, heads: Sequence[str], rows: Sequence[Sequence[str | int]]
 ) -> str:
     """Return a table that scrolls if it is long.
 
@@ -45,8 +45,9 @@ def html_table(
         heads: The names of the columns.
         rows: The cells; numbers are aligned to the right.
     """
-    head = "".join(f'<th style="text-align:left">{html_text(name)}</th>' for name in heads)
-    body = "".join(f"<tr>{''.join(map(_cell, row))}</tr>" for row in rows)
+    first = rows[0] if rows else heads
+    head = "".join(_cell("th", name, like) for name, like in zip(heads, first, strict=True))
+    body = "".join(f"<tr>{''.join(_cell('td', each, each) for each in row)}</tr>" for row in rows)
     return (
         '<div style="max-height:32em;overflow:auto"><table>'
         '<caption style="text-align:left;white-space:nowrap">'
@@ -55,7 +56,8 @@ def html_table(
     )
 
 
-def _cell(content: str | int) -> str:
-    if isinstance(content, int):
-        return f'<td style="text-align:right">{content:,}</td>'
-    return f'<td style="text-align:left">{html_text(content)}</td>'
+def _cell(tag: str, content: str | int, like: str | int) -> str:
+    """Return a cell that is aligned like another one of its column."""
+    text = f"{content:,}" if isinstance(content, int) else html_text(content)
+    side = "right" if isinstance(like, int) else "left"
+    return f'<{tag} style="text-align:{side}">{text}</{tag}>'

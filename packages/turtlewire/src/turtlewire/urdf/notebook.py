@@ -86,7 +86,7 @@ def _picture(robot: Robot, links: Sequence[str]) -> str:
     places = _MARGIN + (across - low) * ((_SIDE - 2 * _MARGIN) / extent)
     at = dict(zip(links, zip(*places.tolist(), strict=True), strict=True))
     joints = [robot.parent_joints[link] for link in links[1:]]
-    bones = [svg.polyline((at[j.parent], at[j.child]), _BONE, 3) for j in joints]
+    bones = [svg.polyline((at[j.parent], at[j.child]), _BONE, 3, ' stroke-linecap="round"') for j in joints]
     moving = [j for j in joints if j.moves]
     dots = [svg.circle(*at[j.child], 4, f' fill="{_JOINT}"') for j in moving]
     width, height = (places.max(axis=1) + _MARGIN).tolist()
