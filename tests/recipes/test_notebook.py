@@ -8,7 +8,7 @@ import json
 import nbformat
 import pytest
 from nbclient import NotebookClient
-from tests.places import EXAMPLES
+from tests.places import EXAMPLES, HOW_TO, ROOT
 from tests.plain_server import plain_server
 
 NOTEBOOK = EXAMPLES / "notebook" / "ros2_in_jupyter.ipynb"
@@ -42,6 +42,14 @@ def displayed(notebook, last_line):
     (cell,) = (each for each in notebook.cells if each.source.splitlines()[-1] == last_line)
     (output,) = cell.outputs
     return output.data
+
+
+def test_the_page_has_the_search_words_in_its_first_line_and_names_the_notebook():
+    page = (HOW_TO / "notebook.md").read_text(encoding="utf-8")
+    title = page.splitlines()[0]
+    for words in ("ROS 2 in Jupyter", "TF in a notebook", "rosbag in a notebook"):
+        assert words in title
+    assert f"jupyter lab {NOTEBOOK.relative_to(ROOT)}" in page
 
 
 def test_the_notebook_is_committed_without_outputs():

@@ -19,9 +19,9 @@ EMBEDDING = {
     "vscode-webview: vscode-file:"
 }
 _NOT_IN_COLAB = (
-    "<p>Colab runs this notebook on another computer, and the 3D view can only be shown on the "
-    "computer that runs it. Open the notebook in a Jupyter on your computer. The other outputs of "
-    "turtlewire, such as the tree of a buffer, need no server and appear in Colab as well.</p>"
+    "<p>Colab runs this notebook on another computer, and the 3D view answers only the computer "
+    "that runs it. Open the notebook in a Jupyter on your computer. The other outputs of "
+    "turtlewire, such as the tree of a buffer, need no server.</p>"
 )
 
 

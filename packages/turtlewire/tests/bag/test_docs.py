@@ -35,7 +35,9 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
-@pytest.mark.parametrize(("page", "examples"), [("bags.md", 18), ("trajectories.md", 9)])
+@pytest.mark.parametrize(
+    ("page", "examples"), [("bags.md", 18), ("notebook.md", 4), ("trajectories.md", 9)]
+)
 def test_the_examples(folder, page, examples):
     found = doctest.testfile(str(HOW_TO / page), module_relative=False)
     assert found.attempted >= examples

@@ -127,7 +127,7 @@ class Bag:
     def _repr_html_(self) -> str:
         from turtlewire.bag.notebook import bag_html
 
-        return bag_html(self)
+        return bag_html(self.path, self.metadata, self.problems)
 
     def close(self) -> None:
         """Release the files; decompressed copies are deleted."""

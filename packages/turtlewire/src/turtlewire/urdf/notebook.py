@@ -10,12 +10,12 @@ from turtlewire.errors import UrdfError
 from turtlewire.tf import svg
 from turtlewire.tf.html_table import MOST_ROWS, counted, html_table, html_text
 from turtlewire.tf.notebook import projected
+from turtlewire.urdf.kinematics import Kinematics
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from turtlewire.urdf.model import Joint
-    from turtlewire.urdf.robot import Robot
+    from turtlewire.urdf.model import Description, Joint
 
 __all__ = ["robot_html"]
 
@@ -28,7 +28,7 @@ _SIDE, _MARGIN = 240.0, 12.0
 _BONE, _JOINT = "#888888", "#d55e00"
 
 
-def robot_html(robot: Robot) -> str:
+def robot_html(robot: Description) -> str:
     """Return the tree of links with joints and limits, and the robot with all joints at 0."""
     rows = list(_tree(robot))
     caption = f": {counted(len(robot.links), 'link')}, {counted(len(robot.joints), 'joint')}"
@@ -44,7 +44,7 @@ def robot_html(robot: Robot) -> str:
     )
 
 
-def _tree(robot: Robot) -> Iterator[tuple[int, str, Joint | None]]:
+def _tree(robot: Description) -> Iterator[tuple[int, str, Joint | None]]:
     """Yield the first links with their depths, each after its parent, and the joints above them."""
     waiting: list[tuple[int, str, Joint | None]] = [(0, robot.root, None)]
     for _ in range(MOST_ROWS):
@@ -69,14 +69,15 @@ def _joint(joint: Joint | None) -> tuple[str, str, str]:
     return joint.name, joint.type, limits
 
 
-def _picture(robot: Robot, links: Sequence[str]) -> str:
+def _picture(robot: Description, links: Sequence[str]) -> str:
     """Return lines between the origins of links with all joints at 0; empty if that is a point."""
     with np.errstate(all="ignore"):  # a robot may be larger than any page
         try:
-            poses = robot.link_poses(np.zeros(len(robot.joint_names)))[0]
+            kinematics = Kinematics(robot)
         except UrdfError as error:  # joints mimic each other in a loop
             return f"<p>{html_text(str(error))}</p>"
-        positions = dict(zip(robot.link_names, poses[:, :3], strict=True))
+        poses = kinematics.link_poses({})[0]
+        positions = dict(zip(kinematics.links, poses[:, :3], strict=True))
         points = np.stack([positions[link] for link in links], axis=1)
         across = np.stack(projected(points))
         low = across.min(axis=1, keepdims=True)
@@ -86,7 +87,10 @@ def _picture(robot: Robot, links: Sequence[str]) -> str:
     places = _MARGIN + (across - low) * ((_SIDE - 2 * _MARGIN) / extent)
     at = dict(zip(links, zip(*places.tolist(), strict=True), strict=True))
     joints = [robot.parent_joints[link] for link in links[1:]]
-    bones = [svg.polyline((at[j.parent], at[j.child]), _BONE, 3, ' stroke-linecap="round"') for j in joints]
+    bones = [
+        svg.polyline((at[j.parent], at[j.child]), _BONE, 3, ' stroke-linecap="round"')
+        for j in joints
+    ]
     moving = [j for j in joints if j.moves]
     dots = [svg.circle(*at[j.child], 4, f' fill="{_JOINT}"') for j in moving]
     width, height = (places.max(axis=1) + _MARGIN).tolist()
