@@ -44,7 +44,7 @@ def displayed(notebook, last_line):
     return output.data
 
 
-def test_the_page_has_the_search_words_in_its_first_line_and_names_the_notebook():
+def test_the_page_has_the_search_words_and_names_the_notebook():
     page = (HOW_TO / "notebook.md").read_text(encoding="utf-8")
     title = page.splitlines()[0]
     for words in ("ROS 2 in Jupyter", "TF in a notebook", "rosbag in a notebook"):

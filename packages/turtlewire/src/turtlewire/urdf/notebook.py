@@ -92,6 +92,6 @@ def _picture(robot: Description, links: Sequence[str]) -> str:
         for j in joints
     ]
     moving = [j for j in joints if j.moves]
-    dots = [svg.circle(*at[j.child], 4, f' fill="{_JOINT}"') for j in moving]
+    dots = [svg.circle(x, y, 4, f' fill="{_JOINT}"') for x, y in (at[j.child] for j in moving)]
     width, height = (places.max(axis=1) + _MARGIN).tolist()
     return svg.document(width, height, [*bones, *dots])
