@@ -5,10 +5,12 @@ from __future__ import annotations
 import contextlib
 import sys
 import types
-from urllib.request import urlopen
+from urllib.error import HTTPError
+from urllib.parse import urlsplit
+from urllib.request import Request, urlopen
 
 import pytest
-from tests.plain_server import plain_server
+from tests.plain_server import path_proxy, plain_server
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
@@ -76,6 +78,23 @@ def test_outputs_in_a_frame_of_a_third_origin_show_the_view(view, jupyter, tab, 
     write_page(tmp_path / "notebook.html", frame)
     tab.goto(f"http://localhost:{jupyter}/notebook.html")
     shows_frames(tab.frame_locator("iframe").frame_locator("iframe"))
+
+
+def test_the_view_works_below_a_path_of_the_notebook_server(view, tab):
+    """`jupyter-server-proxy` serves it there, so a second port need not be forwarded."""
+    port = urlsplit(view.url).port
+    with path_proxy(port, f"/user/me/proxy/{port}/") as proxy, contextlib.closing(tab):
+        tab.goto(f"http://localhost:{proxy}/user/me/proxy/{port}/")
+        shows_frames(tab)
+
+
+@pytest.mark.parametrize("name", ["hub.example", "192.0.2.7"])
+def test_a_notebook_server_under_another_name_is_refused(view, name):
+    request = Request(view.url, headers={"Host": name})
+    with pytest.raises(HTTPError) as refused:
+        urlopen(request)
+    assert refused.value.code == 403
+    refused.value.close()
 
 
 def assert_blocked(tab, view):
