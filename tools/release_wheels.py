@@ -137,11 +137,11 @@ def make_builder(python: str) -> Path:
     return venv / "bin" / "python"
 
 
-def make_sdist(python: Path, name: str, folder: Path) -> Path:
-    """Return the sdist of a project."""
-    command = [python, "-m", "build", "--no-isolation", "--sdist", "-o", WORK, folder]
+def make_sdist(python: Path, name: str, folder: Path, into: Path) -> Path:
+    """Return the sdist of a project, in another folder."""
+    command = [python, "-m", "build", "--no-isolation", "--sdist", "-o", into, folder]
     run(*command, what=f"the sdist of {name}")
-    [path] = WORK.glob(f"{name.replace('-', '_')}-*.tar.gz")
+    [path] = into.glob(f"{name.replace('-', '_')}-*.tar.gz")
     return path
 
 
