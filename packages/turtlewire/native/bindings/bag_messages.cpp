@@ -149,6 +149,35 @@ nb::object convert(const Ros1ToCdr& self, nb::handle message) {
   return self.convert(bytes.span(), cdr) ? bytes_of(cdr) : nb::none();
 }
 
+// Appends messages, converted if their channel has a conversion; returns where the first one is
+// that Python must convert: its channel has None, or the bytes do not follow the steps.
+std::size_t convert_messages(const nb::list& messages, std::size_t position,
+                             const nb::dict& conversions, nb::list into) {
+  std::vector<unsigned char> cdr;
+  for (; position < messages.size(); ++position) {
+    const nb::object message = messages[position];
+    if (!PyTuple_Check(message.ptr()) || tuple_size(message.ptr()) != 4)
+      throw std::invalid_argument("a message is a tuple of two times, a channel and bytes");
+    PyObject* const conversion =
+        PyDict_GetItemWithError(conversions.ptr(), tuple_item(message.ptr(), 1));
+    if (conversion == nullptr) {
+      if (PyErr_Occurred() != nullptr) throw nb::python_error();
+      into.append(message);
+      continue;
+    }
+    if (conversion == Py_None) break;
+    Bytes bytes;
+    if (!bytes.read(tuple_item(message.ptr(), 3))) throw nb::python_error();
+    if (!nb::cast<const Ros1ToCdr&>(nb::handle(conversion)).convert(bytes.span(), cdr)) break;
+    const nb::object converted = checked(PyTuple_New(4));
+    for (Py_ssize_t i = 0; i < 3; ++i)
+      set_tuple_item(converted.ptr(), i, Py_NewRef(tuple_item(message.ptr(), i)));
+    set_tuple_item(converted.ptr(), 3, bytes_of(cdr).release().ptr());
+    into.append(converted);
+  }
+  return position;
+}
+
 // The messages of a sqlite3 file, from the first row to the last.
 class MessageTable {
  public:
@@ -244,6 +273,12 @@ void add_bag_message_types(nb::module_& module) {
       .def("convert", &convert, "message"_a,
            "The CDR of a message; None for bytes that do not follow the steps, or that hold text\n"
            "beyond ASCII.");
+  module.def("convert_messages", &convert_messages, "messages"_a, "position"_a, "conversions"_a,
+             "into"_a,
+             "Appends messages to a list, converted to CDR if their channel has a Ros1ToCdr.\n\n"
+             "Returns:\n"
+             "    Where the first message is that it cannot convert: its channel has None, or\n"
+             "    Ros1ToCdr.convert() returns None for it. The length if it converts all.");
   nb::class_<MessageTable>(
       module, "MessageTable",
       "Reads the table of messages of a rosbag2 file of sqlite3, without SQL.\n\n"

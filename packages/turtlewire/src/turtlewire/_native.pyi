@@ -271,6 +271,13 @@ class ColumnReader:
     @property
     def columns(self) -> list[bytes]: ...
 
+def convert_messages(
+    messages: list[tuple[int, int, int, bytes]],
+    position: int,
+    conversions: dict[int, Ros1ToCdr | None],
+    into: list[tuple[int, int, int, bytes]],
+) -> int: ...
+
 class MessageTable:
     def __init__(self, file: AnyBuffer, page_bytes: int, usable_bytes: int, root: int) -> None: ...
     def read(

@@ -214,8 +214,11 @@ def test_a_window_and_types_without_a_header(robot):
         text = bag.columns("/text", "data", start_ns=START + 1, end_ns=START + 2 * SECOND)
         assert text["data"].tolist() == ["number 1", "number 2"]
         assert text.stamps_ns.tolist() == text.log_times_ns.tolist()
-        assert len(bag.columns("/imu", "header.stamp", end_ns=5)["header.stamp"]) == 0
-        assert bag.columns("/imu", "orientation", end_ns=5)["orientation"].shape == (0, 4)
+        before = START - 1
+        assert len(bag.columns("/imu", "header.stamp", end_ns=before)["header.stamp"]) == 0
+        assert bag.columns("/imu", "orientation", end_ns=before)["orientation"].shape == (0, 4)
+        with pytest.raises(ValueError, match="end_ns is 5, but the bag covers"):
+            bag.columns("/imu", "orientation", end_ns=5)
 
 
 def test_images_and_clouds_share_the_memory_of_their_messages(robot):

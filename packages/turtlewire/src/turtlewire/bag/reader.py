@@ -272,11 +272,12 @@ class Bag:
                 the bag is damaged.
             CdrError: A message is malformed.
             InterfaceError: The type is not known and the bag does not define it.
-            ValueError: No field was named, or ``end_ns`` lies before ``start_ns``.
+            ValueError: No field was named, or the window is refused as in `messages`.
         """
         from turtlewire.bag.columns import read_columns  # it needs NumPy
 
         start, end = window(start_ns, end_ns)
+        check_unit(self.metadata, start_ns=start, end_ns=end)
         wanted = self._wanted({topic}, None)
         for path in self.metadata.paths:
             self._learn_unknown_types(self.file(path), wanted)

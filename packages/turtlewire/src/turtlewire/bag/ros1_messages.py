@@ -20,6 +20,7 @@ from turtlewire.platforms import asked_core
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping
 
+    from turtlewire._native import Ros1ToCdr
     from turtlewire.bag.channels import BagChannel
     from turtlewire.bag.message import BagMessage
     from turtlewire.bag.record_messages import RawMessage
@@ -46,6 +47,7 @@ class Ros1Messages:
         name: The name of the type.
         problem: Why the messages cannot be converted; empty if they can.
         encoding: ``cdr``, or ``ros1`` if they cannot be converted.
+        conversion: Their native conversion, if the compiled core has one for them.
     """
 
     def __init__(self, name: str, text: str) -> None:
@@ -53,11 +55,11 @@ class Ros1Messages:
         self.problem = ""
         self._text = text
         self._evolution: Evolution | None = None
-        self._convert: Callable[[bytes], bytes | None] = _no_steps
+        self.conversion: Ros1ToCdr | None = None
         try:
             written = written_type(self.name, "ros1msg", text, is_ros1=True)
             self._evolution = written.evolution
-            self._convert = _conversion(self.name, text)
+            self.conversion = _conversion(self.name, text)
         except (InterfaceError, ValueError) as error:
             self.problem = str(error)
         self.encoding = "ros1" if self.problem else "cdr"
@@ -70,7 +72,7 @@ class Ros1Messages:
         Raises:
             CdrError: The bytes do not follow the definition.
         """
-        converted = self._convert(data)
+        converted = self.conversion.convert(data) if self.conversion else None
         return self._cdr_of_message(data) if converted is None else converted
 
     def _cdr_of_message(self, data: bytes) -> bytes:
@@ -119,40 +121,54 @@ def converted_blocks(
         path: The file, for errors.
         damaged: Called at the end for each topic of which messages are left out.
     """
-    convert = {number: kind.cdr for number, (_, kind) in converters.items() if not kind.problem}
+    kinds = {number: kind for number, (_, kind) in converters.items() if not kind.problem}
+    conversions = {number: kind.conversion for number, kind in kinds.items()}
     left_out: dict[str, tuple[int, CdrError]] = {}
     for block in blocks:
         converted: list[RawMessage] = []
-        for message in block:
-            log_time, number, publish_time, data = message
-            if number not in convert:
-                converted.append(message)
-                continue
+        position = _convert_messages(block, 0, conversions, converted)
+        while position < len(block):
+            log_time, number, publish_time, data = block[position]
             try:
-                converted.append((log_time, number, publish_time, convert[number](data)))
+                cdr = kinds[number].cdr(data)
+                converted.append((log_time, number, publish_time, cdr))
             except CdrError as error:
                 topic = converters[number][0]
                 count, first = left_out.get(topic, (0, error))
                 left_out[topic] = count + 1, first
+            position = _convert_messages(block, position + 1, conversions, converted)
         yield converted
     for topic, (count, first) in left_out.items():
         damaged(BagError(f"{path}: {count:,} messages of {topic} are left out: {first}"))
 
 
-def _no_steps(_data: bytes) -> None:
-    """Leave a message to `Evolution`."""
+def _convert_messages(
+    messages: list[RawMessage],
+    position: int,
+    conversions: dict[int, Ros1ToCdr | None],
+    into: list[RawMessage],
+) -> int:
+    """Append messages as long as they need no conversion by Python; return where the next is."""
+    if any(conversions.values()):
+        from turtlewire._native import convert_messages
+
+        return convert_messages(messages, position, conversions, into)
+    while position < len(messages) and messages[position][1] not in conversions:
+        into.append(messages[position])
+        position += 1
+    return position
 
 
-def _conversion(name: str, text: str) -> Callable[[bytes], bytes | None]:
-    """Return the native conversion of a type's messages, if there is one."""
+def _conversion(name: str, text: str) -> Ros1ToCdr | None:
+    """Return the native conversion of a type's messages, if the core has one for it."""
     if asked_core() == "python":
-        return _no_steps
+        return None
     try:
         from turtlewire._native import Ros1ToCdr
     except ImportError:
-        return _no_steps
+        return None
     steps = conversion_steps(name, parse_definition(name, ros2_definition(text)))
-    return Ros1ToCdr(steps).convert if steps else _no_steps
+    return Ros1ToCdr(steps) if steps else None
 
 
 @cache
