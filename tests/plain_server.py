@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
-import socket
-import socketserver
+import queue
+import shutil
+import ssl
+import subprocess
 import threading
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+
+import pytest
 
 
 class Quiet(SimpleHTTPRequestHandler):
@@ -28,43 +33,79 @@ def plain_server(folder):
             thread.join()
 
 
-class Forwarding(socketserver.StreamRequestHandler):
-    """Forwards a request below a path, like jupyter-server-proxy, which keeps its ``Host``."""
+@contextlib.asynccontextmanager
+async def _closing(writer):
+    """Close a connection at the end, before its loop ends."""
+    try:
+        yield
+    finally:
+        writer.transport.abort()
+        with contextlib.suppress(OSError):
+            await writer.wait_closed()
 
-    def handle(self):
-        method, path, version = self.rfile.readline().split(b" ")
-        prefix, port = self.server.prefix, self.server.target
+
+async def _pipe(reader, writer):
+    with contextlib.suppress(OSError):  # either side has ended the connection
+        while data := await reader.read(65536):
+            writer.write(data)
+            await writer.drain()
+    writer.close()
+
+
+async def _forward(prefix, target, reader, writer):
+    async with _closing(writer):
+        method, path, version = (await reader.readline()).split(b" ")
         if not path.startswith(prefix):
-            self.wfile.write(b"HTTP/1.1 404 Not Found\r\nContent-Length: 0\r\n\r\n")
             return
-        with socket.create_connection(("127.0.0.1", port)) as target:
-            target.sendall(b" ".join((method, b"/" + path.removeprefix(prefix), version)))
-            back = threading.Thread(target=self._send_back, args=(target,))
-            back.start()
-            with contextlib.suppress(OSError):  # either side has ended the connection
-                while data := self.rfile.read1():
-                    target.sendall(data)
-            with contextlib.suppress(OSError):
-                target.shutdown(socket.SHUT_WR)
-            back.join()
-
-    def _send_back(self, target):
-        with contextlib.suppress(OSError):
-            while data := target.recv(65536):
-                self.connection.sendall(data)
-        with contextlib.suppress(OSError):
-            self.connection.shutdown(socket.SHUT_RDWR)
+        from_target, to_target = await asyncio.open_connection("127.0.0.1", target)
+        async with _closing(to_target):
+            to_target.write(b" ".join((method, b"/" + path.removeprefix(prefix), version)))
+            await asyncio.gather(_pipe(reader, to_target), _pipe(from_target, writer))
 
 
 @contextlib.contextmanager
-def path_proxy(target, prefix):
-    """Serve the server at the port ``target`` below a path; yields the proxy's port."""
-    with socketserver.ThreadingTCPServer(("127.0.0.1", 0), Forwarding) as server:
-        server.target, server.prefix = target, prefix.encode()
-        thread = threading.Thread(target=server.serve_forever)
-        thread.start()
-        try:
-            yield server.server_address[1]
-        finally:
-            server.shutdown()
-            thread.join()
+def path_proxy(target, prefix, tls=None):
+    """Serve the server at the port ``target`` below a path; yields the proxy's port.
+
+    Like jupyter-server-proxy, it keeps the ``Host`` of each request. With ``tls``, an
+    `ssl.SSLContext`, it answers at an https address.
+    """
+    started = queue.SimpleQueue()
+
+    async def serve():
+        ending = asyncio.Event()
+        forward = partial(_forward, prefix.encode(), target)
+        async with await asyncio.start_server(forward, "127.0.0.1", 0, ssl=tls) as server:
+            started.put((server, asyncio.get_running_loop(), ending))
+            await ending.wait()
+            server.close()
+            tasks = asyncio.all_tasks() - {asyncio.current_task()}
+            for task in tasks:
+                task.cancel()
+            await asyncio.gather(*tasks, return_exceptions=True)
+
+    thread = threading.Thread(target=asyncio.run, args=(serve(),))
+    thread.start()
+    server, loop, ending = started.get()
+    try:
+        yield server.sockets[0].getsockname()[1]
+    finally:
+        loop.call_soon_threadsafe(ending.set)
+        thread.join()
+
+
+def self_signed(folder):
+    """Return a TLS context with a new certificate, which no browser trusts."""
+    openssl = shutil.which("openssl")
+    if openssl is None:
+        pytest.skip("needs openssl (Debian: apt install openssl)")
+    key, certificate = folder / "key.pem", folder / "certificate.pem"
+    subprocess.run(
+        f"{openssl} req -x509 -newkey ec -pkeyopt ec_paramgen_curve:P-256 -noenc -days 2 "
+        f"-subj /CN=proxy -keyout {key} -out {certificate}".split(),
+        check=True,
+        capture_output=True,
+    )
+    context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+    context.load_cert_chain(certificate, key)
+    return context

@@ -18,7 +18,7 @@ from turtlewire_view.bag_source import BagSource
 from turtlewire_view.buffer_source import BufferSource
 from turtlewire_view.live import LiveSource
 from turtlewire_view.named_robots import find_robot
-from turtlewire_view.notebook import is_notebook
+from turtlewire_view.notebook import find_frame
 from turtlewire_view.package_folders import PackageFolders
 from turtlewire_view.robot_source import RobotSource
 from turtlewire_view.rviz_file import load_rviz
@@ -43,6 +43,7 @@ def show(
     config: str | os.PathLike[str] | None,
     port: int | None,
     lan: bool,
+    proxy: str | None,
     packages: Mapping[str, str | os.PathLike[str]] | None,
 ) -> Viewer:
     """Show it; see `turtlewire.show`."""
@@ -53,7 +54,7 @@ def show(
     if port is not None and not 0 <= port <= _LAST_PORT:
         raise ValueError(f"port is {port}; ports have numbers from 0 to {_LAST_PORT}")
     saved = None if config is None else load_rviz(config)
-    embeds = is_notebook()
+    frame = find_frame(proxy)
     with contextlib.ExitStack() as stack:
         source, folders = _source(what, positions, _named(packages or {}))
         stack.callback(source.close)
@@ -63,11 +64,11 @@ def show(
             port=port,
             lan=lan,
             saved=saved,
-            embeds=embeds,
+            frame=frame,
             packages=folders,
         )
         stack.pop_all()
-    if not embeds:
+    if frame is None:
         open_browser(viewer.url)
     return viewer
 

@@ -16,7 +16,7 @@ from turtlewire_view.display_feed import DisplayFeed
 from turtlewire_view.displays import display_for, display_types
 from turtlewire_view.displays.options import OptionError
 from turtlewire_view.meshes import MeshLibrary
-from turtlewire_view.notebook import EMBEDDING, view_html
+from turtlewire_view.notebook import Frame
 from turtlewire_view.package_folders import PackageFolders
 from turtlewire_view.session import ViewSession
 
@@ -52,7 +52,7 @@ class Viewer:
         port: Preferred TCP port; None uses turtlesim's rule (`TURTLEWIRE_PORT`, 7070).
         saved: What pages show first, of a ``.rviz`` file.
         lan: Whether to serve all devices of the network (see :mod:`turtlewire.web.lan`).
-        embeds: True if pages of this computer, such as notebooks, may embed the page.
+        frame: The frame of a notebook that may embed the page.
         packages: Where packages with meshes lie; None uses the ament index.
 
     Attributes:
@@ -71,7 +71,7 @@ class Viewer:
         port: int | None = None,
         lan: bool = False,
         saved: SavedView | None = None,
-        embeds: bool = False,
+        frame: Frame | None = None,
         packages: PackageFolders | None = None,
     ) -> None:
         self.source = source
@@ -81,6 +81,7 @@ class Viewer:
         self._changed, self._work = threading.Event(), threading.Event()
         self._closing = threading.Event()
         self._meshes = MeshLibrary()
+        self._frame = frame
         self._packages = packages or PackageFolders()
         if saved is not None and fixed_frame:
             saved = replace(saved, fixed=fixed_frame)
@@ -93,9 +94,10 @@ class Viewer:
             self._connect,
             port=wanted_port() if port is None else port,
             lan=lan,
+            proxied=frame is not None and frame.proxied,
             answer=self._meshes.answer,
             immutable="/vendor/",
-            sources=_SOURCES | (EMBEDDING if embeds else {}),
+            sources=_SOURCES | ({} if frame is None else {"frame-ancestors": frame.ancestors}),
         )
         self.url = self._server.url
         self._threads = [
@@ -136,7 +138,15 @@ class Viewer:
 
     def _repr_html_(self) -> str:
         """Return the page for the output of a notebook's cell."""
-        return view_html(self.url)
+        return (self._frame or Frame()).html(self.url)
+
+    def _ipython_display_(self) -> None:
+        """Show the page with a function of the notebook service.
+
+        Raises:
+            NotImplementedError: The notebook has no such function; IPython then uses the HTML.
+        """
+        (self._frame or Frame()).display(self.url)
 
     def hello(self) -> bytes:
         """Return the first packet of a page."""

@@ -15,7 +15,7 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 import turtlewire
-from turtlewire_view.notebook import view_html
+from turtlewire_view.notebook import Frame
 
 LIMIT_MS = 120_000
 FOREIGN = "https://notebook.example/"
@@ -142,13 +142,6 @@ def test_only_kernels_allow_other_pages_to_embed_the_view(monkeypatch):
 
 
 def test_the_output_links_the_page_and_says_how_to_forward_its_port():
-    html = view_html('http://127.0.0.1:7071/"<token>/')
+    html = Frame().html('http://127.0.0.1:7071/"<token>/')
     assert '<a href="http://127.0.0.1:7071/&quot;&lt;token&gt;/"' in html
     assert "ssh -L 7071:localhost:7071" in html
-
-
-def test_colab_gets_a_sentence_instead_of_a_broken_frame(view, monkeypatch):
-    monkeypatch.setitem(sys.modules, "google.colab", types.ModuleType("google.colab"))
-    html = view._repr_html_()
-    assert "iframe" not in html
-    assert "Open the notebook in a Jupyter on your computer" in html

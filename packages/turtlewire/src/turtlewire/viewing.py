@@ -61,6 +61,7 @@ def show(
     config: str | os.PathLike[str] | None = None,
     port: int | None = None,
     lan: bool = False,
+    proxy: str | None = None,
     packages: Mapping[str, str | os.PathLike[str]] | None = None,
 ) -> Viewer:
     """Show frames in 3D, in the browser or in the output of a notebook's cell.
@@ -78,6 +79,9 @@ def show(
         config: A ``.rviz`` file to load.
         port: The TCP port to try first; None uses ``TURTLEWIRE_PORT``, or 7070.
         lan: True to serve the page to other devices of the network, at an address with a token.
+        proxy: The path or address at which the server of the notebook passes requests on to a port
+            of the kernel's computer, such as ``"/proxy/{port}/"``. None finds it in JupyterHub,
+            Binder and Google Colab. The address of the page then has a token.
         packages: Folders of packages, for the meshes of ``package://NAME/…``. Packages around a
             ``.urdf`` file are found without.
 
@@ -90,7 +94,7 @@ def show(
         NotADirectoryError: A folder in ``packages`` does not exist.
         TypeError: ``what`` is something else, or there are positions without a robot.
         UrdfError: The ``.urdf`` file is invalid.
-        ValueError: ``positions`` has several rows.
+        ValueError: ``positions`` has several rows, or ``proxy`` has no ``{port}``.
         WireError: The network cannot be joined.
     """
     entry = declared(_GROUP, _NAME).get(_NAME)
@@ -106,6 +110,7 @@ def show(
         config=config,
         port=port,
         lan=lan,
+        proxy=proxy,
         packages=packages,
     )
     return cast("Viewer", opened)

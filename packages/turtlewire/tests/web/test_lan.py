@@ -121,7 +121,42 @@ def test_the_live_stream_demands_the_token_and_an_own_origin(serve):
 def test_the_address_without_its_last_slash_leads_to_the_page(serve):
     page = serve(lan=True)
     answer = get(page.port, f"/{page.token}")
-    assert (answer.status, answer.headers["Location"]) == (308, f"/{page.token}/")
+    assert (answer.status, answer.headers["Location"]) == (308, f"{page.token}/")
+
+
+@pytest.mark.parametrize("host", ["hub.example", "127.0.0.1"])
+def test_behind_a_proxy_any_host_needs_the_token(serve, host):
+    page = serve(proxied=True)
+    for path in ("/", "/live", "/part.js", "/kit/kit.css", f"/{page.token[:-1]}1/", "/nothing"):
+        answer = get(page.port, path, Host=host)
+        assert answer.status == 403
+        assert "token" in answer.text
+    index = get(page.port, f"/{page.token}/", Host=host)
+    assert index.text == "<p>hello</p>"
+    assert f"ws://{host}" in index.headers["Content-Security-Policy"]
+    assert "frame-ancestors 'none'" in index.headers["Content-Security-Policy"]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="127.0.0.2 is an address on Linux only")
+def test_behind_a_proxy_only_loopback_is_bound(serve):
+    page = serve(proxied=True)
+    with pytest.raises(ConnectionRefusedError):
+        socket.create_connection(("127.0.0.2", page.port), timeout=60)
+
+
+def test_behind_a_proxy_only_own_pages_open_the_websocket(serve):
+    page = serve(proxied=True)
+    address = f"ws://127.0.0.1:{page.port}/{page.token}/live"
+    forwarded = {"X-Forwarded-Host": "hub.example"}
+    with connect(address, origin="https://hub.example", additional_headers=forwarded) as browser:
+        assert browser.recv(timeout=60) == "hello"
+    for headers in ({}, {"X-Forwarded-Host": "other.example"}):
+        with (
+            pytest.raises(InvalidStatus) as refused,
+            connect(address, origin="https://hub.example", additional_headers=headers),
+        ):
+            pass
+        assert refused.value.response.status_code == 403
 
 
 def test_two_runs_have_two_tokens():

@@ -6,15 +6,21 @@ host name that resolves to it (DNS rebinding). These two headers reveal both.
 
 A server for the network answers to every address and to this computer's name besides. A page that
 rebinds its own name still fails, and does not know the token (:mod:`turtlewire.web.lan`).
+
+A server behind the proxy of a notebook service cannot know its own name. It relies on the token,
+and compares the page with the name that the browser requested.
 """
 
 from __future__ import annotations
 
+import re
 import socket
 
-__all__ = ["refusal"]
+__all__ = ["proxied_refusal", "refusal"]
 
 _LOOPBACK_NAMES = frozenset({"localhost", "[::1]"})
+#: A name or an IPv6 address, with or without a port. The response quotes it in a header.
+_HOST = re.compile(r"([a-z0-9._-]+|\[[0-9a-f:.]+\])(:[0-9]+)?", re.IGNORECASE)
 
 
 def refusal(hosts: list[str], origins: list[str], *, lan: bool = False) -> str | None:
@@ -30,6 +36,27 @@ def refusal(hosts: list[str], origins: list[str], *, lan: bool = False) -> str |
         known = "its addresses and its name" if lan else "localhost and 127.0.0.1"
         return f"Host is {_shown(hosts)}, this server answers only to {known}."
     if len(origins) > 1 or (origins and origins[0].lower() != f"http://{hosts[0].lower()}"):
+        return f"Origin is {_shown(origins)}, this server answers only to its own pages."
+    return None
+
+
+def proxied_refusal(hosts: list[str], forwarded: list[str], origins: list[str]) -> str | None:
+    """Return why a request is refused that needs the token and may come through a proxy.
+
+    A page of the name that the browser requested is allowed with http and https, because a server
+    behind several proxies does not see which of the two the browser used.
+
+    Args:
+        hosts: All ``Host`` headers.
+        forwarded: All ``X-Forwarded-Host`` headers. A proxy that sends another ``Host`` names the
+            requested host there, and a page of another site cannot set it.
+        origins: All ``Origin`` headers.
+    """
+    if len(hosts) != 1 or not _HOST.fullmatch(hosts[0]):
+        return f"Host is {_shown(hosts)}, expected one name."
+    names = {name.strip().lower() for name in [*hosts, *",".join(forwarded).split(",")]} - {""}
+    own = {f"{scheme}://{name}" for scheme in ("http", "https") for name in names}
+    if len(origins) > 1 or (origins and origins[0].lower() not in own):
         return f"Origin is {_shown(origins)}, this server answers only to its own pages."
     return None
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from turtlewire.web.encoding import Encoder, has_tag, takes_gzip
 from turtlewire.web.files import WebContent, find_files, headers, policy
 from turtlewire.web.lan import new_token, path_below
-from turtlewire.web.origin import refusal
+from turtlewire.web.origin import proxied_refusal, refusal
 from turtlewire.web.server_thread import ServerThread, listening_socket, until_one_ends
 
 if TYPE_CHECKING:
@@ -53,6 +53,7 @@ class Server:
         *,
         port: int = 0,
         lan: bool = False,
+        proxied: bool = False,
         answer: Callable[[str], WebContent | None] | None = None,
         sources: Mapping[str, str] | None = None,
         immutable: str | None = None,
@@ -65,6 +66,8 @@ class Server:
             port: Preferred TCP port. A free one is taken if it is in use.
             lan: Whether to serve all devices of the network. Every request must then begin with a
                 random token, which is part of ``url`` (see :mod:`turtlewire.web.lan`).
+            proxied: Whether a proxy on this computer passes requests on, under any name. Every
+                request must then begin with the token, as with ``lan``.
             answer: Called, on any thread, for a path that is not a file, with its escapes decoded:
                 ``/mesh/x.stl``. Returning None gives status 404.
             sources: What the page may load besides, by directive of the Content-Security-Policy.
@@ -81,11 +84,12 @@ class Server:
         self._immutable = immutable
         self._connect = connect
         self._computed = answer
-        self._token = new_token() if lan else None
-        self._home = f"/{self._token}/" if lan else "/"
+        self._token = new_token() if lan or proxied else None
+        self._proxied = proxied
         self._wake_ups: set[asyncio.Event] = set()
         listener = _listen("0.0.0.0" if lan else "127.0.0.1", port)  # noqa: S104
-        self.url = f"http://127.0.0.1:{listener.getsockname()[1]}{self._home}"
+        home = "/" if self._token is None else f"/{self._token}/"
+        self.url = f"http://127.0.0.1:{listener.getsockname()[1]}{home}"
         self._thread = ServerThread(
             listener,
             self._handle,
@@ -116,9 +120,8 @@ class Server:
         """Answer a plain HTTP request; None lets the WebSocket begin."""
         from http import HTTPStatus
 
-        hosts = request.headers.get_all("Host")
         path = self._asked(request.path.partition("?")[0])
-        reason = refusal(hosts, request.headers.get_all("Origin"), lan=self._token is not None)
+        reason = self._refusal(request)
         if reason is not None or path is None:
             text = f"Refused: {reason or _UNINVITED}\n"
             return connection.respond(HTTPStatus.FORBIDDEN, text)
@@ -129,10 +132,19 @@ class Server:
             return None
         if not path:  # names in the page are relative to its address, which ends with a slash
             response = connection.respond(HTTPStatus.PERMANENT_REDIRECT, "The page is at a /.\n")
-            response.headers["Location"] = self._home
+            response.headers["Location"] = f"{self._token}/"  # a proxy serves it below a path
             return response
-        found = await self._found(path, request, hosts[0])
+        found = await self._found(path, request, request.headers["Host"])
         return found or connection.respond(HTTPStatus.NOT_FOUND, f"There is no {path} here.\n")
+
+    def _refusal(self, request: Request) -> str | None:
+        """Return why the headers of a request are refused, or None if they are allowed."""
+        hosts, origins, forwarded = map(
+            request.headers.get_all, ("Host", "Origin", "X-Forwarded-Host")
+        )
+        if self._proxied:
+            return proxied_refusal(hosts, forwarded, origins)
+        return refusal(hosts, origins, lan=self._token is not None)
 
     def _asked(self, path: str) -> str | None:
         """The path that is asked for, without the token; None if a token is needed and missing."""

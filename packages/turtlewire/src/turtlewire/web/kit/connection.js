@@ -30,7 +30,7 @@ export class Connection {
 
   #open() {
     const address = new URL("live", location.href);
-    address.protocol = "ws:";
+    address.protocol = location.protocol.replace("http", "ws");
     const socket = new WebSocket(address);
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
