@@ -24,6 +24,7 @@ FOREIGN = "https://notebook.example/"
 @pytest.fixture
 def kernel(monkeypatch):
     """Pretend to be an IPython kernel."""
+    monkeypatch.delenv("JUPYTERHUB_SERVICE_PREFIX", raising=False)
     module = types.ModuleType("IPython")
     module.get_ipython = lambda: types.SimpleNamespace(kernel=object())
     monkeypatch.setitem(sys.modules, "IPython", module)
