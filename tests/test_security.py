@@ -34,6 +34,22 @@ The web servers of turtlesim, the 3D view and the class listen on loopback only
 With `--lan` they serve the network
   web/test_lan.py test_every_route_demands_the_token test_with_it_every_address_answers_to_the_token
   web/test_lan.py test_two_runs_have_two_tokens
+In a notebook of JupyterHub, Binder or Colab
+  web/test_lan.py test_behind_a_proxy_only_loopback_is_bound
+  view/test_remote_notebook.py test_a_hub_shows_the_view_in_an_isolated_output
+  view/test_remote_notebook.py test_colab_shows_the_port_and_path_of_the_view
+Every request needs a random token, and a WebSocket
+  web/test_lan.py test_behind_a_proxy_any_host_needs_the_token
+  web/test_lan.py test_behind_a_proxy_only_own_pages_open_the_websocket
+  view/test_remote_notebook.py test_a_request_without_the_token_gets_403
+  view/test_remote_notebook.py test_a_foreign_page_cannot_connect
+Browsers embed such a view only in pages of that host
+  view/test_remote_notebook.py test_a_foreign_page_with_the_token_cannot_embed_the_view
+  view/test_remote_notebook.py test_colab_and_no_foreign_page_embeds_the_view
+In other notebooks, only pages of this computer
+  view/test_notebook.py test_a_notebook_at_another_port_shows_the_view
+  view/test_notebook.py test_a_page_of_another_computer_cannot_embed_the_view
+  view/test_notebook.py test_a_page_around_a_notebook_cannot_embed_the_view
 The Foxglove server listens on loopback only
   foxglove/test_hostile.py test_a_foreign_name_is_refused_with_one_line
 It refuses requests with another `Host`
@@ -91,6 +107,9 @@ A page that `--lan` opens is not encrypted
 With another `--address`, the Foxglove server is not protected by a token
   foxglove/test_hostile.py test_all_names_are_served_to_the_network_and_to_all_pages
   foxglove/test_command.py test_an_address_for_others_is_said_plainly
+The output of a cell with such a view contains its token
+  view/test_remote_notebook.py test_the_output_of_a_hub_has_the_token_only_in_addresses
+  view/test_remote_notebook.py test_the_link_opens_the_view_in_a_tab
 An assistant that uses `turtlewire mcp`
   cli/test_mcp.py test_it_reads_and_subscribes_only_while_it_reads test_transforms
   cli/test_mcp.py test_a_long_message_is_cut
@@ -107,7 +126,7 @@ Grading is not a sandbox
   test_security.py test_grading_runs_as_this_user
 """
 # Advice, which nothing can test.
-ADVICE = ("Run and open only files that you trust", "See [what remains]")
+ADVICE = ("Run and open only files that you trust", "See [what remains]", "Clear the outputs")
 
 
 def sentences() -> list[str]:

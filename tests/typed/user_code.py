@@ -259,7 +259,9 @@ def talk(net: Connection) -> None:
 
 
 def show(path: Path) -> str:
-    with turtlewire.show(path, fixed_frame="map", config="a.rviz", port=0, lan=False, proxy=None) as view:
+    with turtlewire.show(
+        path, fixed_frame="map", config="a.rviz", port=0, lan=False, proxy=None
+    ) as view:
         with join("seen", middleware="local") as net:
             talk(net)
             other: Viewer = open_view(net)

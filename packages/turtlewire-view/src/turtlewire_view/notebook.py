@@ -41,13 +41,15 @@ class Frame:
         """Return the page at an address of this computer as an output of a cell.
 
         Below the page are a link to it and, for a notebook on another computer, the command that
-        forwards its port.
+        forwards its port, and the argument that replaces the command.
         """
         address, port = escape(url), urlsplit(url).port
         return (
             f'{_iframe(address)}<p><a href="{address}" target="_blank">{address}</a> Nothing to '
             "see? If the notebook runs on another computer, run "
-            f"<code>ssh -L {port}:localhost:{port} COMPUTER</code>.</p>"
+            f"<code>ssh -L {port}:localhost:{port} COMPUTER</code>, or pass "
+            '<code>proxy="/proxy/{port}/"</code> if its server has '
+            "<code>jupyter-server-proxy</code>.</p>"
         )
 
     def display(self, url: str) -> None:
@@ -107,7 +109,10 @@ class ColabFrame(Frame):
 
     def html(self, url: str) -> str:
         """Return the advice to use `display`, because the browser cannot reach the address."""
-        return "<p>Write the view in the last line of a cell, or <code>display(view)</code>.</p>"
+        return (
+            f"<p>The view is at port {urlsplit(url).port}. To see it, write it in the last line of "
+            "a cell, or call <code>display(view)</code>.</p>"
+        )
 
     def display(self, url: str) -> None:
         """Show the page in the output of the running cell."""
