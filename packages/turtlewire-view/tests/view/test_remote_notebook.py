@@ -193,6 +193,17 @@ def test_a_proxy_is_a_path_or_an_address(show, monkeypatch, proxy, address):
     assert f'src="{address.format(port=port)}{path[1:]}"' in view._repr_html_()
 
 
+def test_a_notebook_below_a_base_url_shows_the_view(show, tab):
+    """A Jupyter that a tunnel brings to this computer has an address with http."""
+    view = show(proxy="/lab7/proxy/{port}/")
+    port = urlsplit(view.url).port
+    with path_proxy(port, f"/lab7/proxy/{port}/") as proxy:
+        home = f"http://localhost:{proxy}/lab7/lab"
+        answer(tab, home, isolated(view._repr_html_()))
+        tab.goto(home)
+        shows_frames(tab.frame_locator("iframe").frame_locator("iframe"))
+
+
 @pytest.mark.parametrize("proxy", ["/proxy/7070/", "proxy/{port}/", "javascript:{port}", ""])
 def test_a_proxy_without_a_port_or_a_start_is_explained(show, proxy):
     with pytest.raises(ValueError, match=r"such as '/proxy/\{port\}/'"):
