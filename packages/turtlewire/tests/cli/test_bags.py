@@ -341,6 +341,29 @@ def test_a_frame_that_is_static_and_moves_and_publishers_nobody_noted(capsys, tm
     assert "0.0 Hz" not in out
 
 
+def test_frames_of_a_bag_with_and_without_a_slash(capsys, tmp_path):
+    bag, renamed = tmp_path / "bridged", tmp_path / "renamed"
+    with BagWriter(bag) as writer:
+        for topic in ("/tf", "/tf_static"):
+            writer.add_topic(topic, "tf2_msgs/msg/TFMessage")
+        for i in range(3):
+            writer.write("/tf", transform(i, "odom", "base_link"), START + i)
+        writer.write("/tf_static", transform(0, "/base_link", "/laser"), START)
+        writer.write("/tf", b"\0\1\0\0\0\0\0\0\0/", START + 3)
+    (text, advice), (other, _) = (
+        (finding["text"], finding["remedy"])
+        for finding in json.loads(run(capsys, "doctor", bag, "--json").out)["findings"]
+        if "slash" in finding["text"]
+    )
+    assert text == "The frame 'base_link' is published with and without a leading slash."
+    assert other == "The frame 'laser' is published with a leading slash."
+    words = advice.split("`")[1].replace("BAG", str(bag)).replace("NEW", str(renamed)).split()
+    assert run(capsys, *words[1:]).status == 0
+    found = run(capsys, "doctor", renamed).out
+    assert "'laser' is published with a leading slash" in found
+    assert "'base_link' is published with" not in found
+
+
 def test_transforms_on_other_topics(capsys, tmp_path):
     bag = tmp_path / "r1"
     with BagWriter(bag) as writer:

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 from tests.needs import needs_cyclone_dds
 
-from turtlewire import msg
+from turtlewire import Buffer, msg
 from turtlewire.cli.main import main
 from turtlewire.doctor import examination
 from turtlewire.doctor import fast_dds_findings as fast_dds
@@ -25,7 +25,7 @@ from turtlewire.doctor.network import domains_of, multicast_works, udp_ports
 from turtlewire.doctor.setup_findings import network_findings, setup_findings
 from turtlewire.doctor.tf_findings import tf_findings
 from turtlewire.doctor.tf_traffic import TfListener, TfTraffic, frame_names
-from turtlewire.errors import WireError
+from turtlewire.errors import InvalidArgumentException, WireError
 from turtlewire.wire import open_context
 from turtlewire.wire.base import EndpointInfo, TypeId
 from turtlewire.wire.libddsc import Libddsc, Search
@@ -331,6 +331,49 @@ def test_a_loop_of_frames(context, broadcasters):
     assert texts(tf_findings(context.graph, traffic)) == [
         "The frames form a loop, from child to parent: a -> b -> a."
     ]
+
+
+def test_frames_with_and_without_a_slash_are_one(context, broadcasters):
+    one, two = broadcasters
+    fixed = context.create_node("two").create_publisher("/tf_static", TF, QoS()).gid
+    traffic = traffic_of(
+        (transform("world", "a"), one, False),
+        (transform("/a", "/b"), two, False),
+        (transform("/a", "/c", 0), fixed, True),
+        (transform("c", "/d"), two, False),
+    )
+    twins, others = (found for found in tf_findings(context.graph, traffic) if not found.is_problem)
+    assert twins.text == (
+        "The frames 'a' and 'c' are published with and without a leading slash; the slash is from "
+        "/two."
+    )
+    assert twins.remedy.endswith("see two frames. Publish the names without a slash.")
+    assert others.text == (
+        "The frames 'b' and 'd' are published with a leading slash; the slash is from /two."
+    )
+    buffer = Buffer()  # what the remedy says
+    for parent, child in (("world", "a"), ("/a", "/b")):
+        buffer.set_transform(parent, child, 1, (1.0, 0.0, 0.0))
+    assert buffer.lookup_transform("world", "b").translation == (2.0, 0.0, 0.0)
+    with pytest.raises(InvalidArgumentException, match="cannot start with a '/'"):
+        buffer.lookup_transform("world", "/b")
+
+
+def test_other_slashes_and_conflicts_of_both_names(context, broadcasters):
+    one, two = broadcasters
+    traffic = traffic_of(
+        (transform("robot/odom", "robot/a"), one, False),
+        (transform("robot/odom", "/robot/a"), two, False),
+    )
+    assert texts(tf_findings(context.graph, traffic)) == [
+        "The frame 'robot/a' is published by /one and /two.",
+        (
+            "The frame 'robot/a' is published with and without a leading slash; the slash is from "
+            "/two."
+        ),
+    ]
+    traffic = traffic_of((transform("robot/odom", "a/"), one, False))
+    assert tf_findings(context.graph, traffic) == []
 
 
 def test_mixed_and_stale_times(context, broadcasters):

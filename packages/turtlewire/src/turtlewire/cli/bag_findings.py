@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from turtlewire.bag.transforms import fill_buffer
 from turtlewire.doctor.finding import Finding, note, problem
 from turtlewire.doctor.tf_findings import recorded_findings
 from turtlewire.doctor.tf_traffic import FASTEST_M_S, JITTER_NS, LEAP_M, TfTraffic
-from turtlewire.errors import BagError
+from turtlewire.errors import BagError, CdrError
 from turtlewire.tf.buffer import Buffer
 from turtlewire.wire.qos import Durability
 
@@ -87,7 +88,9 @@ def examine_bag(
     except BagError as error:
         return [*found, problem(str(error), error.hint)]
     found += [problem(text, _DAMAGED) for text in report.problems]
-    return [*found, *_report_findings(report), *recorded_findings(_traffic(buffer, report, end_ns))]
+    traffic = _traffic(buffer, report, end_ns)
+    traffic.written = {name: set() for name in _written_names(path, {*moving, *fixed})}
+    return [*found, *_report_findings(report), *recorded_findings(traffic)]
 
 
 def _names(topics: str | list[str]) -> list[str]:
@@ -155,6 +158,31 @@ def _report_findings(report: TransformReport) -> list[Finding]:
         text = f"'{child}' pauses {times}, for up to {longest:.3f} s."
         found.append(note(text, _GAP))
     return found
+
+
+def _written_names(path: str, topics: set[str]) -> set[str]:
+    """Return the names of frames with a leading slash, and the same names without it.
+
+    The buffer does not keep the slash. Messages are searched for the bytes before it: the length of
+    a short string in little-endian CDR. Only the messages that have them are decoded.
+    """
+    names: set[str] = set()
+    with open_bag(path) as bag, suppress(BagError):  # the report has the damage
+        for message in bag.messages(topics):
+            if b"\0\0\0/" in message.data:
+                with suppress(CdrError):
+                    names |= _names_in(message.decode())
+    plain = {name[1:] for name in names if name.startswith("/")} - names
+    if plain:
+        with open_bag(path) as bag, suppress(BagError):
+            for message in bag.messages(topics):
+                names |= {name for name in plain if b"\0\0\0%b\0" % name.encode() in message.data}
+    return names
+
+
+def _names_in(message: Any) -> set[str]:
+    transforms = message.transforms
+    return {name for each in transforms for name in (each.header.frame_id, each.child_frame_id)}
 
 
 def _traffic(buffer: Buffer, report: TransformReport, end_ns: int) -> TfTraffic:

@@ -11,6 +11,8 @@ from turtlewire.doctor.tf_traffic import tf_publishers
 from turtlewire.tf.frame_tree import find_loops
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from turtlewire.doctor.tf_traffic import TfTraffic
     from turtlewire.wire.base import Graph
 
@@ -52,6 +54,13 @@ _MISSING = (
     "the publisher is too slow."
 )
 _NAMED = 3
+_NO_SLASH = (
+    "tf2 removes the slash of a received transform, so the names with and without it are one "
+    "frame. It rejects lookups with the slash, also for a message whose header has it, and "
+    "programs that compare names see two frames. "
+)
+_PUBLISH_WITHOUT = "Publish the names without a slash."
+_RENAME = "Rename them: `turtlewire bag filter BAG -o NEW --rename-frame {}:={}`."
 _LEAPS = "Either it was moved to another position, or two sources disagree about where it is."
 
 
@@ -67,6 +76,7 @@ def tf_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:
     return [
         *_publisher_findings(graph, traffic),
         *_tree_findings(traffic),
+        *_slash_findings(traffic, graph),
         *_clock_findings(traffic),
         *_step_findings(traffic),
         *_gap_findings(traffic),
@@ -80,15 +90,15 @@ def recorded_findings(traffic: TfTraffic) -> list[Finding]:
         traffic: The recorded transforms; they end with the bag.
     """
     clocks = _clock_findings(traffic, recorded=True)
-    return [*_tree_findings(traffic), *clocks, *_step_findings(traffic)]
+    slashes = _slash_findings(traffic)
+    return [*_tree_findings(traffic), *slashes, *clocks, *_step_findings(traffic)]
 
 
 def _publisher_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:
-    owners = {endpoint.gid: owner_of(endpoint) for endpoint in graph.endpoints()}
     found = []
     for child, gids in sorted(traffic.publishers.items()):
         if len(gids) > 1:
-            nodes = " and ".join(sorted(owners.get(gid, "an unknown node") for gid in gids))
+            nodes = " and ".join(_nodes(graph, gids))
             found.append(problem(f"The frame '{child}' is published by {nodes}.", _ONE_PUBLISHER))
     received = {gid for gids in traffic.publishers.values() for gid in gids}
     for publisher in tf_publishers(graph):
@@ -96,6 +106,20 @@ def _publisher_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:
             text = f"No static transforms received from {owner_of(publisher)}."
             found.append(note(text, _SILENT))
     return found
+
+
+def _nodes(graph: Graph, gids: set[bytes]) -> list[str]:
+    """Return the name of the node of each publisher, sorted."""
+    owners = {endpoint.gid: owner_of(endpoint) for endpoint in graph.endpoints()}
+    return sorted(owners.get(gid, "an unknown node") for gid in gids)
+
+
+def _quoted(frames: Iterable[str]) -> str:
+    """Return the first names of frames, and the number of the others."""
+    names = [f"'{frame}'" for frame in frames]
+    if len(names) > _NAMED:
+        names[_NAMED:] = [f"{len(names) - _NAMED} others"]
+    return " and ".join(names)
 
 
 def _tree_findings(traffic: TfTraffic) -> list[Finding]:
@@ -115,6 +139,27 @@ def _tree_findings(traffic: TfTraffic) -> list[Finding]:
     if len(roots) > 1:
         text = f"The frames form {len(roots)} separate trees, with the roots {', '.join(roots)}."
         found.append(problem(text, _JOIN_TREES))
+    return found
+
+
+def _slash_findings(traffic: TfTraffic, graph: Graph | None = None) -> list[Finding]:
+    """Return a note of frames with two names, and one of the others; a bag has no graph."""
+    slashed = sorted(name for name in traffic.written if name.startswith("/"))
+    twins = [name for name in slashed if name[1:] in traffic.written]
+    others = [name for name in slashed if name not in twins]
+    found = []
+    for names, how in ((twins, "with and without"), (others, "with")):
+        if not names:
+            continue
+        frames = "The frame {} is" if len(names) == 1 else "The frames {} are"
+        text = frames.format(_quoted(name[1:] for name in names))
+        text += f" published {how} a leading slash"
+        remedy = _RENAME.format(names[0], names[0][1:])
+        if graph is not None:
+            gids = {gid for name in names for gid in traffic.written[name]}
+            text += f"; the slash is from {' and '.join(dict.fromkeys(_nodes(graph, gids)))}"
+            remedy = _PUBLISH_WITHOUT
+        found.append(note(f"{text}.", _NO_SLASH + remedy))
     return found
 
 
@@ -164,11 +209,8 @@ def _gap_findings(traffic: TfTraffic) -> list[Finding]:
     if not found:
         return []
     worst = max(found.values())
-    names = [f"'{child}'" for child in found]
-    if len(names) > _NAMED:
-        names[_NAMED:] = [f"{len(names) - _NAMED} others"]
     text = (
-        f"About {worst.share:.0%} of the transforms of {' and '.join(names)} are missing: "
+        f"About {worst.share:.0%} of the transforms of {_quoted(found)} are missing: "
         f"expected every {worst.period_s * 1e3:.0f} ms, longest gap {worst.longest_s:.2f} s."
     )
     return [note(text, _MISSING)]

@@ -47,7 +47,10 @@ FASTEST_M_S = 100.0
 class TfTraffic:
     """The received transforms.
 
+    Frames have the names that tf2 stores: it removes one leading slash.
+
     Attributes:
+        written: Name of a frame as it was sent to the gids of its publishers.
         parents: Frame to its parents.
         publishers: Frame to the gids of its publishers.
         newest_ns: Frame of /tf to its newest stamp.
@@ -60,6 +63,7 @@ class TfTraffic:
     """
 
     def __init__(self) -> None:
+        self.written: dict[str, set[bytes]] = {}
         self.parents: dict[str, set[str]] = {}
         self.publishers: dict[str, set[bytes]] = {}
         self.newest_ns: dict[str, int] = {}
@@ -73,8 +77,11 @@ class TfTraffic:
     def note(self, message: Any, publisher: bytes, *, static: bool) -> None:
         """Take over a TFMessage."""
         for transform in message.transforms:
-            child = transform.child_frame_id
-            self.parents.setdefault(child, set()).add(transform.header.frame_id)
+            names = (transform.header.frame_id, transform.child_frame_id)
+            for name in names:
+                self.written.setdefault(name, set()).add(publisher)
+            parent, child = (name.removeprefix("/") for name in names)
+            self.parents.setdefault(child, set()).add(parent)
             self.publishers.setdefault(child, set()).add(publisher)
             if not static:
                 stamp = transform.header.stamp.sec * 1_000_000_000 + transform.header.stamp.nanosec
@@ -82,9 +89,7 @@ class TfTraffic:
                 stamps = self.stamps_ns.setdefault((child, publisher), [])
                 if len(stamps) < _STAMPS:
                     stamps.append(stamp)
-                self._note_step(
-                    child, transform.header.frame_id, stamp, transform.transform.translation
-                )
+                self._note_step(child, parent, stamp, transform.transform.translation)
 
     def _note_step(self, child: str, parent: str, stamp: int, place: Any) -> None:
         last_parent, last_stamp, last = self._last.get(child, (parent, stamp, place))
