@@ -236,6 +236,22 @@ def test_images_and_clouds_share_the_memory_of_their_messages(robot):
         assert array.base is not None
 
 
+def test_the_names_of_joints_are_lists_of_their_own(tmp_path):
+    joint_state = msg.get_message("sensor_msgs/msg/JointState")
+    names = [["turn", "s\u00e9"], ["turn", "s\u00e9"], [], [""], ["a", "bcd", "efgh"]]
+    with BagWriter(tmp_path / "arm") as writer:
+        for number, each in enumerate(names):
+            writer.write("/joint_states", joint_state(name=each), START + number)
+    with open_bag(tmp_path / "arm") as bag:
+        found = bag.columns("/joint_states", "name", "position")["name"]
+        native = columns._read_natively(
+            bag, "/joint_states", [find_field("sensor_msgs/msg/JointState", "name")], 0, 2**64 - 1
+        )
+    assert found.tolist() == names
+    assert found[0] is not found[1]
+    assert (native is not None) == (columns._native_reader() is not None)
+
+
 def test_a_data_frame(robot):
     with open_bag(robot) as bag:
         frame = bag.columns("/imu", "orientation", "header.frame_id").to_pandas()

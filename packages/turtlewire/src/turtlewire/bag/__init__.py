@@ -22,6 +22,7 @@ module              contents
 `columns`           `Columns`: fields of all messages of a topic as NumPy arrays
 `column_fields`     fields that can be columns, and their offsets
 `sensor_arrays`     images and point clouds as arrays
+`text_lists`        lists of texts in CDR
 `overview`          `describe_bag`: the contents of a bag, topic by topic
 `notebook`          the display of bags in Jupyter
 `extents`           counts, sizes and times of the messages of a file

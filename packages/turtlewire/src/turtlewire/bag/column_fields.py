@@ -159,7 +159,7 @@ def column_steps(type_name: str, fields: Iterable[ColumnField]) -> list[Step] | 
     """Return the steps that collect fields, to the columns 0, 1 and so on.
 
     Returns:
-        None if the compiled core cannot collect them: lists of texts, or a field within another.
+        None if the compiled core cannot collect them: one field lies within another.
     """
     columns = {field.path: (number, field) for number, field in enumerate(fields)}
     steps = _Steps(columns)
@@ -181,7 +181,7 @@ class _Steps:
         steps: list[Step] = [] if fields else [(StepKind.NUMBERS, 1, 1, 0, _NO_COLUMN)]
         for field in fields:
             column = self._columns.get(prefix + field.name)
-            if column is not None and column[1].kind != ColumnKind.TEXTS:
+            if column is not None:
                 self.taken += 1
                 steps += self._take(*column)
             elif isinstance(field.type, NamespacedType):
@@ -199,6 +199,8 @@ class _Steps:
             return [(StepKind.TEXT, 0, 1, 0, number)]
         if field.kind == ColumnKind.SEQUENCE:
             return [(StepKind.SEQUENCE, field.size, SIZES[field.code], 0, number)]
+        if field.kind == ColumnKind.TEXTS:
+            return [(StepKind.LOOP, 0, 1, 1, number), (StepKind.TEXT, 0, 1, 0, _NO_COLUMN)]
         body = _Steps({}).message(_POINT_FIELD, "")
         return [(StepKind.LOOP, 0, 1, len(body), number), *body]
 

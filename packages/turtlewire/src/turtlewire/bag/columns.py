@@ -11,6 +11,7 @@ import numpy as np
 from turtlewire.bag.column_fields import ColumnField, ColumnKind, column_steps, find_field
 from turtlewire.bag.message import UndecodableType
 from turtlewire.bag.sensor_arrays import cloud_array, cloud_dtype, image_array, read_point_fields
+from turtlewire.bag.text_lists import read_texts
 from turtlewire.bag.written_types import written_type
 from turtlewire.errors import BagError
 from turtlewire.msg.evolution import older_evolution
@@ -271,6 +272,8 @@ def _view(field: ColumnField, data: bytes, begin: int, count: int) -> Any:
         return data[begin : begin + count].decode()
     if field.kind == ColumnKind.CLOUD_FIELDS:
         return data[begin : begin + count]
+    if field.kind == ColumnKind.TEXTS:
+        return list(read_texts(data[begin : begin + count]))
     width = max(1, len(field.labels))
     numbers = np.frombuffer(data, _dtype(field), count * width, begin if count else 0)
     return numbers.reshape(count, width) if field.labels else numbers
