@@ -152,6 +152,7 @@ def record(path: Path, message: msg.Message) -> TransformReport | None:
         columns: Columns = bag.columns("/imu", "linear_acceleration.x", "orientation", end_ns=9)
         x: NDArray[Any] = columns["linear_acceleration.x"]
         print(x.mean(), list(columns), columns.stamps_ns, columns.to_pandas(), columns.topic)
+        print(turtlewire.Buffer.from_bag(bag).bag_report)
     return turtlewire.Buffer.from_bag(path, topics="/tf", progress=print).bag_report
 
 

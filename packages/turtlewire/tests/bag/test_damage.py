@@ -13,6 +13,7 @@ import struct
 import subprocess
 import sys
 import tracemalloc
+import zlib
 from itertools import pairwise
 from types import SimpleNamespace
 
@@ -114,6 +115,26 @@ def test_a_damaged_chunk_is_named_and_the_others_are_read(tmp_path):
     read, complaint = read_what_there_is(folder)
     assert 80 < len(read) < 111
     assert re.search(r"made_0\.mcap: chunk at byte \d+", complaint)
+
+
+def test_plain_chunks_are_checked_once_and_damaged_ones_always(tmp_path, monkeypatch):
+    folder = write_bag(tmp_path / "made", chunk_bytes=1000)
+    checked, crc32 = [], zlib.crc32
+    monkeypatch.setattr(zlib, "crc32", lambda data: checked.append(1) or crc32(data))
+    with open_bag(folder) as bag:
+        assert len(list(bag.messages("/tf"))) == 100
+        chunks = len(checked)
+        assert chunks > 10
+        assert len(list(bag.messages("/tf"))) == 100
+        assert len(checked) == chunks
+    (path,) = folder.glob("*.mcap")
+    data = bytearray(path.read_bytes())
+    data[data.index(b"number 9") + 7] = ord("8")
+    path.write_bytes(data)
+    with open_bag(folder) as bag:
+        for _ in range(2):
+            with pytest.raises(BagError, match="the checksum does not match"):
+                list(bag.messages("/chatter"))
 
 
 def chunk_of(size, compressed):

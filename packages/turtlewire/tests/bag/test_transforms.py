@@ -10,7 +10,7 @@ import pytest
 from tests.bags import SECOND, START, transform, write_bag
 
 from turtlewire import Buffer, msg
-from turtlewire.bag import BagWriter, mcap_storage
+from turtlewire.bag import BagWriter, mcap_storage, open_bag
 from turtlewire.bag.files import open_storage
 from turtlewire.bag.mcap_reader import McapFile
 from turtlewire.cli.bag_tf import show_transforms
@@ -32,6 +32,22 @@ def test_one_call_fills_a_buffer(tmp_path, options):
         ("base_link", False),
     }
     assert (report.gaps, report.jumps, report.conflicts, report.problems) == ({}, [], [], [])
+
+
+def test_an_open_bag_fills_a_buffer_and_stays_open(tmp_path):
+    path = write_bag(tmp_path / "made")
+    with open_bag(path) as bag:
+        buffer = Buffer.from_bag(bag, end_ns=START + 500_000_000)
+        assert sum(1 for _ in bag.messages("/chatter")) == 10
+    assert str(buffer.bag_report) == str(
+        Buffer.from_bag(path, end_ns=START + 500_000_000).bag_report
+    )
+    assert buffer.time_range("odom", "camera") == (START, START + 490_000_000)
+    empty = tmp_path / "refused"
+    with BagWriter(empty) as writer:
+        writer.write("/tf", transform(0, "a", "a"), START)
+    with open_bag(empty) as bag, pytest.warns(UserWarning, match=r"refused: .*"):
+        Buffer.from_bag(bag)
 
 
 def test_a_storage_file_walks_its_transforms_in_its_own_way(tmp_path, monkeypatch):

@@ -21,7 +21,7 @@ from turtlewire.platforms import asked_core
 from turtlewire.terminal.suggestion import did_you_mean
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from numpy.typing import NDArray
 
@@ -263,20 +263,28 @@ def _column(field: ColumnField, content: bytes, messages: list[bytes]) -> NDArra
         numbers = np.frombuffer(bytearray(content), _dtype(field))
         return numbers.reshape(-1, len(field.labels)) if field.labels else numbers
     places = np.frombuffer(content, "<u8").reshape(-1, 2).tolist()
-    values = (_view(field, data, *at) for data, at in zip(messages, places, strict=True))
+    view = _viewer(field)
+    values = [view(data, *at) for data, at in zip(messages, places, strict=True)]
     return _objects(values, len(messages))
 
 
-def _view(field: ColumnField, data: bytes, begin: int, count: int) -> Any:
+def _viewer(field: ColumnField) -> Callable[[bytes, int, int], Any]:
+    """Return the function that makes a value of where it begins in a message, and its length."""
     if field.kind == ColumnKind.TEXT:
-        return data[begin : begin + count].decode()
+        return lambda data, begin, count: data[begin : begin + count].decode()
     if field.kind == ColumnKind.CLOUD_FIELDS:
-        return data[begin : begin + count]
+        return lambda data, begin, count: data[begin : begin + count]
     if field.kind == ColumnKind.TEXTS:
-        return list(read_texts(data[begin : begin + count]))
-    width = max(1, len(field.labels))
-    numbers = np.frombuffer(data, _dtype(field), count * width, begin if count else 0)
-    return numbers.reshape(count, width) if field.labels else numbers
+        return lambda data, begin, count: list(read_texts(data[begin : begin + count]))
+    dtype, width = _dtype(field), len(field.labels)
+    if not width:
+        return lambda data, begin, count: np.frombuffer(data, dtype, count, begin if count else 0)
+
+    def rows(data: bytes, begin: int, count: int) -> Any:
+        numbers = np.frombuffer(data, dtype, count * width, begin if count else 0)
+        return numbers.reshape(count, width)
+
+    return rows
 
 
 def _objects(values: Any, count: int) -> NDArray[Any]:

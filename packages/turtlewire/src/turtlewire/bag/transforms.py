@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 import struct
+from contextlib import nullcontext
 from itertools import islice
 from typing import TYPE_CHECKING
 
@@ -41,7 +42,7 @@ _TOPICS_SHOWN = 8
 
 def fill_buffer(
     buffer: BaseBuffer,
-    path: str | os.PathLike[str],
+    path: str | os.PathLike[str] | Bag,
     *,
     topics: str | Iterable[str] = "/tf",
     static_topics: str | Iterable[str] = "/tf_static",
@@ -52,7 +53,7 @@ def fill_buffer(
     """Read the transforms of a bag into a buffer; see `Buffer.from_bag`."""
     start, end = window(start_ns, end_ns)
     moving, fixed = _names(topics), _names(static_topics)
-    with Bag(path) as bag:
+    with nullcontext(path) if isinstance(path, Bag) else Bag(path) as bag:
         check_unit(bag.metadata, start_ns=start, end_ns=end)
         name = os.path.basename(os.path.abspath(bag.path))
         report = TransformReport(name)

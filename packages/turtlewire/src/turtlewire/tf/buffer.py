@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
     from typing_extensions import Self
 
+    from turtlewire.bag.reader import Bag
     from turtlewire.bag.transform_report import TransformReport
     from turtlewire.tf.datetimes import Span, Stamp
     from turtlewire.tf.faults import Problem
@@ -91,7 +92,7 @@ class Buffer(BaseBuffer):
     @classmethod
     def from_bag(
         cls,
-        path: str | os.PathLike[str],
+        path: str | os.PathLike[str] | Bag,
         *,
         topics: str | Iterable[str] = "/tf",
         static_topics: str | Iterable[str] = "/tf_static",
@@ -104,7 +105,8 @@ class Buffer(BaseBuffer):
         """Return a buffer with all transforms of a bag; `bag_report` describes what was read.
 
         Args:
-            path: A folder of rosbag2, or a ``.mcap`` or ``.db3`` file, compressed or not.
+            path: A folder of rosbag2, or a ``.mcap`` or ``.db3`` file, compressed or not; or an open
+                bag.
             topics: Where transforms were published, ``"/tf"`` or other names.
             static_topics: Where static transforms were published; they are taken whatever the
                 window.
@@ -137,7 +139,8 @@ class Buffer(BaseBuffer):
             progress=progress,
         )
         if not buffer.frames() and (refused := buffer._what_was_refused()):
-            warnings.warn(f"{os.fspath(path)}: {refused}", stacklevel=2)
+            name = getattr(path, "path", None) or os.fspath(path)
+            warnings.warn(f"{name}: {refused}", stacklevel=2)
         return buffer
 
     @property
