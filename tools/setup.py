@@ -110,7 +110,7 @@ def bring_up_to_date(stamp: dict[str, Any], wanted: dict[str, Any]) -> None:
             make_venv(put_pip)
     only_extras = stamp.get("sources") == wanted["sources"]
     if not only_extras:
-        size = "" if venv_works else " (35 MB to download, 225 with those of the tests)"
+        size = "" if venv_works else " (35 MB to download, 485 with those of the tests)"
         with stage(f"installing the packages{size}"):
             install(wanted["extras"], only_extras=False)
     elif stamp["extras"] != wanted["extras"]:

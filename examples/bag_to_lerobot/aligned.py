@@ -113,11 +113,12 @@ def joint_signals(bag: Bag, topic: str) -> tuple[list[Signal], Columns]:
     rows: dict[tuple[str, ...], list[int]] = {}
     for row, names in enumerate(table["name"]):
         rows.setdefault(tuple(names), []).append(row)
-    signals = [
-        in_order(table.stamps_ns[at], np.stack(table["position"][at]), [f"{n}.pos" for n in names])
-        for names, at in rows.items()
-        if names
-    ]
+    signals = []
+    for names, at in rows.items():
+        if names:
+            values = np.concatenate(table["position"][at]).reshape(len(at), len(names))
+            columns = [f"{name}.pos" for name in names]
+            signals.append(in_order(table.stamps_ns[at], values, columns))
     return signals, table
 
 

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from turtlewire.bag import Bag
 
 AXES = 0.1  # the length of the axes of a frame, in metres
+IMAGES = 0.5  # the distance of an image from its camera, in metres
 #: The colours of encodings of 8 bits; images with others are left out.
 COLOURS = {"rgb8": "RGB", "bgr8": "BGR", "rgba8": "RGBA", "bgra8": "BGRA", "mono8": "L"}
 JOINT_STATE = "sensor_msgs/msg/JointState"
@@ -125,7 +126,7 @@ class Entities:
             resolution=[message.width, message.height],
             parent_frame=message.header.frame_id,
             child_frame=image_frame(message),
-            image_plane_distance=AXES,
+            image_plane_distance=IMAGES,
         )
         rr.log(topic, pinhole)
 

@@ -13,14 +13,15 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-import rerun
 from PIL import Image as Picture
-from rerun.chunk import RrdReader
 from tests.places import EXAMPLES
 
 import turtlewire
 from turtlewire.bag import BagWriter
 from turtlewire.msg import get_message
+
+rerun = pytest.importorskip("rerun", reason="the recipe needs Python 3.11")
+from rerun.chunk import RrdReader  # noqa: E402
 
 SECOND = 1_000_000_000
 START = 1_700_000_000 * SECOND

@@ -105,7 +105,7 @@ class Buffer(BaseBuffer):
         """Return a buffer with all transforms of a bag; `bag_report` describes what was read.
 
         Args:
-            path: A folder of rosbag2, or a ``.mcap`` or ``.db3`` file, compressed or not; or an open
+            path: A folder of rosbag2, a ``.mcap`` or ``.db3`` file, compressed or not, or an open
                 bag.
             topics: Where transforms were published, ``"/tf"`` or other names.
             static_topics: Where static transforms were published; they are taken whatever the
@@ -139,7 +139,7 @@ class Buffer(BaseBuffer):
             progress=progress,
         )
         if not buffer.frames() and (refused := buffer._what_was_refused()):
-            name = getattr(path, "path", None) or os.fspath(path)
+            name = os.fspath(path) if isinstance(path, (str, os.PathLike)) else path.path
             warnings.warn(f"{name}: {refused}", stacklevel=2)
         return buffer
 
