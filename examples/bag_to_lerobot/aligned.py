@@ -87,7 +87,9 @@ def align(bag: Bag, wanted: Wanted) -> Rows:
     buffer = Buffer.from_bag(bag) if wanted.poses else Buffer()
     ranges = [buffer.time_range(*pose) for pose in wanted.poses]
     ranges += [(at[0], at[-1]) for at in (*(j.stamps_ns for j in joints), *images.values())]
-    steps = steps_within([each for each in ranges if each], action.stamps_ns[0], wanted.fps)
+    # A static transform has no range.
+    ranges = [each for each in ranges if each] or [(action.stamps_ns[0], action.stamps_ns[-1])]
+    steps = steps_within(ranges, action.stamps_ns[0], wanted.fps)
     parts = [interpolated(signal, steps) for signal in joints]
     parts += [buffer.lookup_transforms(*pose, steps) for pose in wanted.poses]
     names = [name for signal in joints for name in signal.names]

@@ -167,6 +167,14 @@ def test_commands_without_a_stamp_follow_the_clock_of_the_joints(recipe, tmp_pat
     assert rows.action_names == ["linear.x", "angular.z"]
 
 
+def test_a_static_pose_alone_lasts_as_long_as_the_commands(recipe, demo):
+    wanted = recipe.aligned.Wanted(20, "", "/commands", ["data"], [("base_link", "camera")])
+    with open_bag(demo) as bag:
+        rows = recipe.aligned.align(bag, wanted)
+    assert rows.stamps_ns.tolist() == [START + 7_000_000 + k * SECOND // 20 for k in range(40)]
+    assert set(map(tuple, rows.state.tolist())) == {(0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0)}
+
+
 def test_joints_of_several_publishers_are_columns_of_their_own(recipe, tmp_path):
     with BagWriter(tmp_path / "two") as writer:
         for k in range(10):
