@@ -172,6 +172,11 @@ class DisplayFeed:
         """True if new transforms may make something visible."""
         return bool(self._waiting)
 
+    @property
+    def needs_other_topics(self) -> bool:
+        """True if the current options need other topics than the feed subscribes to."""
+        return self.display.topics(self.types.get(self.display.topic, "")) != self.types
+
     def take_message(self, topic: str, cdr: bytes) -> None:
         """A message has come; for any thread."""
         if not self.paused:
@@ -264,7 +269,7 @@ class DisplayFeed:
             )
         except CdrError as error:
             return [Status.of("error", f"A message on {topic} cannot be read: {error}")]
-        return self._guarded(lambda: self.display.content(message))
+        return self._guarded(lambda: self.display.take(topic, message))
 
     def _guarded(self, make: Callable[[], list[Output]]) -> list[Output]:
         try:

@@ -178,6 +178,12 @@ _COVARIANCE = _flag("show_covariance", "Covariance/Value")
 
 _NAMESPACES = (_Option("namespaces", "Namespaces", _read_namespaces, _write_namespaces),)
 
+_IMAGE = (
+    _flag("normalize_range", "Normalize Range"),
+    _number("min", "Min Value"),
+    _number("max", "Max Value"),
+)
+
 _MEASUREMENT = (
     _ALPHA,
     _number("size", "Size (m)"),
@@ -305,12 +311,19 @@ CLASSES: dict[str, tuple[str, tuple[_Option, ...]]] = {
     "RelativeHumidity": ("measurement", _MEASUREMENT),
     "FluidPressure": ("measurement", _MEASUREMENT),
     "Illuminance": ("measurement", _MEASUREMENT),
-    "Image": (
-        "image",
+    "Image": ("image", _IMAGE),
+    "Camera": (
+        "camera",
         (
-            _flag("normalize_range", "Normalize Range"),
-            _number("min", "Min Value"),
-            _number("max", "Max Value"),
+            _choice("rendering", "Image Rendering",
+                    {"background and overlay": "background and overlay",
+                     "background": "background", "overlay": "overlay"}),
+            _number("alpha", "Overlay Alpha"),
+            _number("zoom", "Zoom Factor"),
+            _number("far", "Far Plane Distance"),
+            _flag("show_frames", "Visibility/TF"),
+            _flag("show_grid", "Visibility/Grid"),
+            *_IMAGE,
         ),
     ),
 }  # fmt: skip

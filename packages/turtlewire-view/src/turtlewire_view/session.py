@@ -11,6 +11,7 @@ from turtlewire.web.commands import CommandError
 from turtlewire.web.packets import encode_packet
 from turtlewire_view import page_commands
 from turtlewire_view.display_feed import Base, DisplayFeed
+from turtlewire_view.displays import displays_of
 from turtlewire_view.displays.options import OptionError
 from turtlewire_view.frames import FrameScene
 from turtlewire_view.page_requests import message_of_tool, text_of_view
@@ -260,19 +261,25 @@ class ViewSession(CommandSession):
         for name, wish in self._wishes.items():
             feed = self._feeds[name]
             sent = [each for each in topics if each["name"] == wish.topic and each["publishers"]]
-            fits = any(each["kind"] == wish.kind for each in sent)
+            known = displays_of(wish.kind)
+            fits = any(each["type_name"] in known for each in sent)
             if not fits or any(each["type_name"] in feed.types.values() for each in sent):
                 continue
             try:
-                new = self._viewer.new_feed(name, *wish)
+                self._begin_again(name, wish)
             except (CommandError, TurtlewireError) as error:
                 self.refuse(error)
-                continue
-            new.paused = feed.paused
-            self._feeds[name] = new
-            feed.close()
-            self._share_budget()
-            self._viewer.work()
+
+    def _begin_again(self, name: str, wish: _Wish) -> None:
+        """Replace a display by one that subscribes to other topics or types."""
+        former = self._feeds[name]
+        new = self._viewer.new_feed(name, *wish)
+        new.paused = former.paused
+        self._feeds[name] = new
+        self._wishes[name] = wish
+        former.close()
+        self._share_budget()
+        self._viewer.work()
 
     def _remove(self, command: page_commands.RemoveDisplay) -> None:
         (name,) = command
@@ -289,6 +296,8 @@ class ViewSession(CommandSession):
         try:
             self._feeds[name].set_options(options)
             self._wishes[name] = self._wishes[name]._replace(options=options)
+            if self._feeds[name].needs_other_topics:
+                self._begin_again(name, self._wishes[name])
         except OptionError as error:
             raise CommandError(f"This stays as it was: {error}.") from error
 

@@ -13,7 +13,7 @@ from turtlewire.web.commands import CommandError
 from turtlewire.web.desktop import wanted_port
 from turtlewire.web.packets import encode_packet
 from turtlewire_view.display_feed import DisplayFeed
-from turtlewire_view.displays import display_for, display_types
+from turtlewire_view.displays import display_for, displays_of, further_kinds
 from turtlewire_view.displays.options import OptionError
 from turtlewire_view.meshes import MeshLibrary
 from turtlewire_view.notebook import Frame
@@ -167,10 +167,19 @@ class Viewer:
             del self.documents[next(iter(self.documents))]
 
     def topics(self) -> list[dict[str, Any]]:
-        """Return the topics, each with the kind of display that shows it, or None."""
+        """Return the topics, each with the kind of display that shows it, or None.
+
+        ``others`` are the kinds that the user may choose instead.
+        """
+        topics = self.source.topics()
+        names = {topic.name for topic in topics}
         return [
-            {**topic._asdict(), "kind": each.kind if (each := display_for(*topic[:2])) else None}
-            for topic in self.source.topics()
+            {
+                **topic._asdict(),
+                "kind": each.kind if (each := display_for(*topic[:2])) else None,
+                "others": further_kinds(topic.name, topic.type_name, names),
+            }
+            for topic in topics
         ]
 
     def new_feed(self, name: str, kind: str, topic: str, options: dict[str, object]) -> DisplayFeed:
@@ -182,7 +191,7 @@ class Viewer:
         """
         topics = sorted(self.source.topics(), key=lambda each: each.publishers)
         types_there = {each.name: each.type_name for each in topics}  # what is published counts
-        of_kind = {each: shows for each, shows in display_types().items() if shows.kind == kind}
+        of_kind = displays_of(kind)
         asked = options.get("message_type")  # a file names it before the topic exists
         if not isinstance(asked, str) or asked not in of_kind:
             asked = next(iter(of_kind), "")
@@ -190,13 +199,12 @@ class Viewer:
         if type_name not in of_kind or not (topic or kind == "robot_model"):
             raise CommandError(f"No display {kind!r} shows {topic} of type {type_name or '?'}.")
         display_type = of_kind[type_name]
-        types = {topic: type_name} if topic else {}  # a robot may come from a parameter or file
-        types |= {topic + suffix: each for suffix, each in display_type.companions.items()}
         try:
             display = display_type(options)
         except OptionError as error:
             raise CommandError(f"{topic or kind} is not shown: {error}.") from error
-        display.packages = self._packages
+        display.packages, display.topic = self._packages, topic
+        types = display.topics(type_name)
         feed = DisplayFeed(name, display, types, lambda _: self._work.set(), self._changed.set)
         feed.on_packages = self._meshes.permit
         feed.ask = self.source.ask_parameter

@@ -63,7 +63,7 @@ Visualization Manager:
           Topic: {Value: /odom}
     - {Class: rviz/Path, Color: 25; 255; 0, Topic: /plan, Line Width: .nan}
     - {Class: rviz_default_plugins/MarkerArray, Topic: {Value: /walls}}
-    - {Class: rviz_default_plugins/Camera}
+    - {Class: rviz_imu_plugin/Imu}
   Global Options: {Background Color: 48; 48; 48, Fixed Frame: odom, Frame Rate: 30}
 """
 
@@ -73,7 +73,7 @@ def test_a_file_of_rviz_is_read():
     assert view.fixed == "odom"
     assert view.show == {"grid": False, "names": True, "axes": True, "arrows": False}
     assert view.unread == (
-        "Unsupported displays: Camera. Invalid values, defaults used: "
+        "Unsupported displays: Imu. Invalid values, defaults used: "
         "Path: 'Line Width' must be a number from 0 to 1000, got nan"
     )
     robot, scan, odometry, path, walls = view.displays
@@ -146,7 +146,7 @@ Panels:
   - {Class: rviz_common/Displays, Splitter Ratio: 0.5}
 Visualization Manager:
   Displays:
-    - {Class: rviz_default_plugins/Camera, Name: eye, Topic: {Value: /eye, Depth: 9}}
+    - {Class: rviz_imu_plugin/Imu, Name: imu, Topic: {Value: /imu, Depth: 9}}
     - Class: rviz_common/Group
       Displays:
         - Class: rviz_default_plugins/LaserScan
@@ -183,8 +183,8 @@ def test_unsupported_parts_are_written_back():
     assert {name: after[name] for name in ("Panels", "Window Geometry")} == {
         name: before[name] for name in ("Panels", "Window Geometry")
     }
-    camera, group, frames, grid, polygon = manager["Displays"]
-    assert camera == former["Displays"][0]
+    imu, group, frames, grid, polygon = manager["Displays"]
+    assert imu == former["Displays"][0]
     (kept,) = group["Displays"]  # the path was removed in the page
     former_scan = former["Displays"][1]["Displays"][0]
     assert kept["Topic"] == {**former_scan["Topic"], "Value": "/front"}

@@ -22,6 +22,8 @@ module             contents
 `marker_shapes`    one marker
 `marker_texture`   the image on the triangles of a marker
 `image`            Image and CompressedImage
+`camera`           images with the scene drawn over them
+`camera_model`     the intrinsics of a CameraInfo
 `encodings`        pixels as RGBA
 `robot_model`      the links of a URDF
 =================  =============================================================================
@@ -32,9 +34,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Collection
+
     from turtlewire_view.displays.content import Display
 
-__all__ = ["display_for", "display_types"]
+__all__ = ["display_for", "display_types", "displays_of", "further_kinds"]
 
 
 def display_types() -> dict[str, type[Display]]:
@@ -84,6 +88,39 @@ def display_types() -> dict[str, type[Display]]:
         "std_msgs/msg/String": RobotModelDisplay,
         "visualization_msgs/msg/Marker": MarkerDisplay,
         "visualization_msgs/msg/MarkerArray": MarkerDisplay,
+    }
+
+
+def displays_of(kind: str) -> dict[str, type[Display]]:
+    """Return the displays of a kind by message type."""
+    all_types = [display_types(), *_further_types().values()]
+    return {name: each for types in all_types for name, each in types.items() if each.kind == kind}
+
+
+def further_kinds(topic: str, type_name: str, names: Collection[str]) -> list[str]:
+    """Return the kinds of displays that a user may choose for a topic instead of the usual one.
+
+    Args:
+        topic: Name of the topic.
+        type_name: Its message type.
+        names: All topics, because some displays need several.
+    """
+    return [
+        kind
+        for kind, types in _further_types().items()
+        if type_name in types and types[type_name].suits(topic, names)
+    ]
+
+
+def _further_types() -> dict[str, dict[str, type[Display]]]:
+    """Return the displays by kind and message type that are not the usual one of the type."""
+    from turtlewire_view.displays.camera import CameraDisplay, CompressedCameraDisplay
+
+    return {
+        "camera": {
+            "sensor_msgs/msg/CompressedImage": CompressedCameraDisplay,
+            "sensor_msgs/msg/Image": CameraDisplay,
+        },
     }
 
 

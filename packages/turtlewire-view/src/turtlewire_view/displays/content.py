@@ -13,7 +13,7 @@ from turtlewire_view.displays.options import DisplayOptions
 from turtlewire_view.package_folders import PackageFolders
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Collection, Mapping
 
     from numpy.typing import NDArray
 
@@ -126,7 +126,8 @@ class Display:
     Attributes:
         kind: Name of the module below ``page/js/displays`` that draws it.
         companions: Further topics of the display: what is appended to the topic's name, and the
-            message type there. Messages of both go to :meth:`content`.
+            message type there.
+        topic: The topic that the user chose; empty for a robot that comes from elsewhere.
         replays: Whether the last message is shown again with other options.
         reads_rows: Whether it takes sequences of plain messages as arrays, without a Python object
             for each (see :func:`turtlewire.msg.deserialize`).
@@ -149,6 +150,7 @@ class Display:
         self.options = DisplayOptions(options or {}, self.kind)
         self.budget = DEFAULT_BUDGET
         self.packages = PackageFolders()
+        self.topic = ""
         self._clock = clock
         self._warnings: list[str] = []
 
@@ -169,9 +171,36 @@ class Display:
         """Return the outputs for a value of :attr:`parameter`; a status comes last."""
         raise NotImplementedError
 
+    @classmethod
+    def suits(cls, topic: str, names: Collection[str]) -> bool:
+        """Return True if the display is offered for a topic.
+
+        Args:
+            topic: Name of the topic.
+            names: All topics.
+        """
+        del topic, names
+        return True
+
+    def topics(self, type_name: str) -> dict[str, str]:
+        """Return the topics that the display needs, with their message types.
+
+        Args:
+            type_name: The message type of :attr:`topic`.
+        """
+        if not self.topic:
+            return {}
+        further = {self.topic + suffix: each for suffix, each in self.companions.items()}
+        return {self.topic: type_name} | further
+
     def start(self) -> list[Output]:
         """Return the outputs before the first message and after each change of options."""
         return []
+
+    def take(self, topic: str, message: Any) -> list[Output]:
+        """Return the outputs for a message of one of :meth:`topics`."""
+        del topic
+        return self.content(message)
 
     def content(self, message: Any) -> list[Output]:
         """Return the outputs for a message, in this order; a status comes last.

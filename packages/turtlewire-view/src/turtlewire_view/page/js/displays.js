@@ -172,6 +172,8 @@ export class Displays {
       get topic() { return entry.topic; },
       hide: () => this.setVisible(entry.id, false),
       requestDraw: () => view.requestDraw(),
+      afterDraw: (act) => view.afterDraw(act),
+      pictureFrom: (...wanted) => view.pictureFrom(...wanted),
       /** Say that there is more to look at, as a mesh that has been loaded. */
       grown: () => this.onGrowth(),
       now: () => this.#frames.stamp,

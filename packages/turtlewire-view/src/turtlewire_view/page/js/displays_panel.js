@@ -28,8 +28,10 @@ export class DisplaysPanel {
   /** The server's topics, each with the kind of display that shows it, or null. */
   showTopics(topics) {
     this.#topics = [...topics].sort((a, b) => byName(a.name, b.name));
-    const shown = this.#topics.filter(({ kind }) => kind);
-    const options = shown.map(({ name, kind }) => [name, `${name} (${kindInWords(kind)})`]);
+    const choices = this.#topics.flatMap(choicesOf);
+    const options = choices.map(({ value, name, kind }) => {
+      return [value, `${name} (${kindInWords(kind)})`];
+    });
     const first = options.length ? options : [["", "No topic to draw"]];
     offer(byId("topic"), [...first, ROBOT_OPTION]);
     byId("topic").disabled = false;
@@ -54,8 +56,9 @@ export class DisplaysPanel {
   }
 
   #add() {
-    const topic = this.#topics.find(({ name }) => name === byId("topic").value);
-    if (topic?.kind) this.#addOnce({ kind: topic.kind, topic: topic.name });
+    const chosen = this.#topics.flatMap(choicesOf)
+      .find(({ value }) => value === byId("topic").value);
+    if (chosen) this.#addOnce({ kind: chosen.kind, topic: chosen.name });
     else if (byId("topic").value === ROBOT_OPTION[0]) this.#addOnce(ROBOT);
   }
 
@@ -141,9 +144,15 @@ export class DisplaysPanel {
 
   #offerTopics(list) {
     if (!list) return;
-    const names = this.#topics.filter(({ kind }) => kind === list.dataset.kind);
+    const names = this.#topics.flatMap(choicesOf).filter(({ kind }) => kind === list.dataset.kind);
     list.replaceChildren(...names.map(({ name }) => new Option(name)));
   }
+}
+
+/** What can be added of a topic: { value, name, kind } of each display that shows it. */
+function choicesOf({ name, kind, others = [] }) {
+  const usual = kind ? [{ value: name, name, kind }] : [];
+  return [...usual, ...others.map((each) => ({ value: `${each} ${name}`, name, kind: each }))];
 }
 
 function allowAdding() {

@@ -4,6 +4,7 @@ import {
   Color, DirectionalLight, Group, HemisphereLight, Object3D, PerspectiveCamera, Scene,
   WebGLRenderer,
 } from "three";
+import { drawApart, without } from "./apart.js";
 import { currentColors, onSchemeChange } from "./colors.js";
 import { Grid } from "./grid.js";
 import { ThickLines } from "./thick_lines.js";
@@ -21,6 +22,8 @@ export class View {
   /** Whether the browser draws without a graphics card. */
   isSoftware;
   grid = new Grid();
+  /** What is not the robot's: name to objects that a picture may leave out. */
+  aids = { grid: [this.grid.object], frames: [], names: [] };
   /** Below this hang the displays. */
   displays = new Group();
   canvas;
@@ -62,9 +65,22 @@ export class View {
     this.#before.push(act);
   }
 
-  /** Call `act(now)` after each picture. */
+  /** Call `act(now)` after each picture. Returns what ends that. */
   afterDraw(act) {
     this.#after.push(act);
+    return () => { this.#after = this.#after.filter((each) => each !== act); };
+  }
+
+  /**
+   * What another camera of the scene sees, without the names of frames: an ImageData, clear where
+   * nothing is drawn. `hidden`: names of `aids` that are left out.
+   */
+  pictureFrom(camera, width, height, hidden = []) {
+    const left = [...hidden, "names"].flatMap((name) => this.aids[name] ?? []);
+    const draw = () => drawApart(this.#renderer, this.scene, camera, [width, height]);
+    this.#light.position.setFromMatrixPosition(camera.matrixWorld);
+    this.#light.updateMatrixWorld();
+    return without(left, draw);
   }
 
   /** Where a point of the picture is on the canvas: CSS pixels and depth; null behind the eye. */

@@ -48,6 +48,8 @@ export class Stage {
     });
     view.resized.push(() => this.takeDisplay());
     view.scene.add(this.drawing.object, this.trails.object, this.labels.object);
+    view.aids.frames.push(this.drawing.object, this.trails.object);
+    view.aids.names.push(this.labels.object);
     view.beforeDraw((now) => this.#prepare(now));
     view.recolored.push((colors) => {
       this.drawing.setColors(colors);

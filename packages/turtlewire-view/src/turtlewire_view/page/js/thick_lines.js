@@ -161,7 +161,9 @@ function wideMesh(width, depthTest) {
   });
   const mesh = new Mesh(new BufferGeometry(), material);
   mesh.onBeforeRender = (renderer, scene, camera) => {
-    renderer.getSize(uniforms.viewport.value);
+    const target = renderer.getRenderTarget(); // of another camera's picture
+    if (target) uniforms.viewport.value.set(target.width, target.height);
+    else renderer.getSize(uniforms.viewport.value);
     uniforms.near.value = camera.near;
   };
   return mesh;

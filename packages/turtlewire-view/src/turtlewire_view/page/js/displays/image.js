@@ -1,20 +1,25 @@
 // Image and CompressedImage: a window over the scene with the picture.
 
 import { PictureWindow } from "./parts/picture_window.js";
+import { Pictures } from "./parts/pictures.js";
 
 export default class ImageDisplay {
   #view;
   #window;
-  #latest = 0;
+  #pictures = new Pictures();
 
   constructor(view) {
     this.#view = view;
     this.#window = new PictureWindow(() => view.hide());
   }
 
-  show(_group, header, arrays, shapes) {
-    if (arrays.rgba) this.#showPixels(header, arrays.rgba, shapes.rgba);
-    else this.#showFile(header, arrays.file);
+  async show(_group, header, arrays, shapes) {
+    try {
+      const read = await this.#pictures.read(header, arrays, shapes);
+      if (read) this.#draw(header, read);
+    } catch (error) {
+      this.#view.report?.(error.message);
+    }
   }
 
   setVisible(isVisible) {
@@ -24,40 +29,18 @@ export default class ImageDisplay {
   setOptions() {}
 
   dispose() {
-    this.#latest += 1;
+    this.#pictures.stop();
     this.#window.remove();
   }
 
-  #showPixels(header, rgba, [height, width]) {
-    this.#latest += 1;
-    const bytes = new Uint8ClampedArray(rgba.buffer, rgba.byteOffset, rgba.length);
-    this.#label(header, header.width, header.height);
-    this.#window.fit(width, height);
-    const picture = new ImageData(bytes.slice(), width, height);
-    this.#window.canvas.getContext("2d").putImageData(picture, 0, 0);
-  }
-
-  async #showFile(header, file) {
-    this.#latest += 1;
-    const mine = this.#latest;
-    try {
-      const blob = new Blob([file.slice()], { type: header.media_type });
-      const bitmap = await createImageBitmap(blob);
-      if (mine === this.#latest) {
-        this.#label(header, bitmap.width, bitmap.height);
-        this.#window.fit(bitmap.width, bitmap.height);
-        this.#window.canvas.getContext("2d").drawImage(bitmap, 0, 0);
-        this.#view.report?.("");
-      }
-      bitmap.close();
-    } catch {
-      if (mine !== this.#latest) return;
-      this.#view.report?.(`The browser cannot read this ${header.media_type}`);
-    }
-  }
-
-  #label({ encoding, camera }, width, height) {
+  #draw({ encoding, camera }, { picture, width, height }) {
     const frame = camera ? ` · ${camera}` : "";
     this.#window.label(this.#view.topic, `${width} × ${height} · ${encoding}${frame}`);
+    this.#window.fit(picture.width, picture.height);
+    const ink = this.#window.canvas.getContext("2d");
+    ink.clearRect(0, 0, picture.width, picture.height);
+    ink.drawImage(picture, 0, 0);
+    picture.close?.();
+    this.#view.report?.("");
   }
 }

@@ -26,6 +26,17 @@ export function free(object) {
   });
 }
 
+/**
+ * Set `size` (Vector2) to the pixels of what is drawn on: the page, or another camera's picture.
+ * Returns the pixels of a CSS pixel there.
+ */
+export function sizeDrawn(renderer, size) {
+  const target = renderer.getRenderTarget();
+  if (target) size.set(target.width, target.height);
+  else renderer.getDrawingBufferSize(size);
+  return target ? 1 : renderer.getPixelRatio();
+}
+
 /** Put an object to [x, y, z, qx, qy, qz, qw]. */
 export function setPose(object, pose) {
   object.position.fromArray(pose);

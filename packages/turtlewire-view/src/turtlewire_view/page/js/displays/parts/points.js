@@ -1,6 +1,7 @@
 // Many points in one draw call, some pixels or some metres wide, in exactly the colours given.
 
 import { BufferAttribute, BufferGeometry, Points, ShaderMaterial, Vector2 } from "three";
+import { sizeDrawn } from "./common.js";
 
 const VERTEX = `
 attribute vec4 rgba;
@@ -54,9 +55,8 @@ export function makePoints(positions, colors, { size, metres = false, alpha = 1,
   });
   const points = new Points(geometry, material);
   points.onBeforeRender = (renderer) => {
-    renderer.getDrawingBufferSize(material.uniforms.pixels.value);
-    const ratio = metres ? 1 : renderer.getPixelRatio();
-    material.uniforms.size.value = size * ratio;
+    const ratio = sizeDrawn(renderer, material.uniforms.pixels.value);
+    material.uniforms.size.value = metres ? size : size * ratio;
   };
   return points;
 }

@@ -4,6 +4,7 @@ import {
   BufferAttribute, DoubleSide, InstancedBufferAttribute, InstancedBufferGeometry, Mesh,
   ShaderMaterial, Sphere, Vector2, Vector3,
 } from "three";
+import { sizeDrawn } from "./common.js";
 
 const CORNERS = new Float32Array([0, -1, 0, 0, 1, 0, 1, 1, 0, 1, -1, 0]);
 const VERTEX = `
@@ -88,8 +89,8 @@ export function makeRibbons(points, colors, { pairs = false, width = 0, least = 
   mesh.raycast = () => {}; // the geometry holds no places
   mesh.visible = count > 0;
   mesh.onBeforeRender = (renderer, scene, camera) => {
-    renderer.getDrawingBufferSize(material.uniforms.pixels.value);
-    material.uniforms.least.value = least * renderer.getPixelRatio();
+    const ratio = sizeDrawn(renderer, material.uniforms.pixels.value);
+    material.uniforms.least.value = least * ratio;
     material.uniforms.near.value = camera.near;
   };
   return mesh;

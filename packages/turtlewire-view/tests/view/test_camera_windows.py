@@ -1,0 +1,154 @@
+"""A camera's window in a real browser: the image, and the scene that the camera sees over it."""
+
+# ruff: noqa: F811 - fixtures are imported
+from __future__ import annotations
+
+import base64
+import io
+
+import numpy as np
+import pytest
+from PIL import Image
+from tests.pages import wait_until
+
+from .looking_down import ADD, LIMIT_MS, scene, shown_page, stamped  # noqa: F401 - fixtures
+
+BLUE, RED = (0, 0, 255), (255, 0, 0)
+K = [100.0, 0.0, 80.0, 0.0, 100.0, 60.0, 0.0, 0.0, 1.0]
+#: Whether the window's picture has colours [r, g, b] at places [x, y], as parts of its size.
+ARE = """([expected, tolerance]) => {
+    const canvas = document.querySelector(".image-window:not([hidden]) canvas");
+    if (!canvas) return false;
+    const ink = canvas.getContext("2d");
+    window.seen = expected.map(([[x, y]]) => [...ink.getImageData(
+        Math.floor(x * canvas.width), Math.floor(y * canvas.height), 1, 1).data].slice(0, 3));
+    return expected.every(([, color], k) =>
+        color.every((value, c) => Math.abs(value - window.seen[k][c]) <= tolerance));
+}"""
+MIDDLE, CORNER = (0.5, 0.5), (0.05, 0.05)
+
+
+class Window:
+    """A blue image whose camera looks down from 4 m, at a red square of 1 m on the ground."""
+
+    def __init__(self, scene):
+        self.scene = scene
+        self.topic = f"{scene.topic}/image_raw"
+        self.source = scene.source
+        # x to the right, y down on the image: the camera looks along -z of the map.
+        self.source.buffer.set_static_transform("map", "eye", (0, 0, 4), (1, 0, 0, 0))
+        square = stamped("visualization_msgs/msg/Marker", type=1)
+        square.scale.x = square.scale.y = 1.0
+        square.scale.z = 0.002
+        square.color.r = square.color.a = 1.0
+        scene.show("marker", square)
+        scene.expect_red((0, 0, 0))
+
+    def show(self, image, info=None, **options):
+        self.source.offer(self.topic, image)
+        if info is not None:
+            self.source.offer(f"{self.scene.topic}/camera_info", info)
+        options = {"show_frames": False, "show_grid": False, **options}
+        self.scene.page.evaluate(ADD, ["camera", self.topic, options])
+
+    def set(self, name, value):
+        script = """async ([name, value]) => {
+            const { displays } = await import("./js/main.js");
+            displays.setOption(displays.list.at(-1).id, name, value);
+        }"""
+        self.scene.page.evaluate(script, [name, value])
+
+    def expect(self, *expected, tolerance=30):
+        if not wait_until(self.scene.page, ARE, [expected, tolerance]):
+            seen = self.scene.page.evaluate("window.seen")
+            raise AssertionError(f"expected {expected}, seen {seen}: {self.scene.status()}")
+
+
+@pytest.fixture
+def window(scene):
+    return Window(scene)
+
+
+def blue():
+    pixels = np.zeros((120, 160, 3), np.uint8)
+    pixels[..., 2] = 255
+    message = stamped("sensor_msgs/msg/Image", "eye", encoding="rgb8", height=120, width=160)
+    message.step, message.data = 480, pixels.tobytes()
+    return message
+
+
+def info(**values):
+    return stamped("sensor_msgs/msg/CameraInfo", width=160, height=120, k=K, **values)
+
+
+def test_the_scene_is_drawn_where_the_camera_sees_it(window):
+    window.show(blue(), info(), rendering="background")
+    # 1 m at a distance of 4 m is 25 pixels wide: from 0.42 to 0.58 of the width.
+    window.expect((MIDDLE, RED), ((0.43, 0.5), RED), ((0.57, 0.59), RED))
+    window.expect(((0.41, 0.5), BLUE), ((0.59, 0.5), BLUE), ((0.5, 0.62), BLUE))
+    window.set("zoom", 2)
+    window.expect(((0.36, 0.5), RED), ((0.33, 0.5), BLUE), (CORNER, BLUE))
+    window.set("zoom", 0.5)
+    window.expect(((0.47, 0.5), RED), ((0.44, 0.5), BLUE), (CORNER, (0, 0, 0)))
+    window.set("far", 3)
+    window.expect((MIDDLE, BLUE))
+
+
+def test_the_image_is_an_overlay_of_the_scene(window):
+    window.show(blue(), info(), alpha=0.25)
+    window.expect((MIDDLE, (190, 0, 64)), (CORNER, BLUE), tolerance=40)
+    window.set("alpha", 1)
+    window.expect((MIDDLE, BLUE))
+    window.set("rendering", "background")
+    window.expect((MIDDLE, RED))
+
+
+def test_the_second_eye_of_a_stereo_camera_sees_the_scene_aside(window):
+    p = [100.0, 0, 80, -50, 0, 100, 60, 0, 0, 0, 1, 0]  # half a metre to the right
+    window.show(blue(), info(p=p), rendering="background")
+    window.expect(((0.36, 0.5), RED), ((0.48, 0.5), RED), ((0.52, 0.5), BLUE))
+
+
+def test_an_image_without_its_camera_is_not_shown(window):
+    window.show(blue())
+    window.scene.expect_status("No CameraInfo received on")
+    assert window.scene.page.locator(".image-window:not([hidden])").count() == 0
+    window.source.offer(f"{window.scene.topic}/camera_info", info())
+    window.set("rendering", "background")
+    window.expect((MIDDLE, RED))
+
+
+def test_a_compressed_image_and_a_corrupt_one(window):
+    file = io.BytesIO()
+    Image.new("RGB", (160, 120), BLUE).save(file, "PNG")
+    message = stamped("sensor_msgs/msg/CompressedImage", "eye", format="png", data=file.getvalue())
+    window.topic += "/compressed"
+    window.show(message, info(), rendering="background")
+    window.expect((MIDDLE, RED), (CORNER, BLUE))
+    png = base64.b64decode(base64.b64encode(file.getvalue())[:80])
+    message.data = png
+    window.source.send(window.topic, message)
+    window.scene.expect_status("The browser cannot read this image/png")
+    window.expect((MIDDLE, RED), (CORNER, BLUE))
+
+
+def test_a_hidden_window_comes_back(window):
+    window.show(blue(), info(), rendering="background")
+    window.expect((MIDDLE, RED))
+    window.scene.page.click(".image-window button")
+    gone = "!document.querySelector('.image-window:not([hidden])')"
+    window.scene.page.wait_for_function(gone, timeout=LIMIT_MS)
+    window.scene.page.locator("#display-list .eye").last.click()
+    window.expect((MIDDLE, RED))
+
+
+def test_removed_cameras_leave_no_window(window):
+    for _ in range(3):
+        window.show(blue(), info(), rendering="background")
+        window.expect((MIDDLE, RED))
+        remove = """async () => {
+            const { displays } = await import("./js/main.js");
+            displays.remove(displays.list.at(-1).id);
+        }"""
+        window.scene.page.evaluate(remove)
+    assert window.scene.page.locator(".image-window").count() == 0

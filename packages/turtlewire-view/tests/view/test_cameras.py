@@ -1,0 +1,178 @@
+"""Images with the CameraInfo next to them: where the camera is, and what it projects."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from turtlewire import msg
+from turtlewire_view import Viewer
+from turtlewire_view.displays import displays_of, further_kinds
+from turtlewire_view.displays.camera import CameraDisplay, CompressedCameraDisplay
+from turtlewire_view.displays.camera_model import info_topic
+from turtlewire_view.displays.content import Content
+from turtlewire_view.rviz_file import read_rviz
+from turtlewire_view.rviz_writing import write_rviz
+
+from .still_source import StillSource
+
+get = msg.get_message
+K = [100.0, 0.0, 80.0, 0.0, 110.0, 60.0, 0.0, 0.0, 1.0]
+P = [100.0, 0.0, 80.0, -50.0, 0.0, 110.0, 60.0, 11.0, 0.0, 0.0, 1.0, 0.0]
+NO_INFO = "No CameraInfo received on [/eye/camera_info]"
+
+
+def image(**values):
+    message = get("sensor_msgs/msg/Image")(encoding="rgb8", height=2, width=4, step=12, **values)
+    message.header.frame_id = "lens"
+    message.header.stamp.sec = 7
+    message.data = np.zeros((2, 4, 3), np.uint8).tobytes()
+    return message
+
+
+def info(k=K, p=P, width=160, height=120):
+    return get("sensor_msgs/msg/CameraInfo")(k=k, p=p, width=width, height=height)
+
+
+@pytest.fixture
+def camera():
+    display = CameraDisplay()
+    display.topic = "/eye/image_raw"
+    return display
+
+
+def taken(display, message):
+    is_info = hasattr(message, "k")
+    return display.take("/eye/camera_info" if is_info else display.topic, message)
+
+
+def test_the_image_lies_in_its_frame_with_the_projection(camera):
+    assert camera.topics("sensor_msgs/msg/Image") == {
+        "/eye/image_raw": "sensor_msgs/msg/Image",
+        "/eye/camera_info": "sensor_msgs/msg/CameraInfo",
+    }
+    (status,) = taken(camera, image())
+    assert (status.level, status.text) == ("warn", NO_INFO)
+    content, status = taken(camera, info())
+    assert (content.frame_id, content.stamp_ns, status.text) == ("lens", 7 * 10**9, "")
+    assert content.header["projection"] == {
+        "fx": 100, "fy": 110, "cx": 80, "cy": 60, "tx": 0.5, "ty": -0.1, "width": 160, "height": 120
+    }  # fmt: skip
+    assert content.arrays["rgba"].shape == (2, 4, 4)
+
+
+def test_the_same_numbers_show_the_image_once(camera):
+    assert taken(camera, info()) == []
+    assert isinstance(taken(camera, image())[0], Content)
+    assert taken(camera, info()) == []
+    other, _ = taken(camera, info(width=320))
+    assert other.header["projection"]["width"] == 320
+
+
+def test_a_camera_without_a_projection_matrix_uses_k(camera):
+    taken(camera, info(p=[0.0] * 12))
+    content, status = taken(camera, image())
+    numbers = content.header["projection"]
+    assert (numbers["fy"], numbers["tx"], status.text) == (110, 0, "")
+
+
+def test_the_size_of_the_image_replaces_a_missing_one(camera):
+    taken(camera, info(width=0, height=0))
+    content, _ = taken(camera, image())
+    numbers = content.header["projection"]
+    assert (numbers["width"], numbers["height"]) == (4, 2)
+
+
+@pytest.mark.parametrize(
+    ("values", "line"),
+    [
+        ({"p": [0.0] * 12, "k": [0.0] * 9}, "the camera is not calibrated: a focal length in k"),
+        ({"p": [0.0, *P[1:]]}, "the camera is not calibrated: a focal length in p"),
+        ({"p": [math.nan, *P[1:]]}, "p of the CameraInfo holds a number that is not finite"),
+        ({"p": [1e-300, *P[1:]]}, "p of the CameraInfo holds a number that is not finite"),
+        ({"p": [0.0] * 12, "k": [math.inf, *K[1:]]}, "k of the CameraInfo holds a number that"),
+    ],
+)
+def test_wrong_numbers_of_a_camera_are_named(camera, values, line):
+    taken(camera, info(**values))
+    (status,) = taken(camera, image())
+    assert (status.level, status.text[: len(line)]) == ("error", line)
+
+
+def test_an_image_without_a_frame_or_with_an_unknown_encoding_is_not_shown(camera):
+    taken(camera, info())
+    nowhere, strange = image(), image()
+    nowhere.header.frame_id = ""
+    strange.encoding = "jpeg2000"
+    assert taken(camera, nowhere)[0].text.startswith("header.frame_id is empty")
+    assert taken(camera, strange)[0].text.startswith("the encoding 'jpeg2000' is not supported")
+
+
+def test_a_compressed_image_needs_the_size_of_its_camera():
+    display = CompressedCameraDisplay()
+    display.topic = "/eye/image_raw/compressed"
+    assert "/eye/camera_info" in display.topics("sensor_msgs/msg/CompressedImage")
+    message = get("sensor_msgs/msg/CompressedImage")(format="jpeg", data=b"\xff\xd8\xff\xe0")
+    message.header.frame_id = "lens"
+    taken(display, info(width=0))
+    (status,) = taken(display, message)
+    assert status.text == "the width or height of the CameraInfo is 0"
+    content, _ = taken(display, info())
+    assert content.header["media_type"] == "image/jpeg"
+    assert content.header["projection"]["width"] == 160
+
+
+def test_a_camera_is_offered_next_to_its_info():
+    assert info_topic("/a/b/image_raw") == "/a/b/camera_info"
+    assert info_topic("/image") == "/camera_info"
+    names = ["/a/camera_info"]
+    assert further_kinds("/a/image", "sensor_msgs/msg/Image", names) == ["camera"]
+    assert further_kinds("/b/image", "sensor_msgs/msg/Image", names) == []
+    assert set(displays_of("camera")) == {
+        "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"
+    }  # fmt: skip
+
+
+FILE = """
+Visualization Manager:
+  Displays:
+    - Class: rviz_default_plugins/Camera
+      Far Plane Distance: 30
+      Image Rendering: background
+      Overlay Alpha: 0.25
+      Topic: {Value: /eye/image_raw, Depth: 9}
+      Visibility: {Grid: false, TF: true, Value: true, Walls: true}
+      Zoom Factor: 2
+"""
+
+
+def test_a_camera_of_a_file():
+    view = read_rviz(FILE)
+    (display,) = view.displays
+    assert (display.kind, display.topic, view.unread) == ("camera", "/eye/image_raw", "")
+    assert display.options == {
+        "rendering": "background", "alpha": 0.25, "zoom": 2, "far": 30, "show_grid": False,
+        "show_frames": True,
+    }  # fmt: skip
+    again = read_rviz(write_rviz(view, {}, view))
+    assert again.displays == view.displays
+    saved = again.document["Visualization Manager"]["Displays"][0]
+    assert saved["Visibility"]["Walls"] is True
+    assert saved["Topic"]["Depth"] == 9
+
+
+def test_a_page_gets_the_image_and_its_projection(open_view_page):
+    source = StillSource()
+    source.offer("/eye/image_raw", image())
+    source.offer("/eye/camera_info", info())
+    source.put_frame("map", "lens", (0, 0, 1))
+    with Viewer(source, "map", port=0) as viewer:
+        page = open_view_page(viewer)
+        topics = page.wait_for("topics", lambda packet: len(packet["topics"]) == 2)["topics"]
+        assert [each["others"] for each in topics] == [[], ["camera"]]
+        page.send("add", id="a", kind="camera", topic="/eye/image_raw", options={})
+        shown = page.wait_for("display")
+        assert shown["pose"][:3] == [0, 0, 1]
+        assert shown["projection"]["fx"] == 100
