@@ -231,6 +231,15 @@ CLASSES: dict[str, tuple[str, tuple[_Option, ...]]] = {
         ),
     ),
     "PointCloud2": ("point_cloud", _POINTS),
+    "DepthCloud": (
+        "depth_cloud",
+        (
+            _text("color_topic", "Color Image Topic"),
+            _flag("auto_size", "Auto Size/Value"),
+            _number("auto_size_factor", "Auto Size/Auto Size Factor"),
+            *_POINTS,
+        ),
+    ),
     "PointCloud": ("point_cloud", _POINTS),
     "LaserScan": ("laser_scan", _POINTS),
     "Marker": ("marker", _NAMESPACES),
@@ -389,6 +398,8 @@ def to_rviz(name: str, topic: str, options: dict[str, object]) -> dict[str, Any]
     properties: dict[str, Any] = {}
     if kind == "robot_model":
         properties = {"Description Topic": address, "Description File": ""}
+    elif kind == "depth_cloud":
+        properties = {"Depth Map Topic": topic}
     else:
         properties = {"Topic": address}
     for option in known:
@@ -400,7 +411,7 @@ def to_rviz(name: str, topic: str, options: dict[str, object]) -> dict[str, Any]
 
 def _topic(properties: dict[str, Any]) -> str:
     """Return the topic, which ROS 1's files give as a text and ROS 2's with its QoS."""
-    for name in ("Topic", "Description Topic", "Marker Topic", "Image Topic"):
+    for name in ("Topic", "Description Topic", "Marker Topic", "Image Topic", "Depth Map Topic"):
         value = properties.get(name)
         if isinstance(value, dict):
             value = value.get("Value")

@@ -11,7 +11,15 @@ import pytest
 from PIL import Image
 from tests.pages import wait_until
 
-from .looking_down import ADD, LIMIT_MS, scene, shown_page, stamped  # noqa: F401 - fixtures
+from .looking_down import (  # noqa: F401 - fixtures
+    ADD,
+    LIMIT_MS,
+    get,
+    pose,
+    scene,
+    shown_page,
+    stamped,
+)
 
 BLUE, RED = (0, 0, 255), (255, 0, 0)
 K = [100.0, 0.0, 80.0, 0.0, 100.0, 60.0, 0.0, 0.0, 1.0]
@@ -34,6 +42,7 @@ class Window:
     def __init__(self, scene):
         self.scene = scene
         self.topic = f"{scene.topic}/image_raw"
+        self.info_topic = f"{scene.topic}/camera_info"
         self.source = scene.source
         # x to the right, y down on the image: the camera looks along -z of the map.
         self.source.buffer.set_static_transform("map", "eye", (0, 0, 4), (1, 0, 0, 0))
@@ -47,7 +56,7 @@ class Window:
     def show(self, image, info=None, **options):
         self.source.offer(self.topic, image)
         if info is not None:
-            self.source.offer(f"{self.scene.topic}/camera_info", info)
+            self.source.offer(self.info_topic, info)
         options = {"show_frames": False, "show_grid": False, **options}
         self.scene.page.evaluate(ADD, ["camera", self.topic, options])
 
@@ -94,6 +103,16 @@ def test_the_scene_is_drawn_where_the_camera_sees_it(window):
     window.expect((MIDDLE, BLUE))
 
 
+def test_the_scene_has_the_colours_of_the_page(window):
+    poses = [get("geometry_msgs/msg/PoseStamped")(pose=pose(x, 0, 0.2)) for x in (-3, 3)]
+    line = stamped("nav_msgs/msg/Path", poses=poses)
+    window.scene.topic += "_path"
+    window.scene.show("path", line, color="#c86432", width=1)
+    window.scene.expect(((1.5, 0, 0), (200, 100, 50)))
+    window.show(blue(), info(), rendering="background")
+    window.expect(((0.2, 0.5), (200, 100, 50)), tolerance=8)
+
+
 def test_the_image_is_an_overlay_of_the_scene(window):
     window.show(blue(), info(), alpha=0.25)
     window.expect((MIDDLE, (190, 0, 64)), (CORNER, BLUE), tolerance=40)
@@ -113,7 +132,7 @@ def test_an_image_without_its_camera_is_not_shown(window):
     window.show(blue())
     window.scene.expect_status("No CameraInfo received on")
     assert window.scene.page.locator(".image-window:not([hidden])").count() == 0
-    window.source.offer(f"{window.scene.topic}/camera_info", info())
+    window.source.offer(window.info_topic, info())
     window.set("rendering", "background")
     window.expect((MIDDLE, RED))
 

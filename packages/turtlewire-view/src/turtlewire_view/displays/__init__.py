@@ -24,6 +24,8 @@ module             contents
 `image`            Image and CompressedImage
 `camera`           images with the scene drawn over them
 `camera_model`     the intrinsics of a CameraInfo
+`depth_cloud`      depth images as points, with colours of another image
+`depth_image`      the points of one depth image
 `encodings`        pixels as RGBA
 `robot_model`      the links of a URDF
 =================  =============================================================================
@@ -115,12 +117,14 @@ def further_kinds(topic: str, type_name: str, names: Collection[str]) -> list[st
 def _further_types() -> dict[str, dict[str, type[Display]]]:
     """Return the displays by kind and message type that are not the usual one of the type."""
     from turtlewire_view.displays.camera import CameraDisplay, CompressedCameraDisplay
+    from turtlewire_view.displays.depth_cloud import DepthCloudDisplay
 
     return {
         "camera": {
             "sensor_msgs/msg/CompressedImage": CompressedCameraDisplay,
             "sensor_msgs/msg/Image": CameraDisplay,
         },
+        "depth_cloud": {"sensor_msgs/msg/Image": DepthCloudDisplay},
     }
 
 

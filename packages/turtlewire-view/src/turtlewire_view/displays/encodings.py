@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from turtlewire_view.displays.options import DisplayOptions
 
-__all__ = ["ENCODINGS", "rgba_of"]
+__all__ = ["ENCODINGS", "pixels_of", "rgba_of"]
 
 #: Channels of the colours in the order of the bytes.
 _COLORS = {
@@ -59,7 +59,7 @@ def rgba_of(message: Any, options: DisplayOptions, largest: int) -> NDArray[np.u
     if encoding in _COLORS:
         return _colors(message, _COLORS[encoding], step)
     if encoding in _GREY:
-        return _grey(_pixels(message, _GREY[encoding], 1)[::step, ::step, 0], encoding, options)
+        return _grey(pixels_of(message, _GREY[encoding], 1)[::step, ::step, 0], encoding, options)
     if encoding in _YUV422:
         return _yuv422(message, _YUV422[encoding], step)
     bayer = _BAYER.fullmatch(encoding)
@@ -70,8 +70,17 @@ def rgba_of(message: Any, options: DisplayOptions, largest: int) -> NDArray[np.u
     )
 
 
-def _pixels(message: Any, code: str, channels: int) -> NDArray[Any]:
-    """Return the pixels without the padding of rows, ``(height, width, channels)``."""
+def pixels_of(message: Any, code: str, channels: int) -> NDArray[Any]:
+    """Return the pixels of an Image without the padding of rows, ``(height, width, channels)``.
+
+    Args:
+        message: The Image.
+        code: NumPy's code of a number of a pixel, without byte order.
+        channels: How many numbers a pixel has.
+
+    Raises:
+        UnusableMessageError: The image has no pixels, or bytes are missing.
+    """
     size = int(code[1])
     height, width, row = message.height, message.width, message.step
     used = width * channels * size
@@ -97,7 +106,7 @@ def _pixels(message: Any, code: str, channels: int) -> NDArray[Any]:
 
 def _colors(message: Any, order: str, step: int) -> NDArray[np.uint8]:
     wide = message.encoding.endswith("16")
-    pixels = _pixels(message, "u2" if wide else "u1", len(order))[::step, ::step]
+    pixels = pixels_of(message, "u2" if wide else "u1", len(order))[::step, ::step]
     if wide:
         pixels = pixels >> 8
     rgba = np.full((*pixels.shape[:2], 4), 255, dtype=np.uint8)
@@ -131,7 +140,7 @@ def _normalized(values: NDArray[np.float64], options: DisplayOptions) -> NDArray
 
 def _yuv422(message: Any, places: tuple[int, ...], step: int) -> NDArray[np.uint8]:
     """Two pixels share their colour (ITU-R BT.601, full range)."""
-    pairs = _pixels(message, "u1", 2)
+    pairs = pixels_of(message, "u1", 2)
     even = pairs.shape[1] // 2 * 2
     if not even:
         raise UnusableMessageError(f"{message.encoding} needs two pixels in a row, there is one")
@@ -146,7 +155,7 @@ def _yuv422(message: Any, places: tuple[int, ...], step: int) -> NDArray[np.uint
 
 
 def _bayer(message: Any, pattern: str, size: int, step: int) -> NDArray[np.uint8]:
-    raw = _pixels(message, f"u{size}", 1)[..., 0]
+    raw = pixels_of(message, f"u{size}", 1)[..., 0]
     height, width = raw.shape[0] // 2 * 2, raw.shape[1] // 2 * 2
     if not height or not width:
         raise UnusableMessageError(f"{message.encoding} needs blocks of 2 x 2 pixels")

@@ -69,7 +69,8 @@ class PointCloudDisplay(PointsDisplay):
     def _colors(self, points: NDArray[np.void]) -> NDArray[np.uint8] | None:
         """Return the colours, or None for the axis's."""
         names = points.dtype.names or ()
-        way, channel = self.options.text("color"), self.options.text("channel")
+        way = self.options.text("color")
+        channel = self.options.text("channel") if "channel" in self.options else ""
         packed = next((name for name in ("rgb", "rgba") if name in names), None)
         if packed is not None and points.dtype[packed].itemsize != 4:
             packed = None

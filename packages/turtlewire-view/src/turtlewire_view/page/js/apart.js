@@ -42,9 +42,10 @@ function targetOf(renderer) {
   if (target) return target;
   const samples = renderer.getContextAttributes().antialias ? 4 : 0;
   target = new WebGLRenderTarget(1, 1, { samples });
-  // The colours of the page: three.js converts them for no other target.
+  // The colours of the page: for other targets three.js converts them not at all, or twice.
   target.isXRRenderTarget = true;
   target.texture.colorSpace = SRGBColorSpace;
+  target.texture.internalFormat = "RGBA8";
   targets.set(renderer, target);
   return target;
 }

@@ -11,17 +11,24 @@ const BODIES = { boxes: ["box", [1, 1, 1]], tiles: ["box", [1, 1, 0]] };
 export default class PointCloud extends Display {
   #timers = new Map(); // part to what ends it after its decay time
 
-  draw(group, _header, { points, rgba }) {
-    const { size, size_metres: metres, style, alpha } = this.options;
+  draw(group, header, { points, rgba }) {
+    const { size, style, alpha } = this.options;
+    const [metres, perDepth] = this.sizeOf(header);
     if (BODIES[style]) {
       const [shape, factors] = BODIES[style];
-      group.add(makeBodies(shape, factors.map((each) => each * metres), points, rgba, alpha));
+      const sides = factors.map((each) => each * metres);
+      group.add(makeBodies(shape, sides, points, rgba, { alpha, perDepth }));
       return;
     }
-    const look = style === "points" ? { size } : { size: metres, metres: true };
+    const look = style === "points" ? { size } : { size: metres, metres: true, perDepth };
     const cloud = makePoints(points, rgba, { ...look, alpha, round: style === "spheres" });
     cloud.frustumCulled = false;
     group.add(cloud);
+  }
+
+  /** The size of a point [m], and whether it is the one at a distance of 1 m. */
+  sizeOf() {
+    return [this.options.size_metres, false];
   }
 
   show(group, header, arrays) {

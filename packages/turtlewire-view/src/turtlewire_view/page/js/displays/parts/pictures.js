@@ -17,14 +17,18 @@ export class Pictures {
     }
     let bitmap;
     try {
-      bitmap = await createImageBitmap(new Blob([arrays.file.slice()], { type: header.media_type }));
+      const blob = new Blob([arrays.file.slice()], { type: header.media_type });
+      bitmap = await createImageBitmap(blob);
     } catch {
       if (mine !== this.#latest) return null;
       throw new Error(`The browser cannot read this ${header.media_type}`);
     }
-    if (mine === this.#latest) return { picture: bitmap, width: bitmap.width, height: bitmap.height };
-    bitmap.close();
-    return null;
+    if (mine !== this.#latest) {
+      bitmap.close();
+      return null;
+    }
+    const { width, height } = bitmap;
+    return { picture: bitmap, width, height };
   }
 
   /** No picture is wanted any more. */

@@ -8,10 +8,12 @@ attribute vec4 rgba;
 uniform vec2 pixels;
 uniform float size;
 uniform bool metres;
+uniform bool perDepth;
 varying vec4 vColor;
 void main() {
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-  float wide = size * projectionMatrix[1][1] * pixels.y * 0.5 / gl_Position.w;
+  float wide = (perDepth ? position.z : 1.0) * size;
+  wide *= projectionMatrix[1][1] * pixels.y * 0.5 / gl_Position.w;
   gl_PointSize = metres ? clamp(wide, 2.0, 512.0) : size;
   vColor = rgba;
 }`;
@@ -32,9 +34,11 @@ void main() {
 
 /**
  * Points at `positions` (x, y, z) with `colors` (RGBA bytes).
- * `size` is in metres or in pixels of the screen; `round` ones look like balls.
+ * `size` is in metres, in metres for each metre of z (`perDepth`), or in pixels of the screen;
+ * `round` ones look like balls.
  */
-export function makePoints(positions, colors, { size, metres = false, alpha = 1, round = false }) {
+export function makePoints(positions, colors, look) {
+  const { size, metres = false, perDepth = false, alpha = 1, round = false } = look;
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(positions, 3));
   geometry.setAttribute("rgba", new BufferAttribute(colors, 4, true));
@@ -47,6 +51,7 @@ export function makePoints(positions, colors, { size, metres = false, alpha = 1,
       pixels: { value: new Vector2(1, 1) },
       size: { value: size },
       metres: { value: metres },
+      perDepth: { value: perDepth },
       alpha: { value: alpha },
       round: { value: round },
     },

@@ -106,14 +106,20 @@ export function makeBody(shape, size, color) {
   return body;
 }
 
-/** Many bodies of one size at `points`; `colors` are RGBA bytes, one for all or one for each. */
-export function makeBodies(shape, size, points, colors, alpha = 1) {
+/**
+ * Many bodies of one size at `points`; `colors` are RGBA bytes, one for all or one for each.
+ * With `perDepth` the size is multiplied by z.
+ */
+export function makeBodies(shape, size, points, colors, { alpha = 1, perDepth = false } = {}) {
   const count = points.length / 3;
   const isPerPoint = colors.length > 4;
   const look = material(isPerPoint ? [255, 255, 255] : colors, alpha * (colors[3] ?? 255) / 255);
   const bodies = new InstancedMesh(bodyGeometry(shape, count > FEW), look, count);
-  const matrix = new Matrix4().makeScale(...size.map((value) => value || 1e-6));
+  const sides = size.map((value) => value || 1e-6);
+  const matrix = new Matrix4().makeScale(...sides);
   for (let k = 0; k < count; k += 1) {
+    const z = points[3 * k + 2];
+    if (perDepth) matrix.makeScale(...sides.map((side) => side * z));
     matrix.setPosition(points[3 * k], points[3 * k + 1], points[3 * k + 2]);
     bodies.setMatrixAt(k, matrix);
     if (isPerPoint) bodies.setColorAt(k, litColor(colors.subarray(4 * k, 4 * k + 3)));
