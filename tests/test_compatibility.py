@@ -460,12 +460,15 @@ an integer for a floating-point parameter is rejected
   foxglove/test_requests.py test_parameters_are_set_and_keep_their_type
 `rviz2` opens a window
   robots/test_urdf_tutorial.py test_every_model_is_displayed
-RViz draws interactive markers, efforts, and displays of plugins
+RViz draws efforts and displays of plugins
   view/test_rviz_file.py test_a_file_of_rviz_is_read
 RViz's Camera can leave out each display (`Visibility`)
   view/test_cameras.py test_a_camera_of_a_file
 RViz's DepthCloud pairs images by stamps within a queue, reads compressed ones, and can fill what is hidden
   view/test_depth_clouds.py test_a_slow_colour_image_delays_no_points test_a_depth_cloud_of_a_file
+RViz's interactive markers may start programs, and hold shapes of any frame
+  view/test_interactive_pictures.py test_a_menu_opens_by_the_right_button
+  view/test_interactive_markers.py test_a_wrong_control_is_named test_too_many_controls_and_menu_entries_are_cut
 RViz uses the transforms at both ends of a scan and interpolates the beams
   view/test_points_in_time.py test_each_beam_is_drawn_from_where_the_scanner_was
 RViz draws all points of the `Decay Time`

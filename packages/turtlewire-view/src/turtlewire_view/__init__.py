@@ -20,6 +20,9 @@ module              contents
 `named_robots`      the robot of a path, or of a name of ``robot_descriptions``
 `bag_stamps`        maps times of a bag to stamps of another clock
 `parameter_watch`   reads a parameter of a node
+`service_watch`     calls a service when its server appears
+`base`              the reference of poses: fixed frame, origin, buffer
+`interactive_feedback`  what users do with interactive markers, as messages
 `frames`            `FrameScene`: all poses in one frame, at one time, as one array
 `tree`              the rows of the tree; the pose of one frame in another
 `words`             such a pose as a sentence

@@ -13,7 +13,15 @@ from turtlewire.errors import BagError
 from turtlewire.tf.buffer import Buffer
 from turtlewire_view.bag_stamps import StampsOfLog
 from turtlewire_view.live import MAX_FRAMES, frames_left_out, stamp_range_ns
-from turtlewire_view.source import Joints, ParameterAnswer, TimelineState, Topic
+from turtlewire_view.source import (
+    Joints,
+    ParameterAnswer,
+    ServiceAnswer,
+    ServiceCalls,
+    TimelineState,
+    Topic,
+    no_service,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -117,6 +125,16 @@ class BagSource:
         problem = f"a bag has no parameters, so '{name}' of {node} is not known; use the topic"
         on_answer(ParameterAnswer(problem=problem))
         return _nothing
+
+    def ask_service(
+        self, name: str, type_name: str, on_answer: Callable[[ServiceAnswer], None]
+    ) -> ServiceCalls:
+        """Answer at once that a bag has no services."""
+        del type_name
+        return no_service("a bag", name, on_answer)
+
+    def advertise(self, topic: str, type_name: str) -> None:
+        """Do nothing: a bag accepts no messages."""
 
     def publish(self, topic: str, type_name: str, cdr: bytes) -> int:  # noqa: ARG002 - Source's
         """Refused.

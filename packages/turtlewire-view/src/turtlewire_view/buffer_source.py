@@ -8,7 +8,14 @@ from typing import TYPE_CHECKING
 from turtlewire import msg
 from turtlewire.errors import TurtlewireError
 from turtlewire_view.live import LiveTimeline, newest_stamp_ns
-from turtlewire_view.source import Joints, ParameterAnswer, Topic
+from turtlewire_view.source import (
+    Joints,
+    ParameterAnswer,
+    ServiceAnswer,
+    ServiceCalls,
+    Topic,
+    no_service,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -82,6 +89,16 @@ class BufferSource:
         problem = f"a buffer has no parameters, so '{name}' of {node} is not known; use the topic"
         on_answer(ParameterAnswer(problem=problem))
         return _nothing
+
+    def ask_service(
+        self, name: str, type_name: str, on_answer: Callable[[ServiceAnswer], None]
+    ) -> ServiceCalls:
+        """Answer at once that a buffer has no services."""
+        del type_name
+        return no_service("a buffer", name, on_answer)
+
+    def advertise(self, topic: str, type_name: str) -> None:
+        """Do nothing: a buffer accepts no messages."""
 
     def publish(self, topic: str, type_name: str, cdr: bytes) -> int:  # noqa: ARG002 - Source's
         """Refused.

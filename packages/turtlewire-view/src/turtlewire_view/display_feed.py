@@ -13,8 +13,6 @@ from collections import deque
 from itertools import count
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-import numpy as np
-
 from turtlewire import msg
 from turtlewire.errors import CdrError, ExtrapolationException, TransformException
 from turtlewire.web.packets import encode_packet
@@ -25,13 +23,14 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from turtlewire.tf.buffer import Buffer
+    from turtlewire_view.base import Base
     from turtlewire_view.displays.content import Display, Output
-    from turtlewire_view.source import ParameterAnswer
+    from turtlewire_view.source import ParameterAnswer, ServiceAnswer, ServiceCalls
 
+    AskService: TypeAlias = Callable[[str, str, Callable[[ServiceAnswer], None]], ServiceCalls]
     Ask: TypeAlias = Callable[[str, str, Callable[[ParameterAnswer], None]], Callable[[], None]]
 
-__all__ = ["Base", "DisplayFeed"]
+__all__ = ["DisplayFeed"]
 
 _logger = logging.getLogger(__name__)
 _MOST_MESSAGES = 1000
@@ -39,79 +38,6 @@ _MOST_WAITING = 50
 _MOST_EVENTS = 1000
 #: As RViz has it until the first message comes.
 _NO_MESSAGE = Status("warn", "No messages received")
-
-
-class Base:
-    """The reference of poses: a frame, the origin subtracted from its coordinates, and a buffer.
-
-    With ``own_frames``, each message is shown in its own frame, because there are no transforms.
-    """
-
-    __slots__ = ("buffer", "fixed", "origin", "own_frames")
-
-    def __init__(
-        self,
-        buffer: Buffer,
-        fixed: str,
-        origin: tuple[float, float, float],
-        *,
-        own_frames: bool = False,
-    ) -> None:
-        self.buffer = buffer
-        self.fixed = fixed
-        self.origin = origin
-        self.own_frames = own_frames
-
-    def same_place(self, other: Base) -> bool:
-        """Return True if poses in both are equal."""
-        return (self.fixed, self.origin, self.own_frames) == (
-            other.fixed,
-            other.origin,
-            other.own_frames,
-        )
-
-    def arrays(self, content: Content) -> dict[str, NDArray[Any]]:
-        """Return the arrays of a content, with those that depend on where it is.
-
-        Raises:
-            TransformException: A transform that they need is not known.
-        """
-        if content.placed is None or content.frame_id is None:
-            return content.arrays
-        stamps = np.array([content.stamp_ns], dtype=np.int64)
-        if content.placed.stamps_ns is not None:
-            stamps = np.concatenate([stamps, content.placed.stamps_ns])
-        if self.own_frames:
-            matrices = np.tile(np.eye(4), (len(stamps), 1, 1))
-            return {**content.arrays, **content.placed.arrays(matrices)}
-        if not stamps.all():  # a message with the stamp 0 is drawn at the latest time
-            newest = self.buffer.lookup_transform(self.fixed, content.frame_id).stamp_ns
-            stamps = np.where(stamps == 0, newest or 0, stamps)
-        matrices = self.buffer.lookup_transforms(
-            self.fixed, content.frame_id, stamps, matrices=True
-        )
-        if not np.isfinite(matrices).all():
-            raise TransformException(f"A pose of {content.frame_id!r} is not finite.")
-        return {**content.arrays, **content.placed.arrays(matrices)}
-
-    def pose(self, content: Content) -> list[float]:
-        """Return the pose of a content's anchor: x, y, z, and the quaternion xyzw.
-
-        Raises:
-            TransformException: The pose is unknown.
-        """
-        assert content.frame_id is not None
-        if self.own_frames:
-            return [*np.subtract(content.anchor, self.origin).tolist(), 0.0, 0.0, 0.0, 1.0]
-        fixed_from_frame = self.buffer.lookup_transform(
-            self.fixed, content.frame_id, content.stamp_ns or None
-        )
-        matrix = fixed_from_frame.as_matrix()
-        place = matrix[:3, :3] @ np.asarray(content.anchor) + matrix[:3, 3] - self.origin
-        pose = [*place.tolist(), *fixed_from_frame.rotation]
-        if not np.isfinite(pose).all():
-            raise TransformException(f"The pose of {content.frame_id!r} is not finite.")
-        return pose
 
 
 class DisplayFeed:
@@ -146,7 +72,9 @@ class DisplayFeed:
         self._classes = {topic: msg.get_message(each) for topic, each in types.items()}
         self._on_work, self._on_packets = on_work, on_packets
         self._lock = threading.Lock()
-        self._inbox: deque[tuple[str, bytes]] = deque(maxlen=_MOST_MESSAGES)
+        # Topic, or service, and CDR bytes; the service with a string if it cannot be called.
+        self._inbox: deque[tuple[str, bytes | str]] = deque(maxlen=_MOST_MESSAGES)
+        self._calls: ServiceCalls | None = None
         self._waiting: deque[Content] = deque()
         self._shown: dict[str, Content] = {}
         self._base: Base | None = None
@@ -202,6 +130,20 @@ class DisplayFeed:
         if wanted is not None:
             self._end_asking = self.ask(*wanted, self._take_answer)
 
+    def call_service(self, ask: AskService) -> None:
+        """Call the service that the display wants, if it wants one."""
+        wanted = self.display.service
+        if wanted is None:
+            return
+        name, type_name = wanted
+        self._classes[name] = msg.get_service(type_name).Response
+
+        def take(answer: ServiceAnswer) -> None:
+            self._inbox.append((name, answer.problem or answer.cdr))
+            self._on_work(self)
+
+        self._calls = ask(name, type_name, take)
+
     def take_packets(self) -> list[bytes]:
         """Return the packets that the page needs, with only the newest content of each part."""
         with self._lock:
@@ -229,8 +171,6 @@ class DisplayFeed:
         while self._inbox:
             self._has_message = True
             topic, cdr = self._inbox.popleft()
-            if self.display.replays:
-                self._last[topic] = cdr
             self._take(self._outputs(topic, cdr))
             if len(self._waiting) > 2 * _MOST_WAITING:  # not after each message: lookups cost
                 self._place_waiting(base)
@@ -238,6 +178,9 @@ class DisplayFeed:
         if self._base is None or not base.same_place(self._base):
             self._base = base
             self._place_again(base)
+        if self._calls is not None and self.display.asks_again:
+            self.display.asks_again = False
+            self._calls.again()
         if self._ready or self._status is not None:
             self._on_packets()
 
@@ -247,6 +190,8 @@ class DisplayFeed:
             end()
         if self._end_asking is not None:
             self._end_asking()
+        if self._calls is not None:
+            self._calls.close()
 
     def _take_answer(self, answer: ParameterAnswer) -> None:
         self._answer = answer
@@ -262,7 +207,11 @@ class DisplayFeed:
         else:
             self._take(self._guarded(lambda: self.display.take_parameter(answer.text)))
 
-    def _outputs(self, topic: str, cdr: bytes) -> list[Output]:
+    def _outputs(self, topic: str, cdr: bytes | str) -> list[Output]:
+        if isinstance(cdr, str):
+            return self._guarded(lambda: self.display.take_problem(cdr))
+        if self.display.replays:
+            self._last[topic] = cdr
         try:
             message: Any = msg.deserialize(
                 self._classes[topic], cdr, arrays=self.display.reads_rows

@@ -17,7 +17,16 @@ from turtlewire.wire.base import TypeId
 from turtlewire.wire.names import validate_namespace
 from turtlewire.wire.qos import Durability, QoS, Reliability, fit_subscription
 from turtlewire_view.parameter_watch import ParameterWatch
-from turtlewire_view.source import Joints, ParameterAnswer, TimelineState, Topic
+from turtlewire_view.service_watch import ServiceWatch
+from turtlewire_view.source import (
+    Joints,
+    ParameterAnswer,
+    ServiceAnswer,
+    ServiceCalls,
+    TimelineState,
+    Topic,
+    no_service,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -144,11 +153,27 @@ class LiveSource:
             return _nothing
         return ParameterWatch(self._context, self._node, node, name, on_answer).close
 
+    def ask_service(
+        self, name: str, type_name: str, on_answer: Callable[[ServiceAnswer], None]
+    ) -> ServiceCalls:
+        """Call the service of the network."""
+        if validate_namespace(name):  # the name of a service has the form of a namespace
+            return no_service("the network", name, on_answer)
+        return ServiceWatch(self._context, self._node, name, type_name, on_answer)
+
+    def advertise(self, topic: str, type_name: str) -> None:
+        """Create the publisher of a topic."""
+        self._publisher(topic, type_name)
+
     def publish(self, topic: str, type_name: str, cdr: bytes) -> int:
         """Send a message, and give how many subscriptions there are.
 
         The publisher stays for the next message.
         """
+        self._publisher(topic, type_name).publish(cdr)
+        return len(self._context.graph.endpoints_of(topic, "subscription"))
+
+    def _publisher(self, topic: str, type_name: str) -> base.Publisher:
         with self._lock:
             publisher = self._publishers.pop((topic, type_name), None)
             if publisher is None:
@@ -157,8 +182,7 @@ class LiveSource:
             self._publishers[topic, type_name] = publisher
             while len(self._publishers) > _MOST_PUBLISHERS:
                 self._publishers.pop(next(iter(self._publishers))).close()
-        publisher.publish(cdr)
-        return len(self._context.graph.endpoints_of(topic, "subscription"))
+        return publisher
 
     def on_change(self, call: Callable[[], None]) -> None:
         """Call ``call()`` on the wire's reader thread."""

@@ -13,6 +13,7 @@ __all__ = [
     "ChangePace",
     "ChooseFixedFrame",
     "ChooseRelation",
+    "GiveFeedback",
     "LoadView",
     "MoveJoints",
     "PauseTime",
@@ -102,6 +103,28 @@ class PublishWithTool(NamedTuple):
     topic: str = ""
 
 
+class GiveFeedback(NamedTuple):
+    """Tell the server of an interactive marker what the user does with it.
+
+    Attributes:
+        id: The display.
+        marker: Name of the marker.
+        control: Name of the control.
+        event: An ``event_type`` of InteractiveMarkerFeedback.
+        pose: The marker's pose in its frame: x, y, z, qx, qy, qz, qw.
+        menu_entry: Which entry of the menu was selected.
+        mouse_point: What the pointer is on, in the marker's frame, or None.
+    """
+
+    id: str
+    marker: str
+    control: str
+    event: float
+    pose: list[Any]
+    menu_entry: float = 0
+    mouse_point: list[Any] | None = None
+
+
 class SaveView(NamedTuple):
     """Write a ``.rviz`` file; all but ``document`` is as in the ``view`` packet.
 
@@ -141,6 +164,7 @@ READER = CommandReader(
         "seek": SeekTime,
         "speed": ChangePace,
         "publish": PublishWithTool,
+        "feedback": GiveFeedback,
         "save": SaveView,
         "load": LoadView,
         "move": MoveJoints,

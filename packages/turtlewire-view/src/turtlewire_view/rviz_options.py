@@ -19,6 +19,9 @@ _COLOR = re.compile(r"\s*(\d{1,3})\s*;\s*(\d{1,3})\s*;\s*(\d{1,3})\s*")
 _OUR_COLOR = re.compile("#[0-9a-fA-F]{6}")
 
 
+_NAMESPACE = "Interactive Markers Namespace"
+
+
 class _Option(NamedTuple):
     """An option: its name here, its path in RViz (names joined by ``/``), and how values map."""
 
@@ -244,6 +247,15 @@ CLASSES: dict[str, tuple[str, tuple[_Option, ...]]] = {
     "LaserScan": ("laser_scan", _POINTS),
     "Marker": ("marker", _NAMESPACES),
     "MarkerArray": ("marker", _NAMESPACES),
+    "InteractiveMarkers": (
+        "interactive_markers",
+        (
+            _flag("show_descriptions", "Show Descriptions"),
+            _flag("show_axes", "Show Axes"),
+            _flag("show_visual_aids", "Show Visual Aids"),
+            _flag("transparency", "Enable Transparency"),
+        ),
+    ),
     "Map": (
         "occupancy_grid",
         (
@@ -398,6 +410,8 @@ def to_rviz(name: str, topic: str, options: dict[str, object]) -> dict[str, Any]
     properties: dict[str, Any] = {}
     if kind == "robot_model":
         properties = {"Description Topic": address, "Description File": ""}
+    elif kind == "interactive_markers":
+        properties = {_NAMESPACE: topic.removesuffix("/update")}
     elif kind == "depth_cloud":
         properties = {"Depth Map Topic": topic}
     else:
@@ -411,7 +425,17 @@ def to_rviz(name: str, topic: str, options: dict[str, object]) -> dict[str, Any]
 
 def _topic(properties: dict[str, Any]) -> str:
     """Return the topic, which ROS 1's files give as a text and ROS 2's with its QoS."""
-    for name in ("Topic", "Description Topic", "Marker Topic", "Image Topic", "Depth Map Topic"):
+    namespace = properties.get(_NAMESPACE)
+    if isinstance(namespace, str) and namespace:
+        return "/" + namespace.strip("/") + "/update"
+    for name in (
+        "Topic",
+        "Description Topic",
+        "Marker Topic",
+        "Image Topic",
+        "Depth Map Topic",
+        "Update Topic",
+    ):
         value = properties.get(name)
         if isinstance(value, dict):
             value = value.get("Value")

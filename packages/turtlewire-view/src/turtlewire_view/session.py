@@ -10,10 +10,11 @@ from turtlewire.web import CommandSession
 from turtlewire.web.commands import CommandError
 from turtlewire.web.packets import encode_packet
 from turtlewire_view import page_commands
-from turtlewire_view.display_feed import Base, DisplayFeed
+from turtlewire_view.base import Base
 from turtlewire_view.displays import displays_of
 from turtlewire_view.displays.options import OptionError
 from turtlewire_view.frames import FrameScene
+from turtlewire_view.interactive_feedback import feedback_message
 from turtlewire_view.page_requests import message_of_tool, text_of_view
 from turtlewire_view.rviz_file import RvizFileError, read_rviz
 from turtlewire_view.tree import TreeTable, missing_frame, path_between, relation
@@ -21,6 +22,7 @@ from turtlewire_view.tree import TreeTable, missing_frame, path_between, relatio
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from turtlewire_view.display_feed import DisplayFeed
     from turtlewire_view.frames import Frames
     from turtlewire_view.rviz_file import SavedView
     from turtlewire_view.source import Source
@@ -106,6 +108,7 @@ class ViewSession(CommandSession):
             page_commands.SeekTime: self._seek,
             page_commands.ChangePace: self._set_speed,
             page_commands.PublishWithTool: self._publish,
+            page_commands.GiveFeedback: self._give_feedback,
             page_commands.SaveView: self._save,
             page_commands.LoadView: self._load,
             page_commands.MoveJoints: self._move,
@@ -333,6 +336,12 @@ class ViewSession(CommandSession):
             raise CommandError(f"Nothing was published: {error}.") from error
         heard = self._source.publish(*sent) > 0
         self.answer({"type": "published", "topic": sent.topic, "heard": heard})
+
+    def _give_feedback(self, command: page_commands.GiveFeedback) -> None:
+        feed = self._feeds.get(command.id)
+        if feed is None:
+            raise CommandError(f"There is no display {command.id!r}.")
+        self._source.publish(*feedback_message(command, feed, self._base, self._source.now_ns()))
 
     def _save(self, command: page_commands.SaveView) -> None:
         types = {topic.name: topic.type_name for topic in self._source.topics()}

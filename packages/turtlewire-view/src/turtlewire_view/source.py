@@ -9,7 +9,17 @@ if TYPE_CHECKING:
 
     from turtlewire.tf.buffer import Buffer
 
-__all__ = ["Joints", "ParameterAnswer", "Source", "Timeline", "TimelineState", "Topic"]
+__all__ = [
+    "Joints",
+    "ParameterAnswer",
+    "ServiceAnswer",
+    "ServiceCalls",
+    "Source",
+    "Timeline",
+    "TimelineState",
+    "Topic",
+    "no_service",
+]
 
 
 class Topic(NamedTuple):
@@ -25,6 +35,43 @@ class ParameterAnswer(NamedTuple):
 
     text: str = ""
     problem: str = ""
+
+
+class ServiceAnswer(NamedTuple):
+    """The response of a service as CDR bytes, or the reason in one line."""
+
+    cdr: bytes = b""
+    problem: str = ""
+
+
+class ServiceCalls(Protocol):
+    """The calls of one service. Thread-safe."""
+
+    def again(self) -> None:
+        """Call the service again."""
+        ...
+
+    def close(self) -> None:
+        """Call the service no more."""
+        ...
+
+
+class _NoCalls:
+    def again(self) -> None: ...
+
+    def close(self) -> None: ...
+
+
+def no_service(what: str, name: str, on_answer: Callable[[ServiceAnswer], None]) -> ServiceCalls:
+    """Answer for a source without services, at once.
+
+    Args:
+        what: The source, such as "a bag".
+        name: The service.
+        on_answer: Called with the reason.
+    """
+    on_answer(ServiceAnswer(problem=f"{what} has no services, so {name} cannot be called"))
+    return _NoCalls()
 
 
 class TimelineState(NamedTuple):
@@ -162,6 +209,22 @@ class Source(Protocol):
         Returns:
             A function that ends it.
         """
+        ...
+
+    def ask_service(
+        self, name: str, type_name: str, on_answer: Callable[[ServiceAnswer], None]
+    ) -> ServiceCalls:
+        """Call ``on_answer`` with a service's response, now and when its server comes again.
+
+        Args:
+            name: Name of the service.
+            type_name: Its type, whose request needs no values.
+            on_answer: Called on any thread.
+        """
+        ...
+
+    def advertise(self, topic: str, type_name: str) -> None:
+        """Prepare :meth:`publish`, so that subscriptions get the first message as well."""
         ...
 
     def publish(self, topic: str, type_name: str, cdr: bytes) -> int:

@@ -209,6 +209,9 @@ class Viewer:
         feed.on_packages = self._meshes.permit
         feed.ask = self.source.ask_parameter
         feed.follow_parameter()
+        feed.call_service(self.source.ask_service)
+        if display.sends is not None:
+            self.source.advertise(*display.sends)
         for each, its_type in types.items():
             feed.ends.append(self.source.subscribe(each, its_type, _sink(feed, each)))
         return feed

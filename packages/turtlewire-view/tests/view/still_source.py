@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import threading
+
 from turtlewire import msg
 from turtlewire.tf.buffer import Buffer
 from turtlewire_view.live import LiveTimeline
-from turtlewire_view.source import ParameterAnswer, Topic
+from turtlewire_view.source import ParameterAnswer, ServiceAnswer, Topic
 
 STAMP_NS = 1_700_000_000 * 10**9
 
@@ -24,7 +26,11 @@ class StillSource:
         self.buffer = Buffer()
         self.departed: list[str] = []
         self.published: list[tuple[str, str, bytes]] = []
+        self._sent = threading.Condition()
         self.parameters: dict[tuple[str, str], str] = {}
+        self.advertised: list[tuple[str, str]] = []
+        self._responses: dict[str, object] = {}
+        self._askers: dict[str, list] = {}
         self._topics: dict[str, Topic] = {}
         self._sinks: dict[str, list] = {}
         self._last: dict[str, list[bytes]] = {}
@@ -75,9 +81,45 @@ class StillSource:
         on_answer(ParameterAnswer(text or "", problem))
         return lambda: None
 
+    def respond(self, service, response):
+        """The response of a service from now on; displays that ask already get it."""
+        self._responses[service] = response
+        for on_answer in self._askers.get(service, []):
+            on_answer(ServiceAnswer(msg.serialize(response)))
+        self._changed()
+
+    def ask_service(self, name, type_name, on_answer):
+        del type_name
+        source, askers = self, self._askers.setdefault(name, [])
+
+        class Calls:
+            def again(self):
+                response = source._responses.get(name)
+                problem = "" if response else f"no server offers the service {name}"
+                cdr = msg.serialize(response) if response else b""
+                on_answer(ServiceAnswer(cdr, problem))
+
+            def close(self):
+                askers.remove(on_answer)
+
+        askers.append(on_answer)
+        calls = Calls()
+        calls.again()
+        return calls
+
+    def advertise(self, topic, type_name):
+        self.advertised.append((topic, type_name))
+
     def publish(self, topic, type_name, cdr):
-        self.published.append((topic, type_name, cdr))
+        with self._sent:
+            self.published.append((topic, type_name, cdr))
+            self._sent.notify_all()
         return self.listeners
+
+    def wait_until(self, is_true):
+        """Whether it becomes true, looked at after each message that is published."""
+        with self._sent:
+            return self._sent.wait_for(is_true, 60)
 
     def drop_old_timeline(self):
         pass

@@ -7,11 +7,11 @@ import re
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from turtlewire import msg
-from turtlewire_view.displays import display_for, display_types
+from turtlewire_view.displays import display_for, display_types, displays_of
 from turtlewire_view.displays.content import Content, Removal, Status
 from turtlewire_view.displays.options import OptionError, option_table
 
@@ -40,7 +40,8 @@ def value(kind: str):
         element, fixed, size = listed.groups()
         if fixed is not None:
             return st.lists(value(fixed), min_size=int(size), max_size=int(size))
-        return st.lists(value(element), max_size=8)
+        is_large = element.startswith("visualization_msgs/Interactive")
+        return st.lists(value(element), max_size=1 if is_large else 8)
     whole = INTEGERS.fullmatch(kind)
     if kind in {"octet", "byte", "char"} or whole is not None:
         bits = int(whole[2]) if whole else 8
@@ -98,7 +99,9 @@ def check(outputs) -> None:
 def test_any_message_gets_an_answer(type_name):
     shown_by = DISPLAYS.get(type_name, DISPLAYS["nav_msgs/msg/OccupancyGrid"])
 
-    @settings(deadline=None, max_examples=40)
+    @settings(
+        deadline=None, max_examples=40, suppress_health_check=[HealthCheck.data_too_large]
+    )
     @given(st.lists(messages(type_name), min_size=1, max_size=3), options_of(shown_by.kind))
     def law(sent, options):
         try:
@@ -111,6 +114,33 @@ def test_any_message_gets_an_answer(type_name):
         for message in sent:
             outputs = display.content(message)
             assert bool(outputs) != is_silent
+            if outputs:
+                check(outputs)
+
+    law()
+
+
+@pytest.mark.parametrize("kind", ["camera", "depth_cloud"])
+def test_any_messages_of_several_topics_get_answers(kind):
+    of_kind = displays_of(kind)
+    display_type = of_kind["sensor_msgs/msg/Image"]
+    topics = {"/eye/depth": "sensor_msgs/msg/Image", "/color": "sensor_msgs/msg/Image",
+              "/eye/camera_info": "sensor_msgs/msg/CameraInfo"}  # fmt: skip
+    any_topic = st.sampled_from([*topics]).flatmap(
+        lambda topic: st.tuples(st.just(topic), messages(topics[topic]))
+    )
+
+    @settings(deadline=None, max_examples=60)
+    @given(st.lists(any_topic, min_size=2, max_size=5), st.sampled_from(["16UC1", "32FC1"]))
+    def law(sent, encoding):
+        display = display_type({"color_topic": "/color"} if kind == "depth_cloud" else {})
+        display.topic, display.budget = "/eye/depth", 5
+        for topic, message in sent:
+            if topic == "/eye/depth":
+                message.encoding = encoding
+            if topic == "/color" and kind == "camera":
+                continue
+            outputs = display.take(topic, message)
             if outputs:
                 check(outputs)
 

@@ -6,7 +6,8 @@ import pytest
 
 from turtlewire import msg
 from turtlewire.tf.buffer import Buffer
-from turtlewire_view.display_feed import Base, DisplayFeed
+from turtlewire_view.base import Base
+from turtlewire_view.display_feed import DisplayFeed
 from turtlewire_view.displays.marker import MarkerDisplay
 from turtlewire_view.displays.occupancy_grid import OccupancyGridDisplay
 from turtlewire_view.displays.point_cloud import PointCloudDisplay

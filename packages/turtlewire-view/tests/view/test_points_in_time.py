@@ -9,7 +9,8 @@ import pytest
 
 from turtlewire import msg
 from turtlewire.tf.buffer import Buffer
-from turtlewire_view.display_feed import Base, DisplayFeed
+from turtlewire_view.base import Base
+from turtlewire_view.display_feed import DisplayFeed
 from turtlewire_view.displays.content import Removal
 from turtlewire_view.displays.laser_scan import LaserScanDisplay
 from turtlewire_view.displays.point_cloud import PointCloudDisplay

@@ -279,7 +279,7 @@ def test_written_data_is_read_again(fixed, names, number, flag):
     displays = tuple(
         SavedDisplay(
             CLASSES[name][0],
-            f"/{k}",
+            f"/{k}/update",
             {"alpha": number, "color": "#0a0b0c", "keep": 3, "collision": flag},
             visible=flag,
         )

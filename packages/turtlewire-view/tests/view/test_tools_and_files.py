@@ -177,11 +177,11 @@ def test_unsupported_parts_of_a_view_are_listed_until_they_are_dismissed(scene, 
     file = tmp_path / "view.rviz"
     file.write_text(
         "Visualization Manager:\n  Displays:\n"
-        "    - {Class: rviz_default_plugins/DepthCloud}\n    - {Class: mine/<b>Wind</b>}\n"
+        "    - {Class: rviz_default_plugins/Velodyne}\n    - {Class: mine/<b>Wind</b>}\n"
         "  Global Options: {Fixed Frame: map}\n"
     )
     scene.page.set_input_files("#view-file", file)
-    line = scene.page.locator("#unread span", has_text="Unsupported displays: DepthCloud, b>")
+    line = scene.page.locator("#unread span", has_text="Unsupported displays: Velodyne, b>")
     line.wait_for(timeout=LIMIT_MS)
     scene.source.listeners = 0
     take(scene, "point")

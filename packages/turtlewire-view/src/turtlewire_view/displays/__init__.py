@@ -20,6 +20,9 @@ module             contents
 `occupancy_grid`   OccupancyGrid and OccupancyGridUpdate
 `marker`           Marker and MarkerArray
 `marker_shapes`    one marker
+`marker_packing`   the arrays of several markers as one
+`interactive_markers`  InteractiveMarkerUpdate
+`interactive_marker`  one interactive marker, its controls and menu
 `marker_texture`   the image on the triangles of a marker
 `image`            Image and CompressedImage
 `camera`           images with the scene drawn over them
@@ -46,6 +49,7 @@ __all__ = ["display_for", "display_types", "displays_of", "further_kinds"]
 def display_types() -> dict[str, type[Display]]:
     """Return the display of each message type."""
     from turtlewire_view.displays.image import CompressedImageDisplay, ImageDisplay
+    from turtlewire_view.displays.interactive_markers import InteractiveMarkersDisplay
     from turtlewire_view.displays.laser_scan import LaserScanDisplay
     from turtlewire_view.displays.marker import MarkerDisplay
     from turtlewire_view.displays.measurement import MeasurementDisplay
@@ -88,6 +92,7 @@ def display_types() -> dict[str, type[Display]]:
         "sensor_msgs/msg/RelativeHumidity": MeasurementDisplay,
         "sensor_msgs/msg/Temperature": MeasurementDisplay,
         "std_msgs/msg/String": RobotModelDisplay,
+        "visualization_msgs/msg/InteractiveMarkerUpdate": InteractiveMarkersDisplay,
         "visualization_msgs/msg/Marker": MarkerDisplay,
         "visualization_msgs/msg/MarkerArray": MarkerDisplay,
     }

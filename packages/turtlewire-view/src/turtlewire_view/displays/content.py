@@ -128,6 +128,7 @@ class Display:
         companions: Further topics of the display: what is appended to the topic's name, and the
             message type there.
         topic: The topic that the user chose; empty for a robot that comes from elsewhere.
+        asks_again: Set by the display when :attr:`service` should be called again.
         replays: Whether the last message is shown again with other options.
         reads_rows: Whether it takes sequences of plain messages as arrays, without a Python object
             for each (see :func:`turtlewire.msg.deserialize`).
@@ -151,6 +152,7 @@ class Display:
         self.budget = DEFAULT_BUDGET
         self.packages = PackageFolders()
         self.topic = ""
+        self.asks_again = False
         self._clock = clock
         self._warnings: list[str] = []
 
@@ -166,6 +168,28 @@ class Display:
     def parameter(self) -> tuple[str, str] | None:
         """Node and name of a text parameter that the display wants to know, or None."""
         return None
+
+    @property
+    def service(self) -> tuple[str, str] | None:
+        """Name and type of a service whose responses the display wants, or None.
+
+        Responses go to :meth:`take` with the name of the service.
+        """
+        return None
+
+    @property
+    def sends(self) -> tuple[str, str] | None:
+        """Topic and message type that the page publishes for the display, or None."""
+        return None
+
+    def marker(self, name: str) -> Content | None:
+        """Return the interactive marker of this name; for any thread."""
+        del name
+        return None
+
+    def take_problem(self, text: str) -> list[Output]:
+        """Return the outputs when :attr:`service` cannot be called, for the reason ``text``."""
+        raise NotImplementedError
 
     def take_parameter(self, text: str) -> list[Output]:
         """Return the outputs for a value of :attr:`parameter`; a status comes last."""

@@ -5,8 +5,6 @@ from __future__ import annotations
 from itertools import count
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
-import numpy as np
-
 from turtlewire_view.displays.content import (
     Content,
     Display,
@@ -16,6 +14,7 @@ from turtlewire_view.displays.content import (
     frame_of,
     stamp_ns_of,
 )
+from turtlewire_view.displays.marker_packing import packed_shapes
 from turtlewire_view.displays.marker_shapes import marker_shape
 
 if TYPE_CHECKING:
@@ -128,26 +127,12 @@ class MarkerDisplay(Display):
     def _part(self, place: _Place, group: dict[_Key, tuple[Any, MarkerShape]]) -> Content:
         frame_id, stamp_ns, locked = place
         part = str(next(self._numbers))
-        entries, rows, offsets = [], list(group.items()), [0, 0, 0, 0]
-        for key, (marker, shape) in rows:
+        headers, arrays, packages = packed_shapes([shape for _, shape in group.values()])
+        entries = []
+        for (key, (marker, _)), own in zip(group.items(), headers, strict=True):
             lifetime = _lifetime(marker)
             self._hold(key, part, lifetime)
-            names = ("points", "colors", "file", "uv")
-            sizes = [len(getattr(shape, name)) for name in names]
-            ranges = {
-                name: [offset, size]
-                for name, offset, size in zip(names, offsets, sizes, strict=True)
-            }
-            entries.append({"key": list(key), "lifetime": lifetime, **shape.header, **ranges})
-            offsets = [offset + size for offset, size in zip(offsets, sizes, strict=True)]
-        shapes = [shape for _, (_, shape) in rows]
-        arrays = {
-            "points": np.concatenate([shape.points for shape in shapes]),
-            "colors": np.concatenate([shape.colors for shape in shapes]),
-            "files": np.concatenate([shape.file for shape in shapes]),
-            "uv": np.concatenate([shape.uv for shape in shapes]),
-        }
-        packages = tuple(sorted({each for shape in shapes for each in shape.packages}))
+            entries.append({"key": list(key), "lifetime": lifetime, **own})
         header = {"markers": entries}
         return Content(header, arrays, frame_id, stamp_ns, part, locked=locked, packages=packages)
 

@@ -169,9 +169,12 @@ export class Displays {
       viewport: view.viewport,
       get camera() { return view.camera; },
       get colors() { return view.colors; },
+      id: entry.id,
       get topic() { return entry.topic; },
       hide: () => this.setVisible(entry.id, false),
       requestDraw: () => view.requestDraw(),
+      canvas: view.canvas,
+      beforeDraw: (act) => view.beforeDraw(act),
       afterDraw: (act) => view.afterDraw(act),
       pictureFrom: (...wanted) => view.pictureFrom(...wanted),
       /** Say that there is more to look at, as a mesh that has been loaded. */

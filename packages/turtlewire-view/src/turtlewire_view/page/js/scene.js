@@ -60,9 +60,10 @@ export class View {
     requestAnimationFrame((now) => this.draw(now));
   }
 
-  /** Call `act(now)` [ms] before each picture. */
+  /** Call `act(now)` [ms] before each picture. Returns what ends that. */
   beforeDraw(act) {
     this.#before.push(act);
+    return () => { this.#before = this.#before.filter((each) => each !== act); };
   }
 
   /** Call `act(now)` after each picture. Returns what ends that. */

@@ -56,7 +56,7 @@ export class Tools {
     for (const tool of TOOLS) this.#addButton(tool);
     byId("tools").hidden = false;
     const { canvas } = stage.view;
-    // Before the camera's controls: with a tool in hand the pointer does not turn the picture.
+    // Before the camera's controls and displays: with a tool in hand the pointer does nothing else.
     const first = { capture: true };
     const { parentElement: around } = canvas;
     around.addEventListener("pointerdown", (event) => this.#down(event), first);
@@ -108,7 +108,7 @@ export class Tools {
 
   #down(event) {
     if (!this.active || event.target !== this.#stage.view.canvas) return;
-    event.stopPropagation();
+    event.stopImmediatePropagation();
     if (!event.isPrimary || event.button !== 0) return;
     const at = this.#place(event);
     if (!at) {
@@ -128,14 +128,14 @@ export class Tools {
 
   #move(event) {
     if (!this.active || event.target !== this.#stage.view.canvas) return;
-    event.stopPropagation();
+    event.stopImmediatePropagation();
     if (this.#pointer === event.pointerId) this.#drawPose(this.#start, this.#yaw(event));
     else if (this.active === "measure" && this.#start) this.#drawLine(this.#place(event));
   }
 
   #up(event) {
     if (!this.active || event.target !== this.#stage.view.canvas) return;
-    event.stopPropagation();
+    event.stopImmediatePropagation();
     if (this.#pointer === event.pointerId) this.#publish(this.#start, this.#yaw(event));
   }
 

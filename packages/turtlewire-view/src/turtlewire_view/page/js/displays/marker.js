@@ -1,10 +1,8 @@
 // Marker and MarkerArray: the markers by namespace and id, until their lifetimes end.
 
-import { BufferAttribute, Group } from "three";
+import { Group } from "three";
 import { clear, free, setPose } from "./parts/common.js";
-import { makeMarker } from "./parts/marker_shapes.js";
-import { loadMesh, makePlaceholder, paint } from "./parts/meshes.js";
-import { loadTexture } from "./parts/textures.js";
+import { addMarker } from "./parts/marker_object.js";
 
 /** Longest time that a browser's timer can wait [s]. */
 const LONGEST_TIMER_S = 2e6;
@@ -53,13 +51,7 @@ export default class Marker {
     const entry = { holder, namespace, timer: null };
     this.#held.set(key, entry);
     group.add(holder);
-    if (marker.shape === "mesh") this.#addMesh(holder, marker, arrays);
-    else {
-      const points = rows(arrays.points, marker.points, 3);
-      const object = makeMarker(marker, points, rows(arrays.colors, marker.colors, 4));
-      holder.add(object);
-      if (marker.texture) this.#addTexture(object, marker, arrays);
-    }
+    addMarker(holder, marker, arrays, this.#view, `marker ${marker.key.join("/")}`);
     if (marker.lifetime > 0) {
       const wait = 1000 * Math.min(marker.lifetime, LONGEST_TIMER_S);
       entry.timer = setTimeout(() => {
@@ -67,42 +59,6 @@ export default class Marker {
         this.#view.requestDraw();
       }, wait);
     }
-  }
-
-  async #addMesh(holder, marker, { files }) {
-    const { mesh, scale, color, file, embedded_materials: keepsOwn } = marker;
-    const bytes = file[1] ? rows(files, file, 1).slice().buffer : null;
-    let object;
-    try {
-      const loaded = await loadMesh(mesh, bytes);
-      object = loaded.object;
-      if (loaded.problem) this.#view.report?.(`marker ${marker.key.join("/")}: ${loaded.problem}`);
-      if (!keepsOwn || !loaded.isOwn) paint(object, color);
-      const alpha = color[3] / 255;
-      if (alpha < 1 && !keepsOwn) makeClear(object, alpha);
-      object.scale.set(...scale.map((value) => value || 1e-6));
-    } catch (error) {
-      object = makePlaceholder();
-      this.#view.report?.(`marker ${marker.key.join("/")}: ${error.message}`);
-    }
-    if (holder.parent) holder.add(object);
-    else free(object);
-    this.#view.requestDraw();
-  }
-
-  async #addTexture(object, marker, { files, uv }) {
-    const { geometry, material } = object;
-    const corners = rows(uv, marker.uv, 2).slice();
-    const bytes = marker.file[1] ? rows(files, marker.file, 1).slice() : null;
-    try {
-      const texture = await loadTexture(marker.texture, bytes);
-      if (!object.parent?.parent) return texture.dispose(); // another one has come meanwhile
-      geometry.setAttribute("uv", new BufferAttribute(corners, 2));
-      Object.assign(material, { map: texture, needsUpdate: true });
-    } catch (error) {
-      this.#view.report?.(`marker ${marker.key.join("/")}: ${error.message}`);
-    }
-    this.#view.requestDraw();
   }
 
   #isShown(namespace) {
@@ -123,17 +79,6 @@ export default class Marker {
     entry.holder.removeFromParent();
     free(entry.holder);
   }
-}
-
-/** The rows of an array that [first, count] tell; `width` numbers in each. */
-function rows(array, [first, count], width) {
-  return array.subarray(width * first, width * (first + count));
-}
-
-function makeClear(object, alpha) {
-  object.traverse((each) => {
-    if (each.isMesh) Object.assign(each.material, { opacity: alpha, transparent: true });
-  });
 }
 
 function regexOf(text) {

@@ -1,0 +1,178 @@
+// InteractiveMarkers: what a server offers to drag, click and choose from menus.
+
+import { clear } from "./parts/common.js";
+import { ControlPointer } from "./parts/control_pointer.js";
+import { InteractiveMarker } from "./parts/interactive_marker.js";
+import { closeMenu, openMenu, prepareMenus } from "./parts/marker_menu.js";
+
+/** Numbers of event types, as in InteractiveMarkerFeedback. */
+const EVENT = {
+  keepAlive: 0, poseUpdate: 1, menuSelect: 2, buttonClick: 3, mouseDown: 4, mouseUp: 5,
+};
+const KEEP_ALIVE_MS = 250;
+
+export default class InteractiveMarkers {
+  #view;
+  #options;
+  #markers = new Map(); // part to { marker, header, arrays }
+  #pointer;
+  #held = null; // { marker, control, isMoved, timer }
+  #hovered = null;
+  #ends;
+
+  constructor(view, options) {
+    this.#view = view;
+    this.#options = options;
+    this.#pointer = new ControlPointer(view, () => this.#objects(), {
+      hover: (object) => this.#hover(object),
+      press: (object, pointer) => this.#press(object, pointer),
+      drag: (pointer) => this.#drag(pointer),
+      release: (pointer, object) => this.#release(pointer, object),
+      menu: (object, pointer) => this.#openMenu(...this.#find(object), pointer),
+    });
+    this.#ends = view.beforeDraw(() => this.#prepare());
+    prepareMenus();
+  }
+
+  show(group, header, arrays) {
+    const known = this.#markers.get(header.part);
+    if (known?.marker.revision === header.revision && known.marker.group === group) {
+      Object.assign(known, { header, arrays });
+      known.marker.setPose(header.pose);
+    } else this.#make(group, header, arrays);
+  }
+
+  removed(part) {
+    const known = this.#markers.get(part);
+    if (this.#held?.marker === known?.marker) this.#letGo();
+    this.#markers.delete(part);
+  }
+
+  setOptions(options) {
+    this.#options = options;
+    for (const { marker, header, arrays } of [...this.#markers.values()]) {
+      this.#make(marker.group, { ...header, pose: marker.pose }, arrays);
+    }
+  }
+
+  /** Texts have the colour of the page. */
+  schemeChanged() {
+    this.setOptions(this.#options);
+  }
+
+  dispose() {
+    this.#letGo();
+    closeMenu();
+    this.#pointer.dispose();
+    this.#ends();
+  }
+
+  #make(group, header, arrays) {
+    this.removed(header.part);
+    clear(group);
+    const marker = new InteractiveMarker(this.#view, group, header, arrays, this.#options);
+    this.#markers.set(header.part, { marker, header, arrays });
+    this.#view.grown?.();
+  }
+
+  #objects() {
+    return [...this.#markers.values()].flatMap(({ marker }) => marker.objects);
+  }
+
+  /** Marker and control of an object; two nulls if it is none's. */
+  #find(object) {
+    for (const { marker } of this.#markers.values()) {
+      const control = object && marker.controlOf(object);
+      if (control && marker.objects.some((node) => node.userData.control === control)) {
+        return [marker, control];
+      }
+    }
+    return [null, null];
+  }
+
+  /** Once for each picture: the controls that face the eye, and the pose of what is dragged. */
+  #prepare() {
+    for (const { marker } of this.#markers.values()) marker.face(this.#view.camera);
+    if (!this.#held?.isMoved) return;
+    this.#held.isMoved = false;
+    this.#tell(EVENT.poseUpdate);
+  }
+
+  #hover(object) {
+    const [marker, control] = this.#find(object);
+    if (this.#hovered === control) return;
+    this.#hovered = control;
+    for (const each of this.#markers.values()) {
+      each.marker.glow(each.marker === marker ? control : null);
+    }
+    if (!control) this.#view.canvas.style.cursor = "";
+    this.#view.requestDraw();
+  }
+
+  #press(object, pointer) {
+    const [marker, control] = this.#find(object);
+    if (!marker) return;
+    closeMenu();
+    const isDragged = marker.press(control, pointer, this.#view.camera);
+    this.#held = { marker, control, isDragged, isMoved: false, timer: null };
+    if (isDragged && this.#options.show_visual_aids) marker.showAid(control);
+    this.#tell(EVENT.mouseDown, pointer);
+    this.#keepAlive();
+    this.#view.requestDraw();
+  }
+
+  #drag(pointer) {
+    if (!this.#held?.isDragged) return;
+    this.#held.marker.drag(pointer);
+    this.#held.isMoved = true;
+    this.#view.requestDraw();
+  }
+
+  #release(pointer, object) {
+    if (!this.#held) return;
+    const { marker, control, isMoved } = this.#held;
+    if (isMoved) this.#tell(EVENT.poseUpdate);
+    this.#tell(EVENT.mouseUp, pointer);
+    const isClick = this.#find(object)[1] === control;
+    if (isClick && control.mode === "button") this.#tell(EVENT.buttonClick, pointer);
+    this.#letGo();
+    if (isClick && control.mode === "menu") this.#openMenu(marker, control, pointer);
+    this.#view.requestDraw();
+  }
+
+  #letGo() {
+    clearTimeout(this.#held?.timer);
+    this.#held?.marker.release();
+    this.#held = null;
+  }
+
+  /** As long as a control is held, its server hears of it. */
+  #keepAlive() {
+    const held = this.#held;
+    clearTimeout(held.timer);
+    held.timer = setTimeout(() => {
+      if (this.#held === held) this.#tell(EVENT.keepAlive);
+    }, KEEP_ALIVE_MS);
+  }
+
+  #openMenu(marker, control, pointer) {
+    if (!marker?.menu.length) return;
+    openMenu(marker.menu, [pointer.x, pointer.y], (id) => {
+      this.#send(marker, control, EVENT.menuSelect, pointer, id);
+    });
+  }
+
+  #tell(event, pointer = null) {
+    const { marker, control } = this.#held;
+    this.#send(marker, control, event, pointer);
+    this.#keepAlive();
+  }
+
+  #send(marker, control, event, pointer, entry = 0) {
+    const point = pointer?.point ? marker.local(pointer).point.toArray() : null;
+    this.#view.send({
+      type: "feedback", id: this.#view.id, marker: marker.name, control: control.name, event,
+      pose: marker.pose, menu_entry: entry, mouse_point: point,
+    });
+  }
+}

@@ -1,0 +1,115 @@
+"""Calls a service without a request's content when its server appears, and when asked to."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from typing import TYPE_CHECKING
+
+from turtlewire import msg
+from turtlewire.errors import UncallableServiceError, WireError
+from turtlewire.wire.base import Client, ServiceTypes, TypeId
+from turtlewire.wire.qos import QoS
+from turtlewire_view.source import ServiceAnswer
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from turtlewire.wire.base import Context, Node
+
+__all__ = ["ServiceWatch"]
+
+
+class ServiceWatch:
+    """Calls a service when its server is there, and again when it returns.
+
+    A separate thread waits for the responses and reports them, without holding a lock.
+
+    Args:
+        context: The participant.
+        node: Whose client asks.
+        name: Fully qualified, valid name of the service.
+        type_name: Its type, whose request needs no values.
+        on_answer: Called with each answer, in their order, on the watch's thread.
+    """
+
+    def __init__(
+        self,
+        context: Context,
+        node: Node,
+        name: str,
+        type_name: str,
+        on_answer: Callable[[ServiceAnswer], None],
+    ) -> None:
+        self._name = name
+        self._on_answer = on_answer
+        self._lock = threading.Lock()
+        self._is_there: bool | None = None
+        self._asked = 0
+        self._answers: deque[ServiceAnswer] = deque()
+        self._is_closed = False
+        self._request = msg.serialize(msg.get_service(type_name).Request())
+        names = (f"{type_name}_Request", f"{type_name}_Response")
+        request, response = (TypeId(each, msg.type_hash(each)) for each in names)
+        types = ServiceTypes(type_name, request, response, msg.type_hash)
+        self._client = node.create_client(name, types, QoS(depth=10))
+        self._wait_set = context.create_wait_set()
+        self._wait_set.attach(self._client)
+        self._thread = threading.Thread(target=self._take, name="view-service", daemon=True)
+        self._thread.start()
+        self._end = context.graph.add_listener(self._look)
+        self._look()
+
+    def again(self) -> None:
+        """Call the service again, if its server is there."""
+        with self._lock:
+            if self._is_there and not self._is_closed:
+                self._ask()
+
+    def close(self) -> None:
+        """Call no more."""
+        self._end()
+        with self._lock:
+            self._is_closed = True
+        self._wait_set.wake()
+        self._thread.join()
+        self._client.close()
+        self._wait_set.close()
+
+    def _look(self) -> None:
+        """The graph has changed: call the service when it has come, say when it is missing."""
+        with self._lock:
+            is_there = self._client.is_ready()
+            if is_there == self._is_there or self._is_closed:
+                return
+            self._is_there = is_there
+            if is_there:
+                self._ask()
+            else:
+                problem = f"no server offers the service {self._name}"
+                self._answers.append(ServiceAnswer(problem=problem))
+            self._wait_set.wake()
+
+    def _ask(self) -> None:
+        try:
+            self._asked = self._client.send_request(self._request)
+        except UncallableServiceError as error:  # this server has just appeared
+            self._answers.append(ServiceAnswer(problem=error.in_one_line()))
+
+    def _take(self) -> None:
+        while not self._is_closed:
+            for client in self._wait_set.wait():
+                if isinstance(client, Client):
+                    for number, cdr in self._responses(client):
+                        with self._lock:  # the request's number may be unknown earlier
+                            if number == self._asked:
+                                self._answers.append(ServiceAnswer(cdr))
+            while self._answers and not self._is_closed:
+                self._on_answer(self._answers.popleft())
+
+    def _responses(self, client: Client) -> list[tuple[int, bytes]]:
+        try:
+            return client.take()
+        except WireError:  # the context has been closed in the meantime
+            self._is_closed = True
+            return []
