@@ -36,6 +36,7 @@ module              contents
 `rviz_writing`      views as ``.rviz`` files
 `rviz_camera`       the camera of such files
 `rviz_options`      options of RViz's displays and of the page's
+`rviz_values`       their values in both
 `tools`             what Publish Point, 2D Pose Estimate and 2D Goal Pose publish
 `showing`           ``turtlewire.show``
 `notebook`          the view in the output of a cell of Jupyter

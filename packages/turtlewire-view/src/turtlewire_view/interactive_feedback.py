@@ -39,7 +39,7 @@ def feedback_message(
         now_ns: The time now.
 
     Raises:
-        CommandError: There is no such marker, or a number is not finite.
+        CommandError: The marker does not exist, or a number is not finite.
         TransformException: The marker's frame is not connected to the fixed frame.
     """
     sends, content = feed.display.sends, feed.display.marker(command.marker)

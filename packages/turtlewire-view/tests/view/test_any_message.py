@@ -99,9 +99,7 @@ def check(outputs) -> None:
 def test_any_message_gets_an_answer(type_name):
     shown_by = DISPLAYS.get(type_name, DISPLAYS["nav_msgs/msg/OccupancyGrid"])
 
-    @settings(
-        deadline=None, max_examples=40, suppress_health_check=[HealthCheck.data_too_large]
-    )
+    @settings(deadline=None, max_examples=40, suppress_health_check=[HealthCheck.data_too_large])
     @given(st.lists(messages(type_name), min_size=1, max_size=3), options_of(shown_by.kind))
     def law(sent, options):
         try:

@@ -31,6 +31,7 @@ module             contents
 `depth_image`      the points of one depth image
 `encodings`        pixels as RGBA
 `robot_model`      the links of a URDF
+`effort`           the efforts of a JointState at the joints of a URDF
 =================  =============================================================================
 """
 
@@ -48,6 +49,7 @@ __all__ = ["display_for", "display_types", "displays_of", "further_kinds"]
 
 def display_types() -> dict[str, type[Display]]:
     """Return the display of each message type."""
+    from turtlewire_view.displays.effort import EffortDisplay
     from turtlewire_view.displays.image import CompressedImageDisplay, ImageDisplay
     from turtlewire_view.displays.interactive_markers import InteractiveMarkersDisplay
     from turtlewire_view.displays.laser_scan import LaserScanDisplay
@@ -85,6 +87,7 @@ def display_types() -> dict[str, type[Display]]:
         "sensor_msgs/msg/FluidPressure": MeasurementDisplay,
         "sensor_msgs/msg/Illuminance": MeasurementDisplay,
         "sensor_msgs/msg/Image": ImageDisplay,
+        "sensor_msgs/msg/JointState": EffortDisplay,
         "sensor_msgs/msg/LaserScan": LaserScanDisplay,
         "sensor_msgs/msg/PointCloud": OldPointCloudDisplay,
         "sensor_msgs/msg/PointCloud2": PointCloudDisplay,

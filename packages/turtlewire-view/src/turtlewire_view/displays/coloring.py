@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
     from turtlewire_view.displays.options import DisplayOptions
 
-__all__ = ["by_axis", "by_value", "flat"]
+__all__ = ["by_axis", "by_value", "flat", "rainbow"]
 
 
 def by_value(
@@ -32,7 +32,7 @@ def by_value(
     place = _place(values, bounds)
     if not options.flag("rainbow"):
         return _ramp(place, options)
-    return _rainbow(place if options.flag("invert_rainbow") else 1.0 - place)
+    return rainbow(place if options.flag("invert_rainbow") else 1.0 - place)
 
 
 def by_axis(places: NDArray[np.float64], options: DisplayOptions) -> NDArray[np.uint8]:
@@ -44,7 +44,7 @@ def by_axis(places: NDArray[np.float64], options: DisplayOptions) -> NDArray[np.
     if not options.flag("autocompute_axis"):
         bounds = (options.number("axis_min"), options.number("axis_max"))
     values = places[:, "xyz".index(options.text("axis"))]
-    return _rainbow(1.0 - _place(values, bounds))
+    return rainbow(1.0 - _place(values, bounds))
 
 
 def flat(count: int, color: tuple[int, int, int]) -> NDArray[np.uint8]:
@@ -52,7 +52,7 @@ def flat(count: int, color: tuple[int, int, int]) -> NDArray[np.uint8]:
     return np.tile(np.array([*color, 255], dtype=np.uint8), (count, 1))
 
 
-def _rainbow(place: NDArray[np.float64]) -> NDArray[np.uint8]:
+def rainbow(place: NDArray[np.float64]) -> NDArray[np.uint8]:
     """Return RViz's rainbow: violet at 0, then blue and green, red at 1."""
     scaled = place * 5 + 1
     segment = np.floor(scaled).astype(np.int64)

@@ -40,7 +40,7 @@ class Option:
     Attributes:
         name: Its name.
         type: ``number``, ``bool``, ``choice``, ``color``, ``text`` or ``items``: an object with
-            ``shown`` and perhaps ``alpha`` for each of a display's named things.
+            ``shown`` and perhaps ``alpha`` or ``max`` for each of a display's named things.
         value: The default.
         low: Least number.
         high: Greatest number.
@@ -183,10 +183,12 @@ def _is_number(value: object) -> TypeGuard[float]:
 
 
 def _is_item(value: object) -> bool:
-    if not isinstance(value, dict) or not value.keys() <= {"shown", "alpha"}:
+    if not isinstance(value, dict) or not value.keys() <= {"shown", "alpha", "max"}:
         return False
-    alpha = value.get("alpha", 1)
-    return isinstance(value.get("shown", True), bool) and _is_number(alpha) and 0 <= alpha <= 1
+    alpha, greatest = value.get("alpha", 1), value.get("max", 0)
+    if not (_is_number(alpha) and _is_number(greatest)):
+        return False
+    return isinstance(value.get("shown", True), bool) and 0 <= alpha <= 1 and greatest >= 0
 
 
 def _color_of(value: object) -> _Color | None:

@@ -7,14 +7,16 @@ export class ItemList {
   element = make("div", { className: "items" });
   #value;
   #hasAlpha;
+  #greatest; // label of a number that each item may have, or undefined
   #changed;
   #names = "";
   #allBox = null;
 
-  /** `value`: name to { shown, alpha }; `changed(value)` when the user has chosen. */
-  constructor({ alpha, label }, value, changed) {
+  /** `value`: name to { shown, alpha, max }; `changed(value)` when the user has chosen. */
+  constructor({ alpha, max, label }, value, changed) {
     this.#value = value;
     this.#hasAlpha = alpha;
+    this.#greatest = max;
     this.#changed = changed;
     this.element.setAttribute("role", "group");
     this.element.setAttribute("aria-label", label);
@@ -47,7 +49,24 @@ export class ItemList {
       };
       row.append(slider);
     }
+    if (this.#greatest) row.append(this.#number(name));
     return row;
+  }
+
+  /** The greatest value of an item; an empty one is the item's own. */
+  #number(name) {
+    const { max } = this.#value[name] ?? {};
+    const look = { type: "number", min: "0", step: "any", value: max ?? "", placeholder: "max" };
+    const input = make("input", look);
+    input.setAttribute("aria-label", `${this.#greatest} of ${name}`);
+    input.title = this.#greatest;
+    input.onchange = () => {
+      if (!input.reportValidity()) return;
+      const { max: _, ...others } = this.#value[name] ?? {};
+      const own = input.value === "" ? {} : { max: input.valueAsNumber };
+      this.#set({ [name]: { ...others, ...own } });
+    };
+    return input;
   }
 
   #all(names) {

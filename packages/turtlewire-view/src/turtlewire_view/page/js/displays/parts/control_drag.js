@@ -112,5 +112,6 @@ function nearestOnLine(point, axis, { origin, direction }) {
 /** The point where a ray meets the plane through a point; null if it runs along the plane. */
 function onPlane(ray, normal, point) {
   if (Math.abs(ray.direction.dot(normal)) < LEAST_SINE) return null;
-  return ray.intersectPlane(new Plane().setFromNormalAndCoplanarPoint(normal, point), new Vector3());
+  const plane = new Plane().setFromNormalAndCoplanarPoint(normal, point);
+  return ray.intersectPlane(plane, new Vector3());
 }

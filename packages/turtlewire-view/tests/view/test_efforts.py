@@ -1,0 +1,157 @@
+"""Efforts of joint states: shares, colours, and messages that cannot be drawn."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from turtlewire import msg
+from turtlewire_view import Viewer
+from turtlewire_view.displays import display_types
+from turtlewire_view.displays.content import Content, Removal
+from turtlewire_view.displays.effort import EffortDisplay
+from turtlewire_view.rviz_file import read_rviz
+from turtlewire_view.rviz_writing import write_rviz
+
+from .still_source import StillSource
+
+get = msg.get_message
+JointState, String = get("sensor_msgs/msg/JointState"), get("std_msgs/msg/String")
+STATES, ROBOT = "/joint_states", "/robot_description"
+URDF = """<robot name="r">
+  <link name="base"/><link name="arm"/><link name="wheel"/><link name="rail"/><link name="tip"/>
+  <joint name="elbow" type="revolute"><parent link="base"/><child link="arm"/>
+    <axis xyz="0 0 2"/><limit lower="-1" upper="1" effort="10" velocity="1"/></joint>
+  <joint name="roll" type="continuous"><parent link="base"/><child link="wheel"/></joint>
+  <joint name="slide" type="prismatic"><parent link="base"/><child link="rail"/>
+    <axis xyz="0 1 0"/><limit lower="0" upper="1" effort="100" velocity="1"/></joint>
+  <joint name="glue" type="fixed"><parent link="base"/><child link="tip"/></joint>
+</robot>"""
+
+
+def states(**efforts):
+    names, values = list(efforts), [float(each) for each in efforts.values()]
+    return JointState(name=names, effort=values, position=[0.0] * len(names))
+
+
+def make(urdf=URDF, **options):
+    display = EffortDisplay(options)
+    display.topic = STATES
+    if urdf:
+        display.take(ROBOT, String(data=urdf))
+    return display
+
+
+def joints_of(outputs):
+    (content,) = [each for each in outputs if isinstance(each, Content)]
+    return {each["name"]: each for each in content.header["joints"]}
+
+
+def test_efforts_are_shares_of_the_greatest_ones():
+    display = make()
+    assert display.topics("sensor_msgs/msg/JointState") == {
+        ROBOT: "std_msgs/msg/String", STATES: "sensor_msgs/msg/JointState"
+    }  # fmt: skip
+    outputs = display.take(STATES, states(elbow=-5, roll=4, slide=500, glue=1, other=1))
+    joints = joints_of(outputs)
+    assert joints["elbow"] == {
+        "name": "elbow", "frame": "arm", "axis": [0, 0, 1], "shape": "ring", "share": -0.5,
+        "color": [0, 255, 128, 255],
+    }  # fmt: skip
+    assert joints["roll"]["share"] == pytest.approx(0.2)  # without a limit
+    assert (joints["slide"]["share"], joints["slide"]["shape"]) == (1, "arrow")
+    assert joints["slide"]["color"] == [255, 0, 0, 255]
+    assert set(joints) == {"elbow", "roll", "slide"}
+    assert outputs[-1].text == ""
+
+
+def test_a_greatest_effort_of_ones_own_and_a_prefix():
+    display = make(joints={"elbow": {"max": 20}, "roll": {"max": 0}}, tf_prefix="left/")
+    joints = joints_of(display.take(STATES, states(elbow=5, roll=1)))
+    assert (joints["elbow"]["share"], joints["elbow"]["frame"]) == (0.25, "left/arm")
+    assert joints["roll"]["share"] == pytest.approx(0.05)
+
+
+def test_old_efforts_go_beyond_the_history():
+    display = make(history_length=2)
+    sent = [display.take(STATES, states(elbow=1)) for _ in range(3)]
+    gone = [[each.part for each in outputs if isinstance(each, Removal)] for outputs in sent]
+    assert gone == [[], [], ["0"]]
+    assert [each.part for each in display.start()] == ["1", "2"]
+
+
+@pytest.mark.parametrize(
+    ("urdf", "message", "line"),
+    [
+        ("", states(elbow=1), f"No robot description received on [{ROBOT}]"),
+        ("<robot", states(elbow=1), "the description is invalid: "),
+        (URDF, JointState(name=["elbow"]), "the joint states have 1 names and 0 efforts"),
+        (URDF, states(knee=1), "the robot has none of the 1 joints, such as 'knee'"),
+        (URDF, states(elbow=math.nan, roll=1), "joint 'elbow': the effort nan or the axis cannot"),
+        (URDF, states(roll=math.inf), "joint 'roll': the effort inf or the axis cannot"),
+    ],
+)
+def test_what_cannot_be_drawn_is_named(urdf, message, line):
+    outputs = make(urdf).take(STATES, message)
+    assert outputs[-1].text.startswith(line)
+
+
+def test_a_wrong_description_is_named_at_once_and_replaced():
+    display = make("")
+    (status,) = display.take(ROBOT, String(data="<robot"))
+    assert status.level == "error"
+    (status,) = display.take(ROBOT, String(data=URDF))
+    assert (status.level, status.text) == ("ok", "")
+    assert joints_of(display.take(STATES, states(elbow=10)))["elbow"]["share"] == 1
+
+
+@pytest.mark.parametrize("joints", [{"a": {"max": -1}}, {"a": {"max": "x"}}, {"a": {"top": 1}}])
+def test_wrong_choices_of_joints_are_refused(joints):
+    with pytest.raises(ValueError, match="option 'joints' of a"):
+        EffortDisplay({"joints": joints})
+
+
+FILE = """
+Visualization Manager:
+  Displays:
+    - Alpha: 0.5
+      Class: rviz_default_plugins/Effort
+      History Length: 3
+      Joints: {All Enabled: true, elbow: {Value: false}, roll: true, slide: {Max Effort: 7}}
+      Robot Description: arm_description
+      Scale: 2
+      TF Prefix: left
+      Topic: {Value: /arm/joint_states}
+      Width: 0.1
+    - {Class: rviz_default_plugins/Effort}
+"""
+
+
+def test_efforts_of_a_file():
+    view = read_rviz(FILE)
+    display, default = view.displays
+    assert (display.kind, display.topic, view.unread) == ("effort", "/arm/joint_states", "")
+    assert display.options == {
+        "alpha": 0.5, "history_length": 3, "description_topic": "/arm_description", "scale": 2,
+        "tf_prefix": "left", "width": 0.1,
+        "joints": {"elbow": {"shown": False}, "roll": {"shown": True},
+                   "slide": {"shown": True, "max": 7}},
+    }  # fmt: skip
+    assert default.topic == "/joint_states"
+    again = read_rviz(write_rviz(view, {}, view))
+    assert again.displays == view.displays
+    saved = again.document["Visualization Manager"]["Displays"][0]["Joints"]
+    assert saved["All Enabled"] is True
+    assert saved["slide"] == {"Value": True, "Max Effort": 7}
+
+
+def test_a_page_gets_efforts(open_view_page):
+    assert display_types()["sensor_msgs/msg/JointState"] is EffortDisplay
+    source = StillSource()
+    source.offer(STATES, states(elbow=5))
+    source.offer(ROBOT, String(data=URDF))
+    with Viewer(source, "map", port=0) as viewer:
+        page = open_view_page(viewer)
+        page.send("add", id="a", kind="effort", topic=STATES, options={})
+        assert page.wait_for("display")["joints"][0]["share"] == 0.5
