@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, Any, Generic, overload
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, overload
 
 from turtlewire.distro import KILTED, since
 from turtlewire.errors import CdrError, UncallableServiceError, WireError
@@ -23,19 +23,42 @@ from .service_introspection import EventType, IntrospectedEndpoint
 from .task import Future
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from turtlewire.msg import Service as ServiceClass
     from turtlewire.wire import base
 
     from ._execution.entity import Work
     from ._node.state import NodeState
     from .callback_groups import CallbackGroup
+    from .context import Context
     from .qos import QoSProfile
 
-__all__ = ["BaseClient", "Client", "SrvType", "SrvTypeRequest", "SrvTypeResponse"]
+__all__ = ["BaseClient", "Client", "ClientImpl", "SrvType", "SrvTypeRequest", "SrvTypeResponse"]
+
+
+class ClientImpl(NamedTuple):
+    """A client of the middleware and its node, for the constructors of clients.
+
+    Attributes:
+        wire: The middleware's side of it.
+        core: The state of the node.
+    """
+
+    wire: base.Client
+    core: NodeState
 
 
 class BaseClient(IntrospectedEndpoint, Generic[SrvT_co]):
     """Sends requests and takes their responses.
+
+    Args:
+        context: The context of the node.
+        client_impl: From the node.
+        srv_type: The service class.
+        srv_name: Name of the service, as it was given.
+        qos_profile: Quality of service of requests and responses.
+        on_destroy: Called with the client when it was destroyed.
 
     Attributes:
         srv_type: The service class.
@@ -47,17 +70,18 @@ class BaseClient(IntrospectedEndpoint, Generic[SrvT_co]):
 
     def __init__(
         self,
-        wire: base.Client,
+        context: Context,
+        client_impl: ClientImpl,
         srv_type: type[SrvT_co],
         srv_name: str,
         qos_profile: QoSProfile,
-        callback_group: CallbackGroup | None,
-        core: NodeState,
+        *,
+        on_destroy: Callable[[Any], None] | None = None,
     ) -> None:
-        super().__init__(wire, core, srv_type, callback_group)
+        super().__init__(client_impl.wire, client_impl.core, srv_type, on_destroy)
         self.srv_name = srv_name
         self.qos_profile = qos_profile
-        self._context = core.context
+        self._context = context
         self._lock = threading.Lock()
         self._pending: dict[int, Future] = {}
         self._said_why_not_called = False
@@ -178,6 +202,15 @@ class Client(BaseClient[SrvT_co]):
     Responses are handed to their futures whatever the callback group is doing: a callback that
     awaits a response, or blocks for it in :meth:`call` while another thread spins, never waits for
     itself.
+
+    Args:
+        context: The context of the node.
+        client_impl: From the node.
+        srv_type: The service class.
+        srv_name: Name of the service, as it was given.
+        qos_profile: Quality of service of requests and responses.
+        callback_group: The group of the client.
+        on_destroy: Called with the client when it was destroyed.
     """
 
     _ORDER = 3
@@ -185,14 +218,19 @@ class Client(BaseClient[SrvT_co]):
 
     def __init__(
         self,
-        wire: base.Client,
+        context: Context,
+        client_impl: ClientImpl,
         srv_type: type[SrvT_co],
         srv_name: str,
         qos_profile: QoSProfile,
         callback_group: CallbackGroup,
-        core: NodeState,
+        *,
+        on_destroy: Callable[[Any], None] | None = None,
     ) -> None:
-        super().__init__(wire, srv_type, srv_name, qos_profile, callback_group, core)
+        super().__init__(
+            context, client_impl, srv_type, srv_name, qos_profile, on_destroy=on_destroy
+        )
+        self._enter(callback_group)
         self._blocking: set[Future] = set()
 
     def call_async(

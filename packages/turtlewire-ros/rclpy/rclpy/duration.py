@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from ._rclpy_pybind11 import rcl_duration_t
 from .constants import S_TO_NS
 
 if TYPE_CHECKING:
@@ -37,6 +38,10 @@ class Duration:
     def nanoseconds(self) -> int:
         """The whole span in nanoseconds."""
         return self._nanoseconds
+
+    def get_c_duration(self) -> rcl_duration_t:
+        """Return the span as the structure of ROS 2's C library."""
+        return rcl_duration_t(self._nanoseconds)
 
     def to_msg(self) -> builtin_interfaces.msg.Duration:
         """Convert to the message type.

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
+from . import signals
 from ._execution.entity import Entity, EntityHost, Work
+from ._rclpy_pybind11 import InvalidHandle
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -12,7 +15,7 @@ if TYPE_CHECKING:
     from .callback_groups import CallbackGroup
     from .context import Context
 
-__all__ = ["GuardCondition"]
+__all__ = ["GuardCondition", "SignalHandlerGuardCondition"]
 
 
 class GuardCondition(Entity):
@@ -56,3 +59,25 @@ class GuardCondition(Entity):
             return None
         self._triggered = False
         return None if self.callback is None else (self.callback, ())
+
+
+class SignalHandlerGuardCondition(GuardCondition):
+    """A guard condition that each handled signal triggers, until it is destroyed.
+
+    Args:
+        context: Its context; None uses the default.
+    """
+
+    def __init__(self, context: Context | None = None) -> None:
+        super().__init__(None, None, context)
+        signals.listeners.add(self)
+
+    def on_signal(self, signum: int) -> None:  # noqa: ARG002 - each signal does the same
+        """Trigger it. Called on the thread of the signals."""
+        with suppress(InvalidHandle):  # another thread may destroy it at any moment
+            self.trigger()
+
+    def destroy(self) -> None:
+        """Ignore further signals, and close it. Idempotent."""
+        signals.listeners.discard(self)
+        super().destroy()

@@ -20,6 +20,7 @@ from ._node.endpoints import QosOverrides
 from ._rclpy_pybind11 import NodeNameNonExistentError
 from .client import Client, SrvType, SrvTypeRequest, SrvTypeResponse
 from .clock import Clock, ClockType
+from .constants import S_TO_NS
 from .guard_condition import GuardCondition
 from .impl.reexports import reexports
 from .parameter import PARAMETER_SEPARATOR_STRING
@@ -47,6 +48,7 @@ if TYPE_CHECKING:
 __all__ = [
     "HIDDEN_NODE_PREFIX",
     "PARAMETER_SEPARATOR_STRING",
+    "S_TO_NS",
     "BaseNode",
     "MsgType",
     "Node",
@@ -157,7 +159,6 @@ class Node(BaseNode):
         self.__executor: weakref.ref[Executor] | None = None
         super().__init__(
             node_name,
-            clock=Clock(clock_type=ClockType.ROS_TIME),
             context=context,
             cli_args=cli_args,
             namespace=namespace,
@@ -173,6 +174,9 @@ class Node(BaseNode):
             enable_logger_service=enable_logger_service,
         )
         self._context.track_node(self)
+
+    def _rclpy_make_clock(self) -> Clock:
+        return Clock(clock_type=ClockType.ROS_TIME)
 
     def get_clock(self) -> Clock:
         """Return its clock.

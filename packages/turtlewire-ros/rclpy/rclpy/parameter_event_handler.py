@@ -64,6 +64,30 @@ class ParameterEventHandler:
             callbacks.
     """
 
+    class Callbacks:
+        """The callbacks of a handler, the newest first.
+
+        Attributes:
+            parameter_callbacks: The callbacks for one parameter.
+            event_callbacks: The callbacks for all events.
+        """
+
+        def __init__(self) -> None:
+            self.parameter_callbacks: list[ParameterCallbackHandle] = []
+            self.event_callbacks: list[ParameterEventCallbackHandle] = []
+
+        def event_callback(self, event: Any) -> None:
+            """Call the callbacks of an event; bytes have no parameter callbacks."""
+            of_parameters = [] if isinstance(event, bytes) else list(self.parameter_callbacks)
+            for handle in of_parameters:
+                parameter = ParameterEventHandler.get_parameter_from_event(
+                    event, handle.parameter_name, handle.node_name
+                )
+                if parameter is not None:
+                    handle.callback(parameter)
+            for each in list(self.event_callbacks):
+                each.callback(event)
+
     def __init__(
         self,
         node: Node,
@@ -77,12 +101,11 @@ class ParameterEventHandler:
 
         self.node = node
         self.qos_profile = qos_profile
-        self._parameter_callbacks: list[ParameterCallbackHandle] = []
-        self._event_callbacks: list[ParameterEventCallbackHandle] = []
+        self._callbacks = self.Callbacks()
         self.parameter_event_subscription = node.create_subscription(
             ParameterEvent,
             "/parameter_events",
-            self._on_event,
+            self._callbacks.event_callback,
             qos_profile,
             callback_group=callback_group,
             event_callbacks=event_callbacks,
@@ -131,7 +154,7 @@ class ParameterEventHandler:
     ) -> ParameterEventCallbackHandle:
         """Call ``callback(event)`` for every event of every node."""
         handle = ParameterEventCallbackHandle(callback)
-        self._event_callbacks.insert(0, handle)
+        self._callbacks.event_callbacks.insert(0, handle)
         return handle
 
     def remove_parameter_event_callback(self, handle: ParameterEventCallbackHandle) -> None:
@@ -140,9 +163,9 @@ class ParameterEventHandler:
         Raises:
             RuntimeError: The callback was already removed.
         """
-        if handle not in self._event_callbacks:
+        if handle not in self._callbacks.event_callbacks:
             raise RuntimeError("Callback doesn't exist")
-        self._event_callbacks.remove(handle)
+        self._callbacks.event_callbacks.remove(handle)
 
     def add_parameter_callback(
         self,
@@ -159,7 +182,7 @@ class ParameterEventHandler:
             callback: Gets the message of the parameter.
         """
         handle = ParameterCallbackHandle(parameter_name, self._resolve(node_name), callback)
-        self._parameter_callbacks.insert(0, handle)
+        self._callbacks.parameter_callbacks.insert(0, handle)
         return handle
 
     def remove_parameter_callback(self, handle: ParameterCallbackHandle) -> None:
@@ -168,9 +191,9 @@ class ParameterEventHandler:
         Raises:
             RuntimeError: The callback was already removed.
         """
-        if handle not in self._parameter_callbacks:
+        if handle not in self._callbacks.parameter_callbacks:
             raise RuntimeError("Callback doesn't exist")
-        self._parameter_callbacks.remove(handle)
+        self._callbacks.parameter_callbacks.remove(handle)
 
     def _resolve(self, node_name: str) -> str:
         if not node_name:
@@ -180,14 +203,3 @@ class ParameterEventHandler:
             if node_name.startswith("/")
             else names.fully_qualified_node_name(node_name, self.node.get_namespace())
         )
-
-    def _on_event(self, event: Any) -> None:  # bytes if they are raw
-        parameter_callbacks = () if isinstance(event, bytes) else tuple(self._parameter_callbacks)
-        for handle in parameter_callbacks:
-            parameter = self.get_parameter_from_event(
-                event, handle.parameter_name, handle.node_name
-            )
-            if parameter is not None:
-                handle.callback(parameter)
-        for each in list(self._event_callbacks):
-            each.callback(event)

@@ -21,6 +21,7 @@ from ._qos.policies import (
     ReliabilityPolicy,
     qos_policy_name_from_kind,
 )
+from ._rclpy_pybind11 import rmw_qos_profile_t
 from .duration import Duration
 from .impl.hints import require, with_hint
 
@@ -262,6 +263,10 @@ class QoSProfile:
     def __str__(self) -> str:
         fields = ", ".join(f"{field}={getattr(self, field)}" for field in self._FIELDS)
         return f"{type(self).__name__}({fields})"
+
+    def get_c_qos_profile(self) -> rmw_qos_profile_t:
+        """Return the policies as the structure of ROS 2's C library."""
+        return rmw_qos_profile_t(**{field: getattr(self, field) for field in self._FIELDS})
 
     def to_wire(self) -> wire_qos.QoS:
         """Convert to what the middleware takes."""

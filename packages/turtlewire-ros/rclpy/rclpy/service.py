@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from types import CoroutineType
-from typing import TYPE_CHECKING, Any, Generic
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple
 
+from turtlewire.distro import LYRICAL, since
 from turtlewire.errors import CdrError, WireError
 from turtlewire.msg import deserialize, serialize
 
@@ -26,13 +27,33 @@ if TYPE_CHECKING:
     from .callback_groups import CallbackGroup
     from .qos import QoSProfile
 
-__all__ = ["BaseService", "Service", "SrvType", "SrvTypeRequest", "SrvTypeResponse"]
+__all__ = ["BaseService", "Service", "ServiceImpl", "SrvType", "SrvTypeRequest", "SrvTypeResponse"]
+
+
+class ServiceImpl(NamedTuple):
+    """A service of the middleware and its node, for the constructors of services.
+
+    Attributes:
+        wire: The middleware's side of it.
+        core: The state of the node.
+    """
+
+    wire: base.Service
+    core: NodeState
 
 
 class BaseService(IntrospectedEndpoint, Generic[SrvT_co]):
     """Answers requests.
 
     The callback is called with a request and an empty response, and returns the response.
+
+    Args:
+        service_impl: From the node.
+        srv_type: The service class.
+        srv_name: Name of the service, as it was given.
+        callback: What answers.
+        qos_profile: Quality of service of requests and responses.
+        on_destroy: Called with the service when it was destroyed.
 
     Attributes:
         srv_type: The service class.
@@ -43,19 +64,19 @@ class BaseService(IntrospectedEndpoint, Generic[SrvT_co]):
 
     def __init__(
         self,
-        wire: base.Service,
+        service_impl: ServiceImpl,
         srv_type: type[SrvT_co],
         srv_name: str,
         callback: Callable[[Any, Any], Any],
-        callback_group: CallbackGroup | None,
         qos_profile: QoSProfile,
-        core: NodeState,
+        *,
+        on_destroy: Callable[[Any], None] | None = None,
     ) -> None:
-        super().__init__(wire, core, srv_type, callback_group)
+        super().__init__(service_impl.wire, service_impl.core, srv_type, on_destroy)
         self.srv_name = srv_name
         self.callback = callback
         self.qos_profile = qos_profile
-        self._context = core.context
+        self._context = service_impl.core.context
 
     def send_response(self, response: Any, header: base.RequestId) -> None:
         """Answer the request that ``header`` identifies.
@@ -130,6 +151,57 @@ class BaseService(IntrospectedEndpoint, Generic[SrvT_co]):
 
 
 class Service(BaseService[SrvT_co]):
-    """Answers requests; made by :meth:`Node.create_service <rclpy.node.Node.create_service>`."""
+    """Answers requests; made by :meth:`Node.create_service <rclpy.node.Node.create_service>`.
+
+    Args:
+        service_impl: From the node.
+        srv_type: The service class.
+        srv_name: Name of the service, as it was given.
+        callback: What answers.
+        qos_profile: Quality of service of requests and responses.
+        callback_group: The group of the service. Up to Kilted, it comes before the quality of
+            service.
+        on_destroy: Called with the service when it was destroyed.
+    """
 
     _ORDER = 4
+
+    def __init__(
+        self,
+        service_impl: ServiceImpl,
+        srv_type: type[SrvT_co],
+        srv_name: str,
+        callback: Callable[[Any, Any], Any],
+        qos_profile: QoSProfile,
+        *,
+        on_destroy: Callable[[Any], None] | None = None,
+        callback_group: CallbackGroup,
+    ) -> None:
+        super().__init__(
+            service_impl, srv_type, srv_name, callback, qos_profile, on_destroy=on_destroy
+        )
+        self._enter(callback_group)
+
+    if not (TYPE_CHECKING or since(LYRICAL)):
+        __init = __init__
+
+        def __init__(  # in the order of Jazzy and Kilted
+            self,
+            service_impl: ServiceImpl,
+            srv_type: type[SrvT_co],
+            srv_name: str,
+            callback: Callable[[Any, Any], Any],
+            callback_group: CallbackGroup,
+            qos_profile: QoSProfile,
+            *,
+            on_destroy: Callable[[Any], None] | None = None,
+        ) -> None:
+            self.__init(
+                service_impl,
+                srv_type,
+                srv_name,
+                callback,
+                qos_profile,
+                on_destroy=on_destroy,
+                callback_group=callback_group,
+            )

@@ -14,10 +14,11 @@ from ._execution.entity import ClosingEntity, EntityHost
 from .type_support import type_id
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from turtlewire.wire import base
 
     from ._node.state import NodeState
-    from .callback_groups import CallbackGroup
     from .clock import Clock
     from .qos import QoSProfile
 
@@ -50,7 +51,7 @@ class IntrospectedEndpoint(ClosingEntity):
         wire: Its side on the wire.
         core: The core of the node that owns it and publishes the events.
         srv_type: The service class.
-        callback_group: Its callback group, if it has one.
+        on_destroy: Called with the endpoint when it was destroyed.
     """
 
     srv_type: Any
@@ -60,9 +61,10 @@ class IntrospectedEndpoint(ClosingEntity):
         wire: base.Client | base.Service,
         core: NodeState,
         srv_type: Any,
-        callback_group: CallbackGroup | None,
+        on_destroy: Callable[[Any], None] | None,
     ) -> None:
-        super().__init__(callback_group)
+        super().__init__(None)
+        self._on_destroy = on_destroy
         self.srv_type = srv_type
         self._wire: Any = wire
         self._core = core

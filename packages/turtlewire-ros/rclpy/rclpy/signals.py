@@ -24,12 +24,14 @@ from turtlewire.platforms import in_browser
 
 from ._execution.asyncio_loop import interrupted_loop
 from .impl import excepthooks
+from .impl.reexports import reexports
 
 if TYPE_CHECKING:
     from types import FrameType
 
 __all__ = [
     "REPEATED_INTERRUPT_S",
+    "SignalHandlerGuardCondition",
     "SignalHandlerOptions",
     "SignalListener",
     "get_current_signal_handlers_options",
@@ -37,6 +39,8 @@ __all__ = [
     "listeners",
     "uninstall_signal_handlers",
 ]
+
+__getattr__ = reexports(__name__, {"rclpy.guard_condition": ("SignalHandlerGuardCondition",)})
 
 #: A terminal and `ros2 launch` both send SIGINT for one Ctrl-C: within this time the second one is
 #: not a new request of the user.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from enum import Enum
-from typing import TYPE_CHECKING, Any, Generic
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol
 
 from turtlewire.distro import LYRICAL, since
 from turtlewire.errors import CdrError
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from .qos import QoSProfile
     from .subscription_content_filter_options import ContentFilterOptions
 
-__all__ = ["BaseSubscription", "MessageInfo", "MsgType", "Subscription"]
+__all__ = ["BaseSubscription", "MessageInfo", "MsgType", "Subscription", "SubscriptionImpl"]
 
 
 #: Second argument of a callback that takes two: facts about the message in addition to its content.
@@ -38,8 +38,39 @@ _CALLBACK_SHAPES = (  # ROS 2's text, to the byte
 )
 
 
+class SubscriptionImpl(NamedTuple):
+    """A subscription of the middleware and its node, for the constructors of subscriptions.
+
+    Attributes:
+        wire: The middleware's side of it.
+        core: The state of the node.
+    """
+
+    wire: base.Subscription
+    core: NodeState
+
+
+class _EventCallbacks(Protocol):
+    """The part of :class:`rclpy.event_handler.SubscriptionEventCallbacks` that is used here."""
+
+    def create_event_handlers(
+        self, callback_group: CallbackGroup, subscription: Subscription[Any], topic_name: str, /
+    ) -> list[Any]:
+        """Make a handler for each callback."""
+        ...
+
+
 class BaseSubscription(ClosingEntity, Generic[MsgT]):
     """Receives the messages of a topic.
+
+    Args:
+        subscription_impl: From the node.
+        msg_type: Class of its messages.
+        topic: Name of the topic, as it was given.
+        callback: Called with each message, and with a message info when it takes two arguments.
+        qos_profile: Its quality of service.
+        raw: Whether the callback gets the serialized bytes instead of a message.
+        on_destroy: Called with the subscription when it was destroyed.
 
     Attributes:
         msg_type: Class of its messages.
@@ -58,15 +89,18 @@ class BaseSubscription(ClosingEntity, Generic[MsgT]):
 
     def __init__(
         self,
-        wire: base.Subscription,
+        subscription_impl: SubscriptionImpl,
         msg_type: type[MsgT],
+        topic: str,  # noqa: ARG002 - the implementation knows the full name
         callback: Callable[..., Any],
-        callback_group: CallbackGroup | None,
         qos_profile: QoSProfile,
         raw: bool,
-        core: NodeState,
+        *,
+        on_destroy: Callable[[Any], None] | None = None,
     ) -> None:
-        super().__init__(callback_group)
+        super().__init__(None)
+        wire, core = subscription_impl
+        self._on_destroy = on_destroy
         self.msg_type = msg_type
         self.qos_profile = qos_profile
         self.raw = raw
@@ -191,11 +225,71 @@ class Subscription(BaseSubscription[MsgT]):
     """Receives the messages of a topic.
 
     Made by :meth:`Node.create_subscription <rclpy.node.Node.create_subscription>`.
+
+    Args:
+        subscription_impl: From the node.
+        msg_type: Class of its messages.
+        topic: Name of the topic, as it was given.
+        callback: Called with each message, and with a message info when it takes two arguments.
+        qos_profile: Its quality of service.
+        raw: Whether the callback gets the serialized bytes instead of a message.
+        callback_group: The group of the subscription. Up to Kilted, it comes before the quality of
+            service.
+        event_callbacks: Functions to call on events of the quality of service.
+        on_destroy: Called with the subscription when it was destroyed.
     """
 
     _ORDER = 1
-    if not since(LYRICAL):
+
+    def __init__(
+        self,
+        subscription_impl: SubscriptionImpl,
+        msg_type: type[MsgT],
+        topic: str,
+        callback: Callable[..., Any],
+        qos_profile: QoSProfile,
+        raw: bool,
+        *,
+        on_destroy: Callable[[Any], None] | None = None,
+        callback_group: CallbackGroup,
+        event_callbacks: _EventCallbacks | None,
+    ) -> None:
+        super().__init__(
+            subscription_impl, msg_type, topic, callback, qos_profile, raw, on_destroy=on_destroy
+        )
+        self._enter(callback_group)
+        if event_callbacks is not None:
+            # ROS 2 names the topic in its warnings as it was given.
+            self.event_handlers = event_callbacks.create_event_handlers(callback_group, self, topic)
+
+    if not (TYPE_CHECKING or since(LYRICAL)):
         _WRONG_CALLBACK = f"Subscription.__init__(): {_CALLBACK_SHAPES}"
+        __init = __init__
+
+        def __init__(  # in the order of Jazzy and Kilted
+            self,
+            subscription_impl: SubscriptionImpl,
+            msg_type: type[MsgT],
+            topic: str,
+            callback: Callable[..., Any],
+            callback_group: CallbackGroup,
+            qos_profile: QoSProfile,
+            raw: bool,
+            event_callbacks: _EventCallbacks | None,
+            *,
+            on_destroy: Callable[[Any], None] | None = None,
+        ) -> None:
+            self.__init(
+                subscription_impl,
+                msg_type,
+                topic,
+                callback,
+                qos_profile,
+                raw,
+                on_destroy=on_destroy,
+                callback_group=callback_group,
+                event_callbacks=event_callbacks,
+            )
 
 
 def _callback_type(callback: Callable[..., Any], failure: str) -> BaseSubscription.CallbackType:

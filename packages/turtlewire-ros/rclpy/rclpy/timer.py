@@ -6,6 +6,7 @@ import threading
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from turtlewire.distro import LYRICAL, since
 from turtlewire.wake_up import WakeUp
 
 from ._execution.entity import ClosingEntity, EntityHost, Work
@@ -62,15 +63,23 @@ class BaseTimer(ClosingEntity):
     When a call comes late, the following ones keep the old rhythm; periods that were missed
     entirely are skipped, never made up for. On a ROS clock that follows ``/clock``, the timer
     follows simulated time, its stops and jumps included.
+
+    Args:
+        callback: Called once per period; None raises an error at the first call.
+        timer_period_ns: Nanoseconds between calls.
+        clock: The clock that it follows.
+        on_destroy: Called with the timer when it was destroyed.
+        context: Its context; None uses the default.
+        autostart: Whether it runs at once, or waits for :meth:`reset`.
     """
 
     def __init__(
         self,
         callback: Callable[[], Any] | None,
-        callback_group: CallbackGroup | None,
         timer_period_ns: int,
         clock: BaseClock,
         *,
+        on_destroy: Callable[[Any], None] | None = None,
         context: Context | None = None,
         autostart: bool = True,
     ) -> None:
@@ -78,7 +87,8 @@ class BaseTimer(ClosingEntity):
 
         if timer_period_ns < 0:
             raise ValueError("timer period must be non-negative")
-        super().__init__(callback_group)
+        super().__init__(None)
+        self._on_destroy = on_destroy
         self.callback = callback
         self._context = get_default_context() if context is None else context
         self._clock = clock
@@ -247,10 +257,60 @@ class Timer(BaseTimer):
     """Calls a callback periodically.
 
     Made by :meth:`Node.create_timer <rclpy.node.Node.create_timer>`; see :class:`BaseTimer` for the
-    rhythm.
+    rhythm and the other arguments.
+
+    Args:
+        callback_group: The group of the timer, if it has one. Up to Kilted, it is required, and
+            comes after the callback.
     """
 
     _ORDER = 0
+
+    def __init__(
+        self,
+        callback: Callable[[], Any] | None,
+        timer_period_ns: int,
+        clock: BaseClock,
+        *,
+        on_destroy: Callable[[Any], None] | None = None,
+        context: Context | None = None,
+        autostart: bool = True,
+        callback_group: CallbackGroup | None = None,
+    ) -> None:
+        super().__init__(
+            callback,
+            timer_period_ns,
+            clock,
+            on_destroy=on_destroy,
+            context=context,
+            autostart=autostart,
+        )
+        if callback_group is not None:
+            self._enter(callback_group)
+
+    if not (TYPE_CHECKING or since(LYRICAL)):
+        __init = __init__
+
+        def __init__(  # in the order of Jazzy and Kilted
+            self,
+            callback: Callable[[], Any] | None,
+            callback_group: CallbackGroup | None,
+            timer_period_ns: int,
+            clock: BaseClock,
+            *,
+            context: Context | None = None,
+            autostart: bool = True,
+            on_destroy: Callable[[Any], None] | None = None,
+        ) -> None:
+            self.__init(
+                callback,
+                timer_period_ns,
+                clock,
+                on_destroy=on_destroy,
+                context=context,
+                autostart=autostart,
+                callback_group=callback_group,
+            )
 
 
 def _parameter_for_info(callback: Callable[..., Any]) -> str:

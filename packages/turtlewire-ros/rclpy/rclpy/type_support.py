@@ -11,12 +11,15 @@ from .exceptions import NoTypeSupportImportedException
 from .impl.hints import described, with_hint
 
 __all__ = [
+    "Action",
     "EventMessage",
     "FeedbackMessage",
     "GetResultServiceRequest",
     "GetResultServiceResponse",
+    "Msg",
     "SendGoalServiceRequest",
     "SendGoalServiceResponse",
+    "Srv",
     "check_for_type_support",
     "check_is_valid_msg_type",
     "check_is_valid_srv_type",
@@ -28,6 +31,11 @@ if TYPE_CHECKING:
     from builtin_interfaces.msg import Time
     from service_msgs.msg import ServiceEventInfo
     from unique_identifier_msgs.msg import UUID
+
+# The bases of all interface classes, under Kilted's names for annotations.
+Msg = msg.Message
+Srv = msg.Service
+Action = msg.Action
 
 _GoalT = TypeVar("_GoalT")
 _ResultT = TypeVar("_ResultT")

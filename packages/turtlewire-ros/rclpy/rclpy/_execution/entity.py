@@ -113,11 +113,14 @@ class Entity:
         self._host: weakref.ref[EntityHost] | None = None
         self._rank: tuple[int, int, int] = (0, 0, 0)
         self._destroyed = False
-        self._on_destroy: Callable[[Entity], None] | None = None
+        self._on_destroy: Callable[[Any], None] | None = None
         self._owner: _Owner | None = None
         if callback_group is not None:
-            self.callback_group = callback_group
-            callback_group.add_entity(self)
+            self._enter(callback_group)
+
+    def _enter(self, callback_group: CallbackGroup) -> None:
+        self.callback_group = callback_group
+        callback_group.add_entity(self)
 
     def _join(self, host: EntityHost, node_index: int, number: int) -> bool:
         """Belong to ``host``; False if it belongs to one already, or was destroyed."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 from contextvars import ContextVar
 from typing import TYPE_CHECKING, Any
 
-from rclpy._execution.handle import Handle
 from rclpy._node.endpoints import OwnEndpoints
 from rclpy._node.graph import NodeGraph, actions_among
+from rclpy._node.handle import NodeHandle
 from rclpy._node.parameters import NodeParameters
 from rclpy._node.state import NodeState
 from rclpy.exceptions import (
@@ -77,8 +77,7 @@ def _rosout_qos(profile: QoSProfile | int) -> QoS:
 class BaseNode:
     """The common base of :class:`rclpy.node.Node` and :class:`rclpy.experimental.AsyncNode`.
 
-    Args:
-        clock: Its clock, of ROS time. :class:`rclpy.node.Node` describes the other arguments.
+    :class:`rclpy.node.Node` describes the arguments. A derived class makes the clock.
     """
 
     PARAM_REL_TOL = 1e-6
@@ -93,7 +92,6 @@ class BaseNode:
         self,
         node_name: str,
         *,
-        clock: BaseClock,
         context: Context | None = None,
         cli_args: list[str] | None = None,
         namespace: str | None = None,
@@ -117,7 +115,7 @@ class BaseNode:
             rosout_qos=_rosout_qos(rosout_qos_profile) if enable_rosout else None,
         )
         self._logger = core.logger
-        self._clock = clock
+        self._clock = clock = self._rclpy_make_clock()
         self._rclpy_endpoints = OwnEndpoints(core)
         self._rclpy_graph = NodeGraph(core)
         self._parameters = NodeParameters(
@@ -178,12 +176,12 @@ class BaseNode:
         return self._rclpy_core.wire
 
     @property
-    def handle(self) -> Handle:
+    def handle(self) -> NodeHandle:
         """Stands for the C object that it has in ROS 2.
 
         Raises ``InvalidHandle`` after :meth:`destroy_node`.
         """
-        return Handle(self._rclpy_wire)
+        return NodeHandle(self._rclpy_wire, self._rclpy_endpoints)
 
     # Names
 
@@ -196,6 +194,10 @@ class BaseNode:
         return self._rclpy_endpoints.names.resolve_service(service, only_expand=only_expand)
 
     # Implemented by each kind of node
+
+    def _rclpy_make_clock(self) -> BaseClock:
+        """Return a new clock of ROS time."""
+        raise NotImplementedError
 
     def get_clock(self) -> BaseClock:
         """Return its clock."""

@@ -14,12 +14,12 @@ from rclpy._execution.entity import Entity
 from rclpy._node.checks import check_callable, in_open_context, validate_qos
 from rclpy._node.names import NameResolver
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
-from rclpy.client import Client
+from rclpy.client import Client, ClientImpl
 from rclpy.event_handler import EventHandler, PublisherEventCallbacks, SubscriptionEventCallbacks
 from rclpy.guard_condition import GuardCondition
 from rclpy.publisher import Publisher, PublisherImpl
-from rclpy.service import Service
-from rclpy.subscription import Subscription
+from rclpy.service import Service, ServiceImpl
+from rclpy.subscription import Subscription, SubscriptionImpl
 from rclpy.timer import Rate, Timer
 from rclpy.type_support import (
     check_is_valid_msg_type,
@@ -158,13 +158,10 @@ class OwnEndpoints:
         """
         profile = validate_qos(qos_profile)
         profile = overrides.apply("subscription", profile, lambda: self.names.resolve_topic(topic))
-        subscription = self.make_subscription(
-            msg_type, topic, callback, profile, callback_group, raw, sink
-        )
         events = event_callbacks or SubscriptionEventCallbacks()
-        group = callback_group or self.default_callback_group
-        # ROS 2 names the topic in its warnings as it was given.
-        subscription.event_handlers = events.create_event_handlers(group, subscription, topic)
+        subscription = self.make_subscription(
+            msg_type, topic, callback, profile, callback_group, raw, sink, events
+        )
         for handler in subscription.event_handlers:
             self._own(EventHandler, handler)
         return self._own(Subscription, subscription)
@@ -178,23 +175,32 @@ class OwnEndpoints:
         callback_group: CallbackGroup | None,
         raw: bool = False,
         sink: base.Sink | None = None,
+        event_callbacks: SubscriptionEventCallbacks | None = None,
     ) -> Subscription:
         """Return a subscription that the caller owns."""
         profile = validate_qos(qos_profile)
-        wire = self.wire_subscription(msg_type, topic, profile, sink)
-        group = callback_group or self.default_callback_group
-        return Subscription(wire, msg_type, callback, group, profile, raw, self._core)
+        return Subscription(
+            self.subscription_impl(msg_type, topic, profile, sink),
+            msg_type,
+            topic,
+            callback=callback,
+            qos_profile=profile,
+            raw=raw,
+            callback_group=callback_group or self.default_callback_group,
+            event_callbacks=event_callbacks,
+        )
 
-    def wire_subscription(
+    def subscription_impl(
         self, msg_type: Any, topic: str, profile: QoSProfile, sink: base.Sink | None = None
-    ) -> base.Subscription:
-        """Announce a subscription; return the middleware's side of it."""
+    ) -> SubscriptionImpl:
+        """Announce a subscription; return what its constructor needs."""
         check_is_valid_msg_type(msg_type)
         name = self.names.resolve_topic(topic)
         with in_open_context(self._core.context, "subscription"):
-            return self._core.wire.create_subscription(
+            wire = self._core.wire.create_subscription(
                 name, type_id(type_name(msg_type)), profile.to_wire(), sink=sink
             )
+        return SubscriptionImpl(wire, self._core)
 
     def create_client(
         self,
@@ -213,25 +219,24 @@ class OwnEndpoints:
         callback_group: CallbackGroup | None,
     ) -> Client:
         """Return a client that the caller owns."""
-        wire = self.wire_client(srv_type, srv_name, qos_profile)
-        group = callback_group or self.default_callback_group
         return Client(
-            wire,
+            self._core.context,
+            self.client_impl(srv_type, srv_name, qos_profile),
             srv_type,
             srv_name,
             qos_profile,
-            group,
-            self._core,
+            callback_group or self.default_callback_group,
         )
 
-    def wire_client(self, srv_type: Any, srv_name: str, profile: QoSProfile) -> base.Client:
-        """Announce a client; return the middleware's side of it."""
+    def client_impl(self, srv_type: Any, srv_name: str, profile: QoSProfile) -> ClientImpl:
+        """Announce a client; return what its constructor needs."""
         check_is_valid_srv_type(srv_type)
         name = self.names.resolve_service(srv_name)
         with in_open_context(self._core.context, "client"):
-            return self._core.wire.create_client(
+            wire = self._core.wire.create_client(
                 name, service_types(type_name(srv_type)), profile.to_wire()
             )
+        return ClientImpl(wire, self._core)
 
     def create_service(
         self,
@@ -255,29 +260,26 @@ class OwnEndpoints:
         service_class: type[Service] = Service,
     ) -> Service:
         """Return a service that the caller owns."""
-        wire = self.wire_service(srv_type, srv_name, callback, qos_profile)
-        group = callback_group or self.default_callback_group
+        check_is_valid_srv_type(srv_type)
+        check_callable(callback)
         return service_class(
-            wire,
+            self.service_impl(srv_type, srv_name, qos_profile),
             srv_type,
             srv_name,
             callback,
-            group,
-            qos_profile,
-            self._core,
+            qos_profile=qos_profile,
+            callback_group=callback_group or self.default_callback_group,
         )
 
-    def wire_service(
-        self, srv_type: Any, srv_name: str, callback: Callable[..., Any], profile: QoSProfile
-    ) -> base.Service:
-        """Announce a service; return the middleware's side of it."""
+    def service_impl(self, srv_type: Any, srv_name: str, profile: QoSProfile) -> ServiceImpl:
+        """Announce a service; return what its constructor needs."""
         check_is_valid_srv_type(srv_type)
-        check_callable(callback)
         name = self.names.resolve_service(srv_name)
         with in_open_context(self._core.context, "service"):
-            return self._core.wire.create_service(
+            wire = self._core.wire.create_service(
                 name, service_types(type_name(srv_type)), profile.to_wire()
             )
+        return ServiceImpl(wire, self._core)
 
     def create_timer(
         self,
@@ -289,13 +291,17 @@ class OwnEndpoints:
     ) -> Timer:
         if callback is not None:
             check_callable(callback)
-        group = callback_group or self.default_callback_group
         # Truncated, not rounded, as in ROS 2.
         period_ns = int(float(period_sec) * 1_000_000_000)
         return self._own(
             Timer,
             Timer(
-                callback, group, period_ns, clock, context=self._core.context, autostart=autostart
+                callback,
+                timer_period_ns=period_ns,
+                clock=clock,
+                context=self._core.context,
+                autostart=autostart,
+                callback_group=callback_group or self.default_callback_group,
             ),
         )
 

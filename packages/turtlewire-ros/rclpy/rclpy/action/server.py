@@ -17,7 +17,7 @@ from rclpy.service import Service
 from rclpy.timer import Timer
 from rclpy.type_support import check_for_type_support
 from rclpy.waitable import Waitable
-from turtlewire.distro import KILTED, since
+from turtlewire.distro import KILTED, LYRICAL, since
 from turtlewire.msg import get_message
 
 from ._goal_ids import goal_key
@@ -91,9 +91,18 @@ def _leave_waiting(goal_handle: ServerGoalHandle) -> None:
 
 
 # Likewise.
-def default_cancel_callback(cancel_request: ServerGoalHandle) -> CancelResponse:  # noqa: ARG001
+def default_cancel_callback(goal_handle: ServerGoalHandle) -> CancelResponse:  # noqa: ARG001
     """Reject."""
     return CancelResponse.REJECT
+
+
+if not (TYPE_CHECKING or since(LYRICAL)):
+
+    def default_cancel_callback(
+        cancel_request: ServerGoalHandle,  # noqa: ARG001
+    ) -> CancelResponse:
+        """Reject."""
+        return CancelResponse.REJECT
 
 
 class ActionServer(IntrospectedAction, Waitable):
@@ -197,9 +206,9 @@ class ActionServer(IntrospectedAction, Waitable):
         clock = self._node.get_clock()
         self._expiry = Timer(
             self._expire_goals,
-            self.callback_group,
-            0,
-            clock,
+            callback_group=self.callback_group,
+            timer_period_ns=0,
+            clock=clock,
             context=self._node.context,
             autostart=False,
         )
@@ -263,10 +272,8 @@ class ActionServer(IntrospectedAction, Waitable):
         info = get_message("action_msgs/msg/GoalInfo")(
             goal_id=request.goal_id, stamp=response.stamp
         )
-        goal = Goal(info, request.goal)
-        goal_handle = ServerGoalHandle(self, goal, self._goals)
         # Before the response: the client may ask for the result at once.
-        self._goals.add(goal, goal_handle)
+        goal_handle = ServerGoalHandle(self, info, request.goal)
         self._goal_service._send_unless_destroyed(response, header)
         self._goals.publish_statuses()
         await await_or_execute(self._handle_accepted_callback, goal_handle)

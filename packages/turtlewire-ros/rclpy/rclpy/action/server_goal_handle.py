@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 from turtlewire.distro import LYRICAL, since
 
+from ._goals import Goal
 from .goal_state import GoalEvent
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ._goals import Goal, Goals
     from .server import ActionServer
 
 __all__ = ["ServerGoalHandle"]
@@ -22,12 +22,21 @@ _IGNORED_FEEDBACK = "publish_feedback() called on a goal handle not in executing
 
 
 class ServerGoalHandle:
-    """A goal that the server has accepted. Thread-safe."""
+    """A goal that the server has accepted. Thread-safe.
 
-    def __init__(self, action_server: ActionServer, goal: Goal, goals: Goals) -> None:
+    A new handle adds its goal to the goals of the server.
+
+    Args:
+        action_server: The server of the goal.
+        goal_info: Its id and the time of its acceptance (``action_msgs/msg/GoalInfo``).
+        goal_request: The goal, as the client sent it.
+    """
+
+    def __init__(self, action_server: ActionServer, goal_info: Any, goal_request: Any) -> None:
         self._action_server = action_server
-        self._goal = goal
-        self._goals = goals
+        self._goal = Goal(goal_info, goal_request)
+        self._goals = action_server._goals
+        self._goals.add(self._goal, self)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, ServerGoalHandle) and self.goal_id == other.goal_id

@@ -34,9 +34,10 @@ class AsyncEntity(Entity):
     _task: asyncio.Task[None] | None = None
     _wake_up: LoopWakeUp | None = None
 
-    def _start(self, group: TaskGroup) -> None:
-        """Serve it in a task of a group."""
-        self._task = group.create_task(self._serve())
+    def _start(self, group: TaskGroup | None) -> None:
+        """Serve it in a task of a group, if there is a group already."""
+        if group is not None:
+            self._task = group.create_task(self._serve())
 
     async def _serve(self) -> None:
         try:

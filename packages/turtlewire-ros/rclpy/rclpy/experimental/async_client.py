@@ -6,16 +6,19 @@ import asyncio
 from typing import TYPE_CHECKING, Any
 
 from rclpy._typing import RequestT, ResponseT, SrvT_co
-from rclpy.client import BaseClient
+from rclpy.client import BaseClient, ClientImpl
 
 from ._async_entity import AsyncEndpoint
 from ._graph_wait import wait_for_graph
 
 if TYPE_CHECKING:
-    from rclpy._node.state import NodeState
+    from collections.abc import Callable
+
+    from rclpy.context import Context
     from rclpy.qos import QoSProfile
     from turtlewire.msg import Service as ServiceClass
-    from turtlewire.wire import base
+
+    from ._async_entity import TaskGroup
 
 __all__ = ["AsyncClient"]
 
@@ -25,6 +28,15 @@ class AsyncClient(AsyncEndpoint, BaseClient[SrvT_co]):
 
     No method has its own timeout: use ``async with asyncio.timeout(…)``.
 
+    Args:
+        context: The context of the node.
+        client_impl: From the node.
+        srv_type: The service class.
+        srv_name: Name of the service, as it was given.
+        qos_profile: Quality of service of requests and responses.
+        on_destroy: Called with the client when it was destroyed.
+        tg: Its tasks handle the responses; None if the node does not run yet.
+
     Attributes:
         srv_type: The service class.
         srv_name: Name of the service, as it was given.
@@ -33,13 +45,18 @@ class AsyncClient(AsyncEndpoint, BaseClient[SrvT_co]):
 
     def __init__(
         self,
-        wire: base.Client,
+        context: Context,
+        client_impl: ClientImpl,
         srv_type: type[SrvT_co],
         srv_name: str,
         qos_profile: QoSProfile,
-        core: NodeState,
+        on_destroy: Callable[[Any], None] | None,
+        tg: TaskGroup | None = None,
     ) -> None:
-        super().__init__(wire, srv_type, srv_name, qos_profile, None, core)
+        super().__init__(
+            context, client_impl, srv_type, srv_name, qos_profile, on_destroy=on_destroy
+        )
+        self._start(tg)
 
     async def call(
         self: AsyncClient[ServiceClass[RequestT, ResponseT]], request: RequestT

@@ -99,7 +99,6 @@ class AsyncNode(BaseNode):
         self.__destroyed = asyncio.Event()
         super().__init__(
             node_name,
-            clock=AsyncClock(clock_type=ClockType.ROS_TIME),
             context=context,
             cli_args=cli_args,
             namespace=namespace,
@@ -122,6 +121,9 @@ class AsyncNode(BaseNode):
             """Raise AttributeError, with a hint for attributes of ordinary nodes."""
             error = AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
             raise with_hint(error, _NOT_IN_ASYNCIO if name in _other_attributes() else "")
+
+    def _rclpy_make_clock(self) -> AsyncClock:
+        return AsyncClock(clock_type=ClockType.ROS_TIME)
 
     def get_clock(self) -> AsyncClock:
         """Return its clock.
@@ -235,7 +237,7 @@ class AsyncNode(BaseNode):
         self.__check_alive("publisher")
         profile = validate_qos(qos_profile)
         impl = self._rclpy_endpoints.publisher_impl(msg_type, topic, profile)
-        publisher = AsyncPublisher(impl, msg_type, topic, profile)
+        publisher = AsyncPublisher(impl, msg_type, topic, profile, None)
         self._rclpy_endpoints.keep(publisher)
         return publisher
 
@@ -294,10 +296,10 @@ class AsyncNode(BaseNode):
         """
         self.__check_alive("subscription")
         profile = validate_qos(qos_profile)
-        wire = self._rclpy_endpoints.wire_subscription(msg_type, topic, profile)
+        impl = self._rclpy_endpoints.subscription_impl(msg_type, topic, profile)
         return self.__own(
             AsyncSubscription(
-                wire, msg_type, callback, profile, raw, self._rclpy_core, concurrent=concurrent
+                impl, msg_type, topic, callback, profile, None, raw, concurrent, self.__group
             )
         )
 
@@ -324,16 +326,11 @@ class AsyncNode(BaseNode):
             InvalidServiceNameException: The name breaks the rules.
         """
         self.__check_alive("service")
-        wire = self._rclpy_endpoints.wire_service(srv_type, srv_name, callback, qos_profile)
+        check_callable(callback)
+        impl = self._rclpy_endpoints.service_impl(srv_type, srv_name, qos_profile)
         return self.__own(
             AsyncService(
-                wire,
-                srv_type,
-                srv_name,
-                callback,
-                qos_profile,
-                self._rclpy_core,
-                concurrent=concurrent,
+                impl, srv_type, srv_name, callback, qos_profile, None, concurrent, self.__group
             )
         )
 
@@ -356,8 +353,10 @@ class AsyncNode(BaseNode):
             InvalidServiceNameException: The name breaks the rules.
         """
         self.__check_alive("client")
-        wire = self._rclpy_endpoints.wire_client(srv_type, srv_name, qos_profile)
-        return self.__own(AsyncClient(wire, srv_type, srv_name, qos_profile, self._rclpy_core))
+        impl = self._rclpy_endpoints.client_impl(srv_type, srv_name, qos_profile)
+        return self.__own(
+            AsyncClient(self._context, impl, srv_type, srv_name, qos_profile, None, self.__group)
+        )
 
     def create_timer(
         self, timer_period_sec: float, callback: Callable[..., Any], autostart: bool = True
@@ -378,7 +377,9 @@ class AsyncNode(BaseNode):
         # Truncated, not rounded, as in ROS 2.
         period_ns = int(float(timer_period_sec) * S_TO_NS)
         return self.__own(
-            AsyncTimer(callback, period_ns, self._clock, context=self._context, autostart=autostart)
+            AsyncTimer(
+                period_ns, self._clock, self._context, callback, autostart, None, self.__group
+            )
         )
 
     def __check_alive(self, what: str) -> None:
@@ -387,8 +388,6 @@ class AsyncNode(BaseNode):
 
     def __own(self, entity: _AnyEntity) -> _AnyEntity:
         self._rclpy_endpoints.keep(entity)
-        if self.__group is not None:
-            entity._start(self.__group)
         return entity
 
     # Parameters

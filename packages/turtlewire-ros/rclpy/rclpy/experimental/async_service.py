@@ -6,16 +6,16 @@ from typing import TYPE_CHECKING, Any
 
 from rclpy._typing import SrvT_co
 from rclpy.impl.hints import with_hint
-from rclpy.service import BaseService
+from rclpy.service import BaseService, ServiceImpl
 
 from ._async_entity import AsyncEndpoint
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from rclpy._node.state import NodeState
     from rclpy.qos import QoSProfile
-    from turtlewire.wire import base
+
+    from ._async_entity import TaskGroup
 
 __all__ = ["AsyncService"]
 
@@ -27,6 +27,16 @@ class AsyncService(AsyncEndpoint, BaseService[SrvT_co]):
     returns the response. Requests wait until the callback of the former one has ended, unless the
     service is concurrent.
 
+    Args:
+        service_impl: From the node.
+        srv_type: The service class.
+        srv_name: Name of the service, as it was given.
+        callback: What answers.
+        qos_profile: Quality of service of requests and responses.
+        on_destroy: Called with the service when it was destroyed.
+        concurrent: Whether a request may be handled while callbacks of former ones run.
+        tg: Its tasks handle the requests; None if the node does not run yet.
+
     Attributes:
         srv_type: The service class.
         srv_name: Name of the service, as it was given.
@@ -36,17 +46,20 @@ class AsyncService(AsyncEndpoint, BaseService[SrvT_co]):
 
     def __init__(
         self,
-        wire: base.Service,
+        service_impl: ServiceImpl,
         srv_type: type[SrvT_co],
         srv_name: str,
         callback: Callable[[Any, Any], Any],
         qos_profile: QoSProfile,
-        core: NodeState,
-        *,
+        on_destroy: Callable[[Any], None] | None,
         concurrent: bool = False,
+        tg: TaskGroup | None = None,
     ) -> None:
         self._concurrent = concurrent
-        super().__init__(wire, srv_type, srv_name, callback, None, qos_profile, core)
+        super().__init__(
+            service_impl, srv_type, srv_name, callback, qos_profile, on_destroy=on_destroy
+        )
+        self._start(tg)
 
     def _wrong_response(self, response: Any) -> TypeError:
         # As in ROS 2, without a text.

@@ -6,7 +6,7 @@ import asyncio
 from typing import TYPE_CHECKING, Any
 
 from rclpy._typing import MsgT
-from rclpy.subscription import BaseSubscription, MessageInfo
+from rclpy.subscription import BaseSubscription, MessageInfo, SubscriptionImpl
 from rclpy.utilities import get_rmw_implementation_identifier
 
 from ._async_entity import AsyncEndpoint, TaskGroup
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-    from rclpy._node.state import NodeState
     from rclpy.qos import QoSProfile
     from turtlewire.wire import base
 
@@ -30,6 +29,18 @@ class AsyncSubscription(AsyncEndpoint, BaseSubscription[MsgT]):
     ended, or is handled at once in a separate task if the subscription is concurrent. Without
     one, the program iterates over it: ``async for message in subscription``.
 
+    Args:
+        subscription_impl: From the node.
+        msg_type: Class of its messages.
+        topic: Name of the topic, as it was given.
+        callback: Called with each message, and with the message info if it takes two arguments.
+            None (not in ROS 2): the program iterates.
+        qos_profile: Its quality of service.
+        on_destroy: Called with the subscription when it was destroyed.
+        raw: Whether messages are given as serialized bytes.
+        concurrent: Whether a message may be handled while callbacks of former ones run.
+        tg: Its tasks handle the messages; None if the node does not run yet.
+
     Attributes:
         msg_type: Class of its messages.
         raw: Whether messages are given as serialized bytes.
@@ -38,22 +49,26 @@ class AsyncSubscription(AsyncEndpoint, BaseSubscription[MsgT]):
 
     def __init__(
         self,
-        wire: base.Subscription,
+        subscription_impl: SubscriptionImpl,
         msg_type: type[MsgT],
+        topic: str,
         callback: Callable[..., Any] | None,
         qos_profile: QoSProfile,
-        raw: bool,
-        core: NodeState,
-        *,
+        on_destroy: Callable[[Any], None] | None,
+        raw: bool = False,
         concurrent: bool = False,
+        tg: TaskGroup | None = None,
     ) -> None:
         self._is_iterated = callback is None
         self._turn = asyncio.Lock()  # several tasks may iterate
         self._concurrent = concurrent
         handler = _nothing if callback is None else callback
-        super().__init__(wire, msg_type, handler, None, qos_profile, raw, core)
+        super().__init__(
+            subscription_impl, msg_type, topic, handler, qos_profile, raw, on_destroy=on_destroy
+        )
+        self._start(tg)
 
-    def _start(self, group: TaskGroup) -> None:
+    def _start(self, group: TaskGroup | None) -> None:
         if not self._is_iterated:
             super()._start(group)
 

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from rclpy.clock import BaseClock
     from rclpy.context import Context
 
+    from ._async_entity import TaskGroup
+
 __all__ = ["AsyncTimer"]
 
 
@@ -24,20 +26,36 @@ class AsyncTimer(AsyncEntity, BaseTimer):
 
     The next call waits until the callback, ``def`` or ``async def``, has ended. A call that is
     overdue then comes at once; periods that were missed entirely are skipped.
+
+    Args:
+        timer_period_ns: Nanoseconds between calls.
+        clock: The clock that it follows.
+        context: The context of the node.
+        callback: Called without arguments, or with a :class:`~rclpy.timer.TimerInfo`.
+        autostart: Whether it runs at once, or waits for :meth:`reset`.
+        on_destroy: Called with the timer when it was destroyed.
+        tg: Its tasks call the callback; None if the node does not run yet.
     """
 
     def __init__(
         self,
-        callback: Callable[..., Any],
         timer_period_ns: int,
         clock: BaseClock,
-        *,
         context: Context,
-        autostart: bool = True,
+        callback: Callable[..., Any],
+        autostart: bool,
+        on_destroy: Callable[[Any], None] | None,
+        tg: TaskGroup | None = None,
     ) -> None:
         super().__init__(
-            callback, None, timer_period_ns, clock, context=context, autostart=autostart
+            callback,
+            timer_period_ns,
+            clock,
+            on_destroy=on_destroy,
+            context=context,
+            autostart=autostart,
         )
+        self._start(tg)
 
     @property
     def callback(self) -> Callable[..., Any]:

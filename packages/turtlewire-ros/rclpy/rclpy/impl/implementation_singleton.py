@@ -5,4 +5,7 @@
 
 from rclpy import _rclpy_pybind11 as rclpy_implementation
 
-__all__ = ["rclpy_implementation"]
+__all__ = ["package", "rclpy_implementation"]
+
+#: Name of the package that has the extension.
+package = "rclpy"

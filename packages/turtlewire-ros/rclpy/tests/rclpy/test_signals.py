@@ -538,3 +538,28 @@ def test_sigterm_ends_the_tutorials_client_that_waits_for_a_service(start, middl
     assert errors.splitlines()[-1].endswith(
         "RCLError: failed to check service availability: rcl node's context is invalid"
     )
+
+
+def test_a_guard_condition_of_signals(start):
+    program = start(
+        """
+        import threading
+        import rclpy
+        from rclpy.signals import SignalHandlerGuardCondition
+        rclpy.init()
+        came = threading.Event()
+
+        class Noted(SignalHandlerGuardCondition):
+            def trigger(self):
+                super().trigger()
+                came.set()
+
+        kept, destroyed = Noted(), Noted()
+        destroyed.destroy()
+        print("up")
+        came.wait()
+        print(kept._triggered, destroyed._triggered)
+        """
+    )
+    program.send_signal(signal.SIGTERM)
+    assert program.finish() == (0, "True False\n", "")
