@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "REPEATED_INTERRUPT_S",
-    "SignalHandlerGuardCondition",
+    "SignalHandlerGuardCondition",  # noqa: F822 - `__getattr__` hands it on
     "SignalHandlerOptions",
     "SignalListener",
     "get_current_signal_handlers_options",
