@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from launch.action import Action
 from launch.frontend.entity import Entity
 from launch.frontend.expose import expose_action
+from launch.some_substitutions_type import SomeSubstitutionsType_types_tuple
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
@@ -18,7 +19,11 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution
 
-__all__ = ["ResetLaunchConfigurations", "kept_configurations"]
+__all__ = [
+    "ResetLaunchConfigurations",
+    "SomeSubstitutionsType_types_tuple",
+    "kept_configurations",
+]
 
 
 @expose_action("reset")

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution
 
-__all__ = ["TimerAction"]
+__all__ = ["SomeSubstitutionsType_types_tuple", "TimerAction"]
 
 
 @expose_action("timer")

@@ -10,10 +10,16 @@ from launch.events import Shutdown
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from launch.event import Event
     from launch.launch_context import LaunchContext
     from launch.some_entities_type import SomeEntitiesType
 
-__all__ = ["OnShutdown"]
+__all__ = ["OnShutdown", "gen_handler"]
+
+
+def gen_handler(entities: SomeEntitiesType) -> Callable[[Event, LaunchContext], SomeEntitiesType]:
+    """Return a function of event and context that returns fixed entities."""
+    return lambda _event, _context: entities
 
 
 class OnShutdown(EventHandler):

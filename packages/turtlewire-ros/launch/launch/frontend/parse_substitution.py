@@ -7,6 +7,7 @@ the character alone.
 
 from __future__ import annotations
 
+import os
 import re
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +17,13 @@ from launch.utilities.text import TextSubstitution
 if TYPE_CHECKING:
     from launch.substitution import Substitution
 
-__all__ = ["parse_if_substitutions", "parse_substitution", "replace_escaped_characters"]
+__all__ = [
+    "ExtractSubstitution",
+    "get_grammar_path",
+    "parse_if_substitutions",
+    "parse_substitution",
+    "replace_escaped_characters",
+]
 
 _ESCAPABLE = "$'\"\\"
 
@@ -48,6 +55,61 @@ def parse_if_substitutions(value: Any) -> Any:
 def replace_escaped_characters(data: str) -> str:
     r"""Unescape a text without substitutions: ``\$``, ``\'``, ``\"`` and ``\\``."""
     return re.sub(r"\\([$'\"\\])", r"\1", data)
+
+
+def get_grammar_path() -> str:
+    """Return the path of the grammar for lark that describes the texts of `parse_substitution`."""
+    return os.path.join(os.path.dirname(__file__), "grammar.lark")
+
+
+class ExtractSubstitution:
+    """Turns the tree that lark makes with the grammar of `get_grammar_path` into substitutions.
+
+    It works as a ``lark.Transformer`` does: a method gets the results for the children of each
+    node of its name. `parse_substitution` reads the same texts without lark.
+
+    Args:
+        visit_tokens: Accepted as by lark; tokens stay text.
+    """
+
+    def __init__(self, visit_tokens: bool = True) -> None:
+        self.visit_tokens = visit_tokens
+
+    def transform(self, tree: Any) -> Any:
+        """Return the result for a tree: a list of substitutions for a whole text."""
+        results = [
+            self.transform(child) if hasattr(child, "children") else child
+            for child in tree.children
+        ]
+        return getattr(self, tree.data)(results)
+
+    def template(self, fragments: list[Substitution]) -> list[Substitution]:
+        """Return the substitutions of a text."""
+        return fragments or [TextSubstitution(text="")]
+
+    def fragment(self, content: list[str]) -> Substitution:
+        """Return plain text as a substitution."""
+        return TextSubstitution(text=replace_escaped_characters("".join(content)))
+
+    def substitution(self, args: list[Any]) -> Substitution:
+        """Return the substitution of a name and its arguments."""
+        name, arguments = args[0], args[1] if len(args) > 1 else []
+        return instantiate_substitution(str(name), arguments)
+
+    def arguments(self, values: list[list[Substitution]]) -> list[list[Substitution]]:
+        """Return the arguments of a substitution."""
+        return values
+
+    def value(self, parts: list[Any]) -> list[Substitution]:
+        """Return the substitutions of an argument; a quoted one is a list already."""
+        return parts[0] if isinstance(parts[0], list) else parts
+
+    part = single_quoted_part = double_quoted_part = fragment
+    single_quoted_fragment = double_quoted_fragment = fragment
+    single_quoted_value = double_quoted_value = template
+    single_quoted_template = double_quoted_template = template
+    single_quoted_arguments = double_quoted_arguments = arguments
+    single_quoted_substitution = double_quoted_substitution = substitution
 
 
 class _Reader:

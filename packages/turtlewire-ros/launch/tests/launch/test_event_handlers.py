@@ -17,6 +17,7 @@ from launch.event_handlers import (
     OnProcessStart,
     OnShutdown,
 )
+from launch.event_handlers.on_shutdown import gen_handler
 from launch.events import (
     ExecutionComplete,
     IncludeLaunchDescription,
@@ -209,3 +210,9 @@ def test_matchers():
         assert matches(running)
         assert not misses(running)
         assert not matches(waiting)
+
+
+def test_a_function_that_returns_fixed_entities():
+    entities = [LogInfo(msg="end")]
+    handler = OnShutdown(on_shutdown=gen_handler(entities))
+    assert handler.handle(Shutdown(), LaunchContext()) is entities

@@ -8,16 +8,46 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from launch.action import Action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros._node.lifecycle import change_states
+from launch_ros.events.lifecycle import StateTransition
 from launch_ros.ros_adapters import get_ros_node
 from launch_ros.utilities.namespace_utils import make_namespace_absolute
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
+    from launch.event import Event
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["LifecycleTransition"]
+__all__ = ["LifecycleTransition", "match_node_name_goal", "match_node_name_start_goal"]
+
+
+def match_node_name_goal(node_name: str, goal_state: str) -> Callable[[Event], bool]:
+    """Return a matcher of the events with which a managed node reaches a state.
+
+    Args:
+        node_name: Full name of the node.
+        goal_state: Name of the state after the transition.
+    """
+    return lambda event: (
+        isinstance(event, StateTransition)
+        and event.action.node_name == node_name
+        and event.goal_state == goal_state
+    )
+
+
+def match_node_name_start_goal(
+    node_name: str, start_state: str, goal_state: str
+) -> Callable[[Event], bool]:
+    """Return a matcher of the events with which a managed node goes from a state to another.
+
+    Args:
+        node_name: Full name of the node.
+        start_state: Name of the state before the transition.
+        goal_state: Name of the state after the transition.
+    """
+    reaches_goal = match_node_name_goal(node_name, goal_state)
+    return lambda event: reaches_goal(event) and getattr(event, "start_state", "") == start_state
 
 
 class LifecycleTransition(Action):

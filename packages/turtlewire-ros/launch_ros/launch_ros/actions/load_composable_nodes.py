@@ -30,7 +30,12 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["LoadComposableNodes", "get_composable_node_load_request", "parse_composable_nodes"]
+__all__ = [
+    "LoadComposableNodes",
+    "SomeSubstitutionsType_types_tuple",
+    "get_composable_node_load_request",
+    "parse_composable_nodes",
+]
 
 
 def get_composable_node_load_request(

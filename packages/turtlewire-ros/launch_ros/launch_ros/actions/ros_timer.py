@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from launch.actions import TimerAction
 from launch.frontend import expose_action
+from launch.some_substitutions_type import SomeSubstitutionsType_types_tuple
 from launch_ros.ros_adapters import get_ros_node
 from launch_ros.utilities.scope import global_parameters
 
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
 
     from launch.launch_context import LaunchContext
 
-__all__ = ["ROSTimer", "RosTimer"]
+__all__ = ["ROSTimer", "RosTimer", "SomeSubstitutionsType_types_tuple"]
 
 
 @expose_action("ros_timer")

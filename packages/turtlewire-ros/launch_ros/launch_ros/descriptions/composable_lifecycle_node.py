@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from launch.some_substitutions_type import SomeSubstitutionsType_types_tuple
 from launch_ros._node.lifecycle import Autostart
 from launch_ros._node.lifecycle_event_manager import LifecycleEventManager
 from launch_ros.descriptions.composable_node import ComposableNode
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution
 
-__all__ = ["ComposableLifecycleNode"]
+__all__ = ["ComposableLifecycleNode", "SomeSubstitutionsType_types_tuple"]
 
 
 class ComposableLifecycleNode(ComposableNode):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from types import SimpleNamespace
 
 import pytest
 
@@ -24,11 +25,15 @@ from launch_ros.actions import (
     RosTimer,
     SetUseSimTime,
 )
+from launch_ros.actions.lifecycle_transition import (
+    match_node_name_goal,
+    match_node_name_start_goal,
+)
 from launch_ros.descriptions import ComposableLifecycleNode
 from launch_ros.event_handlers import OnStateTransition
 from launch_ros.events import matches_node_name
-from launch_ros.events.lifecycle import ChangeState
-from lifecycle_msgs.msg import Transition
+from launch_ros.events.lifecycle import ChangeState, StateTransition
+from lifecycle_msgs.msg import State, Transition, TransitionEvent
 
 MANAGED = """#!/usr/bin/env python3
 import rclpy
@@ -101,6 +106,29 @@ def test_states_become_events_and_events_change_states(launch, managed):
         ("inactive", "activating"),
         ("activating", "active"),
     ]
+
+
+@pytest.mark.parametrize(
+    ("change", "goal", "start_and_goal"),
+    [
+        ({}, True, True),
+        ({"node": "/other"}, False, False),
+        ({"goal": "active"}, False, False),
+        ({"start": "active"}, True, False),
+    ],
+)
+def test_matchers_of_states(change, goal, start_and_goal):
+    event = StateTransition(
+        action=SimpleNamespace(node_name=change.get("node", "/ns/m")),
+        msg=TransitionEvent(
+            start_state=State(label=change.get("start", "unconfigured")),
+            goal_state=State(label=change.get("goal", "inactive")),
+        ),
+    )
+    assert match_node_name_goal("/ns/m", "inactive")(event) is goal
+    matches = match_node_name_start_goal("/ns/m", "unconfigured", "inactive")
+    assert matches(event) is start_and_goal
+    assert not matches(Shutdown())
 
 
 def test_a_node_that_starts_itself(launch, tmp_path, managed):
