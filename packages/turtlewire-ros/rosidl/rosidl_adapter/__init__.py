@@ -8,6 +8,7 @@ module                  contents
 `idl`                   the text of IDL files
 `conversion`            converts a file
 `msg`, `srv`, `action`  ROS 2's functions for each kind of file
+`resource`              templates of EmPy for these files
 `cli`, `main`           conversions on the command line
 ======================  ===================================================
 """

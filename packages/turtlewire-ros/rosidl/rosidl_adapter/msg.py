@@ -13,14 +13,18 @@ from rosidl_adapter.idl import (
     string_to_idl_wstring_literal,
     to_idl_literal,
 )
-from rosidl_adapter.parser import parse_message_string
+from rosidl_adapter.parser import BaseType, Type, parse_message_string
+from rosidl_adapter.resource import expand_template
 
 if TYPE_CHECKING:
     import pathlib
 
 __all__ = [
     "MSG_TYPE_TO_IDL",
+    "BaseType",
+    "Type",
     "convert_msg_to_idl",
+    "expand_template",
     "get_idl_type",
     "get_include_file",
     "parse_message_string",

@@ -72,6 +72,7 @@ __all__ = [
     "Type",
     "UnknownMessageType",
     "extract_file_level_comments",
+    "find_matching_end_quote",
     "is_valid_constant_name",
     "is_valid_field_name",
     "is_valid_message_name",
@@ -83,6 +84,7 @@ __all__ = [
     "parse_primitive_value_string",
     "parse_service_file",
     "parse_service_string",
+    "parse_string_array_value_string",
     "parse_value_string",
     "process_comments",
     "validate_field_types",
@@ -282,3 +284,52 @@ def parse_primitive_value_string(type_: BaseType, value_string: str) -> Any:
         InvalidValue: The text is not a value of the type.
     """
     return parse_value_string(Type(str(type_)), value_string)
+
+
+def parse_string_array_value_string(
+    element_string: str,
+    expected_size: int | None,  # noqa: ARG001 - as in ROS 2, the caller compares the sizes
+) -> list[str]:
+    """Return the elements of a list of strings, which is written without its brackets.
+
+    Quotes are removed, and escaped quotes within them are quotes.
+
+    Args:
+        element_string: The elements, separated by commas.
+        expected_size: Ignored.
+
+    Raises:
+        ValueError: An element is missing, or a quote has no end.
+    """
+    values: list[str] = []
+    rest = element_string.lstrip()
+    while rest:
+        quote = rest[0]
+        if quote == ",":
+            # ROS 2's text, to the byte.
+            raise ValueError(f"unxepected ',' at beginning of [{rest}]")
+        if quote in "'\"":
+            end = find_matching_end_quote(rest, quote)
+            if end == -1:
+                raise ValueError(f"string [{rest}] incorrectly quoted\n{values}")
+            values.append(rest[1 : end + 1].replace(f"\\{quote}", quote))
+            rest = rest[end + 2 :].lstrip().removeprefix(",")
+        else:
+            value, _, rest = rest.partition(",")
+            values.append(value)
+        rest = rest.lstrip()
+    return values
+
+
+def find_matching_end_quote(string: str, quote: str) -> int:
+    """Return the length of a quoted text, without the quotes.
+
+    Args:
+        string: Begins with the quote before the text.
+        quote: The character that ends the text unless a backslash precedes it.
+
+    Returns:
+        The length, or -1 if the text has no end.
+    """
+    found = re.compile(rf"(?<!\\){re.escape(quote)}").search(string, 1)
+    return -1 if found is None else found.start() - 1

@@ -6,12 +6,14 @@ from typing import TYPE_CHECKING
 
 from rosidl_adapter.conversion import convert
 from rosidl_adapter.parser import parse_service_string
+from rosidl_adapter.resource import expand_template
 
 if TYPE_CHECKING:
     import pathlib
 
 __all__ = [
     "convert_srv_to_idl",
+    "expand_template",
     "parse_service_string",
 ]
 

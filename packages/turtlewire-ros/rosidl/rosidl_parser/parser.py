@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from rosidl_parser.definition import (
     ACTION_FEEDBACK_SUFFIX,
@@ -18,8 +18,6 @@ from rosidl_parser.definition import (
     Action,
     Annotatable,
     Annotation,
-    BoundedString,
-    BoundedWString,
     Constant,
     IdlContent,
     IdlFile,
@@ -34,27 +32,80 @@ from rosidl_parser.definition import (
     UnboundedString,
     UnboundedWString,
 )
+from rosidl_parser.syntax_tree import (
+    BASE_TYPE_SPEC_TO_IDL_TYPE,
+    bounded_by,
+    get_abstract_type,
+    get_abstract_type_from_const_expr,
+    get_abstract_type_from_type_spec,
+    get_abstract_type_optionally_as_array,
+    get_annotations,
+    get_ast_from_idl_string,
+    get_child_identifier_value,
+    get_const_expr_value,
+    get_decimal_literal_value,
+    get_first_identifier_value,
+    get_fixed_pt_literal_value,
+    get_floating_pt_literal_value,
+    get_module_identifier_values,
+    get_positive_int_const,
+    get_string_literal_value,
+    get_string_literals_value,
+    grammar_file,
+    nodes_of,
+)
 from turtlewire.errors import InterfaceError
-from turtlewire.msg.idl_reader import IdlReader
+from turtlewire.msg.idl_reader import IdlConstant, IdlMember, IdlReader, IdlStructure
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
-    from turtlewire.msg.idl_reader import IdlConstant, Notes
+    from lark import Tree
+
+    from turtlewire.msg.idl_reader import Notes
 
 __all__ = [
     "ACTION_FEEDBACK_SUFFIX",
     "ACTION_GOAL_SUFFIX",
     "ACTION_RESULT_SUFFIX",
+    "BASE_TYPE_SPEC_TO_IDL_TYPE",
     "CONSTANT_MODULE_SUFFIX",
     "SERVICE_REQUEST_MESSAGE_SUFFIX",
     "SERVICE_RESPONSE_MESSAGE_SUFFIX",
+    "add_message_members",
+    "extract_content_from_ast",
+    "get_abstract_type",
+    "get_abstract_type_from_const_expr",
+    "get_abstract_type_from_type_spec",
+    "get_abstract_type_optionally_as_array",
+    "get_annotations",
+    "get_ast_from_idl_string",
+    "get_child_identifier_value",
+    "get_const_expr_value",
+    "get_decimal_literal_value",
+    "get_first_identifier_value",
+    "get_fixed_pt_literal_value",
+    "get_floating_pt_literal_value",
+    "get_module_identifier_values",
+    "get_positive_int_const",
+    "get_string_literal_value",
+    "get_string_literals_value",
+    "grammar_file",
     "parse_idl_file",
     "parse_idl_string",
     "resolve_typedefed_names",
 ]
 
 _Annotated = TypeVar("_Annotated", bound=Annotatable)
+
+
+class _Definitions(NamedTuple):
+    """The definitions of a file, from its text or its syntax tree."""
+
+    includes: list[str]
+    structures: list[IdlStructure]
+    constants: list[IdlConstant]
+    typedefs: dict[str, AbstractType]
 
 
 def parse_idl_file(locator: IdlLocator, png_file: str | None = None) -> IdlFile:
@@ -93,6 +144,77 @@ def parse_idl_string(idl_string: str, png_file: str | None = None) -> IdlContent
     """
     reader = IdlReader("idl", idl_string)
     reader.read()
+    return _content(_Definitions(**{part: getattr(reader, part) for part in _Definitions._fields}))
+
+
+def extract_content_from_ast(tree: Tree[Any]) -> IdlContent:
+    """Return the content of the syntax tree of a file; see `parse_idl_string`.
+
+    Args:
+        tree: The result of `get_ast_from_idl_string`.
+
+    Raises:
+        InterfaceError: The definitions are not an interface.
+    """
+    found = _Definitions([], [], [], {})
+    # From the top to the bottom of the file, since it defines names before their use.
+    for node in nodes_of(tree):
+        modules = tuple(get_module_identifier_values(tree, node)) if node.data in _DEFINED else ()
+        if node.data == "include_directive":
+            found.includes.append(str(node.children[0])[1:-1])
+        elif node.data == "typedef_dcl":
+            found.typedefs.update((name, type_) for type_, name in _declared(node))
+        elif node.data == "struct_def":
+            members = _members(node)
+            name = get_child_identifier_value(node)
+            found.structures.append(IdlStructure(modules, name, _notes(node), members))
+        elif node.data == "const_dcl":
+            *_, type_, _, value = node.children
+            name = get_child_identifier_value(node)
+            constant = get_abstract_type(type_), name, get_const_expr_value(value), _notes(node)
+            found.constants.append(IdlConstant(modules, *constant))
+    return _content(found)
+
+
+#: The rules of definitions that have a name within modules.
+_DEFINED = ("struct_def", "const_dcl")
+
+
+def add_message_members(msg: Message, tree: Tree[Any]) -> None:
+    """Add the fields of a structure to a message.
+
+    Args:
+        msg: Its structure gets the fields.
+        tree: The ``struct_def``.
+    """
+    msg.structure.members += [
+        _annotated(Member(each.type, each.name), each.notes) for each in _members(tree)
+    ]
+
+
+def _members(structure: Tree[Any]) -> list[IdlMember]:
+    return [
+        IdlMember(type_, name, _notes(member))
+        for member in structure.children
+        if getattr(member, "data", "") == "member"
+        for type_, name in _declared(member)
+    ]
+
+
+def _declared(tree: Tree[Any]) -> Iterator[tuple[AbstractType, str]]:
+    """Yield the types and names of the declarators of a member or typedef."""
+    *_, type_spec, declarators = tree.children
+    for declarator in declarators.children:
+        type_ = get_abstract_type_from_type_spec(type_spec)
+        name = get_first_identifier_value(declarator)
+        yield get_abstract_type_optionally_as_array(type_, declarator), name
+
+
+def _notes(tree: Tree[Any]) -> Notes:
+    return [(each.name, each.value) for each in get_annotations(tree)]
+
+
+def _content(reader: _Definitions) -> IdlContent:
     content = IdlContent()
     content.elements += [Include(path) for path in reader.includes]
     whole = _whole(_messages(reader))
@@ -151,7 +273,7 @@ def _resolved(type_: AbstractType, typedefs: Mapping[str, AbstractType]) -> Abst
     return type_
 
 
-def _messages(reader: IdlReader) -> list[Message]:
+def _messages(reader: _Definitions) -> list[Message]:
     """Return the structures with the constants of their modules."""
     messages = []
     for modules, name, notes, members in reader.structures:
@@ -174,15 +296,10 @@ def _messages(reader: IdlReader) -> list[Message]:
 
 
 def _type_of_constant(constant: IdlConstant) -> AbstractType:
-    """Return the type; a text's is bounded by the value."""
-    if not isinstance(constant.type, (UnboundedString, UnboundedWString)):
-        return constant.type
-    if not isinstance(constant.value, str):
+    is_text = isinstance(constant.type, (UnboundedString, UnboundedWString))
+    if is_text and not isinstance(constant.value, str):
         raise InterfaceError(f"the value of '{constant.name}' is no text: {constant.value}")
-    if isinstance(constant.type, UnboundedString):
-        # As in ROS 2, although a constant needs no bound.
-        return BoundedString(len(constant.value))
-    return BoundedWString(len(constant.value))
+    return bounded_by(constant.value, constant.type)
 
 
 def _annotated(thing: _Annotated, notes: Notes) -> _Annotated:

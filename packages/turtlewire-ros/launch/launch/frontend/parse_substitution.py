@@ -104,9 +104,13 @@ class ExtractSubstitution:
         """Return the substitutions of an argument; a quoted one is a list already."""
         return parts[0] if isinstance(parts[0], list) else parts
 
+    def single_quoted_value(self, parts: list[Substitution]) -> list[Substitution]:
+        """Return the substitutions between quotes."""
+        return self.template(parts)
+
+    double_quoted_value = single_quoted_value
     part = single_quoted_part = double_quoted_part = fragment
     single_quoted_fragment = double_quoted_fragment = fragment
-    single_quoted_value = double_quoted_value = template
     single_quoted_template = double_quoted_template = template
     single_quoted_arguments = double_quoted_arguments = arguments
     single_quoted_substitution = double_quoted_substitution = substitution

@@ -27,7 +27,16 @@ from turtlewire.msg.types import (
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["BASIC_TYPES", "IdlConstant", "IdlMember", "IdlReader", "IdlStructure", "Notes"]
+__all__ = [
+    "BASIC_TYPES",
+    "IdlConstant",
+    "IdlMember",
+    "IdlReader",
+    "IdlStructure",
+    "Notes",
+    "number_value",
+    "unescaped",
+]
 
 _WHOLE_NUMBERS = {
     f"{sign}{idl}": f"{short}{bits}"
@@ -186,7 +195,7 @@ class IdlReader(IdlTokens):
 
     def _size(self) -> int:
         token = self.next("number")
-        size = _number(token.text)
+        size = number_value(token.text)
         if not isinstance(size, int) or size < 1:
             raise self.error(f"'{token.text}' is not a size (a positive integer)", token.line)
         return size
@@ -219,22 +228,22 @@ class IdlReader(IdlTokens):
         """Read a value; texts that follow each other are one."""
         token = self.next()
         if token.kind == "number":
-            value = _number(token.text)
+            value = number_value(token.text)
             if value is not None:
                 return value
         elif token.kind == "text":
             parts = [token.text]
             while self.peek().kind == "text":
                 parts.append(self.next().text)
-            return "".join(_unescaped(part[1:-1]) for part in parts)
+            return "".join(unescaped(part[1:-1]) for part in parts)
         elif token.kind == "character":
-            return _unescaped(token.text[1:-1])
+            return unescaped(token.text[1:-1])
         elif token.text in ("TRUE", "FALSE"):
             return self.word(token.text)
         raise self.error(f"expected a value, got '{token.text}'", token.line)
 
 
-def _number(text: str) -> int | float | None:
+def number_value(text: str) -> int | float | None:
     """Return the value of a number as IDL writes it; None if it is not a number."""
     sign, digits = (text[0], text[1:]) if text[0] in "+-" else ("", text)
     octal = len(digits) > 1 and digits[0] == "0" and digits.isdigit()
@@ -246,7 +255,9 @@ def _number(text: str) -> int | float | None:
         return None
 
 
-def _unescaped(text: str) -> str:
+def unescaped(text: str) -> str:
+    """Return a text with the characters that its escape sequences stand for."""
+
     def character(match: re.Match[str]) -> str:
         octal, hexadecimal, other = match.groups()
         if other is not None:

@@ -1,0 +1,2 @@
+@{from rosidl_adapter.idl import idl_text}@
+@(idl_text("msg", pkg_name, relative_input_file, [msg]))@
