@@ -39,9 +39,13 @@ def get_ros_domain_id() -> int:
     return int(os.environ.get("ROS_DOMAIN_ID") or 0)
 
 
-@functools.cache
 def check_discovery_configuration() -> None:
     """Warn, once in a process, if its nodes can discover none of other processes."""
+    _check_discovery()
+
+
+@functools.cache
+def _check_discovery() -> None:
     from ros2cli.output import tell
     from turtlewire.wire.environment import Range, discovery
 

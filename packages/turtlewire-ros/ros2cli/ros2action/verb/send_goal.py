@@ -16,10 +16,11 @@ from turtlewire.distro import LYRICAL, since
 
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Callable
 
     from ros2cli.node.direct import DirectNode
 
-__all__ = ["ARGUMENTS", "NODE_NAME_PREFIX", "SendGoalVerb", "main", "non_negative_int"]
+__all__ = ["ARGUMENTS", "NODE_NAME_PREFIX", "SendGoalVerb", "main", "non_negative_int", "send_goal"]
 
 _DEFAULT_CANCEL_TIMEOUT_S = 5.0
 
@@ -60,18 +61,53 @@ ARGUMENTS = (
 
 def main(args: argparse.Namespace) -> str | None:
     """Send the goal, and print what becomes of it; Ctrl-C cancels it."""
+    values = sys.stdin.read() if args.stdin else args.goal
+    feedback_callback = _print_feedback if args.feedback else None
+    return send_goal(args.action_name, args.action_type, values, feedback_callback, args.timeout)
+
+
+def _print_feedback(message: Any) -> None:
+    from rosidl_runtime_py import message_to_yaml
+
+    print(f"Feedback:\n    {message_to_yaml(message.feedback)}")
+
+
+def send_goal(
+    action_name: str,
+    action_type: str,
+    goal_values: str,
+    feedback_callback: Callable[[Any], Any] | None,
+    timeout: float | None = None,
+) -> str | None:
+    """Send a goal from a new node, and print what becomes of it; Ctrl-C cancels it.
+
+    Args:
+        action_name: Name of the action.
+        action_type: Its type, for example ``turtlesim/action/RotateAbsolute``.
+        goal_values: Values of the goal as YAML.
+        feedback_callback: Called with each feedback message; None asks for no feedback.
+        timeout: Seconds to wait for the server, in Lyrical also for each of its answers; None
+            waits without a limit.
+
+    Returns:
+        The text of an error, or None.
+
+    Raises:
+        KeyboardInterrupt: At Ctrl-C.
+        RuntimeError: The type is not an action, the values are wrong, or the server did not answer.
+    """
     from ros2cli.suggestion import field_meant, interface_meant, say_why_to_wait
     from rosidl_runtime_py import set_message_fields
     from rosidl_runtime_py.utilities import get_action
 
     try:
-        action_class = get_action(args.action_type)
+        action_class = get_action(action_type)
     except (AttributeError, ModuleNotFoundError, ValueError):
         raise RuntimeError(
-            f"The passed action type is invalid{interface_meant(args.action_type, 'action')}"
+            f"The passed action type is invalid{interface_meant(action_type, 'action')}"
         ) from None
     goal = action_class.Goal()
-    values = read_values(sys.stdin.read() if args.stdin else args.goal)
+    values = read_values(goal_values)
     try:
         set_message_fields(goal, values)
     except Exception as error:  # noqa: BLE001  any value may be wrong in any way
@@ -81,10 +117,10 @@ def main(args: argparse.Namespace) -> str | None:
     from ros2cli.node.direct import DirectNode
     from turtlewire.wire.services import require_callable
 
-    with DirectNode(args) as direct:
+    with DirectNode(None) as direct:
         known = actions(direct.graph)  # our own client is not among them
-        client = ActionClient(direct.node, action_class, args.action_name)
-        action = direct.node.resolve_topic_name(args.action_name)
+        client = ActionClient(direct.node, action_class, action_name)
+        action = direct.node.resolve_topic_name(action_name)
         service = f"{action}/_action/send_goal"
         try:
             print("Waiting for an action server to become available...")
@@ -92,35 +128,41 @@ def main(args: argparse.Namespace) -> str | None:
             require_callable(direct.graph, service)
             if not client.server_is_ready():
                 say_why_to_wait("action", action, action_class, known)
-            if not direct.wait_for_server(service, client.server_is_ready, args.timeout):
-                if args.timeout is not None and direct.node.context.ok():
-                    return f"No server of the action '{action}' came within {args.timeout} s"
+            if not direct.wait_for_server(service, client.server_is_ready, timeout):
+                if timeout is not None and direct.node.context.ok():
+                    return f"No server of the action '{action}' came within {timeout} s"
                 # Without a limit, the wait ends without a server only at a signal.
                 raise KeyboardInterrupt
-            _run(direct, client, goal, args)
+            # Up to Kilted, the time is that of the wait for a server.
+            limit = timeout if since(LYRICAL) else None
+            _run(direct, client, goal, f"action '{action_name}'", feedback_callback, limit)
         finally:
             client.destroy()
     return None
 
 
-def _run(direct: DirectNode, client: Any, goal: Any, args: argparse.Namespace) -> None:
+def _run(
+    direct: DirectNode,
+    client: Any,
+    goal: Any,
+    server: str,
+    feedback_callback: Callable[[Any], Any] | None,
+    limit: float | None,
+) -> None:
     from rosidl_runtime_py import message_to_yaml
 
-    # Up to Kilted, the time is that of the wait for a server.
-    limit = args.timeout if since(LYRICAL) else None
     accepted = False
     # Feedback has its own topic, on which it may overtake the answer to the goal.
     early: list[Any] = []
 
     def show(message: Any) -> None:
-        if accepted:
-            print(f"Feedback:\n    {message_to_yaml(message.feedback)}")
-        else:
+        if not accepted:
             early.append(message)
+        elif feedback_callback is not None:
+            feedback_callback(message)
 
     print(f"Sending goal:\n     {message_to_yaml(goal)}")
-    server = f"action '{args.action_name}'"
-    sent = client.send_goal_async(goal, show if args.feedback else None)
+    sent = client.send_goal_async(goal, show if feedback_callback else None)
     try:
         handle = direct.answer(sent, server, client.server_is_ready, limit)
     except TimeoutError:

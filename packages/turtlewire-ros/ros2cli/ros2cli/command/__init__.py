@@ -15,11 +15,15 @@ from ros2cli.plugin_system import (
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
+
+    from typing_extensions import Self
 
 __all__ = [
     "PLUGIN_SYSTEM_VERSION",
     "CommandExtension",
+    "MutableString",
+    "SuppressUsageOutput",
     "add_subparsers",
     "add_subparsers_on_demand",
     "get_command_extensions",
@@ -28,6 +32,66 @@ __all__ = [
     "instantiate_extensions",
     "satisfies_version",
 ]
+
+
+class MutableString:
+    """Text that may change after it was handed over, such as the description of a parser.
+
+    It has the methods of its text.
+
+    Attributes:
+        value: The text.
+    """
+
+    def __init__(self) -> None:
+        self.value = ""
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.value, name)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.value)
+
+    def __mod__(self, values: Any) -> str:
+        return self.value % values
+
+    def __str__(self) -> str:
+        return self.value
+
+
+class SuppressUsageOutput:
+    """Lets parsers of argparse neither print nor end the process within a ``with`` block.
+
+    A wrong command line, or ``--help``, can so be looked at with ``parse_known_args``.
+
+    Args:
+        parsers: The parsers.
+    """
+
+    _METHODS = ("exit", "print_help", "print_usage")
+
+    def __init__(self, parsers: Iterable[argparse.ArgumentParser]) -> None:
+        self._parsers = list(parsers)
+        self._own: list[dict[str, Any]] = []
+
+    def __enter__(self) -> Self:
+        for parser in self._parsers:
+            attributes: dict[str, Any] = vars(parser)
+            own = {name: attributes[name] for name in self._METHODS if name in attributes}
+            self._own.append(own)
+            attributes.update(dict.fromkeys(self._METHODS, _ignore))
+        return self
+
+    def __exit__(self, *args: object) -> None:
+        for parser, own in zip(self._parsers, self._own, strict=True):
+            for name in self._METHODS:
+                del vars(parser)[name]
+            vars(parser).update(own)
+        self._own = []
+
+
+def _ignore(*_args: Any, **_options: Any) -> None:
+    """Do nothing."""
 
 
 class CommandExtension:

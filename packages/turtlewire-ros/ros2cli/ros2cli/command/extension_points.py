@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import command_of_module
 from ros2cli.command import CommandExtension
-from ros2cli.installed import EXTENSION_POINT_GROUP_NAME, described
+from ros2cli.installed import EXTENSION_POINT_GROUP_NAME, described, first_line
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "ExtensionPointsCommand", "main"]
+__all__ = ["ARGUMENTS", "EXTENSION_POINT_GROUP_NAME", "ExtensionPointsCommand", "main"]
 
 
 ARGUMENTS = (
@@ -29,11 +29,25 @@ ARGUMENTS = (
 def main(args: argparse.Namespace) -> None:
     """Print name and description of each extension point."""
     for point, (description, module) in described(EXTENSION_POINT_GROUP_NAME).items():
-        print(f"{point}: {description}")
-        if args.verbose:
-            print(f"  module: {module}")
+        _print(args, point, description, module)
+
+
+def _print(args: argparse.Namespace, name: str, description: str, module: str) -> None:
+    print(f"{name}: {description}")
+    if args.verbose:
+        print(f"  module: {module}")
 
 
 @command_of_module
 class ExtensionPointsCommand(CommandExtension):
     """List the kinds of commands and verbs."""
+
+    def print_extension_point(self, args: argparse.Namespace, name: str, entry_point: Any) -> None:
+        """Print name and description of an extension point.
+
+        Args:
+            args: ``verbose`` also shows the module.
+            name: Name of the group of entry points.
+            entry_point: What declares it, with ``load`` and ``module`` as in importlib.metadata.
+        """
+        _print(args, name, first_line(entry_point.load()), entry_point.module)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import command_of_module
 from ros2cli.command import CommandExtension
-from ros2cli.installed import EXTENSION_POINT_GROUP_NAME, described
+from ros2cli.installed import EXTENSION_POINT_GROUP_NAME, described, first_line
 
 if TYPE_CHECKING:
     import argparse
@@ -33,11 +33,27 @@ def main(args: argparse.Namespace) -> None:
         if found:
             print(point)
         for name, (summary, module) in found.items():
-            print(f"  {name}: {summary}")
-            if args.verbose:
-                print(f"    module: {module}")
+            _print(args, name, summary, module)
+
+
+def _print(args: argparse.Namespace, name: str, summary: str, module: str) -> None:
+    print(f"  {name}: {summary}")
+    if args.verbose:
+        print(f"    module: {module}")
 
 
 @command_of_module
 class ExtensionsCommand(CommandExtension):
     """List all commands and verbs."""
+
+    def print_entry_point(self, args: argparse.Namespace, dist: Any, entry_point: Any) -> None:
+        """Print name and description of an extension.
+
+        Args:
+            args: ``verbose`` also shows the module and the distribution.
+            dist: The distribution that declares it, as in importlib.metadata; or None.
+            entry_point: What declares it, likewise.
+        """
+        _print(args, entry_point.name, first_line(entry_point.load()), entry_point.module)
+        if args.verbose and dist is not None:
+            print(f"    distribution: {dist.metadata['Name']} {dist.version}")

@@ -10,7 +10,7 @@ import argparse
 import os
 from typing import TYPE_CHECKING
 
-from ros2cli.helpers import before_invocation, get_ros_domain_id, pretty_print_call
+from ros2cli.helpers import before_invocation, bind, get_ros_domain_id, pretty_print_call
 from ros2cli.node.network_aware import NetworkAwareNode
 from ros2cli.node.server import (
     IDLE_S,
@@ -32,6 +32,7 @@ __all__ = [
     "NetworkAwareNode",
     "RequestHandler",
     "before_invocation",
+    "bind",
     "get_address",
     "get_port",
     "get_ros_domain_id",

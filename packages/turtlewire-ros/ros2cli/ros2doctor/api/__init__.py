@@ -166,7 +166,7 @@ def _as_list(made: Report | list[Report]) -> list[Report]:
     return made if isinstance(made, list) else [made]
 
 
-def get_topic_names(skip_topics: Collection[str] = ()) -> list[str]:
+def get_topic_names(skip_topics: Collection[str] = []) -> list[str]:
     """Return the names of the topics there are now, except hidden ones and ``skip_topics``."""
     from ros2cli.discovery import discovered_graph
     from ros2cli.graph import topics
@@ -175,7 +175,7 @@ def get_topic_names(skip_topics: Collection[str] = ()) -> list[str]:
         return [name for name, _ in topics(graph) if name not in skip_topics]
 
 
-def get_service_names(skip_services: Collection[str] = ()) -> list[str]:
+def get_service_names(skip_services: Collection[str] = []) -> list[str]:
     """Return the names of the services there are now, except hidden ones and ``skip_services``."""
     from ros2cli.discovery import discovered_graph
     from ros2cli.graph import services

@@ -20,7 +20,19 @@ if TYPE_CHECKING:
 
     from turtlewire.msg.definition import Field, MessageDefinition
 
-__all__ = ["ARGUMENTS", "InterfaceTextLine", "ReadStdinPipe", "ShowVerb", "main"]
+__all__ = [
+    "ACTION_REQUEST_RESPONSE_SEPARATOR",
+    "ARGUMENTS",
+    "SERVICE_REQUEST_RESPONSE_SEPARATOR",
+    "InterfaceTextLine",
+    "ReadStdinPipe",
+    "ShowVerb",
+    "main",
+]
+
+#: The line between the parts of a service or action.
+SERVICE_REQUEST_RESPONSE_SEPARATOR = ACTION_REQUEST_RESPONSE_SEPARATOR = "---"
+_SEPARATORS = (SERVICE_REQUEST_RESPONSE_SEPARATOR, ACTION_REQUEST_RESPONSE_SEPARATOR)
 
 
 class ReadStdinPipe(argparse.Action):
@@ -109,7 +121,7 @@ class InterfaceTextLine:
     def nested_type(self) -> str | None:
         """The message that the line has a field of, such as ``std_msgs/msg/Header``; or None."""
         words = without_comment(self._text).split()
-        if len(words) < 2 or "=" in words[1][:1] or words[0].startswith("---"):
+        if len(words) < 2 or "=" in words[1][:1] or words[0].startswith(_SEPARATORS):
             return None
         kind = words[0].partition("[")[0].partition("<")[0]
         if not kind or not (kind.split("/")[-1][0].isupper()):

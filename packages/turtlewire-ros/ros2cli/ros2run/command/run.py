@@ -6,6 +6,7 @@ import argparse
 import os
 import shlex
 import signal
+from argparse import REMAINDER
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import command_of_module
@@ -15,7 +16,7 @@ from ros2cli.helpers import interactive_select
 from ros2cli.selection import OPTIONAL
 from ros2run.child import run
 
-__all__ = ["ARGUMENTS", "RunCommand", "main", "named", "run_and_tell"]
+__all__ = ["ARGUMENTS", "REMAINDER", "RunCommand", "main", "named", "run_and_tell"]
 
 
 ARGUMENTS = (
@@ -30,7 +31,7 @@ ARGUMENTS = (
     ),
     argument(
         "argv",
-        nargs=argparse.REMAINDER,
+        nargs=REMAINDER,
         help="Arguments for the executable",
         completer=arguments_of_executable,
     ),

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Callable
 
+    from rclpy.qos import QoSProfile
     from ros2cli.node.direct import DirectNode
 
 __all__ = [
@@ -95,8 +96,6 @@ _TEXT_ONLY = ("csv", "flow_style", "no_arr", "no_str", "raw", "clear")
 
 def main(args: argparse.Namespace) -> str | None:
     """Print the messages until there is an end."""
-    from rclpy.impl.unheard import warn_if_silent
-    from rclpy.task import Future
     from ros2cli.node.direct import DirectNode
     from ros2cli.suggestion import say_what_was_meant, warn_of_other_type
     from ros2topic.api import message_class, type_of_topic
@@ -104,9 +103,10 @@ def main(args: argparse.Namespace) -> str | None:
 
     if told := _refused(args):
         return told
+    # Wrong words are rejected before anything is started.
     if args.message_type is not None:
-        message_class(args.message_type)  # rejected before anything is started
-    keep = make_filter(args.filter_expr)
+        message_class(args.message_type)
+    make_filter(args.filter_expr)
     with DirectNode(args, node_name=args.node_name) as direct:
         name = args.topic_name or select_topic(direct.graph, "Select topic to echo:")
         if name is None:
@@ -125,16 +125,27 @@ def main(args: argparse.Namespace) -> str | None:
             say_what_was_meant(topic, known)
         for field in args.fields:
             _check_field(kind, field)
-        qos = choose_qos(direct, topic, args)
-        end = Future()
-        printer = _Printer(args, keep, end)
-        direct.node.create_subscription(
-            kind, topic, printer.show, qos, raw=args.raw, event_callbacks=_lost(args)
-        )
-        printer.end_after_silence(direct)
-        warn_if_silent(direct.node, topic, tell)
-        direct.result(end)
+        _print_messages(direct, topic, kind, choose_qos(direct, topic, args), args)
     return None
+
+
+def _print_messages(
+    direct: DirectNode, topic: str, kind: Any, qos: QoSProfile, args: argparse.Namespace
+) -> None:
+    from rclpy.impl.unheard import warn_if_silent
+    from rclpy.task import Future
+
+    end = Future()
+    printer = _Printer(args, make_filter(args.filter_expr), end)
+    subscription = direct.node.create_subscription(
+        kind, topic, printer.show, qos, raw=args.raw, event_callbacks=_lost(args)
+    )
+    printer.end_after_silence(direct)
+    warn_if_silent(direct.node, topic, tell)
+    try:
+        direct.result(end)
+    finally:
+        direct.node.destroy_subscription(subscription)
 
 
 def _refused(args: argparse.Namespace) -> str | None:
@@ -277,3 +288,44 @@ def _lost(args: argparse.Namespace) -> Any:
 @verb_of_module
 class EchoVerb(VerbExtension):
     """Show the messages of a topic."""
+
+    def choose_qos(self, node: Any, args: argparse.Namespace) -> QoSProfile:
+        """Return the quality of service that fits the publishers of the topic of ``args``."""
+        from ros2cli.node.direct import DirectNode
+
+        direct = DirectNode.around(node)
+        return choose_qos(direct, direct.node.resolve_topic_name(args.topic_name), args)
+
+    def subscribe_and_spin(
+        self,
+        node: Any,
+        topic_name: str,
+        message_type: Any,
+        qos_profile: QoSProfile,
+        no_report_lost_messages: bool,
+        raw: bool,
+    ) -> None:
+        """Print the messages of a topic, as without options, until Ctrl-C.
+
+        Args:
+            node: The node that subscribes, which the caller owns.
+            topic_name: Name of the topic.
+            message_type: Class of the messages.
+            qos_profile: Quality of service of the subscription.
+            no_report_lost_messages: Whether lost messages are not reported.
+            raw: Whether the bytes of the messages are printed.
+
+        Raises:
+            KeyboardInterrupt: At Ctrl-C.
+        """
+        import argparse
+
+        from ros2cli.node.direct import DirectNode
+
+        parser = argparse.ArgumentParser()
+        self.add_arguments(parser, "ros2 topic echo")
+        args = parser.parse_args([topic_name])
+        args.raw, args.no_lost_messages = raw, no_report_lost_messages
+        direct = DirectNode.around(node)
+        topic = direct.node.resolve_topic_name(topic_name)
+        _print_messages(direct, topic, message_type, qos_profile, args)

@@ -17,6 +17,7 @@ from ros2cli.output import clear_terminal
 from ros2cli.values import positive_int
 from ros2topic.several import SEVERAL_TOPICS, choose, print_table, refused, subscribe
 from ros2topic.verb import VerbExtension
+from turtlewire.distro import KILTED, since
 
 if TYPE_CHECKING:
     import argparse
@@ -197,22 +198,22 @@ class ROSTopicHz:
         return (1.0 / mean if mean > 0 else 0.0), min(times), max(times), deviation, len(times)
 
     def print_hz(
-        self, topic: str | Sequence[str] | None = None, clear_screen: bool = False
+        self, topics: str | Sequence[str] | None = None, clear_screen: bool = False
     ) -> None:
         """Print the rates of topics, if messages came since the last call.
 
         Args:
-            topic: The topic, or several, which are shown as a table.
+            topics: The topic, or several, which are shown as a table; ``topic`` in Jazzy.
             clear_screen: Whether the terminal is cleared first.
         """
-        topics = [topic] if topic is None or isinstance(topic, str) else topic
-        found = self._news(topics)
+        names = [topics] if topics is None or isinstance(topics, str) else topics
+        found = self._news(names)
         if not found:
             return
         if clear_screen:
             clear_terminal()
         shown = [(name, *_texts(*figures)) for name, figures in found]
-        if len(topics) > 1:
+        if len(names) > 1:
             print_table(_COLUMNS, [[str(cell) for cell in row] for row in shown])
             return
         _, rate, shortest, longest, deviation, window = shown[0]
@@ -220,6 +221,15 @@ class ROSTopicHz:
             f"average rate: {rate}\n"
             f"\tmin: {shortest}s max: {longest}s std dev: {deviation}s window: {window}"
         )
+
+    if not (TYPE_CHECKING or since(KILTED)):
+        __print_hz = print_hz
+
+        def print_hz(
+            self, topic: str | Sequence[str] | None = None, clear_screen: bool = False
+        ) -> None:
+            """Print the rates as Kilted's method does."""
+            self.__print_hz(topic, clear_screen)
 
     def print_json(self, topics: Sequence[str]) -> None:
         """Print a JSON object for each topic that had messages since the last call.

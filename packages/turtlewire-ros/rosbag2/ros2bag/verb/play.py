@@ -24,7 +24,7 @@ from ros2bag.verb import VerbExtension
 from ros2cli.arguments import argument, exclusive
 from ros2cli.builtin import verb_of_module
 from ros2cli.node import NODE_NAME_PREFIX
-from ros2cli.values import positive_float, unsigned_int
+from ros2cli.values import unsigned_int
 
 if TYPE_CHECKING:
     from rosbag2_py import PlayOptions
@@ -32,11 +32,16 @@ if TYPE_CHECKING:
 __all__ = ["ARGUMENTS", "NODE_NAME_PREFIX", "PlayVerb", "main", "positive_float"]
 
 
-def _more_than_zero(text: str) -> float:
-    value = _number(text)
+def positive_float(arg: str) -> float:
+    """Return a finite number above zero, for argparse.
+
+    Raises:
+        argparse.ArgumentTypeError: The text is not such a number.
+    """
+    value = _number(arg)
     # Not `value <= 0`, so that NaN is rejected as well.
     if not value > 0 or math.isinf(value):
-        raise argparse.ArgumentTypeError(f"{text} is not in the valid range (> 0.0)")
+        raise argparse.ArgumentTypeError(f"{arg} is not in the valid range (> 0.0)")
     return value
 
 
@@ -58,7 +63,7 @@ ARGUMENTS = (
     *BAGS_TO_PLAY,
     READ_AHEAD,
     argument(
-        "-r", "--rate", type=_more_than_zero, default=1.0, help="Playback speed; 2 is twice as fast"
+        "-r", "--rate", type=positive_float, default=1.0, help="Playback speed; 2 is twice as fast"
     ),
     argument(
         "--topics",
@@ -111,7 +116,7 @@ ARGUMENTS = (
     exclusive(
         argument(
             "--clock",
-            type=_more_than_zero,
+            type=positive_float,
             nargs="?",
             # rosbag2's rate.
             const=40,
