@@ -8,7 +8,7 @@ from xml.sax.saxutils import escape, quoteattr
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["cmake_files", "python_files"]
+__all__ = ["cmake_files", "manifest", "node", "python_files"]
 
 _MANIFEST = """<?xml version="1.0"?>
 <?xml-model href="http://download.ros.org/schema/package_format{format}.xsd" schematypens="http://www.w3.org/2001/XMLSchema"?>
@@ -111,7 +111,7 @@ def python_files(
     script = f"\n            '{node_name} = {name}.{node_name}:main',\n        "
     tags = [("depend", each) for each in dependencies] + [("test_depend", "python3-pytest")]
     made = {
-        "package.xml": _manifest(
+        "package.xml": manifest(
             "ament_python", name, package_format, description, license_name, maintainer, tags
         ),
         f"{name}/__init__.py": "",
@@ -129,8 +129,13 @@ def python_files(
         f"    assert {name}.__name__ == '{name}'\n",
     }
     if node_name is not None:
-        made[f"{name}/{node_name}.py"] = _NODE.format(name=name)
+        made[f"{name}/{node_name}.py"] = node(name)
     return made
+
+
+def node(name: str) -> str:
+    """Return the module of a node of a package."""
+    return _NODE.format(name=name)
 
 
 def cmake_files(
@@ -145,7 +150,7 @@ def cmake_files(
     """Return the files of an ament_cmake package of interfaces or data, like `python_files`."""
     tags = [("buildtool_depend", "ament_cmake"), *(("depend", each) for each in dependencies)]
     return {
-        "package.xml": _manifest(
+        "package.xml": manifest(
             "ament_cmake", name, package_format, description, license_name, maintainer, tags
         ),
         "CMakeLists.txt": _CMAKE.format(
@@ -156,7 +161,7 @@ def cmake_files(
     }
 
 
-def _manifest(
+def manifest(
     build_type: str,
     name: str,
     package_format: str,
@@ -165,6 +170,17 @@ def _manifest(
     maintainer: tuple[str, str],
     tags: Sequence[tuple[str, str]],
 ) -> str:
+    """Return a package.xml; `python_files` describes the arguments.
+
+    Args:
+        build_type: For example ``ament_python``.
+        name: Name of the package.
+        package_format: Format of the file.
+        description: Purpose of the package.
+        license_name: Its licence.
+        maintainer: Name and e-mail address.
+        tags: The dependencies, each with the name of its element.
+    """
     return _MANIFEST.format(
         build_type=build_type,
         format=package_format,

@@ -53,7 +53,7 @@ class MutableString:
         return iter(self.value)
 
     def __mod__(self, values: Any) -> str:
-        return self.value % values
+        return str.__mod__(self.value, values)
 
     def __str__(self) -> str:
         return self.value
