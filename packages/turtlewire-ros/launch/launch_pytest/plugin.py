@@ -46,6 +46,12 @@ __all__ = [
     "pytest_pycollect_makeitem",
     "pytest_pyfunc_call",
     "run_until_complete",
+    "wrap_asyncgen",
+    "wrap_asyncgen_fscope",
+    "wrap_coroutine",
+    "wrap_func",
+    "wrap_generator",
+    "wrap_generator_fscope",
 ]
 
 event_loop = get_event_loop_fixture()
@@ -309,35 +315,117 @@ def pytest_pyfunc_call(pyfuncitem: Any) -> bool | None:
     )
     function = pyfuncitem.obj
     if hasattr(pyfuncitem, "_launch_pytest_begin"):
-        _finish(pyfuncitem, loop, shut_down)
+        _finish(pyfuncitem._launch_pytest_begin, shut_down)
     elif need_shutdown_test_item(function):
-        steps = function(**arguments)
-        pyfuncitem._launch_pytest_steps = steps
-        _require(_step(loop, steps), f"{pyfuncitem.name} did not yield")
         if options.scope == "function":
-            _finish_steps(loop, steps, shut_down, pyfuncitem.name)
+            wrap_generator_fscope(function, loop, shut_down)(**arguments)
+        else:
+            begin, pyfuncitem._launch_pytest_end = wrap_generator(function, loop, shut_down)
+            begin(**arguments)
     else:
-        if has_shutdown_kwarg(pyfuncitem):
-            shut_down()
-        _call(loop, function, arguments)
+        wrap = wrap_coroutine if inspect.iscoroutinefunction(function) else wrap_func
+        before_test = shut_down if has_shutdown_kwarg(pyfuncitem) else None
+        wrap(function, loop, before_test)(**arguments)
     return True
 
 
-def _finish(item: Any, loop: asyncio.AbstractEventLoop, shut_down: Callable[[], None]) -> None:
-    """Run the part of a generator that follows its ``yield``."""
-    begin = item._launch_pytest_begin
-    steps = getattr(begin, "_launch_pytest_steps", None)
-    shut_down()
-    if steps is None or not _is_suspended(steps):
+def _finish(begin: Any, shut_down: Callable[[], None]) -> None:
+    """Run the part of a generator that follows its ``yield``; ``begin`` is the item before."""
+    end = getattr(begin, "_launch_pytest_end", None)
+    if end is None:  # the item before was left out, or failed in its fixtures
+        shut_down()
         pytest.skip(f"{begin.name} did not reach its yield")
-    _finish_steps(loop, steps, shut_down, begin.name)
+    end()
 
 
-def _finish_steps(
-    loop: asyncio.AbstractEventLoop, steps: Any, shut_down: Callable[[], None], name: str
-) -> None:
-    shut_down()
-    _require(not _step(loop, steps), f"{name} has more than one yield")
+def wrap_func(
+    func: Callable[..., Any],
+    event_loop: asyncio.AbstractEventLoop,
+    before_test: Callable[[], Any] | None,
+) -> Callable[..., None]:
+    """Return a test that runs a function in another thread while the loop of its launch runs.
+
+    Args:
+        func: The function.
+        event_loop: The loop.
+        before_test: Called before the function, if it is given.
+    """
+
+    @functools.wraps(func)
+    def test(**kwargs: Any) -> None:
+        if before_test is not None:
+            before_test()
+        bound = functools.partial(func, **kwargs)
+        run_until_complete(event_loop, event_loop.run_in_executor(None, bound))
+
+    return test
+
+
+def wrap_coroutine(
+    func: Callable[..., Any],
+    event_loop: asyncio.AbstractEventLoop,
+    before_test: Callable[[], Any] | None,
+) -> Callable[..., None]:
+    """Return a test that runs a coroutine function on the loop of its launch; see `wrap_func`."""
+
+    @functools.wraps(func)
+    def test(**kwargs: Any) -> None:
+        if before_test is not None:
+            before_test()
+        run_until_complete(event_loop, func(**kwargs))
+
+    return test
+
+
+def wrap_generator(
+    func: Callable[..., Any],
+    event_loop: asyncio.AbstractEventLoop,
+    on_shutdown: Callable[[], Any],
+) -> tuple[Callable[..., None], Callable[[], None]]:
+    """Return two tests: the part of a generator function up to its ``yield``, and the rest.
+
+    Args:
+        func: The generator function, or an asynchronous one.
+        event_loop: The loop of the launch, which runs meanwhile.
+        on_shutdown: Called before the rest.
+    """
+    steps: Any = None
+
+    @functools.wraps(func)
+    def test(**kwargs: Any) -> None:
+        nonlocal steps
+        steps = func(**kwargs)
+        _require(_step(event_loop, steps), f"{func.__name__} did not yield")
+
+    @functools.wraps(func)
+    def shutdown_test() -> None:
+        on_shutdown()
+        if steps is None or not _is_suspended(steps):
+            pytest.skip(f"{func.__name__} did not reach its yield")
+        _require(not _step(event_loop, steps), f"{func.__name__} has more than one yield")
+
+    return test, shutdown_test
+
+
+def wrap_generator_fscope(
+    func: Callable[..., Any],
+    event_loop: asyncio.AbstractEventLoop,
+    on_shutdown: Callable[[], Any],
+) -> Callable[..., None]:
+    """Return one test that runs both parts of `wrap_generator`."""
+    begin, end = wrap_generator(func, event_loop, on_shutdown)
+
+    @functools.wraps(func)
+    def test(**kwargs: Any) -> None:
+        begin(**kwargs)
+        end()
+
+    return test
+
+
+# The steps of a generator are run by its kind.
+wrap_asyncgen = wrap_generator
+wrap_asyncgen_fscope = wrap_generator_fscope
 
 
 def _step(loop: asyncio.AbstractEventLoop, steps: Any) -> bool:
@@ -361,17 +449,6 @@ def _is_suspended(steps: Any) -> bool:
 def _require(fulfilled: bool, otherwise: str) -> None:
     if not fulfilled:
         pytest.fail(otherwise, pytrace=False)
-
-
-def _call(
-    loop: asyncio.AbstractEventLoop, function: Callable[..., Any], arguments: dict[str, Any]
-) -> None:
-    """Run a coroutine on the loop, or a function on another thread while the loop runs."""
-    if inspect.iscoroutinefunction(function):
-        run_until_complete(loop, function(**arguments))
-    else:
-        bound = functools.partial(function, **arguments)
-        run_until_complete(loop, loop.run_in_executor(None, bound))
 
 
 def run_until_complete(loop: asyncio.AbstractEventLoop, future_like: Awaitable[Any]) -> Any:

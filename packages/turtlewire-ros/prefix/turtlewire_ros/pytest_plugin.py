@@ -8,6 +8,7 @@ ROS 2's linters, which `ros2 pkg create` puts into each package there, are skipp
 from __future__ import annotations
 
 import re
+from contextlib import suppress
 from importlib import import_module
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, NoReturn
@@ -52,25 +53,30 @@ class _AbsentLinter(pytest.Module):
 
 
 def pytest_addhooks(pluginmanager: pytest.PytestPluginManager) -> None:
-    """Add the hook of launch tests."""
-    pluginmanager.add_hookspecs(pytest_hookspecs)
+    """Add the hook of launch tests, once."""
+    # pytest calls this function again when it registers the hooks of `launch_testing`.
+    if not hasattr(pluginmanager.hook, "pytest_launch_collect_makemodule"):
+        pluginmanager.add_hookspecs(pytest_hookspecs)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add the option for arguments of launch tests."""
-    parser.addoption(
-        "--launch-args",
-        action="append",
-        nargs="*",
-        default=[],
-        help="Arguments of launch tests, as name:=value",
-    )
+    """Add the option for arguments of launch tests, once."""
+    with suppress(ValueError):  # it is there already
+        parser.addoption(
+            "--launch-args",
+            action="append",
+            nargs="*",
+            default=[],
+            help="Arguments of launch tests, as name:=value",
+        )
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Register the markers."""
+    """Register the markers, once."""
+    known = config.getini("markers")
     for marker in _MARKERS:
-        config.addinivalue_line("markers", marker)
+        if marker not in known:
+            config.addinivalue_line("markers", marker)
 
 
 def pytest_pycollect_makemodule(

@@ -1,7 +1,7 @@
 """Launch tests as items of pytest.
 
 The plugin that pytest loads is :mod:`turtlewire_ros.pytest_plugin`; it imports this module when a
-file mentions launch tests.
+file mentions launch tests. Its hooks for the options and markers are also here.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from _pytest._code.code import ReprFileLocation
 
 from launch_testing.loader import LoadTestsFromPythonModule, TestRun
 from launch_testing.test_runner import LaunchTestRunner
+from turtlewire_ros.pytest_plugin import pytest_addhooks, pytest_addoption, pytest_configure
 
 if TYPE_CHECKING:
     import unittest
@@ -29,6 +30,9 @@ __all__ = [
     "LaunchTestItem",
     "LaunchTestModule",
     "find_launch_test_entrypoint",
+    "pytest_addhooks",
+    "pytest_addoption",
+    "pytest_configure",
     "pytest_launch_collect_makemodule",
     "pytest_pycollect_makemodule",
 ]

@@ -149,9 +149,7 @@ def populate_ament_cmake(
 ) -> None:
     """Write the CMakeLists.txt of an ament_cmake package, like `populate_cmake`."""
     names = _names(package.build_depends)
-    text = compiled_template.ament_cmake_lists(
-        package.name, names, cpp_node_name, cpp_library_name
-    )
+    text = compiled_template.ament_cmake_lists(package.name, names, cpp_node_name, cpp_library_name)
     _write(package_directory, "CMakeLists.txt", text)
 
 
