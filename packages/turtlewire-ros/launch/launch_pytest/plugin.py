@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import functools
 import inspect
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
 __all__ = [
     "event_loop",
+    "from_parent",
+    "generate_test_items",
     "get_launch_test_fixture",
     "get_launch_test_fixture_scope",
     "get_launch_test_fixturename",
@@ -201,7 +203,7 @@ def has_shutdown_kwarg(item: Any) -> bool:
 
 def is_shutdown_test(item: Any) -> bool:
     """Return True if an item runs after the shutdown: by its mark, or as the end of a generator."""
-    return has_shutdown_kwarg(item) or hasattr(item, "_launch_pytest_begin")
+    return has_shutdown_kwarg(item) or getattr(item, "_launch_pytest_is_shutdown", False)
 
 
 def need_shutdown_test_item(obj: Any) -> bool:
@@ -242,30 +244,64 @@ def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> list[pytes
             "@launch_pytest.fixture",
             pytrace=False,
         )
-    needed = pytest.mark.usefixtures("event_loop", "launch_service", options.name)
-    function = needed(function)
-    items: list[pytest.Item] = list(collector._genfunctions(name, function))
+    runs_at_end = bool(marks[0].kwargs.get("shutdown"))
+    generate = functools.partial(generate_test_items, collector, name, function, options.name)
+    items = generate(is_shutdown=runs_at_end, needs_renaming=False)
     if not need_shutdown_test_item(function):
         return items
-    if marks[0].kwargs.get("shutdown"):
+    if runs_at_end:
         pytest.fail(f"{name}: a generator cannot be a shutdown test", pytrace=False)
     # Then the launch ends with this item, which also runs the end of the generator.
     if options.scope == "function":
         return items
-    return items + [_end_of(item) for item in items]
+    ends: list[Any] = generate(is_shutdown=True, needs_renaming=True)
+    for begin, end in zip(items, ends, strict=True):
+        end._launch_pytest_begin = begin
+    return items + ends
 
 
-def _end_of(begin: Any) -> pytest.Item:
-    """Return the item that runs what follows the ``yield`` of a generator."""
-    end: Any = pytest.Function.from_parent(
-        begin.parent,
-        name=begin.originalname + _SUFFIX,
-        callobj=begin.obj,
-        callspec=getattr(begin, "callspec", None),
-        fixtureinfo=begin._fixtureinfo,
+def generate_test_items(
+    collector: Any,
+    name: str,
+    obj: Callable[..., Any],
+    fixturename: str,
+    *,
+    is_shutdown: bool,
+    needs_renaming: bool,
+) -> list[pytest.Item]:
+    """Return the items of a test, one for each of its parameters.
+
+    Args:
+        collector: The module or class of the test.
+        name: Name of the test.
+        obj: The test, which gets the fixtures of the launch.
+        fixturename: Name of the launch fixture.
+        is_shutdown: Whether the items run after the shutdown of the launch.
+        needs_renaming: Whether the names of the items say that.
+    """
+    needed = pytest.mark.usefixtures("event_loop", "launch_service", fixturename)
+    items: list[Any] = list(collector._genfunctions(name, needed(obj)))
+    if needs_renaming:
+        items = [_renamed(item) for item in items]
+    for item in items:
+        item._launch_pytest_is_shutdown = is_shutdown
+    return items
+
+
+def _renamed(item: Any) -> Any:
+    return from_parent(
+        pytest.Function,
+        item.parent,
+        name=item.originalname + _SUFFIX,
+        callobj=item.obj,
+        callspec=getattr(item, "callspec", None),
+        fixtureinfo=item._fixtureinfo,
     )
-    end._launch_pytest_begin = begin
-    return cast("pytest.Item", end)
+
+
+def from_parent(cls: type[Any], *args: Any, **kwargs: Any) -> Any:
+    """Return a node of pytest, made by the ``from_parent`` of its class."""
+    return cls.from_parent(*args, **kwargs)
 
 
 @pytest.hookimpl(trylast=True)

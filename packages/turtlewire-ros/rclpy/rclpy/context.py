@@ -27,7 +27,10 @@ if TYPE_CHECKING:
 
     from .impl.arguments import Arguments
 
-__all__ = ["Context"]
+__all__ = ["Context", "g_logging_ref_count"]
+
+#: The number of open contexts that have initialized logging.
+g_logging_ref_count = 0
 
 _ALREADY_SHUT_DOWN = "failed to shutdown: rcl_shutdown already called on the given context"
 
@@ -71,6 +74,7 @@ class Context:
         self._wire: base.Context | None = None
         self._arguments: Arguments | None = None
         self._valid = False
+        self._initialized_logging = False
         self.ended_by_signal = False
         self.signal: int | None = None
         self.ended_at_exit = False
@@ -124,8 +128,9 @@ class Context:
             atexit.unregister(_close_open_contexts)
             atexit.register(_close_open_contexts)  # again: must run before the middleware ends
             signals.listeners.add(self)
+            self._initialized_logging = initialize_logging
             # As in ROS 2, the first context's command line decides.
-            if initialize_logging and len(_open_contexts) == 1:
+            if initialize_logging and _count_logging(1) == 1:
                 self._arguments.configure_logging()
 
     def note_scheduler(self, scheduler: _Scheduler) -> None:
@@ -214,6 +219,9 @@ class Context:
                 node.destroy_node()
         end()
         _open_contexts.discard(self)
+        if self._initialized_logging:
+            self._initialized_logging = False
+            _count_logging(-1)
         if self._wire is not None:
             self._wire.close()
 
@@ -336,6 +344,14 @@ def _reference(callback: Callable[[], None]) -> Callable[[], Callable[[], None] 
 
 
 _open_contexts: set[Any] = set()
+_logging_lock = threading.Lock()
+
+
+def _count_logging(change: int) -> int:
+    global g_logging_ref_count  # noqa: PLW0603 - ROS 2's variable
+    with _logging_lock:
+        g_logging_ref_count += change
+        return g_logging_ref_count
 
 
 def _close_open_contexts() -> None:

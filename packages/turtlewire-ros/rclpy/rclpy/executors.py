@@ -38,6 +38,7 @@ __all__ = [
     "ShutdownException",
     "SingleThreadedExecutor",
     "TimeoutException",
+    "TimeoutObject",
     "await_or_execute",
 ]
 
@@ -57,6 +58,26 @@ __getattr__ = reexports(
         "rclpy.waitable": ("NumberOfEntities", "Waitable"),
     },
 )
+
+
+class TimeoutObject:
+    """A timeout that several waits share, and that may change between them.
+
+    Args:
+        timeout: Seconds to wait; negative: without limit.
+    """
+
+    def __init__(self, timeout: float) -> None:
+        self._timeout = timeout
+
+    @property
+    def timeout(self) -> float:
+        """Seconds to wait."""
+        return self._timeout
+
+    @timeout.setter
+    def timeout(self, timeout: float) -> None:
+        self._timeout = timeout
 
 
 class Executor:
@@ -250,11 +271,14 @@ class Executor:
             return
 
     def wait_for_ready_callbacks(
-        self, timeout_sec: float | None = None
+        self, timeout_sec: float | TimeoutObject | None = None
     ) -> tuple[Task[Any], Entity | None, Node | None]:
         """Wait for the next callback, its group claimed.
 
         For executors of your own, whose ``spin_once`` decides where callbacks run.
+
+        Args:
+            timeout_sec: How long to wait; None or negative: without limit, 0: not at all.
 
         Returns:
             What to call exactly once, in any thread (a task: it keeps what the callback raises);
@@ -265,6 +289,8 @@ class Executor:
             TimeoutException: Nothing was ready in time.
             ShutdownException, ExternalShutdownException: The executor or the context was shut down.
         """
+        if isinstance(timeout_sec, TimeoutObject):
+            timeout_sec = timeout_sec.timeout
         source, work = self._rclpy_scheduler.next(_nanoseconds(timeout_sec))
         handler: Task[Any] = Task(self._rclpy_scheduler.execute, (source, work))
         if isinstance(source, Task):

@@ -40,6 +40,12 @@ class PicklerForProcess(pickle.Pickler):
         self.dispatch_table[socket.socket] = self.reduce_socket
         self.dispatch_table[threading.Event] = self.reduce_event
 
+    def dump(self, *args: Any, **kwargs: Any) -> None:
+        """Pickle an object without regard to earlier ones, also in its ``descriptors``."""
+        self.descriptors.clear()
+        self.clear_memo()
+        super().dump(*args, **kwargs)
+
     def reduce_socket(self, obj: socket.socket) -> tuple[Any, tuple[Any]]:
         """Return how the process gets the socket."""
         if sys.platform == "win32":

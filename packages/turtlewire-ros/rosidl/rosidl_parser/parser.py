@@ -51,6 +51,7 @@ from rosidl_parser.syntax_tree import (
     get_positive_int_const,
     get_string_literal_value,
     get_string_literals_value,
+    grammar,
     grammar_file,
     nodes_of,
 )
@@ -90,6 +91,7 @@ __all__ = [
     "get_positive_int_const",
     "get_string_literal_value",
     "get_string_literals_value",
+    "grammar",
     "grammar_file",
     "parse_idl_file",
     "parse_idl_string",

@@ -50,12 +50,16 @@ __all__ = [
     "get_positive_int_const",
     "get_string_literal_value",
     "get_string_literals_value",
+    "grammar",
     "grammar_file",
     "nodes_of",
 ]
 
 #: Path of the grammar.
 grammar_file = os.path.join(os.path.dirname(__file__), "grammar.lark")
+with open(grammar_file, encoding="utf-8") as _file:
+    #: Its text.
+    grammar = _file.read()
 
 #: Names of types by the rules of the grammar.
 BASE_TYPE_SPEC_TO_IDL_TYPE = {
@@ -86,8 +90,7 @@ def _parser() -> Lark:
             "Syntax trees of IDL need the package lark: pip install 'turtlewire-ros[grammars]'",
             name=error.name,
         ) from error
-    with open(grammar_file, encoding="utf-8") as grammar:
-        return Lark(grammar, start="specification", parser="lalr", maybe_placeholders=False)
+    return Lark(grammar, start="specification", parser="lalr", maybe_placeholders=False)
 
 
 def get_ast_from_idl_string(idl_string: str) -> Tree[Any]:

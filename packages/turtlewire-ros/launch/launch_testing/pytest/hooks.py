@@ -7,6 +7,7 @@ file mentions launch tests. Its hooks for the options and markers are also here.
 from __future__ import annotations
 
 import runpy
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -19,10 +20,10 @@ from turtlewire_ros.pytest_plugin import pytest_addhooks, pytest_addoption, pyte
 if TYPE_CHECKING:
     import unittest
     from collections.abc import Iterator, Mapping, Sequence
-    from pathlib import Path
     from types import ModuleType
 
     from _pytest._io import TerminalWriter
+    from typing_extensions import Self
 
 __all__ = [
     "LaunchTestFailure",
@@ -163,6 +164,14 @@ class LaunchTestItem(pytest.Item):
 class LaunchTestModule(pytest.File):
     """A module with launch tests."""
 
+    @classmethod
+    def from_parent(cls, *args: Any, **kwargs: Any) -> Self:
+        """Make a module, as pytest wants it; ``fspath``, from plugins for ROS 2, is its path."""
+        if "fspath" in kwargs:
+            kwargs["path"] = Path(kwargs.pop("fspath"))
+        module: Self = super().from_parent(*args, **kwargs)
+        return module
+
     def makeitem(self, *args: Any, **kwargs: Any) -> pytest.Item:
         """Make the module's item."""
         return LaunchTestItem.from_parent(*args, **kwargs)
@@ -240,5 +249,4 @@ def pytest_launch_collect_makemodule(
     marks = getattr(entrypoint, "pytestmark", [])
     if not any(mark.name == "launch_test" for mark in marks):
         return None
-    module: LaunchTestModule = LaunchTestModule.from_parent(parent, path=module_path)
-    return module
+    return LaunchTestModule.from_parent(parent, path=module_path)

@@ -10,6 +10,9 @@ import threading
 import pytest
 
 from launch_pytest.plugin import (
+    from_parent,
+    generate_test_items,
+    is_shutdown_test,
     wrap_asyncgen,
     wrap_asyncgen_fscope,
     wrap_coroutine,
@@ -17,7 +20,12 @@ from launch_pytest.plugin import (
     wrap_generator,
     wrap_generator_fscope,
 )
-from launch_testing.pytest.hooks import pytest_addhooks, pytest_addoption, pytest_configure
+from launch_testing.pytest.hooks import (
+    LaunchTestModule,
+    pytest_addhooks,
+    pytest_addoption,
+    pytest_configure,
+)
 
 
 @pytest.fixture
@@ -143,3 +151,27 @@ def test_the_hooks_alone_are_a_plugin(tmp_path):
     )
     assert done.returncode == 0, done.stderr
     assert "@pytest.mark.launch_test: " in done.stdout
+
+
+@pytest.mark.parametrize("is_shutdown", [False, True])
+def test_items_of_a_test(request, monkeypatch, is_shutdown):
+    def test_some():
+        pass
+
+    module = request.node.getparent(pytest.Module)
+    monkeypatch.setattr(module.obj, "test_some", test_some, raising=False)
+    (item,) = generate_test_items(
+        module, "test_some", test_some, "tmp_path", is_shutdown=is_shutdown, needs_renaming=True
+    )
+    assert item.name == "test_some[shutdown_test]"
+    assert item.nodeid.endswith("::test_some[shutdown_test]")
+    assert is_shutdown_test(item) is is_shutdown
+    (mark,) = item.iter_markers("usefixtures")
+    assert mark.args == ("event_loop", "launch_service", "tmp_path")
+
+
+def test_a_module_of_a_plugin_for_ros_2(request, tmp_path):
+    path = tmp_path / "test_some.py"
+    made = LaunchTestModule.from_parent(parent=request.session, fspath=str(path))
+    assert (type(made), made.path) == (LaunchTestModule, path)
+    assert from_parent(LaunchTestModule, request.session, path=path).path == path

@@ -26,6 +26,7 @@ __all__ = [
     "PASSES_COLOURS_ON",
     "SUFFIXES",
     "LaunchCommand",
+    "SuppressCompleterWorkaround",  # noqa: F822 - `__getattr__` hands it on
     "description_of",
     "launch",
     "launch_files",
@@ -36,6 +37,16 @@ __all__ = [
     "print_description",
     "show_arguments",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Load `SuppressCompleterWorkaround` on first use, since it needs argcomplete."""
+    if name != "SuppressCompleterWorkaround":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from ros2launch.suppress_completer import SuppressCompleterWorkaround
+
+    return SuppressCompleterWorkaround
+
 
 PASSES_COLOURS_ON = True
 SUFFIXES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")

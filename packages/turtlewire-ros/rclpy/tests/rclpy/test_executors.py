@@ -24,6 +24,7 @@ from rclpy.executors import (
     ShutdownException,
     SingleThreadedExecutor,
     TimeoutException,
+    TimeoutObject,
 )
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
@@ -929,3 +930,16 @@ def test_an_endpoint_that_left_is_not_kept_alive():
     gc.collect()
     assert reference() is None
     assert wait.wait(0) == []
+
+
+def test_a_timeout_that_changes_between_waits(executor):
+    timeout = TimeoutObject(0.0)
+    with pytest.raises(TimeoutException):
+        executor.wait_for_ready_callbacks(timeout)
+    timeout.timeout = 60.0
+    waking = threading.Timer(0.02, executor.create_task, [lambda: None])
+    waking.start()
+    handler, _, _ = executor.wait_for_ready_callbacks(timeout_sec=timeout)
+    handler()
+    waking.join()
+    assert (handler.done(), timeout.timeout) == (True, 60.0)

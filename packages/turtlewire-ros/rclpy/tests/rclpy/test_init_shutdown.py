@@ -380,3 +380,26 @@ def test_shutdown_callbacks_at_exit_find_the_middleware_open(program, monkeypatc
         """
     )
     assert ended.finish() == (0, "said\n", "")
+
+
+def test_the_first_context_with_logging_configures_it():
+    program = """
+import rclpy.context
+from rclpy.context import Context
+from rclpy.logging import get_logger
+
+silent, loud, later = Context(), Context(), Context()
+count = lambda: rclpy.context.g_logging_ref_count
+silent.init(args=["p", "--ros-args", "--log-level", "error"], initialize_logging=False)
+print(count(), get_logger("a").get_effective_level().name)
+loud.init(args=["p", "--ros-args", "--log-level", "debug"])
+later.init(args=["p", "--ros-args", "--log-level", "fatal"])
+print(count(), get_logger("a").get_effective_level().name)
+for context in (silent, loud, later):
+    context.shutdown()
+    print(count())
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True
+    )
+    assert done.stdout.split() == ["0", "INFO", "2", "DEBUG", "2", "1", "0"]

@@ -12,6 +12,7 @@ module               contents
 `format`             how reports and warnings are printed
 `graph_snapshot`     the endpoints of the domain, discovered once
 `network`            network interfaces
+`package`            versions of packages, compared with releases
 `platform`           this computer, and the distribution
 `qos_compatibility`  publishers and subscriptions that do not match
 `reporting`          the base classes of checks and reports
@@ -166,7 +167,7 @@ def _as_list(made: Report | list[Report]) -> list[Report]:
     return made if isinstance(made, list) else [made]
 
 
-def get_topic_names(skip_topics: Collection[str] = []) -> list[str]:
+def get_topic_names(skip_topics: Collection[str] = ()) -> list[str]:
     """Return the names of the topics there are now, except hidden ones and ``skip_topics``."""
     from ros2cli.discovery import discovered_graph
     from ros2cli.graph import topics

@@ -187,7 +187,7 @@ def _tags(package: Any) -> list[tuple[str, str]]:
 
 
 def _names(dependencies: Any) -> list[str]:
-    """Return names; those of catkin_pkg's dependencies, and texts as they are."""
+    """Return the names of dependencies, which are objects of catkin_pkg or text."""
     return [getattr(each, "name", each) for each in dependencies]
 
 

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import argparse
 import importlib.metadata
+import io
 import os
 import signal
+import socket
+import sys
 import threading
 from types import SimpleNamespace
 
@@ -22,11 +25,13 @@ from ros2bag.verb.play import positive_float
 from ros2cli.command import MutableString, SuppressUsageOutput
 from ros2cli.command.extension_points import EXTENSION_POINT_GROUP_NAME, ExtensionPointsCommand
 from ros2cli.command.extensions import ExtensionsCommand
+from ros2cli.daemon.daemonize import PicklerForProcess
 from ros2interface.verb.show import (
     ACTION_REQUEST_RESPONSE_SEPARATOR,
     SERVICE_REQUEST_RESPONSE_SEPARATOR,
     InterfaceTextLine,
 )
+from ros2launch.command.launch import SuppressCompleterWorkaround
 from ros2run.command.run import REMAINDER
 from ros2topic.verb.echo import EchoVerb
 from std_msgs.msg import String
@@ -244,3 +249,19 @@ for _ in range(3):
 hz.print_hz({name}="/t")
 """
     assert lines_in(distro, program)[0].startswith("average rate: ")
+
+
+def test_a_completer_without_completions():
+    completer = SuppressCompleterWorkaround()
+    assert list(completer("l", parser=None)) == []
+    assert completer.suppress() is True
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="sockets are shared otherwise")
+def test_a_pickler_names_the_sockets_of_its_last_object():
+    pickler = PicklerForProcess(None, io.BytesIO())
+    with socket.socket() as first, socket.socket() as second:
+        pickler.dump([first, second])
+        assert pickler.descriptors == [first.fileno(), second.fileno()]
+        pickler.dump({"event": threading.Event(), "socket": second})
+        assert pickler.descriptors == [second.fileno()]

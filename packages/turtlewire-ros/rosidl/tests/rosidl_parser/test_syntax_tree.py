@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path, PurePath
 
 import pytest
-from lark import UnexpectedInput
+from lark import Lark, UnexpectedInput
 
 from rosidl_adapter.idl import interface_to_idl
 from rosidl_parser.definition import (
@@ -40,6 +40,8 @@ from rosidl_parser.parser import (
     get_positive_int_const,
     get_string_literal_value,
     get_string_literals_value,
+    grammar,
+    grammar_file,
     parse_idl_string,
 )
 from turtlewire.errors import InterfaceError
@@ -106,6 +108,12 @@ def test_the_content_of_a_text_with_all_constructs():
 def test_texts_that_are_no_interface(text, error):
     with pytest.raises(error):
         extract_content_from_ast(get_ast_from_idl_string(text))
+
+
+def test_the_grammar_works_in_a_parser_of_lark():
+    assert Path(grammar_file).read_text(encoding="utf-8") == grammar
+    tree = Lark(grammar, start="specification", parser="lalr").parse("const long A = 1;")
+    assert get_child_identifier_value(next(tree.find_data("const_dcl"))) == "A"
 
 
 def test_names():
