@@ -1,13 +1,14 @@
 """Tests of launched processes as functions of pytest.
 
-============  =================================================================
-module        contents
-============  =================================================================
-`fixture`     the decorator of fixtures that return a launch description
-`plugin`      runs such launches, and the tests marked ``launch``
-`actions`     ``ReadyToTest``
-`tools`       waits for starts, ends and output of processes
-============  =================================================================
+===============  ==============================================================
+module           contents
+===============  ==============================================================
+`fixture`        the decorator of fixtures that return a launch description
+`plugin`         runs such launches, and the tests marked ``launch``
+`wrapped_tests`  tests that run while the loop of their launch runs
+`actions`        ``ReadyToTest``
+`tools`          waits for starts, ends and output of processes
+===============  ==============================================================
 """
 
 from __future__ import annotations
