@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, Any, Generic, NamedTuple, overload
+from typing import TYPE_CHECKING, Any, Generic, overload
 
 from turtlewire.distro import KILTED, since
 from turtlewire.errors import CdrError, UncallableServiceError, WireError
@@ -29,24 +29,12 @@ if TYPE_CHECKING:
     from turtlewire.wire import base
 
     from ._execution.entity import Work
-    from ._node.state import NodeState
+    from ._execution.handle import EndpointImpl
     from .callback_groups import CallbackGroup
     from .context import Context
     from .qos import QoSProfile
 
-__all__ = ["BaseClient", "Client", "ClientImpl", "SrvType", "SrvTypeRequest", "SrvTypeResponse"]
-
-
-class ClientImpl(NamedTuple):
-    """A client of the middleware and its node, for the constructors of clients.
-
-    Attributes:
-        wire: The middleware's side of it.
-        core: The state of the node.
-    """
-
-    wire: base.Client
-    core: NodeState
+__all__ = ["BaseClient", "Client", "SrvType", "SrvTypeRequest", "SrvTypeResponse"]
 
 
 class BaseClient(IntrospectedEndpoint, Generic[SrvT_co]):
@@ -71,7 +59,7 @@ class BaseClient(IntrospectedEndpoint, Generic[SrvT_co]):
     def __init__(
         self,
         context: Context,
-        client_impl: ClientImpl,
+        client_impl: EndpointImpl,
         srv_type: type[SrvT_co],
         srv_name: str,
         qos_profile: QoSProfile,
@@ -219,7 +207,7 @@ class Client(BaseClient[SrvT_co]):
     def __init__(
         self,
         context: Context,
-        client_impl: ClientImpl,
+        client_impl: EndpointImpl,
         srv_type: type[SrvT_co],
         srv_name: str,
         qos_profile: QoSProfile,

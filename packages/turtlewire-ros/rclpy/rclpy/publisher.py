@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, Generic, Protocol
 
 from turtlewire.errors import WireError
 from turtlewire.msg.cdr import encode
@@ -23,27 +23,15 @@ if TYPE_CHECKING:
 
     from turtlewire.wire import base
 
-    from ._node.state import NodeState
+    from ._execution.handle import EndpointImpl
     from .callback_groups import CallbackGroup
     from .qos import QoSProfile
 
-__all__ = ["BasePublisher", "MsgType", "Publisher", "PublisherImpl"]
+__all__ = ["BasePublisher", "MsgType", "Publisher"]
 
 
 _SLICE_NS = 100_000_000
 _NO_LIMIT = Duration(seconds=-1)
-
-
-class PublisherImpl(NamedTuple):
-    """A publisher of the middleware and its node, for the constructors of publishers.
-
-    Attributes:
-        wire: The middleware's side of it.
-        core: The state of the node.
-    """
-
-    wire: base.Publisher
-    core: NodeState
 
 
 class _EventCallbacks(Protocol):
@@ -73,7 +61,7 @@ class BasePublisher(Generic[MsgT]):
 
     def __init__(
         self,
-        publisher_impl: PublisherImpl,
+        publisher_impl: EndpointImpl,
         msg_type: type[MsgT],
         topic: str,  # noqa: ARG002 - the implementation knows the full name
         qos_profile: QoSProfile,
@@ -83,8 +71,8 @@ class BasePublisher(Generic[MsgT]):
         wire, core = publisher_impl
         self.msg_type = msg_type
         self.qos_profile = qos_profile
-        self.topic = wire.topic
-        self._wire = wire
+        self.topic: str = wire.topic
+        self._wire: base.Publisher = wire
         self._core = core
         self._context = core.context
         self._sends_always = (  # late joiners, deadlines and liveliness count every message
@@ -199,7 +187,7 @@ class Publisher(BasePublisher[MsgT]):
 
     def __init__(
         self,
-        publisher_impl: PublisherImpl,
+        publisher_impl: EndpointImpl,
         msg_type: type[MsgT],
         topic: str,
         qos_profile: QoSProfile,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from types import CoroutineType
-from typing import TYPE_CHECKING, Any, Generic, NamedTuple
+from typing import TYPE_CHECKING, Any, Generic
 
 from turtlewire.distro import LYRICAL, since
 from turtlewire.errors import CdrError, WireError
@@ -23,23 +23,11 @@ if TYPE_CHECKING:
     from turtlewire.wire import base
 
     from ._execution.entity import Work
-    from ._node.state import NodeState
+    from ._execution.handle import EndpointImpl
     from .callback_groups import CallbackGroup
     from .qos import QoSProfile
 
-__all__ = ["BaseService", "Service", "ServiceImpl", "SrvType", "SrvTypeRequest", "SrvTypeResponse"]
-
-
-class ServiceImpl(NamedTuple):
-    """A service of the middleware and its node, for the constructors of services.
-
-    Attributes:
-        wire: The middleware's side of it.
-        core: The state of the node.
-    """
-
-    wire: base.Service
-    core: NodeState
+__all__ = ["BaseService", "Service", "SrvType", "SrvTypeRequest", "SrvTypeResponse"]
 
 
 class BaseService(IntrospectedEndpoint, Generic[SrvT_co]):
@@ -64,7 +52,7 @@ class BaseService(IntrospectedEndpoint, Generic[SrvT_co]):
 
     def __init__(
         self,
-        service_impl: ServiceImpl,
+        service_impl: EndpointImpl,
         srv_type: type[SrvT_co],
         srv_name: str,
         callback: Callable[[Any, Any], Any],
@@ -168,7 +156,7 @@ class Service(BaseService[SrvT_co]):
 
     def __init__(
         self,
-        service_impl: ServiceImpl,
+        service_impl: EndpointImpl,
         srv_type: type[SrvT_co],
         srv_name: str,
         callback: Callable[[Any, Any], Any],
@@ -187,7 +175,7 @@ class Service(BaseService[SrvT_co]):
 
         def __init__(  # in the order of Jazzy and Kilted
             self,
-            service_impl: ServiceImpl,
+            service_impl: EndpointImpl,
             srv_type: type[SrvT_co],
             srv_name: str,
             callback: Callable[[Any, Any], Any],

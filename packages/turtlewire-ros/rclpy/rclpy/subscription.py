@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from enum import Enum
-from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, Generic, Protocol
 
 from turtlewire.distro import LYRICAL, since
 from turtlewire.errors import CdrError
@@ -20,12 +20,22 @@ if TYPE_CHECKING:
 
     from turtlewire.wire import base
 
-    from ._node.state import NodeState
+    from ._execution.handle import EndpointImpl
     from .callback_groups import CallbackGroup
     from .qos import QoSProfile
     from .subscription_content_filter_options import ContentFilterOptions
 
-__all__ = ["BaseSubscription", "MessageInfo", "MsgType", "Subscription", "SubscriptionImpl"]
+    class _EventCallbacks(Protocol):
+        """The part of :class:`rclpy.event_handler.SubscriptionEventCallbacks` that is used here."""
+
+        def create_event_handlers(
+            self, callback_group: CallbackGroup, subscription: Subscription[Any], topic_name: str, /
+        ) -> list[Any]:
+            """Make a handler for each callback."""
+            ...
+
+
+__all__ = ["BaseSubscription", "MessageInfo", "MsgType", "Subscription"]
 
 
 #: Second argument of a callback that takes two: facts about the message in addition to its content.
@@ -36,28 +46,6 @@ _CALLBACK_SHAPES = (  # ROS 2's text, to the byte
     "callback should be either be callable with one argument"
     "(to get only the message) or two (to get message and message info)"
 )
-
-
-class SubscriptionImpl(NamedTuple):
-    """A subscription of the middleware and its node, for the constructors of subscriptions.
-
-    Attributes:
-        wire: The middleware's side of it.
-        core: The state of the node.
-    """
-
-    wire: base.Subscription
-    core: NodeState
-
-
-class _EventCallbacks(Protocol):
-    """The part of :class:`rclpy.event_handler.SubscriptionEventCallbacks` that is used here."""
-
-    def create_event_handlers(
-        self, callback_group: CallbackGroup, subscription: Subscription[Any], topic_name: str, /
-    ) -> list[Any]:
-        """Make a handler for each callback."""
-        ...
 
 
 class BaseSubscription(ClosingEntity, Generic[MsgT]):
@@ -89,7 +77,7 @@ class BaseSubscription(ClosingEntity, Generic[MsgT]):
 
     def __init__(
         self,
-        subscription_impl: SubscriptionImpl,
+        subscription_impl: EndpointImpl,
         msg_type: type[MsgT],
         topic: str,  # noqa: ARG002 - the implementation knows the full name
         callback: Callable[..., Any],
@@ -104,10 +92,10 @@ class BaseSubscription(ClosingEntity, Generic[MsgT]):
         self.msg_type = msg_type
         self.qos_profile = qos_profile
         self.raw = raw
-        self.topic = wire.topic
+        self.topic: str = wire.topic
         self.event_handlers: list[Any] = []
         self.callback = callback
-        self._wire = wire
+        self._wire: base.Subscription = wire
         self._core = core
         self._logger = core.logger
 
@@ -243,7 +231,7 @@ class Subscription(BaseSubscription[MsgT]):
 
     def __init__(
         self,
-        subscription_impl: SubscriptionImpl,
+        subscription_impl: EndpointImpl,
         msg_type: type[MsgT],
         topic: str,
         callback: Callable[..., Any],
@@ -268,7 +256,7 @@ class Subscription(BaseSubscription[MsgT]):
 
         def __init__(  # in the order of Jazzy and Kilted
             self,
-            subscription_impl: SubscriptionImpl,
+            subscription_impl: EndpointImpl,
             msg_type: type[MsgT],
             topic: str,
             callback: Callable[..., Any],

@@ -1,13 +1,27 @@
-"""Stand-ins for the handles of ROS 2's C library."""
+"""Stand-ins for the objects of ROS 2's C library."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
     from typing_extensions import Self
 
-__all__ = ["Handle"]
+    from rclpy._node.state import NodeState
+
+__all__ = ["EndpointImpl", "Handle"]
+
+
+class EndpointImpl(NamedTuple):
+    """An endpoint of the middleware and its node, for the constructors of endpoints.
+
+    Attributes:
+        wire: The middleware's side of a publisher, a subscription, a service or a client.
+        core: The state of the node.
+    """
+
+    wire: Any
+    core: NodeState
 
 
 class Handle:

@@ -11,15 +11,16 @@ import weakref
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from rclpy._execution.entity import Entity
+from rclpy._execution.handle import EndpointImpl
 from rclpy._node.checks import check_callable, in_open_context, validate_qos
 from rclpy._node.names import NameResolver
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
-from rclpy.client import Client, ClientImpl
+from rclpy.client import Client
 from rclpy.event_handler import EventHandler, PublisherEventCallbacks, SubscriptionEventCallbacks
 from rclpy.guard_condition import GuardCondition
-from rclpy.publisher import Publisher, PublisherImpl
-from rclpy.service import Service, ServiceImpl
-from rclpy.subscription import Subscription, SubscriptionImpl
+from rclpy.publisher import Publisher
+from rclpy.service import Service
+from rclpy.subscription import Subscription
 from rclpy.timer import Rate, Timer
 from rclpy.type_support import (
     check_is_valid_msg_type,
@@ -130,7 +131,7 @@ class OwnEndpoints:
         profile = validate_qos(qos_profile)
         return Publisher(self.publisher_impl(msg_type, topic, profile), msg_type, topic, profile)
 
-    def publisher_impl(self, msg_type: Any, topic: str, profile: QoSProfile) -> PublisherImpl:
+    def publisher_impl(self, msg_type: Any, topic: str, profile: QoSProfile) -> EndpointImpl:
         """Announce a publisher; return what its constructor needs."""
         check_is_valid_msg_type(msg_type)
         name = self.names.resolve_topic(topic)
@@ -138,7 +139,7 @@ class OwnEndpoints:
             wire = self._core.wire.create_publisher(
                 name, type_id(type_name(msg_type)), profile.to_wire()
             )
-        return PublisherImpl(wire, self._core)
+        return EndpointImpl(wire, self._core)
 
     def create_subscription(
         self,
@@ -192,7 +193,7 @@ class OwnEndpoints:
 
     def subscription_impl(
         self, msg_type: Any, topic: str, profile: QoSProfile, sink: base.Sink | None = None
-    ) -> SubscriptionImpl:
+    ) -> EndpointImpl:
         """Announce a subscription; return what its constructor needs."""
         check_is_valid_msg_type(msg_type)
         name = self.names.resolve_topic(topic)
@@ -200,7 +201,7 @@ class OwnEndpoints:
             wire = self._core.wire.create_subscription(
                 name, type_id(type_name(msg_type)), profile.to_wire(), sink=sink
             )
-        return SubscriptionImpl(wire, self._core)
+        return EndpointImpl(wire, self._core)
 
     def create_client(
         self,
@@ -228,7 +229,7 @@ class OwnEndpoints:
             callback_group or self.default_callback_group,
         )
 
-    def client_impl(self, srv_type: Any, srv_name: str, profile: QoSProfile) -> ClientImpl:
+    def client_impl(self, srv_type: Any, srv_name: str, profile: QoSProfile) -> EndpointImpl:
         """Announce a client; return what its constructor needs."""
         check_is_valid_srv_type(srv_type)
         name = self.names.resolve_service(srv_name)
@@ -236,7 +237,7 @@ class OwnEndpoints:
             wire = self._core.wire.create_client(
                 name, service_types(type_name(srv_type)), profile.to_wire()
             )
-        return ClientImpl(wire, self._core)
+        return EndpointImpl(wire, self._core)
 
     def create_service(
         self,
@@ -271,7 +272,7 @@ class OwnEndpoints:
             callback_group=callback_group or self.default_callback_group,
         )
 
-    def service_impl(self, srv_type: Any, srv_name: str, profile: QoSProfile) -> ServiceImpl:
+    def service_impl(self, srv_type: Any, srv_name: str, profile: QoSProfile) -> EndpointImpl:
         """Announce a service; return what its constructor needs."""
         check_is_valid_srv_type(srv_type)
         name = self.names.resolve_service(srv_name)
@@ -279,7 +280,7 @@ class OwnEndpoints:
             wire = self._core.wire.create_service(
                 name, service_types(type_name(srv_type)), profile.to_wire()
             )
-        return ServiceImpl(wire, self._core)
+        return EndpointImpl(wire, self._core)
 
     def create_timer(
         self,

@@ -6,7 +6,7 @@ import asyncio
 from typing import TYPE_CHECKING, Any
 
 from rclpy._typing import RequestT, ResponseT, SrvT_co
-from rclpy.client import BaseClient, ClientImpl
+from rclpy.client import BaseClient
 
 from ._async_entity import AsyncEndpoint
 from ._graph_wait import wait_for_graph
@@ -14,6 +14,7 @@ from ._graph_wait import wait_for_graph
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from rclpy._execution.handle import EndpointImpl
     from rclpy.context import Context
     from rclpy.qos import QoSProfile
     from turtlewire.msg import Service as ServiceClass
@@ -46,7 +47,7 @@ class AsyncClient(AsyncEndpoint, BaseClient[SrvT_co]):
     def __init__(
         self,
         context: Context,
-        client_impl: ClientImpl,
+        client_impl: EndpointImpl,
         srv_type: type[SrvT_co],
         srv_name: str,
         qos_profile: QoSProfile,

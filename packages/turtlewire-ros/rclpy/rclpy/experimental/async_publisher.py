@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from rclpy._typing import MsgT
-from rclpy.publisher import BasePublisher, PublisherImpl
+from rclpy.publisher import BasePublisher
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from rclpy._execution.handle import EndpointImpl
     from rclpy.qos import QoSProfile
 
 __all__ = ["AsyncPublisher"]
@@ -30,7 +31,7 @@ class AsyncPublisher(BasePublisher[MsgT]):
 
     def __init__(
         self,
-        publisher_impl: PublisherImpl,
+        publisher_impl: EndpointImpl,
         msg_type: type[MsgT],
         topic: str,
         qos_profile: QoSProfile,

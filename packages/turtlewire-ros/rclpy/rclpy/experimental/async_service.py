@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 from rclpy._typing import SrvT_co
 from rclpy.impl.hints import with_hint
-from rclpy.service import BaseService, ServiceImpl
+from rclpy.service import BaseService
 
 from ._async_entity import AsyncEndpoint
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from rclpy._execution.handle import EndpointImpl
     from rclpy.qos import QoSProfile
 
     from ._async_entity import TaskGroup
@@ -46,7 +47,7 @@ class AsyncService(AsyncEndpoint, BaseService[SrvT_co]):
 
     def __init__(
         self,
-        service_impl: ServiceImpl,
+        service_impl: EndpointImpl,
         srv_type: type[SrvT_co],
         srv_name: str,
         callback: Callable[[Any, Any], Any],

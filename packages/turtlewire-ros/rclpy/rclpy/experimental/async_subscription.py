@@ -6,7 +6,7 @@ import asyncio
 from typing import TYPE_CHECKING, Any
 
 from rclpy._typing import MsgT
-from rclpy.subscription import BaseSubscription, MessageInfo, SubscriptionImpl
+from rclpy.subscription import BaseSubscription, MessageInfo
 from rclpy.utilities import get_rmw_implementation_identifier
 
 from ._async_entity import AsyncEndpoint, TaskGroup
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
+    from rclpy._execution.handle import EndpointImpl
     from rclpy.qos import QoSProfile
     from turtlewire.wire import base
 
@@ -49,7 +50,7 @@ class AsyncSubscription(AsyncEndpoint, BaseSubscription[MsgT]):
 
     def __init__(
         self,
-        subscription_impl: SubscriptionImpl,
+        subscription_impl: EndpointImpl,
         msg_type: type[MsgT],
         topic: str,
         callback: Callable[..., Any] | None,
