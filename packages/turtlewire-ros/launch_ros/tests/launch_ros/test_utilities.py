@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 import threading
+from pathlib import Path
 
 import pytest
 
@@ -271,3 +273,26 @@ def test_the_manager_of_managed_nodes_has_ros_2_s_module():
     for module in (utilities, lifecycle_event_manager):
         with pytest.raises(AttributeError, match="has no attribute 'nothing'"):
             module.nothing  # noqa: B018  it is read
+
+
+@pytest.mark.parametrize(
+    "module",
+    [
+        "launch.actions.reset_launch_configurations",
+        "launch.actions.timer_action",
+        "launch_ros.actions.load_composable_nodes",
+        "launch_ros.actions.ros_timer",
+        "launch_ros.descriptions.composable_lifecycle_node",
+    ],
+)
+def test_types_of_text_or_substitutions(module):
+    kinds = importlib.import_module(module).SomeSubstitutionsType_types_tuple
+    for value in (
+        "text",
+        Path("path"),
+        TextSubstitution(text="x"),
+        ["a", TextSubstitution(text="b")],
+    ):
+        assert isinstance(value, kinds)
+    for value in (1, 2.5, None, True):
+        assert not isinstance(value, kinds)

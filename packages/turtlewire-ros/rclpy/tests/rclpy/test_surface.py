@@ -420,3 +420,42 @@ def test_names_that_modules_hand_on(line):
 def test_a_name_that_a_module_does_not_hand_on(module):
     with pytest.raises(AttributeError, match=f"module '{module}' has no attribute 'Nothing'"):
         importlib.import_module(module).Nothing  # noqa: B018 -- the access is tested
+
+
+def test_bases_of_interfaces_for_annotations():
+    from example_interfaces.action import Fibonacci
+    from rclpy.type_support import Action, Msg, Srv
+    from std_msgs.msg import String
+    from std_srvs.srv import Empty
+
+    kinds = {String: Msg, Empty: Srv, Fibonacci: Action}
+    for interface, kind in kinds.items():
+        assert [each for each in (Msg, Srv, Action) if issubclass(interface, each)] == [kind]
+
+
+def test_nanoseconds_of_a_second():
+    from rclpy.duration import Duration
+    from rclpy.node import S_TO_NS
+
+    assert Duration(seconds=2).nanoseconds == 2 * S_TO_NS
+
+
+def test_callbacks_of_parameter_events():
+    from rcl_interfaces.msg import Parameter, ParameterEvent
+    from rclpy.parameter_event_handler import (
+        ParameterCallbackHandle,
+        ParameterEventCallbackHandle,
+        ParameterEventHandler,
+    )
+
+    called = []
+    callbacks = ParameterEventHandler.Callbacks()
+    for name in ("a", "b"):
+        handle = ParameterCallbackHandle(name, "/n", lambda message: called.append(message.name))
+        callbacks.parameter_callbacks.append(handle)
+    callbacks.event_callbacks.append(ParameterEventCallbackHandle(called.append))
+    event = ParameterEvent(node="/n", changed_parameters=[Parameter(name="b")])
+    callbacks.event_callback(event)
+    assert called == ["b", event]
+    callbacks.event_callback(b"raw")
+    assert called == ["b", event, b"raw"]

@@ -265,3 +265,10 @@ def test_a_pickler_names_the_sockets_of_its_last_object():
         assert pickler.descriptors == [first.fileno(), second.fileno()]
         pickler.dump({"event": threading.Event(), "socket": second})
         assert pickler.descriptors == [second.fileno()]
+
+
+def test_functions_of_the_daemon_keep_their_names():
+    from ros2cli.daemon import bind, pretty_print_call
+
+    bound = bind(pretty_print_call, print)
+    assert (bound.__name__, bound.args) == ("pretty_print_call", (print,))
