@@ -38,7 +38,7 @@ TEXTS = [
 @pytest.fixture(scope="module")
 def parser():
     with open(get_grammar_path(), encoding="utf-8") as grammar:
-        return Lark(grammar, start="template", maybe_placeholders=False)
+        return Lark(grammar, start="template")
 
 
 @pytest.fixture

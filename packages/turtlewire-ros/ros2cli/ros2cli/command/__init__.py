@@ -52,9 +52,6 @@ class MutableString:
     def __iter__(self) -> Iterator[str]:
         return iter(self.value)
 
-    def __mod__(self, values: Any) -> str:
-        return str.__mod__(self.value, values)
-
     def __str__(self) -> str:
         return self.value
 

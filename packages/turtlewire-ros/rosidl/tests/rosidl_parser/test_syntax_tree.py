@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path, PurePath
 
 import pytest
 from lark import Lark, UnexpectedInput
 
 from rosidl_adapter.idl import interface_to_idl
+from rosidl_parser import syntax_tree
 from rosidl_parser.definition import (
     Array,
     BasicType,
@@ -114,6 +116,14 @@ def test_the_grammar_works_in_a_parser_of_lark():
     assert Path(grammar_file).read_text(encoding="utf-8") == grammar
     tree = Lark(grammar, start="specification", parser="lalr").parse("const long A = 1;")
     assert get_child_identifier_value(next(tree.find_data("const_dcl"))) == "A"
+
+
+def test_without_lark_the_error_names_the_extra(monkeypatch):
+    syntax_tree._parser.cache_clear()
+    monkeypatch.setitem(sys.modules, "lark", None)
+    with pytest.raises(ImportError, match=r"pip install 'turtlewire-ros\[grammars\]'"):
+        get_ast_from_idl_string("const long A = 1;")
+    assert parse_idl_string("module a { struct S { long x; }; };").elements
 
 
 def test_names():
