@@ -115,6 +115,12 @@ struct Batch {
 
   std::size_t size() const { return stamps.shape(0); }
   Stamp stamp(std::size_t i) const { return stamps.data()[i]; }
+  std::span<const Stamp> stamps_from(std::size_t i) const {
+    return {stamps.data() + i, size() - i};
+  }
+  std::span<const PoseRow> rows_from(std::size_t i) const {
+    return {reinterpret_cast<const PoseRow*>(rows.data()) + i, size() - i};
+  }
   Pose pose(std::size_t i) const {
     const double* v = rows.data() + 7 * i;
     return {{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}};
@@ -145,6 +151,8 @@ std::size_t add_rows(Tree& tree, const Batch& batch, SourceId sender) {
     const Stamp t = batch.stamp(i);
     if (tree.set(batch.parent, batch.child, t, batch.pose(i), sender, false) != Verdict::accepted)
       refused.push_back(t);
+    else
+      i += tree.append(batch.stamps_from(i + 1), batch.rows_from(i + 1));
   }
   if (refused.size() == batch.size()) return 0;
   const Stamp oldest = tree.find_link(batch.child)->oldest();

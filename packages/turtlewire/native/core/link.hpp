@@ -123,14 +123,19 @@ class Link {
       append(stamp, sample);
       return InsertStatus::added;
     }
-    const Stamp limit = earlier(samples_.newest(), keep);
-    prune(limit);
-    if (stamp > samples_.newest()) [[likely]] {
-      append(stamp, sample);
+    if (append_newer(stamp, sample, keep)) [[likely]]
       return InsertStatus::added;
-    }
-    if (stamp < limit) return InsertStatus::too_old;
+    if (stamp < earlier(samples_.newest(), keep)) return InsertStatus::too_old;
     return insert_late(stamp, sample);
+  }
+
+  // Inserts a sample that is newer than all others; false if it is not, and then only the samples
+  // that are too old are gone. Needs a sample.
+  bool append_newer(Stamp stamp, const Sample& sample, Stamp keep) {
+    prune(earlier(samples_.newest(), keep));
+    if (stamp <= samples_.newest()) return false;
+    append(stamp, sample);
+    return true;
   }
 
   // Counts an accepted sample for its sender.
@@ -140,8 +145,14 @@ class Link {
     ++sender_.samples;
     sender_.newest = stamp;
   }
+  // The same for more samples of the last sender.
+  void count_more(std::size_t samples, Stamp newest) {
+    sender_.samples += samples;
+    sender_.newest = newest;
+  }
   // Of the last accepted sample.
   SourceId sender() const { return sender_.id; }
+  FrameId parent_of_sender() const { return sender_.parent; }
   std::vector<Sender> senders() const {
     std::vector<Sender> all = former_senders_;
     if (sender_.samples > 0) all.push_back(sender_);

@@ -110,6 +110,23 @@ Verdict Tree::set(std::string_view parent, std::string_view child, Stamp stamp, 
   return Verdict::accepted;
 }
 
+std::size_t Tree::append(std::span<const Stamp> stamps, std::span<const PoseRow> rows) {
+  Link& link = *last_link_;
+  const std::uint64_t shape = link.shape();
+  Sample sample{{}, link.parent_of_sender(), link.sender()};
+  std::size_t added = 0;
+  for (; added < stamps.size(); ++added) {
+    const PoseRow& row = rows[added];
+    sample.pose = {{row[0], row[1], row[2]}, stored({row[3], row[4], row[5], row[6]})};
+    if (judge_stored(sample.pose) != Verdict::accepted) break;
+    if (!link.append_newer(stamps[added], sample, keep_)) break;
+    if (rules_.keeps_rotations && !is_unit(sample.pose.rotation)) link.note_scaling();
+  }
+  if (added > 0) link.count_more(added, stamps[added - 1]);
+  if (link.shape() != shape) ++version_;
+  return added;
+}
+
 Verdict Tree::judge_stored(const Pose& pose) const {
   if (has_nan(pose.translation) || has_nan(pose.rotation)) return Verdict::nan_value;
   if (rules_.keeps_rotations &&

@@ -1,6 +1,7 @@
 // The tree of frames and the questions that tf2 answers about it. Not locked: see SharedBuffer.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -49,6 +50,8 @@ struct Rules {
   }
 };
 
+using PoseRow = std::array<double, 7>;
+
 class Tree {
  public:
   // With `max_frames`, samples of further frames are refused; 0: no limit.
@@ -74,6 +77,10 @@ class Tree {
   // Adds one sample. `pose` is as received; a leading '/' of the names is dropped.
   Verdict set(std::string_view parent, std::string_view child, Stamp stamp, const Pose& pose,
               SourceId source, bool is_static);
+  // Goes on after set() accepted a dynamic transform: adds further samples of its frames and
+  // sender, up to the first that is not newer than all before, or that set() would refuse. Returns
+  // how many. A row has a translation and a rotation.
+  std::size_t append(std::span<const Stamp> stamps, std::span<const PoseRow> rows);
   // What `set` would say of this sample, but for its time.
   Verdict judge(std::string_view parent, std::string_view child, const Pose& pose) const;
   // The same for a further sample of the same frames.

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 from turtlewire import errors
 
@@ -357,3 +360,39 @@ class TestVelocity:
             disc.lookup_velocity("world", "disc", interval_ns=0)
         seen = disc.lookup_velocity("world", "disc", [START, START + 500 * MS], errors="nan")
         assert np.isnan(seen[0]).all()
+
+
+@given(
+    rows=st.lists(
+        st.tuples(
+            st.integers(0, 12),  # seconds: repeated, late, and later than the cache is long
+            st.sampled_from([0.0, 1.0, math.nan, math.inf]),
+            st.sampled_from([0.0, 0.5, 1.0]),
+        ),
+        max_size=30,
+    ),
+    parents=st.lists(st.sampled_from(["a", "z"]), min_size=1, max_size=3),
+    is_lyrical=st.booleans(),
+)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_rows_of_a_batch_are_added_as_single_transforms_are(
+    core, monkeypatch, rows, parents, is_lyrical
+) -> None:
+    monkeypatch.setenv("ROS_DISTRO", "lyrical" if is_lyrical else "jazzy")
+    together, single = core.Buffer(5 * 10**9), core.Buffer(5 * 10**9)
+    poses = np.array([(x, 0, 0, 0, 0, z, 1) for _, x, z in rows]).reshape(-1, 7)
+    stamps = np.array([second * 10**9 for second, _, _ in rows], np.int64)
+    for parent in parents:
+        together.set_transforms(parent, "b", stamps, poses, errors="skip", sender="s")
+        for stamp, pose in zip(stamps.tolist(), poses.tolist(), strict=True):
+            with contextlib.suppress(errors.InvalidTransformError):
+                single.set_transform(parent, "b", stamp, pose[:3], pose[3:], sender="s")
+    assert together.frames() == single.frames()
+    assert together._describe_refusals() == single._describe_refusals()
+    if together.frames():
+        for one, other in zip(together.samples("b"), single.samples("b"), strict=True):
+            assert one.parent_frame == other.parent_frame
+            np.testing.assert_array_equal(one.stamps_ns, other.stamps_ns)
+            np.testing.assert_array_equal(one.poses, other.poses)
+        assert together.to_yaml() == single.to_yaml()
+        assert together._describe_links(9) == single._describe_links(9)
