@@ -1,4 +1,4 @@
-"""How values of RViz's options are read and written."""
+"""Readers and writers of the values of RViz's options."""
 
 from __future__ import annotations
 

@@ -277,3 +277,15 @@ def test_a_page_chooses_a_colour_image_later(open_view_page):
         page.wait_for("display", is_colored)
         page.send("options", id="a", options={"color_topic": "", "color": "flat"})
         page.wait_for("display", lambda p: p["arrays"]["rgba"].tolist() == [[255] * 4] * 2)
+
+
+def test_a_topic_of_colours_that_cannot_be_subscribed_is_named(viewer, page):
+    page.send("add", id="a", kind="depth_cloud", topic=IMAGE, options={})
+    page.wait_for("status", lambda packet: packet["id"] == "a")
+    page.send("options", id="a", options={"color_topic": "not a topic"})
+    assert "not a topic" in page.wait_for("error")["text"]
+    page.send("options", id="a", options={"color_topic": COLOR})
+    page.send("remove", id="a")
+    page.send("add", id="a", kind="depth_cloud", topic=IMAGE, options={})
+    page.send("seek", stamp=-1)  # an answer to all that was sent before
+    page.wait_for("error", lambda packet: "stamp" in packet["text"])

@@ -92,7 +92,7 @@ def test_old_efforts_go_beyond_the_history():
         (URDF, states(roll=math.inf), "joint 'roll': the effort inf or the axis cannot"),
     ],
 )
-def test_what_cannot_be_drawn_is_named(urdf, message, line):
+def test_a_wrong_robot_or_message_is_named(urdf, message, line):
     outputs = make(urdf).take(STATES, message)
     assert outputs[-1].text.startswith(line)
 

@@ -1,9 +1,10 @@
 // Handles of controls that bring no markers: arrows along x, or a ring around x, as in RViz.
 
 import {
-  BufferAttribute, BufferGeometry, ConeGeometry, CylinderGeometry, DoubleSide, Group, Mesh,
+  BufferAttribute, BufferGeometry, ConeGeometry, CylinderGeometry, DoubleSide, Mesh,
   MeshLambertMaterial, Quaternion, Vector3,
 } from "three";
+import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 import { litColor, opacity } from "./common.js";
 import { makeText } from "./text.js";
 
@@ -46,15 +47,10 @@ function arrows(look) {
   rod.rotateZ(-Math.PI / 2).translate((from + to - tip) / 2, 0, 0);
   const cone = new ConeGeometry(head / 2, tip, 16);
   cone.rotateZ(-Math.PI / 2).translate(to - tip / 2, 0, 0);
-  const group = new Group();
-  for (const side of [0, Math.PI]) {
-    for (const geometry of [rod, cone]) {
-      const part = new Mesh(geometry, look);
-      part.rotation.z = side;
-      group.add(part);
-    }
-  }
-  return group;
+  const parts = [rod, cone, rod.clone().rotateZ(Math.PI), cone.clone().rotateZ(Math.PI)];
+  const arrow = new Mesh(mergeGeometries(parts), look); // one draw call, for there may be many
+  for (const part of parts) part.dispose();
+  return arrow;
 }
 
 /** Around x; one that moves and turns has teeth, one that turns has two shades. */
