@@ -139,7 +139,7 @@ def test_a_user_moves_a_marker_and_the_server_hears_it(page):
 def test_a_server_that_comes_again_is_asked_again(page):
     page.evaluate(SHOW)
     page.wait_for_function(
-        "document.querySelector('#display-list').textContent.includes('Only changed markers')"
+        "() => document.querySelector('#display-list').textContent.includes('Only changed markers')"
     )
     arm = Arm("first", 1.0)
     assert wait_until(page, IS_AT, ["first", 1])

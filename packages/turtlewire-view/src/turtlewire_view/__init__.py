@@ -22,7 +22,7 @@ module              contents
 `parameter_watch`   reads a parameter of a node
 `service_watch`     calls a service when its server appears
 `base`              the reference of poses: fixed frame, origin, buffer
-`interactive_feedback`  what users do with interactive markers, as messages
+`interactive_feedback`  feedback on interactive markers, as messages
 `frames`            `FrameScene`: all poses in one frame, at one time, as one array
 `tree`              the rows of the tree; the pose of one frame in another
 `words`             such a pose as a sentence

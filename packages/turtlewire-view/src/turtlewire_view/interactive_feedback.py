@@ -1,4 +1,4 @@
-"""The feedback that a page gives on an interactive marker, as a message for its server."""
+"""Feedback of a page on an interactive marker, as a message for the marker's server."""
 
 from __future__ import annotations
 

@@ -117,7 +117,7 @@ class StillSource:
         return self.listeners
 
     def wait_until(self, is_true):
-        """Whether it becomes true, looked at after each message that is published."""
+        """Return True if it becomes true; looks after each message that is published."""
         with self._sent:
             return self._sent.wait_for(is_true, 60)
 

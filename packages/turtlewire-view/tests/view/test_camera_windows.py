@@ -155,7 +155,7 @@ def test_a_hidden_window_comes_back(window):
     window.show(blue(), info(), rendering="background")
     window.expect((MIDDLE, RED))
     window.scene.page.click(".image-window button")
-    gone = "!document.querySelector('.image-window:not([hidden])')"
+    gone = "() => !document.querySelector('.image-window:not([hidden])')"
     window.scene.page.wait_for_function(gone, timeout=LIMIT_MS)
     window.scene.page.locator("#display-list .eye").last.click()
     window.expect((MIDDLE, RED))

@@ -83,7 +83,7 @@ class Server:
         return [each for each in self.all_feedback() if each.event_type != KEEP_ALIVE]
 
     def wait_for(self, event, count=1):
-        """The first feedback of this type, when there are so many."""
+        """The first feedback of this type, after `count` of them were sent."""
 
         def found():
             return [each for each in self.all_feedback() if each.event_type == event]
@@ -295,7 +295,8 @@ def test_a_tool_in_hand_moves_no_marker(server):
     page.click("[data-tool=measure]")
     server.mouse.click(*server.at(0.1, 0, 0))
     server.mouse.click(*server.at(0.3, 0, 0))
-    page.wait_for_function("document.querySelector('#notice').textContent.includes(' m (x')")
+    is_measured = "() => document.querySelector('#notice').textContent.includes(' m (x')"
+    page.wait_for_function(is_measured, timeout=LIMIT_MS)
     assert server.feedback() == []
     page.keyboard.press("Escape")
 

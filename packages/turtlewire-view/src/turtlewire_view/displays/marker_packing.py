@@ -1,4 +1,4 @@
-"""The arrays of several markers as one, and where in it each marker finds its rows."""
+"""The arrays of several markers as one, and the rows of each marker in it."""
 
 from __future__ import annotations
 

@@ -42,7 +42,7 @@ function targetOf(renderer) {
   if (target) return target;
   const samples = renderer.getContextAttributes().antialias ? 4 : 0;
   target = new WebGLRenderTarget(1, 1, { samples });
-  // The colours of the page: for other targets three.js converts them not at all, or twice.
+  // For other targets, three.js leaves some colours linear, or the driver converts them twice.
   target.isXRRenderTarget = true;
   target.texture.colorSpace = SRGBColorSpace;
   target.texture.internalFormat = "RGBA8";

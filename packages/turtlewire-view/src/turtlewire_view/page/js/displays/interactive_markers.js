@@ -1,4 +1,4 @@
-// InteractiveMarkers: what a server offers to drag, click and choose from menus.
+// InteractiveMarkers: markers of a server that the user drags and clicks, with menus.
 
 import { clear } from "./parts/common.js";
 import { ControlPointer } from "./parts/control_pointer.js";
@@ -79,7 +79,7 @@ export default class InteractiveMarkers {
     return [...this.#markers.values()].flatMap(({ marker }) => marker.objects);
   }
 
-  /** Marker and control of an object; two nulls if it is none's. */
+  /** Marker and control of an object; two nulls if it belongs to none. */
   #find(object) {
     for (const { marker } of this.#markers.values()) {
       const control = object && marker.controlOf(object);
@@ -146,7 +146,7 @@ export default class InteractiveMarkers {
     this.#held = null;
   }
 
-  /** As long as a control is held, its server hears of it. */
+  /** While a control is held, send an event at least every quarter of a second, as RViz does. */
   #keepAlive() {
     const held = this.#held;
     clearTimeout(held.timer);
