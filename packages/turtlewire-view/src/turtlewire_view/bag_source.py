@@ -131,7 +131,7 @@ class BagSource:
     ) -> ServiceCalls:
         """Answer at once that a bag has no services."""
         del type_name
-        return no_service("a bag", name, on_answer)
+        return no_service(f"a bag has no services, so {name} cannot be called", on_answer)
 
     def advertise(self, topic: str, type_name: str) -> None:
         """Do nothing: a bag accepts no messages."""

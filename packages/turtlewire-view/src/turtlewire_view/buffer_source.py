@@ -95,7 +95,7 @@ class BufferSource:
     ) -> ServiceCalls:
         """Answer at once that a buffer has no services."""
         del type_name
-        return no_service("a buffer", name, on_answer)
+        return no_service(f"a buffer has no services, so {name} cannot be called", on_answer)
 
     def advertise(self, topic: str, type_name: str) -> None:
         """Do nothing: a buffer accepts no messages."""

@@ -157,8 +157,10 @@ class LiveSource:
         self, name: str, type_name: str, on_answer: Callable[[ServiceAnswer], None]
     ) -> ServiceCalls:
         """Call the service of the network."""
-        if validate_namespace(name):  # the name of a service has the form of a namespace
-            return no_service("the network", name, on_answer)
+        # The name of a service has the form of a namespace.
+        if fault := validate_namespace(name):
+            problem = f"{name!r} is not the name of a service: {fault.message}"
+            return no_service(problem, on_answer)
         return ServiceWatch(self._context, self._node, name, type_name, on_answer)
 
     def advertise(self, topic: str, type_name: str) -> None:

@@ -62,15 +62,14 @@ class _NoCalls:
     def close(self) -> None: ...
 
 
-def no_service(what: str, name: str, on_answer: Callable[[ServiceAnswer], None]) -> ServiceCalls:
-    """Answer for a source without services, at once.
+def no_service(problem: str, on_answer: Callable[[ServiceAnswer], None]) -> ServiceCalls:
+    """Answer once that a service cannot be called.
 
     Args:
-        what: The source, such as "a bag".
-        name: The service.
+        problem: The reason in one line.
         on_answer: Called with the reason.
     """
-    on_answer(ServiceAnswer(problem=f"{what} has no services, so {name} cannot be called"))
+    on_answer(ServiceAnswer(problem=problem))
     return _NoCalls()
 
 

@@ -7,8 +7,9 @@ import math
 import pytest
 
 from turtlewire import msg
+from turtlewire.tf.buffer import Buffer
 from turtlewire.web.commands import CommandError
-from turtlewire_view import Viewer
+from turtlewire_view import BufferSource, LiveSource, Viewer
 from turtlewire_view.base import Base
 from turtlewire_view.displays.content import Content, Removal, Status
 from turtlewire_view.displays.interactive_markers import InteractiveMarkersDisplay
@@ -370,3 +371,22 @@ def test_a_page_gets_markers_and_gives_feedback(open_view_page):
         source.respond(SERVICE, Service.Response(sequence_number=8, markers=[marker("last")]))
         source.send(UPDATE, update(20))  # a gap: the service is called again
         page.wait_for("display", lambda packet: packet["part"] == "last")
+
+
+def test_a_buffer_and_an_invalid_name_have_no_service():
+    live = LiveSource()
+    buffer = BufferSource(Buffer(), "buffer")
+    for source, name, line in (
+        (buffer, "/a", "a buffer has no services, so /a cannot be called"),
+        (live, "not a name", "'not a name' is not the name of a service: "),
+    ):
+        answers = []
+        calls = source.ask_service(
+            name, "visualization_msgs/srv/GetInteractiveMarkers", answers.append
+        )
+        calls.again()
+        calls.close()
+        ((cdr, problem),) = answers
+        assert cdr == b""
+        assert problem.startswith(line)
+    live.close()

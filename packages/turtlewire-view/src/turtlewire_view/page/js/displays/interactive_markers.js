@@ -10,6 +10,8 @@ const EVENT = {
   keepAlive: 0, poseUpdate: 1, menuSelect: 2, buttonClick: 3, mouseDown: 4, mouseUp: 5,
 };
 const KEEP_ALIVE_MS = 250;
+/** Servers keep one message: one that comes at once after the last pose could replace it. */
+const GAP_MS = 50;
 
 export default class InteractiveMarkers {
   #view;
@@ -18,6 +20,7 @@ export default class InteractiveMarkers {
   #pointer;
   #held = null; // { marker, control, isMoved, timer }
   #hovered = null;
+  #ending = null; // tells the end of a drag
   #ends;
 
   constructor(view, options) {
@@ -62,6 +65,7 @@ export default class InteractiveMarkers {
 
   dispose() {
     this.#letGo();
+    clearTimeout(this.#ending);
     closeMenu();
     this.#pointer.dispose();
     this.#ends();
@@ -130,11 +134,18 @@ export default class InteractiveMarkers {
 
   #release(pointer, object) {
     if (!this.#held) return;
-    const { marker, control, isMoved } = this.#held;
+    const { marker, control, isDragged, isMoved } = this.#held;
     if (isMoved) this.#tell(EVENT.poseUpdate);
-    this.#tell(EVENT.mouseUp, pointer);
     const isClick = this.#find(object)[1] === control;
-    if (isClick && control.mode === "button") this.#tell(EVENT.buttonClick, pointer);
+    const end = [EVENT.mouseUp];
+    if (isClick && control.mode === "button") end.push(EVENT.buttonClick);
+    const { pose } = marker;
+    const tellEnd = () => {
+      for (const event of end) this.#send(marker, control, event, pointer, { pose });
+    };
+    clearTimeout(this.#ending);
+    if (isDragged) this.#ending = setTimeout(tellEnd, GAP_MS);
+    else tellEnd();
     this.#letGo();
     if (isClick && control.mode === "menu") this.#openMenu(marker, control, pointer);
     this.#view.requestDraw();
@@ -158,7 +169,7 @@ export default class InteractiveMarkers {
   #openMenu(marker, control, pointer) {
     if (!marker?.menu.length) return;
     openMenu(marker.menu, [pointer.x, pointer.y], (id) => {
-      this.#send(marker, control, EVENT.menuSelect, pointer, id);
+      this.#send(marker, control, EVENT.menuSelect, pointer, { entry: id });
     });
   }
 
@@ -168,11 +179,11 @@ export default class InteractiveMarkers {
     this.#keepAlive();
   }
 
-  #send(marker, control, event, pointer, entry = 0) {
+  #send(marker, control, event, pointer, { entry = 0, pose = marker.pose } = {}) {
     const point = pointer?.point ? marker.local(pointer).point.toArray() : null;
     this.#view.send({
       type: "feedback", id: this.#view.id, marker: marker.name, control: control.name, event,
-      pose: marker.pose, menu_entry: entry, mouse_point: point,
+      pose, menu_entry: entry, mouse_point: point,
     });
   }
 }
