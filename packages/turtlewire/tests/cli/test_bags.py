@@ -364,6 +364,16 @@ def test_frames_of_a_bag_with_and_without_a_slash(capsys, tmp_path):
     assert "'base_link' is published with" not in found
 
 
+@pytest.mark.parametrize("topic", ["/tf", "/tf_static"])
+def test_slashes_are_found_in_a_bag_with_only_one_topic(capsys, tmp_path, topic):
+    with BagWriter(tmp_path / "ros1") as writer:
+        for i in range(2):
+            writer.write(topic, transform(i, "/odom", "/base_link"), START + i)
+    found = run(capsys, "doctor", tmp_path / "ros1").out
+    assert "The frames 'base_link' and 'odom' are published with a leading slash" in found
+    assert "--rename-frame /base_link:=base_link --rename-frame /odom:=odom`." in found
+
+
 def test_transforms_on_other_topics(capsys, tmp_path):
     bag = tmp_path / "r1"
     with BagWriter(bag) as writer:

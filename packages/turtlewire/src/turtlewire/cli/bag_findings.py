@@ -89,7 +89,7 @@ def examine_bag(
         return [*found, problem(str(error), error.hint)]
     found += [problem(text, _DAMAGED) for text in report.problems]
     traffic = _traffic(buffer, report, end_ns)
-    traffic.written = {name: set() for name in _written_names(path, {*moving, *fixed})}
+    traffic.written = {name: set() for name in _written_names(path, [*moving, *fixed])}
     return [*found, *_report_findings(report), *recorded_findings(traffic)]
 
 
@@ -160,7 +160,7 @@ def _report_findings(report: TransformReport) -> list[Finding]:
     return found
 
 
-def _written_names(path: str, topics: set[str]) -> set[str]:
+def _written_names(path: str, wanted: list[str]) -> set[str]:
     """Return the names of frames with a leading slash, and the same names without it.
 
     The buffer does not keep the slash. Messages are searched for the bytes before it: the length of
@@ -168,6 +168,7 @@ def _written_names(path: str, topics: set[str]) -> set[str]:
     """
     names: set[str] = set()
     with open_bag(path) as bag, suppress(BagError):  # the report has the damage
+        topics = [topic for topic in wanted if topic in bag.topics]
         for message in bag.messages(topics):
             if b"\0\0\0/" in message.data:
                 with suppress(CdrError):

@@ -60,7 +60,7 @@ _NO_SLASH = (
     "programs that compare names see two frames. "
 )
 _PUBLISH_WITHOUT = "Publish the names without a slash."
-_RENAME = "Rename them: `turtlewire bag filter BAG -o NEW --rename-frame {}:={}`."
+_RENAME = "Rename them: `turtlewire bag filter BAG -o NEW {}`."
 _LEAPS = "Either it was moved to another position, or two sources disagree about where it is."
 
 
@@ -154,7 +154,8 @@ def _slash_findings(traffic: TfTraffic, graph: Graph | None = None) -> list[Find
         frames = "The frame {} is" if len(names) == 1 else "The frames {} are"
         text = frames.format(_quoted(name[1:] for name in names))
         text += f" published {how} a leading slash"
-        remedy = _RENAME.format(names[0], names[0][1:])
+        options = (f"--rename-frame {name}:={name[1:]}" for name in names[:_NAMED])
+        remedy = _RENAME.format(" ".join(options))
         if graph is not None:
             gids = {gid for name in names for gid in traffic.written[name]}
             text += f"; the slash is from {' and '.join(dict.fromkeys(_nodes(graph, gids)))}"
