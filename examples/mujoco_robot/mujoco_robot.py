@@ -202,7 +202,11 @@ class Camera:
 def main() -> None:
     """Simulate until Ctrl-C."""
     rclpy.init()
-    robot = MujocoRobot()
+    try:
+        robot = MujocoRobot()
+    except ValueError as error:  # MuJoCo's, for a model that it cannot read
+        rclpy.try_shutdown()
+        sys.exit(str(error))
     try:
         rclpy.spin(robot)
     except (KeyboardInterrupt, ExternalShutdownException):

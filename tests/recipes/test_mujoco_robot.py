@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import math
+import sys
 from itertools import islice, pairwise
 
 import numpy as np
@@ -142,6 +143,14 @@ def test_a_model_of_your_own_is_published(robot, net, tmp_path):
     assert (hand.translation, hand.rotation) == ((0.0, 1.0, 0.0), (0.0, 0.0, 1.0, 0.0))
     assert lookup("world", "body_2", timeout_ns=MINUTE_NS).translation == (0.0, 0.0, 1.0)
     assert lookup("world", "shelf", timeout_ns=MINUTE_NS).translation == (0.0, 0.0, 2.0)
+
+
+def test_a_missing_model_is_named(run):
+    words = ["--ros-args", "-p", "model:=none.xml"]
+    program = run(sys.executable, EXAMPLES / "mujoco_robot" / "mujoco_robot.py", *words)
+    assert program.wait() == 1
+    assert "none.xml" in program.text
+    assert "Traceback" not in program.text
 
 
 def test_a_model_without_joints_is_published(robot, net, tmp_path):
