@@ -38,14 +38,24 @@ class Entities:
         }
 
     def log_message(self, topic: str, message: Any) -> None:
-        """Log a message; nothing if its type is not known here."""
-        log = self._loggers.get(msg.type_name(type(message)))
-        if log is not None:
-            log(topic, message)
+        """Log a message; ValueError if its type is not known here."""
+        kind = msg.type_name(type(message))
+        if kind not in self._loggers:
+            raise ValueError(f"{topic} has the type {kind}; known are {', '.join(self._loggers)}")
+        self._loggers[kind](topic, message)
 
     def log_bag(self, bag: Bag) -> None:
-        """Log the transforms and joint states of a bag in columns, and the other messages."""
+        """Log the transforms and joint states of a bag in columns, and the other messages.
+
+        Topics of other types are left out.
+
+        Raises:
+            ValueError: The bag has only topics of other types.
+        """
         types = {name: topic.type for name, topic in bag.topics.items()}
+        if self._loggers.keys().isdisjoint(types.values()):
+            found = ", ".join(sorted(set(types.values()))) or "no topics"
+            raise ValueError(f"the bag has {found}; known are {', '.join(self._loggers)}")
         if not {"/tf", "/tf_static"}.isdisjoint(types):
             self.log_buffer(Buffer.from_bag(bag))
         for name in (name for name, kind in types.items() if kind == JOINT_STATE):
@@ -72,8 +82,7 @@ class Entities:
         for each in message.transforms:
             place, turn = each.transform.translation, each.transform.rotation
             set_time(each.header.stamp)
-            # tf2 also removes the slash with which names from ROS 1 begin.
-            parent, child = each.header.frame_id.lstrip("/"), each.child_frame_id.lstrip("/")
+            parent, child = frame_name(each.header.frame_id), frame_name(each.child_frame_id)
             pose = [place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w]
             self._log_pose(parent, child, pose, is_static=topic.endswith("_static"))
 
@@ -124,7 +133,7 @@ class Entities:
         pinhole = rr.Pinhole(
             image_from_camera=np.reshape(message.k, (3, 3)),
             resolution=[message.width, message.height],
-            parent_frame=message.header.frame_id,
+            parent_frame=frame_name(message.header.frame_id),
             child_frame=image_frame(message),
             image_plane_distance=IMAGES,
         )
@@ -135,7 +144,7 @@ class Entities:
         if not {"x", "y", "z"} <= offsets.keys():
             return
         set_time(message.header.stamp)
-        self._place(topic, message.header.frame_id)
+        self._place(topic, frame_name(message.header.frame_id))
         layout = {
             "names": ["x", "y", "z"],
             "formats": ["<f4"] * 3,
@@ -147,9 +156,14 @@ class Entities:
         rr.log(topic, rr.Points3D(np.column_stack([points[axis] for axis in "xyz"])))
 
 
+def frame_name(written: str) -> str:
+    """Return the name without the slash of ROS 1, which tf2 removes from transforms."""
+    return written.removeprefix("/")
+
+
 def image_frame(message: Any) -> str:
     """Return the frame of the pixels of a camera."""
-    return f"{message.header.frame_id} image"
+    return f"{frame_name(message.header.frame_id)} image"
 
 
 def set_time(stamp: Any) -> None:

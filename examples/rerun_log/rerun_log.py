@@ -34,7 +34,10 @@ def parsed(words: list[str] | None) -> argparse.Namespace:
     add("-o", "--output", metavar="FILE.rrd", help="write a file; without it, the viewer opens")
     add("--topic", action="append", default=[], help="live: another topic to log, next to TF")
     add("--seconds", type=float, metavar="S", help="live: end after this time")
-    return parser.parse_args(words)
+    arguments = parser.parse_args(words)
+    if arguments.bag and (arguments.topic or arguments.seconds is not None):
+        parser.error("--topic and --seconds are for running nodes, not for a bag")
+    return arguments
 
 
 async def follow(subscription: Subscription, entities: Entities) -> None:
@@ -63,23 +66,38 @@ async def log_live(entities: Entities, topics: list[str], seconds: float | None)
             raise error
 
 
+def start(name: str, output: str | None) -> None:
+    """Open a recording: a file, or the viewer."""
+    rr.init(name)
+    if output:
+        rr.save(output)
+    else:
+        rr.spawn()
+
+
+def log(arguments: argparse.Namespace) -> None:
+    """Log a bag, or the running nodes."""
+    if arguments.bag:
+        with open_bag(arguments.bag) as bag:  # a wrong path must not empty the file
+            start(Path(arguments.bag).resolve().name, arguments.output)
+            Entities().log_bag(bag)
+    else:
+        start("live", arguments.output)
+        asyncio.run(log_live(Entities(), arguments.topic, arguments.seconds))
+
+
 def main(words: list[str] | None = None) -> int:
     """Log what the command line names."""
     arguments = parsed(words)
-    rr.init(Path(arguments.bag).resolve().name if arguments.bag else "live")
-    if arguments.output:
-        rr.save(arguments.output)
-    else:
-        rr.spawn()
     try:
-        if arguments.bag:
-            with open_bag(arguments.bag) as bag:
-                Entities().log_bag(bag)
-        else:
-            asyncio.run(log_live(Entities(), arguments.topic, arguments.seconds))
-    except (OSError, TurtlewireError, ValueError) as error:
+        log(arguments)
+    except (OSError, RuntimeError, TurtlewireError, ValueError) as error:  # Rerun's: RuntimeError
         print(error, file=sys.stderr)
+        if hint := getattr(error, "hint", ""):
+            print(hint, file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        return 130
     finally:
         rr.disconnect()
     return 0

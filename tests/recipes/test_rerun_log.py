@@ -185,9 +185,69 @@ def test_sensors_are_put_into_their_frames(recipe, tmp_path):
     assert {"/flat", "/depth", "/text"}.isdisjoint(rows)
 
 
-def test_a_wrong_bag_is_named(recipe, tmp_path, capsys):
-    assert recipe.rerun_log.main([str(tmp_path / "none"), "-o", str(tmp_path / "a.rrd")]) == 1
+def test_frames_with_the_slash_of_ros_1_are_those_of_tf2(recipe, tmp_path):
+    bag, file = tmp_path / "ros1", tmp_path / "ros1.rrd"
+    image = get_message("sensor_msgs/msg/Image")(
+        height=1, width=1, encoding="mono8", step=1, data=b"1"
+    )
+    info = get_message("sensor_msgs/msg/CameraInfo")(height=1, width=1)
+    cloud = get_message("sensor_msgs/msg/PointCloud2")(height=1, width=1, point_step=12)
+    field = get_message("sensor_msgs/msg/PointField")
+    cloud.fields = [field(name=n, offset=4 * k, datatype=7, count=1) for k, n in enumerate("xyz")]
+    cloud.data = bytes(12)
+    with BagWriter(bag) as writer:
+        writer.write("/tf", transform("/base", "/camera", 1.0), START)
+        for topic, message in (("/image", image), ("/info", info), ("/points", cloud)):
+            writer.write(topic, stamped(message, START, "/camera"), START)
+    assert recipe.rerun_log.main([str(bag), "-o", str(file)]) == 0
+    rows = read(file)
+    assert values(rows["/tf/camera"], "child_frame") == ["camera"]
+    assert values(rows["/image"], "frame") == ["camera image"]
+    assert values(rows["/info"], "parent_frame") == ["camera"]
+    assert values(rows["/info"], "child_frame") == ["camera image"]
+    assert values(rows["/points"], "frame") == ["camera"]
+
+
+def test_a_wrong_bag_is_named_and_keeps_the_file(recipe, tmp_path, capsys):
+    file = tmp_path / "a.rrd"
+    file.write_text("an earlier recording")
+    assert recipe.rerun_log.main([str(tmp_path / "none"), "-o", str(file)]) == 1
     assert "there is no bag at" in capsys.readouterr().err
+    assert file.read_text() == "an earlier recording"
+
+
+def test_a_bag_without_a_known_topic_is_named(recipe, tmp_path, capsys):
+    with BagWriter(tmp_path / "texts") as writer:
+        writer.write("/text", get_message("std_msgs/msg/String")(data="x"), START)
+    words = [str(tmp_path / "texts"), "-o", str(tmp_path / "a.rrd")]
+    assert recipe.rerun_log.main(words) == 1
+    assert "the bag has std_msgs/msg/String; known are tf2_msgs" in capsys.readouterr().err
+
+
+def test_a_file_in_a_missing_folder_is_named(recipe, tmp_path, capsys):
+    assert recipe.rerun_log.main(["-o", str(tmp_path / "none" / "a.rrd")]) == 1
+    assert "none/a.rrd" in capsys.readouterr().err
+
+
+def test_options_for_running_nodes_are_rejected_with_a_bag(recipe, capsys):
+    for words in (["--topic", "/points"], ["--seconds", "0"]):
+        with pytest.raises(SystemExit):
+            recipe.rerun_log.main(["bag", *words])
+        assert "--topic and --seconds are for running nodes" in capsys.readouterr().err
+
+
+def test_a_running_topic_of_another_type_ends_the_program(recipe, tmp_path, capsys):
+    def publish():
+        assert texts.wait_for_subscribers(timeout_ns=60 * SECOND)
+        texts.publish(data="x")
+
+    words = ["-o", str(tmp_path / "a.rrd"), "--topic", "/text", "--seconds", "120"]
+    with turtlewire.connect("robot") as net, ThreadPoolExecutor(1) as thread:
+        texts = net.publisher("/text", "std_msgs/msg/String")
+        published = thread.submit(publish)
+        assert recipe.rerun_log.main(words) == 1
+        published.result()
+    assert "/text has the type std_msgs/msg/String; known are" in capsys.readouterr().err
 
 
 def test_logging_ends_after_the_given_time(recipe, tmp_path):
