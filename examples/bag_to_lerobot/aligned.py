@@ -110,17 +110,29 @@ def filled(columns: Columns) -> Columns:
 
 
 def joint_signals(bag: Bag, topic: str) -> tuple[list[Signal], Columns]:
-    """Return the angles of the joints, a signal for each set of joints, and their messages."""
+    """Return the positions of the joints, a signal for each joint, and their messages.
+
+    Publishers may send other joints, or the same joints in another order. A message without
+    positions, such as one that has only velocities, is left out.
+    """
     table = filled(bag.columns(topic, "name", "position"))
     rows: dict[tuple[str, ...], list[int]] = {}
-    for row, names in enumerate(table["name"]):
-        rows.setdefault(tuple(names), []).append(row)
-    signals = []
+    for row, (names, positions) in enumerate(zip(table["name"], table["position"], strict=True)):
+        if len(positions) == len(names):
+            rows.setdefault(tuple(names), []).append(row)
+        elif len(positions):
+            raise ValueError(f"{topic} has {len(names)} names, but {len(positions)} positions")
+    found: dict[str, list[tuple[np.ndarray, np.ndarray]]] = {}
     for names, at in rows.items():
-        if names:
-            values = np.concatenate(table["position"][at]).reshape(len(at), len(names))
-            columns = [f"{name}.pos" for name in names]
-            signals.append(in_order(table.stamps_ns[at], values, columns))
+        values = np.concatenate(table["position"][at]).reshape(len(at), len(names))
+        for name, column in zip(names, values.T, strict=True):
+            found.setdefault(name, []).append((table.stamps_ns[at], column))
+    if not found:
+        raise ValueError(f"{topic} has no positions of joints in the bag")
+    signals = []
+    for name, parts in found.items():
+        stamps, columns = (np.concatenate(each) for each in zip(*parts, strict=True))
+        signals.append(in_order(stamps, columns[:, None], [f"{name}.pos"]))
     return signals, table
 
 
@@ -136,11 +148,24 @@ def command_signal(bag: Bag, wanted: Wanted, clock: Columns | None) -> Signal:
         stamps = on_the_clock(stamps, clock)
     values, names = [], []
     for name, column in table.items():
-        numbers = np.stack(column) if column.dtype == object else column
+        numbers = numbers_of(column, f"{wanted.action}:{name}")
         values.append(numbers.reshape(len(stamps), -1))
         width = values[-1].shape[1]
         names += [name] if numbers.ndim == 1 else [f"{name}[{k}]" for k in range(width)]
     return in_order(stamps, np.hstack(values), names)
+
+
+def numbers_of(column: np.ndarray, name: str) -> np.ndarray:
+    """Return a column of numbers, or of lists of one length; ValueError if it is another one."""
+    if column.dtype == object:
+        lengths = sorted({np.size(each) for each in column})
+        if len(lengths) > 1:
+            found = f"{lengths[0]} to {lengths[-1]} numbers"
+            raise ValueError(f"{name} has {found}; each row needs the same number")
+        column = np.stack(column)
+    if column.dtype.kind not in "biuf" or column.size == 0:
+        raise ValueError(f"{name} has no numbers")
+    return column
 
 
 def on_the_clock(logged_ns: np.ndarray, clock: Columns) -> np.ndarray:

@@ -12,6 +12,7 @@ from images import images_of
 
 from turtlewire.bag import open_bag
 from turtlewire.errors import TurtlewireError
+from turtlewire.program import program
 
 
 def parsed(words: list[str] | None) -> argparse.Namespace:
@@ -45,6 +46,8 @@ def wanted_parts(arguments: argparse.Namespace) -> Wanted:
     for given, form in ((poses, "--pose TARGET:SOURCE"), (cameras, "--camera NAME=TOPIC")):
         if any(len(parts) != 2 or not all(parts) for parts in given):
             raise ValueError(f"expected {form}")
+    if any("/" in name for name, _ in cameras):
+        raise ValueError("LeRobot allows no / in the name of a camera")
     if not fields:
         raise ValueError(f"name the fields of {action}, such as --action {action}:data")
     if arguments.fps < 1:
@@ -78,6 +81,7 @@ def convert(arguments: argparse.Namespace) -> None:
             print(f"{path}: {len(rows.stamps_ns)} rows, {seconds:.1f} s")
 
 
+@program
 def main(words: list[str] | None = None) -> int:
     """Convert the bags that the command line names."""
     try:
@@ -87,6 +91,8 @@ def main(words: list[str] | None = None) -> int:
         if hint := getattr(error, "hint", ""):
             print(hint, file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        return 130
     return 0
 
 

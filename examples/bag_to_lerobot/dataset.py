@@ -33,14 +33,20 @@ class DataSet:
     """A data set that appears in its folder when all episodes are written.
 
     Args:
-        folder: The folder, which must not exist.
+        folder: The folder, which must not exist; the folder around it must.
         fps: Rows a second.
         robot: The name of the robot's type.
+
+    Raises:
+        FileExistsError: The folder exists.
+        FileNotFoundError: The folder around it does not exist.
     """
 
     def __init__(self, folder: Path, fps: int, robot: str) -> None:
         if folder.exists():
             raise FileExistsError(f"{folder} exists already")
+        if not folder.absolute().parent.is_dir():
+            raise FileNotFoundError(f"the folder {folder.parent} does not exist")
         self._folder, self._fps, self._robot = folder, fps, robot
         self._temporary = Path(tempfile.mkdtemp(prefix=".", dir=folder.absolute().parent))
         self._work = self._temporary / folder.name

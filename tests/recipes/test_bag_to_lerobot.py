@@ -192,6 +192,54 @@ def test_joints_of_several_publishers_are_columns_of_their_own(recipe, tmp_path)
     np.testing.assert_allclose(rows.state, expected)
 
 
+def test_a_joint_is_one_column_in_any_order_of_the_names(recipe, tmp_path):
+    with BagWriter(tmp_path / "mixed") as writer:
+        for k in range(10):
+            now = START + k * SECOND
+            state = {"a": float(k), "b": 2.0 * k}
+            state = state if k % 2 else dict(reversed(state.items()))
+            writer.write("/joint_states", joint_state(now, **state), now)
+            wheel = get_message("sensor_msgs/msg/JointState")(name=["wheel"], velocity=[1.0])
+            writer.write("/joint_states", stamped(wheel, now), now)  # it has no position
+            writer.write("/cmd_vel", twist(1.0), now)
+    wanted = recipe.aligned.Wanted(2, "/joint_states", "/cmd_vel", ["linear.x"])
+    with open_bag(tmp_path / "mixed") as bag:
+        rows = recipe.aligned.align(bag, wanted)
+    assert rows.state_names == ["b.pos", "a.pos"]
+    np.testing.assert_allclose(rows.state, [[k, k / 2] for k in range(19)])
+
+
+@pytest.mark.parametrize(
+    ("names", "positions", "text"),
+    [
+        (["a", "b"], [1.0], "/joint_states has 2 names, but 1 positions"),
+        ([], [1.0], "/joint_states has 0 names, but 1 positions"),
+        (["a"], [], "/joint_states has no positions of joints"),
+    ],
+)
+def test_joint_states_without_a_position_for_each_are_named(
+    recipe, tmp_path, names, positions, text
+):
+    state = get_message("sensor_msgs/msg/JointState")(name=names, position=positions)
+    with BagWriter(tmp_path / "odd") as writer:
+        writer.write("/joint_states", stamped(state, START), START)
+    with open_bag(tmp_path / "odd") as bag, pytest.raises(ValueError, match=text):
+        recipe.aligned.joint_signals(bag, "/joint_states")
+
+
+@pytest.mark.parametrize(
+    ("counts", "text"), [([1, 3], "data has 1 to 3 numbers"), ([0, 0], "data has no numbers")]
+)
+def test_commands_that_are_not_columns_are_named(recipe, tmp_path, counts, text):
+    with BagWriter(tmp_path / "odd") as writer:
+        for count in counts:
+            command = get_message("std_msgs/msg/Float64MultiArray")(data=[1.0] * count)
+            writer.write("/commands", command, START)
+    wanted = recipe.aligned.Wanted(2, "", "/commands", ["data"])
+    with open_bag(tmp_path / "odd") as bag, pytest.raises(ValueError, match=text):
+        recipe.aligned.command_signal(bag, wanted, None)
+
+
 def test_the_latest_or_the_nearest_image_is_chosen(recipe):
     stamps, steps = np.array([0, 10, 20]), np.array([0, 4, 6, 10, 17, 25])
     assert recipe.aligned.last_before(stamps, steps).tolist() == [0, 0, 0, 1, 1, 2]
@@ -265,6 +313,8 @@ def test_a_failure_leaves_no_folder(convert, demo, tmp_path, capsys):
         (["--action", "/commands:data", "--pose", "hand"], "expected --pose TARGET:SOURCE"),
         (["--action", "/commands:data", "--pose", "a:b"], '"a" passed to lookupTransform'),
         (["--action", "/commands:data", "--camera", "=/x"], "expected --camera NAME=TOPIC"),
+        (["--action", "/commands:data", "--camera", "a/b=/x"], "LeRobot allows no / in the name"),
+        (["--action", "/joint_states:name"], "/joint_states:name has no numbers"),
         (["--action", "/commands:data", "--fps", "0"], "expected at least 1 row a second"),
         (["--action", "/commands:data", "--joints", ""], "the state is empty"),
     ],
@@ -273,6 +323,12 @@ def test_mistakes_are_named(convert, demo, capsys, words, text):
     folder = convert(demo, *words, status=1)
     assert text in capsys.readouterr().err
     assert not folder.exists()
+
+
+def test_a_folder_in_a_missing_folder_is_named(recipe, demo, tmp_path, capsys):
+    words = [str(demo), "--action", "/commands:data", "-o", str(tmp_path / "none" / "set")]
+    assert recipe.bag_to_lerobot.main(words) == 1
+    assert capsys.readouterr().err == f"the folder {tmp_path / 'none'} does not exist\n"
 
 
 def test_topics_that_do_not_fit_are_named(recipe, tmp_path):
