@@ -39,6 +39,18 @@ def test_a_card_has_what_view_frames_shows():
     ]
 
 
+def test_a_card_holds_its_text_in_a_browser_without_helvetica():
+    drawing = draw_tree(tree_of(("world", "turtle1")))
+    (note,) = (
+        shape
+        for shape in drawing.shapes
+        if isinstance(shape, Text) and shape.text == "Most recent transform: 2.000000"
+    )
+    card = max(boxes(drawing), key=lambda box: box.width)
+    dejavu_sans = 140.7  # its width in that font, as measured
+    assert card.x < note.x < note.x + dejavu_sans <= card.x + card.width - 5.0
+
+
 def test_a_static_transform_has_no_rate_and_a_single_one_neither():
     assert texts(draw_tree(tree_of(("a", "b"), static=True)))[1:] == [
         "b",

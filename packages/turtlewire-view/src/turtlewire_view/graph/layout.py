@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
-from turtlewire.tf.drawing import text_width
+from turtlewire.tf.drawing import BROWSER_FONTS, text_width
 from turtlewire_view.graph.columns import BOX_HEIGHT, GAP, find_places
 from turtlewire_view.graph.layers import make_layers
 
@@ -22,7 +22,6 @@ TEXT_SIZE = 13.0
 _MARGIN = 24.0
 _APART = 30.0  # between parts that no arrow connects
 _PADDING = 13.0
-_WIDER = 1.16  # fonts of browsers, compared with Helvetica
 _LONGEST = 46  # letters of a name in its box
 _SHAPE = 1.7  # width to height of the whole
 _HEAD = (7.0, 4.0)  # length and half the width of an arrow's head
@@ -77,7 +76,7 @@ class _Part(NamedTuple):
 def make_layout(diagram: Diagram) -> Layout:
     """Return the positions of boxes and arrows; the same for the same diagram."""
     labels = [_label(box) for box in diagram.boxes]
-    widths = [_WIDER * text_width(label, TEXT_SIZE) + 2 * _PADDING for label in labels]
+    widths = [BROWSER_FONTS * text_width(label, TEXT_SIZE) + 2 * _PADDING for label in labels]
     parts = [
         _part(members, diagram.boxes, diagram.arrows, widths)
         for members in _parts(len(widths), diagram.arrows)

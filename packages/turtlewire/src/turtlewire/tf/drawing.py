@@ -6,7 +6,19 @@ from typing import NamedTuple, TypeAlias
 
 from turtlewire.tf import svg
 
-__all__ = ["Drawing", "FilledBox", "Line", "Shape", "Text", "svg_from_drawing", "text_width"]
+__all__ = [
+    "BROWSER_FONTS",
+    "Drawing",
+    "FilledBox",
+    "Line",
+    "Shape",
+    "Text",
+    "svg_from_drawing",
+    "text_width",
+]
+
+#: The width of DejaVu Sans, which browsers use if Helvetica is missing, relative to `text_width`.
+BROWSER_FONTS = 1.16
 
 _ASCII_WIDTHS = (
     "278 278 355 556 556 889 667 191 333 333 389 584 278 333 278 278 "

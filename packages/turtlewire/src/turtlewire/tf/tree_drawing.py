@@ -7,7 +7,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from turtlewire.tf.drawing import Drawing, FilledBox, Line, Shape, Text, text_width
+from turtlewire.tf.drawing import (
+    BROWSER_FONTS,
+    Drawing,
+    FilledBox,
+    Line,
+    Shape,
+    Text,
+    text_width,
+)
 from turtlewire.tf.tidy_tree import tidy_positions
 
 if TYPE_CHECKING:
@@ -88,7 +96,7 @@ class _Card:
             text_width(self.name, _NAME_SIZE, bold=True),
             *(text_width(note, _NOTE_SIZE) for note in self.notes),
         ]
-        self.width = max(widths) + 2 * _PADDING
+        self.width = BROWSER_FONTS * max(widths) + 2 * _PADDING
         self.height = _NAME_SIZE + _LINE * len(self.notes) + 2 * _PADDING
         self.x = self.y = 0.0
 
