@@ -55,6 +55,10 @@ def show(
         raise ValueError(f"port is {port}; ports have numbers from 0 to {_LAST_PORT}")
     saved = None if config is None else load_rviz(config)
     frame = find_frame(proxy)
+    if lan and frame is not None and frame.proxied:
+        raise ValueError(
+            "lan is True, but the notebook's proxy reaches the view on this computer: leave out lan"
+        )
     with contextlib.ExitStack() as stack:
         source, folders = _source(what, positions, _named(packages or {}))
         stack.callback(source.close)

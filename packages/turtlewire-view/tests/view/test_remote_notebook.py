@@ -210,6 +210,11 @@ def test_a_proxy_without_a_port_or_a_start_is_explained(show, proxy):
         show(proxy=proxy)
 
 
+def test_a_view_behind_a_proxy_does_not_open_to_the_network(show):
+    with pytest.raises(ValueError, match="leave out lan"):
+        show(proxy="/proxy/{port}/", lan=True)
+
+
 def test_a_proxy_of_another_type_is_rejected(show):
     with pytest.raises(TypeError, match="proxy must be str, not bool"):
         show(proxy=True)
