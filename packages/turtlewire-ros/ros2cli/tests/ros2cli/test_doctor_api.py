@@ -7,6 +7,7 @@ import sys
 
 import pytest
 
+from ros2cli.graph import endpoints_of_topic
 from ros2cli.main import main
 from ros2doctor.api import (
     Report,
@@ -173,6 +174,24 @@ def test_the_variables_that_are_set(monkeypatch):
     ]
 
 
+def wait_for_owners(*topics):
+    """Wait until a participant knows the node of each endpoint; endpoints are announced before."""
+    context = open_context()
+    try:
+        graph = context.graph
+        assert graph.wait_for(
+            lambda: all(
+                found and all(each.node for each in found)
+                for topic in topics
+                for kind in ("publisher", "subscription")
+                for found in [endpoints_of_topic(graph, topic, kind)]
+            ),
+            60_000_000_000,
+        )
+    finally:
+        context.close()
+
+
 def test_checks_of_topics(capsys):
     context = open_context()
     try:
@@ -191,6 +210,7 @@ def test_checks_of_topics(capsys):
         ]
         node.create_subscription("/alone", kind, QoS())
         node.create_publisher("/unsaid", kind, QoS(reliability=Reliability.BEST_EFFORT))
+        wait_for_owners("/alone", "/unsaid")
         assert TopicCheck().check().warning == 0
         result = QoSCompatibilityCheck().check()
         assert (result.error, result.warning) == (1, 0)
