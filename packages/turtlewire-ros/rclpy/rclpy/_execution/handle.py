@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from typing_extensions import Self
 
     from rclpy._node.state import NodeState
 
-__all__ = ["EndpointImpl", "Handle"]
+__all__ = ["EndpointImpl", "Handle", "closed_on_error"]
 
 
 class EndpointImpl(NamedTuple):
@@ -22,6 +25,16 @@ class EndpointImpl(NamedTuple):
 
     wire: Any
     core: NodeState
+
+
+@contextmanager
+def closed_on_error(impl: EndpointImpl) -> Iterator[EndpointImpl]:
+    """Yield an announced endpoint, and close it if the block raises, as ROS 2 does."""
+    try:
+        yield impl
+    except BaseException:
+        impl.wire.close()
+        raise
 
 
 class Handle:

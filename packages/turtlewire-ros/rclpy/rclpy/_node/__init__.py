@@ -7,6 +7,7 @@ module                        contents
 `state`                       names, wire, context, logger and command line of one node
 `endpoints`                   creates, stores and closes the endpoints of a node
 `handle`                      the stand-in for a node's handle of the C library
+`qos_overrides`               policies of an endpoint that parameters override
 `checks`                      checks of callbacks and of the quality of service
 `names`                       full names of topics and services
 `graph`                       other nodes, topics and services

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import threading
 import weakref
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from rclpy._execution.entity import Entity
-from rclpy._execution.handle import EndpointImpl
+from rclpy._execution.handle import EndpointImpl, closed_on_error
 from rclpy._node.checks import check_callable, in_open_context, validate_qos
 from rclpy._node.names import NameResolver
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
@@ -34,16 +34,15 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from rclpy._execution.entity import EntityHost
-    from rclpy._node.parameters import NodeParameters
+    from rclpy._node.qos_overrides import QosOverrides
     from rclpy._node.state import NodeState
     from rclpy.callback_groups import CallbackGroup
     from rclpy.clock import Clock
     from rclpy.qos import QoSProfile
-    from rclpy.qos_overriding_options import QoSOverridingOptions
     from rclpy.waitable import Waitable
     from turtlewire.wire import base
 
-__all__ = ["OwnEndpoints", "QosOverrides", "endpoints_of"]
+__all__ = ["OwnEndpoints", "endpoints_of"]
 
 _Owned = TypeVar("_Owned")
 
@@ -52,21 +51,6 @@ def endpoints_of(node: Any) -> OwnEndpoints:
     """Return a node's endpoints (internal)."""
     endpoints: OwnEndpoints = node._rclpy_endpoints
     return endpoints
-
-
-class QosOverrides(NamedTuple):
-    """The QoS policies of an endpoint that parameters may override."""
-
-    options: QoSOverridingOptions | None
-    parameters: NodeParameters
-
-    def apply(self, kind: str, profile: QoSProfile, resolve_topic: Callable[[], str]) -> QoSProfile:
-        """Return the profile with the parameters' values; ``kind`` is publisher or subscription."""
-        if self.options is None:
-            return profile
-        from rclpy.qos_overriding_options import overridden_profile
-
-        return overridden_profile(kind, resolve_topic(), profile, self.options, self.parameters)
 
 
 class OwnEndpoints:
@@ -114,14 +98,15 @@ class OwnEndpoints:
         profile = validate_qos(qos_profile)
         if overrides is not None:
             profile = overrides.apply("publisher", profile, lambda: self.names.resolve_topic(topic))
-        publisher = publisher_class(
-            self.publisher_impl(msg_type, topic, profile),
-            msg_type,
-            topic,
-            profile,
-            event_callbacks=event_callbacks or PublisherEventCallbacks(),
-            callback_group=callback_group or self.default_callback_group,
-        )
+        with closed_on_error(self.publisher_impl(msg_type, topic, profile)) as impl:
+            publisher = publisher_class(
+                impl,
+                msg_type,
+                topic,
+                profile,
+                event_callbacks=event_callbacks or PublisherEventCallbacks(),
+                callback_group=callback_group or self.default_callback_group,
+            )
         for handler in publisher.event_handlers:
             self._own(EventHandler, handler)
         return self._own(Publisher, publisher)
@@ -180,16 +165,17 @@ class OwnEndpoints:
     ) -> Subscription:
         """Return a subscription that the caller owns."""
         profile = validate_qos(qos_profile)
-        return Subscription(
-            self.subscription_impl(msg_type, topic, profile, sink),
-            msg_type,
-            topic,
-            callback=callback,
-            qos_profile=profile,
-            raw=raw,
-            callback_group=callback_group or self.default_callback_group,
-            event_callbacks=event_callbacks,
-        )
+        with closed_on_error(self.subscription_impl(msg_type, topic, profile, sink)) as impl:
+            return Subscription(
+                impl,
+                msg_type,
+                topic,
+                callback=callback,
+                qos_profile=profile,
+                raw=raw,
+                callback_group=callback_group or self.default_callback_group,
+                event_callbacks=event_callbacks,
+            )
 
     def subscription_impl(
         self, msg_type: Any, topic: str, profile: QoSProfile, sink: base.Sink | None = None
@@ -220,14 +206,15 @@ class OwnEndpoints:
         callback_group: CallbackGroup | None,
     ) -> Client:
         """Return a client that the caller owns."""
-        return Client(
-            self._core.context,
-            self.client_impl(srv_type, srv_name, qos_profile),
-            srv_type,
-            srv_name,
-            qos_profile,
-            callback_group or self.default_callback_group,
-        )
+        with closed_on_error(self.client_impl(srv_type, srv_name, qos_profile)) as impl:
+            return Client(
+                self._core.context,
+                impl,
+                srv_type,
+                srv_name,
+                qos_profile,
+                callback_group or self.default_callback_group,
+            )
 
     def client_impl(self, srv_type: Any, srv_name: str, profile: QoSProfile) -> EndpointImpl:
         """Announce a client; return what its constructor needs."""
@@ -263,14 +250,15 @@ class OwnEndpoints:
         """Return a service that the caller owns."""
         check_is_valid_srv_type(srv_type)
         check_callable(callback)
-        return service_class(
-            self.service_impl(srv_type, srv_name, qos_profile),
-            srv_type,
-            srv_name,
-            callback,
-            qos_profile=qos_profile,
-            callback_group=callback_group or self.default_callback_group,
-        )
+        with closed_on_error(self.service_impl(srv_type, srv_name, qos_profile)) as impl:
+            return service_class(
+                impl,
+                srv_type,
+                srv_name,
+                callback,
+                qos_profile=qos_profile,
+                callback_group=callback_group or self.default_callback_group,
+            )
 
     def service_impl(self, srv_type: Any, srv_name: str, profile: QoSProfile) -> EndpointImpl:
         """Announce a service; return what its constructor needs."""

@@ -9,6 +9,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Literal, TypeVar, overload
 
 from rclpy._execution.asyncio_loop import loops_of_nodes, running_loop
+from rclpy._execution.handle import closed_on_error
 from rclpy._node.base import BaseNode
 from rclpy._node.checks import check_callable, validate_qos
 from rclpy._node.declarations import name_alone_text
@@ -296,12 +297,12 @@ class AsyncNode(BaseNode):
         """
         self.__check_alive("subscription")
         profile = validate_qos(qos_profile)
-        impl = self._rclpy_endpoints.subscription_impl(msg_type, topic, profile)
-        return self.__own(
-            AsyncSubscription(
+        announced = self._rclpy_endpoints.subscription_impl(msg_type, topic, profile)
+        with closed_on_error(announced) as impl:
+            subscription = AsyncSubscription(
                 impl, msg_type, topic, callback, profile, None, raw, concurrent, self.__group
             )
-        )
+        return self.__own(subscription)
 
     def create_service(
         self,

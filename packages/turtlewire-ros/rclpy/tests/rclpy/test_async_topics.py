@@ -162,6 +162,7 @@ def test_a_callback_of_a_wrong_shape(context):
         "Subscription callback should be either be callable with one argument(to get only the "
         "message) or two (to get message and message info)"
     )
+    assert node.count_subscribers("x") == 0
     node.destroy_node()
 
 

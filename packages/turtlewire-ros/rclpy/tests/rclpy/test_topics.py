@@ -155,6 +155,26 @@ def test_a_callback_with_another_number_of_arguments_is_refused(node, callback):
         RuntimeError, match="callback should be either be callable with one argument"
     ):
         node.create_subscription(Int32, "number", callback, 10)
+    assert node.count_subscribers("number") == 0
+
+
+@pytest.mark.parametrize("kind", ["publisher", "subscription", "client", "service"])
+def test_endpoint_with_a_wrong_callback_group_is_not_announced(node, kind):
+    create = {
+        "publisher": lambda: node.create_publisher(Int32, "number", 10, callback_group=object()),
+        "subscription": lambda: node.create_subscription(
+            Int32, "number", print, 10, callback_group=object()
+        ),
+        "client": lambda: node.create_client(Trigger, "switch", callback_group=object()),
+        "service": lambda: node.create_service(
+            Trigger, "switch", lambda _, response: response, callback_group=object()
+        ),
+    }[kind]
+    with pytest.raises(AttributeError, match="has no attribute 'add_entity'"):
+        create()
+    counts = [node.count_publishers("number"), node.count_subscribers("number")]
+    counts += [node.count_clients("switch"), node.count_services("switch")]
+    assert counts == [0, 0, 0, 0]
 
 
 def test_a_late_joiner_gets_what_transient_local_keeps(context, node, spin_until):
