@@ -182,6 +182,7 @@ def _run(
         if isinstance(error, TimeoutError):
             raise _timed_out("result", limit) from None
         raise
+    direct.handle_received()  # the result may overtake feedback
     print(f"Result:\n    {message_to_yaml(result.result)}")
     print(f"Goal finished with status: {_status_name(result.status)}")
 

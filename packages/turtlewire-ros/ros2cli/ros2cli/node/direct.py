@@ -235,6 +235,24 @@ class DirectNode:
             raise TimeoutError(f"no answer within {timeout} s")
         return future.result()
 
+    def handle_received(self) -> None:
+        """Handle the callbacks of everything that has been received already."""
+        import rclpy
+        from rclpy.executors import ExternalShutdownException, ShutdownException, TimeoutException
+
+        executor = rclpy.get_global_executor()
+        added = executor.add_node(self.node)
+        try:
+            # The first exception of these means that nothing is left.
+            with suppress(TimeoutException, ShutdownException, ExternalShutdownException):
+                while True:
+                    handler, _, _ = executor.wait_for_ready_callbacks(0)
+                    handler()
+                    handler.result()
+        finally:
+            if added:
+                executor.remove_node(self.node)
+
     def get_action_names_and_types(self) -> list[tuple[str, list[str]]]:
         """Return the names and types of all actions."""
         from rclpy.action import get_action_names_and_types

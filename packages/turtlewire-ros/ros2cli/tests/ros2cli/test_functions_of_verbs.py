@@ -26,6 +26,7 @@ from ros2cli.command import MutableString, SuppressUsageOutput
 from ros2cli.command.extension_points import EXTENSION_POINT_GROUP_NAME, ExtensionPointsCommand
 from ros2cli.command.extensions import ExtensionsCommand
 from ros2cli.daemon.daemonize import PicklerForProcess
+from ros2cli.node.direct import DirectNode
 from ros2interface.verb.show import (
     ACTION_REQUEST_RESPONSE_SEPARATOR,
     SERVICE_REQUEST_RESPONSE_SEPARATOR,
@@ -121,12 +122,13 @@ def test_choose_qos(node):
     assert chosen.reliability == QoSReliabilityPolicy.RELIABLE
 
 
-@pytest.fixture
-def action_server(monkeypatch):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+@pytest.fixture(params=["local", "rmw_cyclonedds_cpp"])
+def action_server(monkeypatch, request):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
 
     def execute(goal):
-        goal.publish_feedback(Fibonacci.Feedback(sequence=[1]))
+        for number in range(8):
+            goal.publish_feedback(Fibonacci.Feedback(sequence=[number]))
         goal.succeed()
         return Fibonacci.Result(sequence=[goal.request.order])
 
@@ -152,10 +154,22 @@ def test_send_goal(capsys):
     said = capsys.readouterr().out
     assert "Goal finished with status: SUCCEEDED" in said
     assert "sequence:\n- 5" in said
-    assert [list(message.feedback.sequence) for message in heard] == [[1]]
+    assert [list(message.feedback.sequence) for message in heard] == [[n] for n in range(8)]
     assert send_goal("fibonacci", kind, "nothing: 5", None).startswith("Failed to populate")
     with pytest.raises(RuntimeError, match="The passed action type is invalid"):
         send_goal("fibonacci", "example_interfaces/action/Nothing", "{}", None)
+
+
+def test_received_messages_are_handled_without_a_wait(node):
+    heard = []
+    node.create_subscription(String, "t", lambda message: heard.append(message.data), 10)
+    publisher = node.create_publisher(String, "t", 10)
+    for word in ("one", "two", "three"):
+        publisher.publish(String(data=word))
+    DirectNode.around(node).handle_received()
+    assert heard == ["one", "two", "three"]
+    DirectNode.around(node).handle_received()
+    assert (len(heard), node.executor) == (3, None)
 
 
 def test_send_goal_without_a_server(monkeypatch):
