@@ -42,7 +42,7 @@ a volatile subscription drops what is older than the last message of the same pr
   wire/test_contract.py test_publishers_of_several_threads_lose_nothing
 the router listens on all interfaces
   wire/zenoh/test_configuration.py test_the_router_stays_on_this_computer
-`rosidl_parser.parser` returns lark's syntax tree, and accepts enums and unions
+`rosidl_parser.parser` needs lark, and its grammar has enums
   rosidl_parser/test_parser.py test_all_fields_have_the_types_that_classes_have test_errors_are_reported
 an extension of another package may replace an extension of ROS 2 with the same name
   ros2cli/test_extensions_of_others.py test_a_verb_is_added_and_none_is_replaced
