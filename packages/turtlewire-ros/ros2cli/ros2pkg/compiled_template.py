@@ -69,7 +69,7 @@ project({name})
 _LIBRARY = """
 add_library({library} src/{library}.cpp)
 target_compile_features({library} PUBLIC cxx_std_17)
-target_include_directories({library} PUBLIC
+{links}target_include_directories({library} PUBLIC
   "$<BUILD_INTERFACE:${{CMAKE_CURRENT_SOURCE_DIR}}/include>"
   "$<INSTALL_INTERFACE:include/${{PROJECT_NAME}}>")
 set_target_properties({library} PROPERTIES WINDOWS_EXPORT_ALL_SYMBOLS ON)
@@ -95,8 +95,8 @@ install(EXPORT export_${PROJECT_NAME}
 """
 
 _AMENT_EXPORT = """
-ament_export_targets(export_${PROJECT_NAME} HAS_LIBRARY_TARGET)
-"""
+ament_export_targets(export_${{PROJECT_NAME}} HAS_LIBRARY_TARGET)
+{dependencies}"""
 
 _CARGO = """[package]
 name = "{name}"
@@ -152,10 +152,17 @@ def cmake_lists(
 def ament_cmake_lists(
     name: str, dependencies: Sequence[str], node: str | None, library: str | None
 ) -> str:
-    """Return the CMakeLists.txt of an ament_cmake package, like `cmake_lists`."""
-    found = ["ament_cmake", *(each for each in dependencies if each != "ament_cmake")]
-    end = _AMENT_EXPORT if library else ""
-    return f"{_head(name, found)}{_targets(node, library)}{end}\nament_package()\n"
+    """Return the CMakeLists.txt of an ament_cmake package, like `cmake_lists`.
+
+    The library and the executable are linked with the targets that the dependencies export.
+    """
+    others = [each for each in dependencies if each != "ament_cmake"]
+    exported = f"ament_export_dependencies({' '.join(others)})\n" if others else ""
+    end = _AMENT_EXPORT.format(dependencies=exported) if library else ""
+    # Packages of ament list their targets in this variable.
+    linked = [f"${{{each}_TARGETS}}" for each in others]
+    head = _head(name, ["ament_cmake", *others])
+    return f"{head}{_targets(node, library, linked)}{end}\nament_package()\n"
 
 
 def _head(name: str, dependencies: Sequence[str]) -> str:
@@ -163,12 +170,16 @@ def _head(name: str, dependencies: Sequence[str]) -> str:
     return _HEAD.format(name=name, packages=packages)
 
 
-def _targets(node: str | None, library: str | None) -> str:
-    made = _LIBRARY.format(library=library) if library else ""
+def _targets(node: str | None, library: str | None, linked: Sequence[str] = ()) -> str:
+    made = _LIBRARY.format(library=library, links=_links(library, linked)) if library else ""
     if node:
-        links = f"target_link_libraries({node} {library})\n" if library else ""
-        made += _EXECUTABLE.format(node=node, links=links)
+        of_node = [library, *linked] if library else linked
+        made += _EXECUTABLE.format(node=node, links=_links(node, of_node))
     return made
+
+
+def _links(target: str, linked: Sequence[str]) -> str:
+    return f"target_link_libraries({target} PUBLIC {' '.join(linked)})\n" if linked else ""
 
 
 def cargo_manifest(
@@ -204,6 +215,7 @@ def _class_name(library: str) -> str:
 
 
 def _toml(text: str) -> str:
-    import json  # a string of JSON is one of TOML
+    import json
 
-    return json.dumps(text)
+    # A string of JSON is one of TOML, except for pairs of surrogates and the character DEL.
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

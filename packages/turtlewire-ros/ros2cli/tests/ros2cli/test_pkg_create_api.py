@@ -30,8 +30,17 @@ needs_cargo = pytest.mark.skipif(shutil.which("cargo") is None, reason="builds w
 AMENT_CMAKE = """
 macro(ament_export_targets)
 endmacro()
+macro(ament_export_dependencies)
+endmacro()
 macro(ament_package)
 endmacro()
+"""
+
+#: A dependency, as `find_package` finds it: without its target, `USES_IT` is not defined.
+DEPENDENCY = """
+add_library(rclcpp::rclcpp INTERFACE IMPORTED)
+target_compile_definitions(rclcpp::rclcpp INTERFACE USES_IT)
+set(rclcpp_TARGETS rclcpp::rclcpp)
 """
 
 
@@ -151,6 +160,38 @@ def test_a_package_of_cpp_is_built_and_installed(tmp_path, build_type, populate,
         # A config for other packages comes from ament, or from CMake itself.
         config = target / "share/p/cmake/pConfig.cmake"
         assert config.is_file() == (build_type == "cmake")
+
+
+@needs_cmake
+def test_dependency_of_cpp_is_linked(tmp_path):
+    made = package("ament_cmake", build_depends=["rclcpp", "std_msgs"])
+    folder, sources, headers = create_package_environment(made, str(tmp_path))
+    populate_ament_cmake(made, folder, "talk", "tools")
+    populate_cpp_node(made, sources, "talk")
+    populate_cpp_library(made, sources, headers, "tools")
+    for name in ("talk", "tools"):
+        with open(f"{sources}/{name}.cpp", "a", encoding="utf-8") as source:
+            source.write('#ifndef USES_IT\n#error "is not linked"\n#endif\n')
+    prefix = tmp_path / "prefix"
+    prefix.mkdir()
+    configs = {"ament_cmake": AMENT_CMAKE, "rclcpp": DEPENDENCY, "std_msgs": ""}
+    for name, text in configs.items():
+        (prefix / f"{name}Config.cmake").write_text(text)
+    build = str(tmp_path / "build")
+    run("cmake", "-S", folder, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}")
+    run("cmake", "--build", build)
+    lists = (tmp_path / "p/CMakeLists.txt").read_text()
+    assert "ament_export_dependencies(rclcpp std_msgs)" in lists
+
+
+def test_description_in_cargo_toml_is_kept(tmp_path):
+    tomllib = pytest.importorskip("tomllib", reason="comes with Python 3.11")
+    description = 'Says "hé" to \U0001f422 \x7f in C:\\new'
+    made = package("ament_cargo", description=description)
+    folder, _, _ = create_package_environment(made, str(tmp_path))
+    populate_ament_cargo(made, folder, None)
+    text = (tmp_path / "p/Cargo.toml").read_text(encoding="utf-8")
+    assert tomllib.loads(text)["package"]["description"] == description
 
 
 @needs_cargo
