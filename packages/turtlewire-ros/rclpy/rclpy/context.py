@@ -219,8 +219,10 @@ class Context:
                 node.destroy_node()
         end()
         _open_contexts.discard(self)
-        if self._initialized_logging:
-            self._initialized_logging = False
+        # After a signal, several threads may get here.
+        with self._lock:
+            counted, self._initialized_logging = self._initialized_logging, False
+        if counted:
             _count_logging(-1)
         if self._wire is not None:
             self._wire.close()
