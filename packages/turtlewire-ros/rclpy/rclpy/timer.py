@@ -10,10 +10,10 @@ from turtlewire.distro import LYRICAL, since
 from turtlewire.wake_up import WakeUp
 
 from ._execution.entity import ClosingEntity, EntityHost, Work
+from ._execution.timer_info import TimerInfo, parameter_for_info
 from .clock_type import ClockType
 from .exceptions import ROSInterruptException
 from .impl.hints import with_hint
-from .time import Time
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -23,38 +23,6 @@ if TYPE_CHECKING:
     from .context import Context
 
 __all__ = ["BaseTimer", "Rate", "Timer", "TimerInfo"]
-
-
-class TimerInfo:
-    """The times of a call of a timer: when it was due, and when it was made.
-
-    A callback of a timer gets one for the parameter that is annotated with this class.
-
-    Args:
-        expected_call_time: Time at which the call was due, in nanoseconds.
-        actual_call_time: Time at which it was made, in nanoseconds.
-        clock_type: The clock of both.
-    """
-
-    def __init__(
-        self,
-        *,
-        expected_call_time: int = 0,
-        actual_call_time: int = 0,
-        clock_type: ClockType = ClockType.SYSTEM_TIME,
-    ) -> None:
-        self._expected_call_time = Time(nanoseconds=expected_call_time, clock_type=clock_type)
-        self._actual_call_time = Time(nanoseconds=actual_call_time, clock_type=clock_type)
-
-    @property
-    def expected_call_time(self) -> Time:
-        """Time at which the call was due."""
-        return self._expected_call_time
-
-    @property
-    def actual_call_time(self) -> Time:
-        """Time at which the call was made."""
-        return self._actual_call_time
 
 
 class BaseTimer(ClosingEntity):
@@ -194,7 +162,7 @@ class BaseTimer(ClosingEntity):
         self._reschedule()
         if self.callback is None:
             return _missing_callback, ()
-        parameter = _parameter_for_info(self.callback)
+        parameter = parameter_for_info(self.callback)
         if not parameter:
             return self.callback, ()
         return partial(self.callback, **{parameter: self._info(due_ns)}), ()
@@ -311,18 +279,6 @@ class Timer(BaseTimer):
                 autostart=autostart,
                 callback_group=callback_group,
             )
-
-
-def _parameter_for_info(callback: Callable[..., Any]) -> str:
-    """Return the parameter that is annotated with `TimerInfo`; empty without one.
-
-    Annotations may be texts. They are read at each call, as in rclpy.
-    """
-    notes: dict[str, object] = getattr(callback, "__annotations__", None) or {}
-    for name, note in notes.items():
-        if name != "return" and (note is TimerInfo or str(note).endswith("TimerInfo")):
-            return name
-    return ""
 
 
 def _missing_callback() -> None:

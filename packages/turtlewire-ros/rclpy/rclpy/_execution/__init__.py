@@ -11,7 +11,8 @@ module                    contents
 `futures`                 callbacks of futures: called at once, or by an executor
 `background_events`       TF messages, stored by other threads, as events
 `exceptions`              reasons for which a wait ends without work
-`handle`                  stand-ins for the handles of ROS 2's C library
+`timer_info`              `TimerInfo`, and the parameter of a callback that gets it
+`handle`                  stand-ins for the objects of ROS 2's C library
 `asyncio_loop`            asyncio's loop, where one runs
 ========================  =============================================================
 """
