@@ -19,7 +19,7 @@ const ENDLESS = {
 const BROKEN = [
   [/call stack|recursion|stack overflow/i, "A function calls itself endlessly.",
     "Make it return at some point, or use a loop that ends."],
-  [/memory|allocat/i, "Python ran out of memory.",
+  [/out of memory|allocat|memory growth/i, "Python ran out of memory.",
     "Keep fewer or smaller objects: a tab has at most 2 to 4 GB."],
   [/exit/i, "Your code ended Python itself, and with it turtlesim and all nodes.",
     "Let main() return instead: rclpy.shutdown() ends spin()."],

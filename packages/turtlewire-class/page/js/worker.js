@@ -7,6 +7,7 @@ globalThis.importScripts = undefined;
 const ARCHIVES = /^python\/.*\.(whl|zip)$/;
 const MOST_LINES = 300; // as many as the page shows
 const LOG_MS = 50;
+const FULL_BYTES = 1.5e9; // the memory of WebAssembly never shrinks, and programs need 0.1 GB
 let python = null;
 let classroom = null;
 let session = null;
@@ -102,6 +103,12 @@ onmessage = async ({ data }) => {
     tell({ type: "answer", ...answer }, answer.frame ? [answer.frame] : []);
   } catch (error) {
     tellLines();
-    tell({ type: "failed", text: String(error.message ?? error) });
+    const text = hasFullMemory() ? "out of memory" : String(error.message ?? error);
+    tell({ type: "failed", text });
   }
 };
+
+/** With full memory, Python may end anywhere, and its error does not name the reason. */
+function hasFullMemory() {
+  return (python?._module.HEAPU8.length ?? 0) > FULL_BYTES;
+}

@@ -186,17 +186,23 @@ def test_an_endless_loop_is_stopped_and_the_tab_lives_on(open_page, where):
     wait_for_words(page, r"^turtle1 is 0\.\d+ m ahead")
 
 
+#: A call to a function that WebAssembly does not have.
+CRASH = "import ctypes; ctypes.CFUNCTYPE(None)(10**7)()"
+
+
 @pytest.mark.parametrize(
     ("code", "sentence"),
     [
+        (CRASH, "crashed Python, which has restarted"),
         ("import threading; threading.Thread(target=print).start()", "A tab has one thread"),
         ("[0] * 10**10", "more than the memory of a tab"),
         ("input('who? ')", "no keyboard input here"),
         ("f = lambda: f(); f()", "calls itself again and again"),
         (  # on a slow machine the time is over before all memory is filled
             "kept = []\n        while True: kept.append(bytearray(10**8))",
-            "the memory of a tab|did not return",
+            "the memory of a tab|Python ran out of memory|did not return",
         ),
+        (f"kept = [bytearray(10**8) for _ in range(16)]; {CRASH}", "Python ran out of memory"),
         ("import time; time.sleep(1e9)", "did not return"),
         ("while True: print('a line')", "did not return"),
         ("import os; os._exit(1)", "ended Python itself"),
