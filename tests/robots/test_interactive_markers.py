@@ -144,3 +144,12 @@ def test_a_server_that_comes_again_is_asked_again(page):
     with contextlib.closing(Arm("second", 2.0)):
         assert wait_until(page, IS_AT, ["second", 2])
         assert wait_until(page, f"async (at) => !(await ({IS_AT})(at))", ["first", 1])
+
+
+def test_a_server_that_starts_before_another_ends_is_asked(page):
+    page.evaluate(SHOW)
+    with contextlib.closing(Arm("first", 1.0)) as first:
+        assert wait_until(page, IS_AT, ["first", 1])
+        with contextlib.closing(Arm("second", 2.0)):
+            first.close()
+            assert wait_until(page, IS_AT, ["second", 2])

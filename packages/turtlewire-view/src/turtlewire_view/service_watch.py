@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from turtlewire import msg
 from turtlewire.errors import UncallableServiceError, WireError
 from turtlewire.wire.base import Client, ServiceTypes, TypeId
+from turtlewire.wire.names import request_topic
 from turtlewire.wire.qos import QoS
 from turtlewire_view.source import ServiceAnswer
 
@@ -42,9 +43,10 @@ class ServiceWatch:
         on_answer: Callable[[ServiceAnswer], None],
     ) -> None:
         self._name = name
+        self._graph = context.graph
         self._on_answer = on_answer
         self._lock = threading.Lock()
-        self._is_there: bool | None = None
+        self._servers: frozenset[bytes] | None = None
         self._asked = 0
         self._answers: deque[ServiceAnswer] = deque()
         self._is_closed = False
@@ -63,7 +65,7 @@ class ServiceWatch:
     def again(self) -> None:
         """Call the service again, if its server is there."""
         with self._lock:
-            if self._is_there and not self._is_closed:
+            if self._servers and not self._is_closed:
                 self._ask()
 
     def close(self) -> None:
@@ -79,16 +81,23 @@ class ServiceWatch:
     def _look(self) -> None:
         """The graph has changed: call the service when it has come, say when it is missing."""
         with self._lock:
-            is_there = self._client.is_ready()
-            if is_there == self._is_there or self._is_closed:
+            servers = self._find_servers()
+            if servers == self._servers or self._is_closed:
                 return
-            self._is_there = is_there
-            if is_there:
+            self._servers = servers
+            if servers:
                 self._ask()
             else:
                 problem = f"no server offers the service {self._name}"
                 self._answers.append(ServiceAnswer(problem=problem))
             self._wait_set.wake()
+
+    def _find_servers(self) -> frozenset[bytes]:
+        """Return which servers can answer: also one that starts as another ends."""
+        if not self._client.is_ready():
+            return frozenset()
+        requests = self._graph.endpoints_of(request_topic(self._name), "subscription")
+        return frozenset(endpoint.gid for endpoint in requests)
 
     def _ask(self) -> None:
         try:
