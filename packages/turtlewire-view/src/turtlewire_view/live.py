@@ -161,7 +161,16 @@ class LiveSource:
         if fault := validate_namespace(name):
             problem = f"{name!r} is not the name of a service: {fault.message}"
             return no_service(problem, on_answer)
-        return ServiceWatch(self._context, self._node, name, type_name, on_answer)
+        request = msg.serialize(msg.get_service(type_name).Request())
+        return ServiceWatch(
+            self._context,
+            self._node,
+            name,
+            type_name,
+            request,
+            on_answer,
+            absent=lambda: f"no server offers the service {name}",
+        )
 
     def advertise(self, topic: str, type_name: str) -> None:
         """Create the publisher of a topic."""

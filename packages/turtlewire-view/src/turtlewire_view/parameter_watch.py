@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import logging
-import threading
-from collections import deque
 from typing import TYPE_CHECKING, Any
 
 from turtlewire import msg
-from turtlewire.errors import CdrError, UncallableServiceError, WireError
-from turtlewire.wire.base import Client, ServiceTypes, TypeId
+from turtlewire.errors import CdrError, UncallableServiceError
+from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import QoS
 from turtlewire.wire.services import require_callable
-from turtlewire_view.source import ParameterAnswer
+from turtlewire_view.service_watch import ServiceWatch
+from turtlewire_view.source import ParameterAnswer, ServiceAnswer
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -38,16 +37,14 @@ _MOST_NAMED = 5
 
 
 class ParameterWatch:
-    """Asks for a text parameter when its node is there, comes again or says that it has changed.
-
-    A separate thread waits for the responses and reports them, without holding a lock.
+    """Asks for a text parameter when its node appears or announces a change.
 
     Args:
         context: The participant.
-        node: Whose client asks.
+        node: The node that the client belongs to.
         owner: Fully qualified, valid name of the node that has the parameter.
         parameter: The parameter's name.
-        on_answer: Called with each answer, in their order, on the watch's thread.
+        on_answer: Called with each answer, in order, on a thread of the watch.
     """
 
     def __init__(
@@ -60,56 +57,26 @@ class ParameterWatch:
     ) -> None:
         self._context, self._owner, self._parameter = context, owner, parameter
         self._on_answer = on_answer
-        self._lock = threading.Lock()
-        self._is_there: bool | None = None
-        self._asked = 0
-        self._answers: deque[ParameterAnswer] = deque()
-        self._is_closed = False
         self._interface = msg.get_service(_SERVICE)
-        request, response = _type_id(f"{_SERVICE}_Request"), _type_id(f"{_SERVICE}_Response")
-        types = ServiceTypes(_SERVICE, request, response, msg.type_hash)
-        self._client = node.create_client(owner + _SUFFIX, types, QoS(depth=10))
-        self._wait_set = context.create_wait_set()
-        self._wait_set.attach(self._client)
-        self._thread = threading.Thread(target=self._take, name="view-parameter", daemon=True)
-        self._thread.start()
-        self._events = node.create_subscription(
-            _EVENTS, _type_id(_EVENT), _EVENTS_QOS, lambda cdr, _: self._take_event(cdr)
+        self._calls = ServiceWatch(
+            context,
+            node,
+            owner + _SUFFIX,
+            _SERVICE,
+            msg.serialize(self._interface.Request(names=[parameter])),
+            self._take_answer,
+            absent=self._absent,
+            waiting=f"the node {owner} does not answer yet",
         )
-        self._end = context.graph.add_listener(self._look)
-        self._look()
+        event = TypeId(_EVENT, msg.type_hash(_EVENT))
+        self._events = node.create_subscription(
+            _EVENTS, event, _EVENTS_QOS, lambda cdr, _: self._take_event(cdr)
+        )
 
     def close(self) -> None:
         """Ask no more."""
-        self._end()
-        with self._lock:
-            self._is_closed = True
         self._events.close()
-        self._wait_set.wake()
-        self._thread.join()
-        self._client.close()
-        self._wait_set.close()
-
-    def _look(self) -> None:
-        """The graph has changed: ask when the node has come, say when it is not there."""
-        with self._lock:
-            is_there = self._client.is_ready()
-            if is_there == self._is_there or self._is_closed:
-                return
-            self._is_there = is_there
-            problem = f"the node {self._owner} does not answer yet" if is_there else self._absent()
-            self._answers.append(ParameterAnswer(problem=problem))
-            if is_there:
-                self._ask()
-            self._wait_set.wake()
-
-    def _ask(self) -> None:
-        request = self._interface.Request(names=[self._parameter])
-        try:
-            self._asked = self._client.send_request(msg.serialize(request))
-        except UncallableServiceError as error:  # this server has just appeared
-            self._answers.append(ParameterAnswer(problem=error.in_one_line()))
-            self._wait_set.wake()
+        self._calls.close()
 
     def _take_event(self, cdr: bytes) -> None:
         """Ask again when the parameter has changed: the value itself may be of another type now."""
@@ -121,9 +88,7 @@ class ParameterWatch:
         changed = [*event.new_parameters, *event.changed_parameters, *event.deleted_parameters]
         if event.node != self._owner or self._parameter not in {each.name for each in changed}:
             return
-        with self._lock:
-            if self._is_there and not self._is_closed:
-                self._ask()
+        self._calls.again()
 
     def _absent(self) -> str:
         """The reason why no node can be asked, and the candidates."""
@@ -137,23 +102,9 @@ class ParameterWatch:
         there = ", ".join(nodes[:_MOST_NAMED]) + more or "none"
         return f"there is no node {self._owner} with parameters; nodes with parameters: {there}"
 
-    def _take(self) -> None:
-        while not self._is_closed:
-            for client in self._wait_set.wait():
-                if isinstance(client, Client):
-                    for number, cdr in self._responses(client):
-                        with self._lock:  # the request's number may be unknown earlier
-                            if number == self._asked:
-                                self._answers.append(self._answer(cdr))
-            while self._answers and not self._is_closed:
-                self._on_answer(self._answers.popleft())
-
-    def _responses(self, client: Client) -> list[tuple[int, bytes]]:
-        try:
-            return client.take()
-        except WireError:  # the context has been closed in the meantime
-            self._is_closed = True
-            return []
+    def _take_answer(self, answer: ServiceAnswer) -> None:
+        problem = answer.problem
+        self._on_answer(ParameterAnswer(problem=problem) if problem else self._answer(answer.cdr))
 
     def _answer(self, cdr: bytes) -> ParameterAnswer:
         try:
@@ -171,7 +122,3 @@ class ParameterWatch:
                 problem=f"the parameter '{self._parameter}' of {self._owner} is {found}, no string"
             )
         return ParameterAnswer(value.string_value)
-
-
-def _type_id(name: str) -> TypeId:
-    return TypeId(name, msg.type_hash(name))

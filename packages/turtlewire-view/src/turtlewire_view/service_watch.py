@@ -1,4 +1,4 @@
-"""Calls a service without a request's content when its server appears, and when asked to."""
+"""Calls a service with the same request whenever one of its servers appears, and on demand."""
 
 from __future__ import annotations
 
@@ -22,16 +22,20 @@ __all__ = ["ServiceWatch"]
 
 
 class ServiceWatch:
-    """Calls a service when its server is there, and again when it returns.
+    """Calls a service when a server appears, and again when another one does.
 
     A separate thread waits for the responses and reports them, without holding a lock.
 
     Args:
         context: The participant.
-        node: Whose client asks.
+        node: The node that the client belongs to.
         name: Fully qualified, valid name of the service.
-        type_name: Its type, whose request needs no values.
-        on_answer: Called with each answer, in their order, on the watch's thread.
+        type_name: Its type.
+        request: The request as CDR bytes.
+        on_answer: Called with each answer, in order, on the watch's thread.
+        absent: Returns the problem to report while no server exists.
+        waiting: The problem to report until the response to a new server's request arrives; empty
+            for none.
     """
 
     def __init__(
@@ -40,9 +44,14 @@ class ServiceWatch:
         node: Node,
         name: str,
         type_name: str,
+        request: bytes,
         on_answer: Callable[[ServiceAnswer], None],
+        *,
+        absent: Callable[[], str],
+        waiting: str = "",
     ) -> None:
-        self._name = name
+        self._name, self._request = name, request
+        self._absent, self._waiting = absent, waiting
         self._graph = context.graph
         self._on_answer = on_answer
         self._lock = threading.Lock()
@@ -50,10 +59,9 @@ class ServiceWatch:
         self._asked = 0
         self._answers: deque[ServiceAnswer] = deque()
         self._is_closed = False
-        self._request = msg.serialize(msg.get_service(type_name).Request())
         names = (f"{type_name}_Request", f"{type_name}_Response")
-        request, response = (TypeId(each, msg.type_hash(each)) for each in names)
-        types = ServiceTypes(type_name, request, response, msg.type_hash)
+        request_id, response_id = (TypeId(each, msg.type_hash(each)) for each in names)
+        types = ServiceTypes(type_name, request_id, response_id, msg.type_hash)
         self._client = node.create_client(name, types, QoS(depth=10))
         self._wait_set = context.create_wait_set()
         self._wait_set.attach(self._client)
@@ -63,10 +71,11 @@ class ServiceWatch:
         self._look()
 
     def again(self) -> None:
-        """Call the service again, if its server is there."""
+        """Call the service again if it has a server."""
         with self._lock:
             if self._servers and not self._is_closed:
                 self._ask()
+                self._wait_set.wake()
 
     def close(self) -> None:
         """Call no more."""
@@ -79,21 +88,21 @@ class ServiceWatch:
         self._wait_set.close()
 
     def _look(self) -> None:
-        """The graph has changed: call the service when it has come, say when it is missing."""
+        """Call the service if its servers have changed; report that it has none."""
         with self._lock:
             servers = self._find_servers()
             if servers == self._servers or self._is_closed:
                 return
             self._servers = servers
+            problem = self._waiting if servers else self._absent()
+            if problem:
+                self._answers.append(ServiceAnswer(problem=problem))
             if servers:
                 self._ask()
-            else:
-                problem = f"no server offers the service {self._name}"
-                self._answers.append(ServiceAnswer(problem=problem))
             self._wait_set.wake()
 
     def _find_servers(self) -> frozenset[bytes]:
-        """Return which servers can answer: also one that starts as another ends."""
+        """Return the servers, which differ when one starts just as another ends."""
         if not self._client.is_ready():
             return frozenset()
         requests = self._graph.endpoints_of(request_topic(self._name), "subscription")

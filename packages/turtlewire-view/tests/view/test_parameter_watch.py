@@ -74,6 +74,17 @@ def test_the_text_of_a_node_that_comes_later(source, describer):
         assert wait_for(answers, lambda answer: answer.text) == ParameterAnswer("<robot/>")
 
 
+def test_a_node_that_starts_before_another_ends_is_asked(source, describer):
+    first = describer(robot="<first/>")
+    answers, end = ask(source, "/describer", "robot")
+    with contextlib.closing(contextlib.ExitStack()) as stack:
+        stack.callback(end)
+        wait_for(answers, lambda answer: answer.text == "<first/>")
+        describer(robot="<second/>")
+        first.destroy_node()
+        wait_for(answers, lambda answer: answer.text == "<second/>")
+
+
 @pytest.mark.parametrize(
     ("name", "why"),
     [
