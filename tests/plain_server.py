@@ -1,4 +1,4 @@
-"""Servers like those of others: of a folder without policies, and a proxy below a path."""
+"""Servers of other programs: a folder without policies, and a proxy below a path."""
 
 from __future__ import annotations
 

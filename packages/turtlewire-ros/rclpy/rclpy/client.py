@@ -42,11 +42,11 @@ class BaseClient(IntrospectedEndpoint, Generic[SrvT_co]):
 
     Args:
         context: The context of the node.
-        client_impl: From the node.
+        client_impl: The announced endpoint of the node.
         srv_type: The service class.
         srv_name: Name of the service, as it was given.
         qos_profile: Quality of service of requests and responses.
-        on_destroy: Called with the client when it was destroyed.
+        on_destroy: Called with the client after it has been destroyed.
 
     Attributes:
         srv_type: The service class.
@@ -193,12 +193,12 @@ class Client(BaseClient[SrvT_co]):
 
     Args:
         context: The context of the node.
-        client_impl: From the node.
+        client_impl: The announced endpoint of the node.
         srv_type: The service class.
         srv_name: Name of the service, as it was given.
         qos_profile: Quality of service of requests and responses.
         callback_group: The group of the client.
-        on_destroy: Called with the client when it was destroyed.
+        on_destroy: Called with the client after it has been destroyed.
     """
 
     _ORDER = 3

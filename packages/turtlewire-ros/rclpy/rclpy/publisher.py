@@ -48,11 +48,11 @@ class BasePublisher(Generic[MsgT]):
     """Sends messages to a topic. Thread-safe.
 
     Args:
-        publisher_impl: From the node.
+        publisher_impl: The announced endpoint of the node.
         msg_type: Class of its messages.
         topic: Name of the topic, as it was given.
         qos_profile: Its quality of service.
-        on_destroy: Called with the publisher when it was destroyed.
+        on_destroy: Called with the publisher after it has been destroyed.
 
     Attributes:
         msg_type: Class of its messages.
@@ -176,13 +176,13 @@ class Publisher(BasePublisher[MsgT]):
     class, too. Thread-safe.
 
     Args:
-        publisher_impl: From the node.
+        publisher_impl: The announced endpoint of the node.
         msg_type: Class of its messages.
         topic: Name of the topic, as it was given.
         qos_profile: Its quality of service.
         event_callbacks: Functions to call on events of the quality of service.
         callback_group: The group in which they are called.
-        on_destroy: Called with the publisher when it was destroyed.
+        on_destroy: Called with the publisher after it has been destroyed.
     """
 
     def __init__(

@@ -36,17 +36,17 @@ class BaseService(IntrospectedEndpoint, Generic[SrvT_co]):
     The callback is called with a request and an empty response, and returns the response.
 
     Args:
-        service_impl: From the node.
+        service_impl: The announced endpoint of the node.
         srv_type: The service class.
         srv_name: Name of the service, as it was given.
-        callback: What answers.
+        callback: Called with each request and an empty response; returns the response.
         qos_profile: Quality of service of requests and responses.
-        on_destroy: Called with the service when it was destroyed.
+        on_destroy: Called with the service after it has been destroyed.
 
     Attributes:
         srv_type: The service class.
         srv_name: Name of the service, as it was given.
-        callback: What answers.
+        callback: Called with each request and an empty response; returns the response.
         qos_profile: Quality of service of requests and responses.
     """
 
@@ -142,14 +142,14 @@ class Service(BaseService[SrvT_co]):
     """Answers requests; made by :meth:`Node.create_service <rclpy.node.Node.create_service>`.
 
     Args:
-        service_impl: From the node.
+        service_impl: The announced endpoint of the node.
         srv_type: The service class.
         srv_name: Name of the service, as it was given.
-        callback: What answers.
+        callback: Called with each request and an empty response; returns the response.
         qos_profile: Quality of service of requests and responses.
         callback_group: The group of the service. Up to Kilted, it comes before the quality of
             service.
-        on_destroy: Called with the service when it was destroyed.
+        on_destroy: Called with the service after it has been destroyed.
     """
 
     _ORDER = 4

@@ -52,13 +52,13 @@ class BaseSubscription(ClosingEntity, Generic[MsgT]):
     """Receives the messages of a topic.
 
     Args:
-        subscription_impl: From the node.
+        subscription_impl: The announced endpoint of the node.
         msg_type: Class of its messages.
         topic: Name of the topic, as it was given.
         callback: Called with each message, and with a message info when it takes two arguments.
         qos_profile: Its quality of service.
         raw: Whether the callback gets the serialized bytes instead of a message.
-        on_destroy: Called with the subscription when it was destroyed.
+        on_destroy: Called with the subscription after it has been destroyed.
 
     Attributes:
         msg_type: Class of its messages.
@@ -215,7 +215,7 @@ class Subscription(BaseSubscription[MsgT]):
     Made by :meth:`Node.create_subscription <rclpy.node.Node.create_subscription>`.
 
     Args:
-        subscription_impl: From the node.
+        subscription_impl: The announced endpoint of the node.
         msg_type: Class of its messages.
         topic: Name of the topic, as it was given.
         callback: Called with each message, and with a message info when it takes two arguments.
@@ -224,7 +224,7 @@ class Subscription(BaseSubscription[MsgT]):
         callback_group: The group of the subscription. Up to Kilted, it comes before the quality of
             service.
         event_callbacks: Functions to call on events of the quality of service.
-        on_destroy: Called with the subscription when it was destroyed.
+        on_destroy: Called with the subscription after it has been destroyed.
     """
 
     _ORDER = 1

@@ -36,7 +36,7 @@ class BaseTimer(ClosingEntity):
         callback: Called once per period; None raises an error at the first call.
         timer_period_ns: Nanoseconds between calls.
         clock: The clock that it follows.
-        on_destroy: Called with the timer when it was destroyed.
+        on_destroy: Called with the timer after it has been destroyed.
         context: Its context; None uses the default.
         autostart: Whether it runs at once, or waits for :meth:`reset`.
     """

@@ -1,6 +1,6 @@
-"""Syntax trees of IDL, made by lark with the grammar of this package, and what their nodes mean.
+"""Syntax trees of IDL, made by lark with the grammar of this package, and their values.
 
-:mod:`rosidl_parser.parser` hands on the functions. `parse_idl_string` needs no tree.
+:mod:`rosidl_parser.parser` re-exports the functions. `parse_idl_string` needs no tree.
 """
 
 from __future__ import annotations

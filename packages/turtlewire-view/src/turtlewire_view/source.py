@@ -203,7 +203,7 @@ class Source(Protocol):
     def ask_parameter(
         self, node: str, name: str, on_answer: Callable[[ParameterAnswer], None]
     ) -> Callable[[], None]:
-        """Call ``on_answer`` with a node's text parameter, now and when the node comes again.
+        """Call ``on_answer`` with a node's text parameter, now and when the node returns.
 
         Returns:
             A function that ends it.
@@ -213,7 +213,7 @@ class Source(Protocol):
     def ask_service(
         self, name: str, type_name: str, on_answer: Callable[[ServiceAnswer], None]
     ) -> ServiceCalls:
-        """Call ``on_answer`` with a service's response, now and when its server comes again.
+        """Call ``on_answer`` with a service's response, now and when its server returns.
 
         Args:
             name: Name of the service.

@@ -77,9 +77,9 @@ class Tree {
   // Adds one sample. `pose` is as received; a leading '/' of the names is dropped.
   Verdict set(std::string_view parent, std::string_view child, Stamp stamp, const Pose& pose,
               SourceId source, bool is_static);
-  // Goes on after set() accepted a dynamic transform: adds further samples of its frames and
-  // sender, up to the first that is not newer than all before, or that set() would refuse. Returns
-  // how many. A row has a translation and a rotation.
+  // Adds further samples of the dynamic transform that set() accepted last, up to the first that is
+  // not newer than all before or that set() would refuse; returns their number. A row has a
+  // translation and a rotation.
   std::size_t append(std::span<const Stamp> stamps, std::span<const PoseRow> rows);
   // What `set` would say of this sample, but for its time.
   Verdict judge(std::string_view parent, std::string_view child, const Pose& pose) const;

@@ -16,8 +16,8 @@ struct SqliteRow {
   std::uint32_t overflow = 0;              // the page with the rest; 0 means that there is none
 };
 
-// A table in the pages of a file. Bytes that are not as rosbag2 writes them are refused, whatever
-// they mean: SQLite itself can read them.
+// A table in the pages of a file. It refuses rows in any form that rosbag2 does not write; SQLite
+// can read those.
 class SqliteTable {
  public:
   // Args: the file, the size of its pages, and how much of each is in use.

@@ -31,11 +31,11 @@ class AsyncClient(AsyncEndpoint, BaseClient[SrvT_co]):
 
     Args:
         context: The context of the node.
-        client_impl: From the node.
+        client_impl: The announced endpoint of the node.
         srv_type: The service class.
         srv_name: Name of the service, as it was given.
         qos_profile: Quality of service of requests and responses.
-        on_destroy: Called with the client when it was destroyed.
+        on_destroy: Called with the client after it has been destroyed.
         tg: Its tasks handle the responses; None if the node does not run yet.
 
     Attributes:

@@ -22,11 +22,11 @@ class AsyncPublisher(BasePublisher[MsgT]):
     Made by :meth:`AsyncNode.create_publisher`.
 
     Args:
-        publisher_impl: From the node.
+        publisher_impl: The announced endpoint of the node.
         msg_type: Class of its messages.
         topic: Name of the topic, as it was given.
         qos_profile: Its quality of service.
-        on_destroy: Called with the publisher when it was destroyed.
+        on_destroy: Called with the publisher after it has been destroyed.
     """
 
     def __init__(

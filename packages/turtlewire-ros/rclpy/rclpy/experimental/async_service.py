@@ -29,19 +29,19 @@ class AsyncService(AsyncEndpoint, BaseService[SrvT_co]):
     service is concurrent.
 
     Args:
-        service_impl: From the node.
+        service_impl: The announced endpoint of the node.
         srv_type: The service class.
         srv_name: Name of the service, as it was given.
-        callback: What answers.
+        callback: Called with each request and an empty response; returns the response.
         qos_profile: Quality of service of requests and responses.
-        on_destroy: Called with the service when it was destroyed.
+        on_destroy: Called with the service after it has been destroyed.
         concurrent: Whether a request may be handled while callbacks of former ones run.
         tg: Its tasks handle the requests; None if the node does not run yet.
 
     Attributes:
         srv_type: The service class.
         srv_name: Name of the service, as it was given.
-        callback: What answers.
+        callback: Called with each request and an empty response; returns the response.
         qos_profile: Quality of service of requests and responses.
     """
 

@@ -31,13 +31,13 @@ class AsyncSubscription(AsyncEndpoint, BaseSubscription[MsgT]):
     one, the program iterates over it: ``async for message in subscription``.
 
     Args:
-        subscription_impl: From the node.
+        subscription_impl: The announced endpoint of the node.
         msg_type: Class of its messages.
         topic: Name of the topic, as it was given.
         callback: Called with each message, and with the message info if it takes two arguments.
             None (not in ROS 2): the program iterates.
         qos_profile: Its quality of service.
-        on_destroy: Called with the subscription when it was destroyed.
+        on_destroy: Called with the subscription after it has been destroyed.
         raw: Whether messages are given as serialized bytes.
         concurrent: Whether a message may be handled while callbacks of former ones run.
         tg: Its tasks handle the messages; None if the node does not run yet.

@@ -33,7 +33,7 @@ class AsyncTimer(AsyncEntity, BaseTimer):
         context: The context of the node.
         callback: Called without arguments, or with a :class:`~rclpy.timer.TimerInfo`.
         autostart: Whether it runs at once, or waits for :meth:`reset`.
-        on_destroy: Called with the timer when it was destroyed.
+        on_destroy: Called with the timer after it has been destroyed.
         tg: Its tasks call the callback; None if the node does not run yet.
     """
 
