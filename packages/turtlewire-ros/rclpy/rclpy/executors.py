@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import time
+from functools import cache
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any
 
@@ -136,7 +137,10 @@ class Executor:
                 return False
             index = self._nodes[node] = self._nodes_made
             self._nodes_made += 1
-        node.executor = self
+        former = node.executor
+        if former is not None:
+            former.remove_node(node)
+        node._rclpy_served_by(self)
         node._rclpy_endpoints.attach(self._rclpy_scheduler, index)
         return True
 
@@ -147,7 +151,7 @@ class Executor:
             if self._nodes.pop(node, None) is None:
                 return
         node._rclpy_endpoints.detach(self._rclpy_scheduler)
-        node.executor = None
+        node._rclpy_served_by(None)
 
     def get_nodes(self) -> list[Node]:
         """Return the nodes that it serves."""
@@ -331,14 +335,22 @@ def _node_of(node: Any) -> Node:
     Raises:
         TypeError: The argument is not a node.
     """
-    from .node import BaseNode, Node
+    node_class = _node_class()
+    found = node if isinstance(node, node_class) else getattr(node, "node", None)
+    if not isinstance(found, node_class):
+        from .node import BaseNode
 
-    found = node if isinstance(node, Node) else getattr(node, "node", None)
-    if not isinstance(found, Node):
         error = TypeError(f"An executor serves nodes, such as Node('name'), not {described(node)}")
         is_asynchronous = isinstance(node, BaseNode)
         raise with_hint(error, "Serve it in asyncio: await node.run()" if is_asynchronous else "")
     return found
+
+
+@cache
+def _node_class() -> type[Node]:
+    from .node import Node
+
+    return Node
 
 
 class SingleThreadedExecutor(Executor):

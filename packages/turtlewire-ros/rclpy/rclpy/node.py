@@ -199,14 +199,14 @@ class Node(BaseNode):
     @executor.setter
     def executor(self, new_executor: Executor | None) -> None:
         current = self.executor
-        # Also ends the recursion: `add_node` and `remove_node` set this property.
-        if current is new_executor:
-            return
-        if current is not None:
-            current.remove_node(self)
-        self.__executor = None if new_executor is None else weakref.ref(new_executor)
         if new_executor is not None:
             new_executor.add_node(self)
+        elif current is not None:
+            current.remove_node(self)
+
+    def _rclpy_served_by(self, executor: Executor | None) -> None:
+        """Note the executor that serves it."""
+        self.__executor = None if executor is None else weakref.ref(executor)
 
     @property
     def default_callback_group(self) -> CallbackGroup:

@@ -98,14 +98,15 @@ class BaseTimer(ClosingEntity):
         """Make no more calls until :meth:`reset`."""
         self._check_usable()
         self._canceled = True
-        self._reschedule()
+        self._reschedule(self._now_ns())
 
     def reset(self) -> None:
         """Start (again): the next call is one period from now."""
         self._check_usable()
-        self._next_call_ns = self._now_ns() + self._period_ns
+        now_ns = self._now_ns()
+        self._next_call_ns = now_ns + self._period_ns
         self._canceled = False
-        self._reschedule()
+        self._reschedule(now_ns)
 
     def time_since_last_call(self) -> int:
         """Nanoseconds since the last call, or since it was made."""
@@ -123,26 +124,26 @@ class BaseTimer(ClosingEntity):
     def _follows_clock_topic(self) -> bool:
         return self._jump_handle is not None and self._clock.ros_time_is_active
 
-    def _delay_ns(self) -> int | None:
+    def _delay_ns(self, now_ns: int) -> int | None:
         """Time on the monotonic clock until a look at the timer makes sense.
 
         None when something else will bring it up.
         """
         if self._canceled:
             return None
-        delay_ns = self._next_call_ns - self._now_ns()
+        delay_ns = self._next_call_ns - now_ns
         if delay_ns <= 0:
             return 0
         # A message on `/clock` reschedules the timer in `_after_jump`.
         return None if self._follows_clock_topic() else delay_ns
 
-    def _reschedule(self) -> None:
+    def _reschedule(self, now_ns: int) -> None:
         host = self._serving_host()
         if host is not None:
-            host.wait.timers.schedule(self, self._delay_ns())
+            host.wait.timers.schedule(self, self._delay_ns(now_ns))
 
     def _attach(self, host: EntityHost) -> None:
-        host.wait.timers.schedule(self, self._delay_ns())
+        host.wait.timers.schedule(self, self._delay_ns(self._now_ns()))
 
     def _detach(self, host: EntityHost) -> None:
         host.wait.timers.discard(self)
@@ -152,14 +153,14 @@ class BaseTimer(ClosingEntity):
         if self._canceled:
             return None
         if self._next_call_ns > now_ns:  # its clock went back or has stopped
-            self._reschedule()
+            self._reschedule(now_ns)
             return None
         due_ns, self._last_call_ns = self._next_call_ns, now_ns
         # From the planned time, so that a late call does not shift the rhythm.
         self._next_call_ns += self._period_ns
         if self._next_call_ns < now_ns:
             self._skip_missed_periods(now_ns)
-        self._reschedule()
+        self._reschedule(now_ns)
         if self.callback is None:
             return _missing_callback, ()
         parameter = parameter_for_info(self.callback)
@@ -212,7 +213,7 @@ class BaseTimer(ClosingEntity):
         elif now_ns < self._last_call_ns:
             self._last_call_ns = now_ns
             self._next_call_ns = now_ns + self._period_ns
-        self._reschedule()
+        self._reschedule(now_ns)
 
     def _close(self) -> None:
         if self._on_closing is not None:

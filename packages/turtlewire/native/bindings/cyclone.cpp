@@ -56,6 +56,21 @@ nb::list take(const Library& library, Entity reader, std::int64_t most) {
   return list;
 }
 
+std::int32_t wait(const Library& library, Entity wait_set, nb::handle triggered, std::size_t most,
+                  std::int64_t timeout_ns) {
+  Py_buffer view;
+  if (PyObject_GetBuffer(triggered.ptr(), &view, PyBUF_WRITABLE) != 0) throw nb::python_error();
+  std::int32_t count = 0;
+  {
+    const std::size_t fitting = static_cast<std::size_t>(view.len) / sizeof(std::int64_t);
+    const Unlocked unlocked;
+    count = library.wait(wait_set, static_cast<std::int64_t*>(view.buf), std::min(most, fitting),
+                         timeout_ns);
+  }
+  PyBuffer_Release(&view);
+  return count;
+}
+
 // The memory of the parts of a message, as long as this lives; made and destroyed with the GIL.
 class Buffers {
  public:
@@ -137,15 +152,18 @@ void add_cyclone_types(nb::module_& module) {
       "Cyclone DDS for native code.\n\n"
       "Args:\n"
       "    functions: Addresses of dds_takecdr, ddsi_serdata_size, ddsi_serdata_to_ser,\n"
-      "        ddsi_serdata_unref, dds_set_guardcondition, ddsi_serdata_from_ser_iov and\n"
-      "        dds_writecdr.\n"
+      "        ddsi_serdata_unref, dds_set_guardcondition, ddsi_serdata_from_ser_iov, "
+      "dds_writecdr\n"
+      "        and dds_waitset_wait.\n"
       "    info: Size of dds_sample_info_t, and the offsets of its valid_data, source_timestamp "
       "and\n"
       "        publication_handle.")
       .def("__init__", &make_library, "functions"_a, "info"_a)
       .def("take", &take, "reader"_a, "limit"_a,
            "At most `limit` messages of a reader, with the GIL held, as (bytes, number of the "
-           "publisher,\ntime of sending in ns); none when the reader has gone.");
+           "publisher,\ntime of sending in ns); none when the reader has gone.")
+      .def("wait", &wait, "wait_set"_a, "triggered"_a, "most"_a, "timeout_ns"_a,
+           "dds_waitset_wait, without the GIL: the number of what is triggered, or an error code.");
   nb::class_<Writer, Outlet>(module, "CycloneWriter",
                              "Sends messages.\n\n"
                              "Args:\n"

@@ -38,7 +38,7 @@ inline Block block(const void* start, std::size_t size) {
 }
 
 // The addresses of the functions of Library, in their order.
-using Addresses = std::array<std::uintptr_t, 7>;
+using Addresses = std::array<std::uintptr_t, 8>;
 
 // dds_sample_info_t as src/turtlewire/wire/cyclone/library.py declares it: its size, and where in
 // it valid_data, source_timestamp and publication_handle are.
@@ -53,6 +53,7 @@ struct Library {
         trigger(reinterpret_cast<decltype(trigger)>(at[4])),
         make(reinterpret_cast<decltype(make)>(at[5])),
         write(reinterpret_cast<decltype(write)>(at[6])),
+        wait(reinterpret_cast<decltype(wait)>(at[7])),
         info(info) {}
 
   // dds_takecdr, ddsi_serdata_size, ddsi_serdata_to_ser, ddsi_serdata_unref
@@ -67,6 +68,9 @@ struct Library {
   void* (*make)(const void* type, int kind, BlockCount count, const Block* blocks,
                 std::size_t size);
   std::int32_t (*write)(Entity writer, void* sample);
+  // dds_waitset_wait
+  std::int32_t (*wait)(Entity wait_set, std::int64_t* triggered, std::size_t most,
+                       std::int64_t timeout_ns);
 
   InfoLayout info;
 };

@@ -11,6 +11,7 @@ all nodes, then node by node its timers, subscriptions, guard conditions, client
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from collections import deque
@@ -95,8 +96,9 @@ class Scheduler:
         """Serve an entity no longer."""
         with self.lock:
             self._served.pop(entity, None)
-            self._paused.discard(entity)
-            self._self_waits.goes_on(entity)
+            if entity in self._paused:
+                self._paused.discard(entity)
+                self._self_waits.goes_on(entity)
             entity._leave(self)
 
     def _listen_to(self, entity: Entity, attach: Callable[[EntityHost], None]) -> None:
@@ -165,7 +167,7 @@ class Scheduler:
         """
         deadline = None if timeout_ns is None else time.monotonic_ns() + timeout_ns
         expired = False
-        patience = self._patience()
+        warning_due = 0.0
         while True:
             if condition is not None and condition():
                 raise ConditionReachedException
@@ -182,13 +184,10 @@ class Scheduler:
             remaining = None if deadline is None else max(0, deadline - time.monotonic_ns())
             expired = remaining == 0
             # Only a wait without a limit can hang, and only entities in busy groups make it hang.
-            if patience is None or remaining is not None or not self._paused:
+            if remaining is None and self._paused:
+                warning_due = self._collect_with_warning(warning_due)
+            else:
                 self._collect(remaining)
-                continue
-            self._collect(max(0, patience - time.monotonic_ns()))
-            if not self._ready and time.monotonic_ns() >= patience:
-                patience = None
-                self.warn_of_nested_spin()
 
     def check_alive(self) -> None:
         """Raise if the executor or its context is shut down."""
@@ -197,10 +196,23 @@ class Scheduler:
         if not self.context.ok():
             raise ExternalShutdownException
 
-    def _patience(self) -> int | None:
-        """Return the deadline for the warning about an idle nested spin; None for no limit."""
-        is_nested = bool(self._running.of_this_thread()) and self._response_awaited is None
-        return time.monotonic_ns() + _PATIENCE_NS if is_nested else None
+    def _collect_with_warning(self, due_ns: float) -> float:
+        """Wait without a limit, and warn once if a callback spins and nothing can run.
+
+        Args:
+            due_ns: When to warn, as returned by the wait before; 0 at the first wait.
+        """
+        if due_ns == 0:
+            is_nested = bool(self._running.of_this_thread()) and self._response_awaited is None
+            due_ns = time.monotonic_ns() + _PATIENCE_NS if is_nested else math.inf
+        if due_ns == math.inf:
+            self._collect(None)
+            return due_ns
+        self._collect(max(0, int(due_ns) - time.monotonic_ns()))
+        if self._ready or time.monotonic_ns() < due_ns:
+            return due_ns
+        self.warn_of_nested_spin()
+        return math.inf
 
     def warn_of_nested_spin(self) -> None:
         """Warn that a callback spins its own executor, where nothing can run."""
@@ -217,16 +229,21 @@ class Scheduler:
         tasks: list[Task[Any]] = []
         # While a callback blocks for a response, tasks stay in the list.
         if self._response_awaited is None:
-            with self.lock:
-                tasks, self._tasks = self._tasks, []
+            if self._tasks:
+                with self.lock:
+                    tasks, self._tasks = self._tasks, []
             # Within an endless spin, only a callback that spins again can wait for such a message.
             if not self.serves_endlessly or self._running.of_this_thread():
                 self.wait.expect_background()
+        if self._self_waits:
+            timeout_ns = self._self_waits.bounded(timeout_ns)
         # Tasks run at once, but what became ready with them belongs to the same cycle.
-        entities = self.wait.wait(0 if tasks else self._self_waits.bounded(timeout_ns))
+        entities = self.wait.wait(0 if tasks else timeout_ns)
         self._collecting = False
-        self._self_waits.warn()
-        self._ready.extend(reversed(tasks))
+        if self._self_waits:
+            self._self_waits.warn()
+        if tasks:
+            self._ready.extend(reversed(tasks))
         self._ready.extend(entities)
 
     def wake(self) -> None:

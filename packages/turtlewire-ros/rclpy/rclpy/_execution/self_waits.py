@@ -23,6 +23,10 @@ class SelfWaits:
     def __init__(self) -> None:
         self._due: dict[Entity, tuple[Service, int]] = {}
 
+    def __bool__(self) -> bool:
+        """Return True while there is something to warn about."""
+        return bool(self._due)
+
     def held_up(
         self, entity: Entity, suspended: Collection[Entity], served: Iterable[Entity]
     ) -> None:
@@ -49,8 +53,6 @@ class SelfWaits:
 
     def bounded(self, timeout_ns: int | None) -> int | None:
         """Shorten a wait so that :meth:`warn` can be called in time."""
-        if not self._due:
-            return timeout_ns
         moments = [due for _, due in list(self._due.values())]
         # Another thread may have emptied the table after the look above.
         left = max(0, min(moments, default=0) - time.monotonic_ns())

@@ -45,13 +45,15 @@ class TimerQueue(Generic[T]):
         with self._lock:
             if delay_ns is None:
                 self._tickets.pop(timer, None)
-                self._sweep()
+                if len(self._heap) > 2 * len(self._tickets):
+                    self._sweep()
                 return
             ticket = self._tickets[timer] = next(self._next_ticket)
             # The ticket orders timers with equal times, because timers cannot be compared.
             entry = (time.monotonic_ns() + delay_ns, ticket, timer)
             heapq.heappush(self._heap, entry)
-            self._sweep()
+            if len(self._heap) > 2 * len(self._tickets):
+                self._sweep()
             is_earlier = self._awaited_ns is not None and entry[0] < self._awaited_ns
         # A callback's own timer needs no wake-up: its thread starts the next wait by itself.
         if is_earlier:
@@ -68,8 +70,11 @@ class TimerQueue(Generic[T]):
         """
         with self._lock:
             self._drop_stale()
-            self._awaited_ns = self._heap[0][0] if self._heap else math.inf
-            return max(0, self._heap[0][0] - time.monotonic_ns()) if self._heap else None
+            if not self._heap:
+                self._awaited_ns = math.inf
+                return None
+            self._awaited_ns = self._heap[0][0]
+            return max(0, self._heap[0][0] - time.monotonic_ns())
 
     def pop_due(self) -> list[T]:
         """End the wait, and remove and return the timers that are due.
@@ -80,19 +85,20 @@ class TimerQueue(Generic[T]):
         with self._lock:
             self._awaited_ns = None
             now = time.monotonic_ns()
-            self._drop_stale()
             while self._heap and self._heap[0][0] <= now:
-                timer = heapq.heappop(self._heap)[2]
-                del self._tickets[timer]
-                due.append(timer)
-                self._drop_stale()
+                _, ticket, timer = heapq.heappop(self._heap)
+                if self._tickets.get(timer) == ticket:
+                    del self._tickets[timer]
+                    due.append(timer)
         return due
 
     def _sweep(self) -> None:
-        if len(self._heap) > 2 * len(self._tickets):
-            self._heap = [entry for entry in self._heap if self._tickets.get(entry[2]) == entry[1]]
-            heapq.heapify(self._heap)
+        self._heap = [entry for entry in self._heap if self._tickets.get(entry[2]) == entry[1]]
+        heapq.heapify(self._heap)
 
     def _drop_stale(self) -> None:
-        while self._heap and self._tickets.get(self._heap[0][2]) != self._heap[0][1]:
+        while len(self._heap) > len(self._tickets):
+            first = self._heap[0]
+            if self._tickets.get(first[2]) == first[1]:
+                return
             heapq.heappop(self._heap)

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import threading
+import weakref
 from collections import deque
 from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
-from weakref import WeakSet
 
 from .timer_queue import TimerQueue
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from turtlewire.wire import base
 
 __all__ = ["ExecutorWait"]
@@ -44,7 +42,7 @@ class ExecutorWait(Generic[T]):
         self._by_wire: dict[base.Entity, T] = {}
         # Endpoints that are no longer watched but still attached: `rclpy.spin_once` removes a node
         # after each call and adds it again before the next one. Closing an endpoint detaches it.
-        self._left: WeakSet[base.Waitable] = WeakSet()
+        self._left: set[weakref.ref[base.Waitable]] = set()
         # Also held by finalizers, which run in the middle of anything.
         self._lock = threading.RLock()
         self._notified: deque[T] = deque()
@@ -57,8 +55,9 @@ class ExecutorWait(Generic[T]):
         """Report ``entity`` when its side on the wire has something."""
         with self._lock:
             self._by_wire[wire] = entity
-            if wire in self._left:
-                self._left.discard(wire)
+            reference = weakref.ref(wire)
+            if reference in self._left:
+                self._left.discard(reference)
             else:
                 self._wait_set.attach(wire)
 
@@ -66,14 +65,15 @@ class ExecutorWait(Generic[T]):
         """Undo :meth:`watch`."""
         with self._lock:
             if self._by_wire.pop(wire, None) is not None:
-                self._left.add(wire)
+                self._left.add(weakref.ref(wire))
 
     def _detach_left(self) -> None:
         with self._lock:
-            left = list(self._left)
-            self._left.clear()
-            for wire in left:
-                self._wait_set.detach(wire)
+            left, self._left = self._left, set()
+            for reference in left:
+                wire = reference()
+                if wire is not None:
+                    self._wait_set.detach(wire)
 
     def notify(self, entity: T) -> None:
         """Report ``entity`` at once."""
@@ -105,12 +105,7 @@ class ExecutorWait(Generic[T]):
             until_timer = self.timers.time_until_next()
             if until_timer is not None and (timeout_ns is None or until_timer < timeout_ns):
                 timeout_ns = until_timer
-        # one look at the table for each: another thread may unwatch it at any moment
-        entities = [
-            entity
-            for wire in self._wait_for_wire(timeout_ns)
-            if (entity := self._by_wire.get(wire)) is not None
-        ]
+        entities = self._wait_for_wire(timeout_ns)
         entities += self.timers.pop_due()
         while self._notified:
             entities.append(self._notified.popleft())
@@ -122,15 +117,17 @@ class ExecutorWait(Generic[T]):
             entities.sort(key=_rank)
         return entities
 
-    def _wait_for_wire(self, timeout_ns: int | None) -> Iterable[base.Entity]:
+    def _wait_for_wire(self, timeout_ns: int | None) -> list[T]:
         self._waiting = True
         try:
-            return [] if self._ended else self._wait_set.wait(timeout_ns)
+            ready = () if self._ended else self._wait_set.wait(timeout_ns)
         finally:
             self._waiting = False
             # `close` left this to the thread that was in the wait set.
             if self._ended:
                 self._wait_set.close()
+        # one look at the table for each: another thread may unwatch it at any moment
+        return [entity for wire in ready if (entity := self._by_wire.get(wire)) is not None]
 
     def end(self) -> None:
         """Wait no more: the current wait ends, and later ones return at once."""

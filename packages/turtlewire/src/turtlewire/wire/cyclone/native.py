@@ -39,6 +39,7 @@ def _load() -> Cyclone | None:
         dds.set_guard_condition,
         dds.serdata_from_bytes,
         dds.write_serdata,
+        dds.wait_set_wait,
     )
     info = dds.SampleInfo
     members = (info.valid_data, info.source_timestamp, info.publication_handle)

@@ -11,7 +11,7 @@ from turtlewire.wire.events import EventWatcher, StatusEvent
 from turtlewire.wire.services import TopicClient, TopicService
 
 from . import library as dds
-from .native import address_of
+from .native import NATIVE, address_of
 from .subscription import CycloneSubscription
 
 if TYPE_CHECKING:
@@ -24,6 +24,7 @@ __all__ = ["ConditionSet", "CycloneWaitSet", "readable_part"]
 T = TypeVar("T")
 
 _GUARD = 0
+_wait = dds.wait_set_wait if NATIVE is None else NATIVE.wait
 
 
 class ConditionSet(Generic[T]):
@@ -59,7 +60,7 @@ class ConditionSet(Generic[T]):
         """Block until something is triggered or :meth:`wake` is called; one thread at a time."""
         triggered = self._triggered
         timeout = dds.INFINITY if timeout_ns is None else max(timeout_ns, 0)
-        count = dds.wait_set_wait(self._wait_set, triggered, len(triggered), timeout)
+        count = _wait(self._wait_set, triggered, len(triggered), timeout)
         if count < 0:
             if self._closed:
                 return []
@@ -122,8 +123,11 @@ class CycloneWaitSet(EventWatcher, WaitSet):
                 self._conditions.detach(subscription.condition())
 
     def wait(self, timeout_ns: int | None = None) -> list[Entity]:
-        ready = self._conditions.wait(0 if self.ready_events() else timeout_ns)
-        ready += self.ready_events()
+        if self._happened and self.ready_events():
+            timeout_ns = 0
+        ready = self._conditions.wait(timeout_ns)
+        if self._happened:
+            ready += self.ready_events()
         return ready
 
     def wake(self) -> None:
