@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from importlib import import_module
-from importlib.metadata import entry_points
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import instantiate_action
@@ -15,6 +14,7 @@ from launch.frontend.parse_substitution import (
 )
 from launch.invalid_launch_file_error import InvalidLaunchFileError
 from launch.launch_description import LaunchDescription
+from turtlewire.plugins import declared
 
 if TYPE_CHECKING:
     import io
@@ -49,7 +49,7 @@ class Parser:
         # Importing them exposes their classes.
         for module in ("launch.actions", "launch.substitutions"):
             import_module(module)
-        for entry in entry_points(group="launch.frontend.launch_extension"):
+        for entry in declared("launch.frontend.launch_extension").values():
             entry.load()
         Parser.extensions_loaded = True
 
@@ -57,8 +57,8 @@ class Parser:
     def load_parser_implementations(cls) -> None:
         """Import the parsers of all installed languages; launch_xml and launch_yaml are ours."""
         if Parser.frontend_parsers is None:
-            found = entry_points(group="launch.frontend.parser")
-            Parser.frontend_parsers = {entry.name: entry.load() for entry in found}
+            found = declared("launch.frontend.parser")
+            Parser.frontend_parsers = {name: entry.load() for name, entry in found.items()}
 
     @classmethod
     def _parsers(cls) -> list[type[Parser]]:

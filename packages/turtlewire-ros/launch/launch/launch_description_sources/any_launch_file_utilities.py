@@ -44,7 +44,8 @@ def get_launch_description_from_any_launch_file(
         partial(get_launch_description_from_frontend_launch_file, parser=parser),
         get_launch_description_from_python_launch_file,
     ]
-    if not Parser.is_extension_valid(extension):
+    # Python files are the most common; asking would import the parsers of all other languages.
+    if extension == ".py" or not Parser.is_extension_valid(extension):
         loaders.reverse()
     errors: list[BaseException] = []
     for loader in loaders:
