@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -162,6 +161,8 @@ class ParameterFile:
         )
         if not self._allowed:
             return path
+        import tempfile
+
         # Performed as a whole, so a `$(…)` in a comment of the file counts as well.
         text = perform_substitutions(
             context, Parser().parse_substitution(path.read_text(encoding="utf-8"))

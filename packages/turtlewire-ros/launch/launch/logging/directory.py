@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import contextlib
-import datetime as dt
 import os
 import socket
+import time
 from pathlib import Path
 
 __all__ = ["default_log_dir", "make_launch_log_dir"]
@@ -25,8 +25,10 @@ def make_launch_log_dir(parent: str) -> str:
     Raises:
         RuntimeError: The folder cannot be created.
     """
-    moment = dt.datetime.now().astimezone().strftime("%Y-%m-%d-%H-%M-%S-%f")
-    base = Path(parent) / f"{moment}-{socket.gethostname()}-{os.getpid()}"
+    seconds, microseconds = divmod(time.time_ns() // 1000, 1_000_000)
+    moment = time.strftime("%Y-%m-%d-%H-%M-%S", time.localtime(seconds))
+    name = f"{moment}-{microseconds:06}-{socket.gethostname()}-{os.getpid()}"
+    base = Path(parent, name)
     try:
         base.mkdir(parents=True, exist_ok=True)
     except OSError as error:

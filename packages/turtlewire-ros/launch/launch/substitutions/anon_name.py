@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import secrets
 import socket
 from typing import TYPE_CHECKING, Any
 
@@ -57,5 +56,6 @@ class AnonName(Substitution):
 
     def compute_name(self, id_value: str) -> str:
         """Make a name from a base, host, process and chance."""
-        unique = f"{id_value}_{socket.gethostname()}_{os.getpid()}_{secrets.randbits(63)}"
+        chance = int.from_bytes(os.urandom(8), "big") >> 1  # 63 bits, as in ROS 2
+        unique = f"{id_value}_{socket.gethostname()}_{os.getpid()}_{chance}"
         return "".join(character if character.isalnum() else "_" for character in unique)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
@@ -53,6 +52,8 @@ class FindExecutable(Substitution):
         Raises:
             SubstitutionFailure: The program is not on ``PATH``.
         """
+        import shutil
+
         name = perform_substitutions(context, self._name)
         path = shutil.which(name)
         if path is None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -158,6 +157,8 @@ class NodeArguments:
         return ["--params-file", str(path)]
 
     def _file_of(self, values: dict[str, Any]) -> str:
+        import tempfile
+
         import yaml
 
         # Without a name in the launch file, the values must apply to whatever name the program

@@ -7,7 +7,6 @@ to Cyclone, or make Zenoh connect to that computer. Linux can bind a socket to a
 
 from __future__ import annotations
 
-import ipaddress
 import os
 import socket
 import sys
@@ -23,6 +22,7 @@ __all__ = ["ANY_PORT", "bind_to_loopback", "open_sockets", "ports_of_sockets"]
 
 ANY_PORT = range(1 << 16)
 _FILES = "/proc/self/fd"
+_MULTICAST = range(224, 240)  # the first number of these addresses
 _ANY = "0.0.0.0"  # noqa: S104 - nothing is bound to it
 
 
@@ -59,7 +59,7 @@ def bind_to_loopback(former: Iterable[str], ports: Container[int]) -> None:
         if address is None:
             continue
         host, port = address
-        if ipaddress.ip_address(host).is_multicast:
+        if socket.inet_aton(host)[0] in _MULTICAST:
             continue  # Zenoh's: it only answers, and processes of wider ranges on this host ask it
         # Only these settings add interfaces; else the socket is one that another thread has opened.
         if host != _ANY and not host.startswith("127.") and "CYCLONEDDS_URI" in os.environ:

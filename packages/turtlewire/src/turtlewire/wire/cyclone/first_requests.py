@@ -14,7 +14,6 @@ milliseconds.
 
 from __future__ import annotations
 
-import ipaddress
 import socket
 
 from turtlewire.wire.loopback import ports_of_sockets
@@ -76,4 +75,4 @@ def _own_addresses() -> set[int]:
             found.add(route.getsockname()[0])
         except OSError:  # this computer has no other address
             pass
-    return {int(ipaddress.IPv4Address(address)) for address in found}
+    return {int.from_bytes(socket.inet_aton(address), "big") for address in found}

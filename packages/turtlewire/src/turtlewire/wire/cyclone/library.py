@@ -30,7 +30,6 @@ from typing import TYPE_CHECKING, Any
 from turtlewire.errors import WireError
 from turtlewire.wire.libddsc import Abi, Libddsc, find_libddsc
 from turtlewire.wire.report import warn_once
-from turtlewire.wire.wheels import advice, this_platform
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -54,6 +53,8 @@ def _find() -> tuple[Libddsc, Abi]:
         for sentence in refused:
             warn_once(sentence, f"{sentence}: {library} is used")
         return library, library.abi
+    from turtlewire.wire.wheels import advice, this_platform
+
     here = this_platform()
     version = ".".join(map(str, here.version))
     error = WireError(
