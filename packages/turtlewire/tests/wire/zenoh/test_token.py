@@ -15,7 +15,7 @@ from turtlewire.wire.qos import (
     QoS,
     Reliability,
 )
-from turtlewire.wire.zenoh.attachment import Attachment
+from turtlewire.wire.zenoh.attachment import Attachment, pack_attachment
 from turtlewire.wire.zenoh.qos_text import adapted, format_qos, parse_qos
 from turtlewire.wire.zenoh.token import NODE, PUBLISHER, Token
 
@@ -133,7 +133,7 @@ def test_invalid_qos(text: str):
 
 def test_the_bytes_of_an_attachment():
     attachment = Attachment(3, 1_700_000_000_000_000_001, bytes(range(16)))
-    packed = attachment.pack()
+    packed = pack_attachment(*attachment)
     assert len(packed) == 33
     assert packed[:8] == b"\x03" + bytes(7)
     assert packed[16] == 16

@@ -5,7 +5,7 @@ from __future__ import annotations
 from struct import Struct
 from typing import NamedTuple
 
-__all__ = ["Attachment"]
+__all__ = ["Attachment", "pack_attachment"]
 
 _GID_SIZE = 16
 _LAYOUT = Struct(f"<qqB{_GID_SIZE}s")
@@ -26,10 +26,6 @@ class Attachment(NamedTuple):
     source_timestamp_ns: int
     gid: bytes
 
-    def pack(self) -> bytes:
-        """Return the 33 bytes, as ROS 2 Jazzy (0.2.4) and later write them."""
-        return _LAYOUT.pack(self.sequence_number, self.source_timestamp_ns, _GID_SIZE, self.gid)
-
     @classmethod
     def unpack(cls, data: bytes) -> Attachment:
         """Read either layout.
@@ -43,3 +39,8 @@ class Attachment(NamedTuple):
                 if size == _GID_SIZE:
                     return cls(sequence_number, source_timestamp_ns, gid)
         raise ValueError(f"an attachment of {len(data)} bytes is not one of rmw_zenoh_cpp")
+
+
+def pack_attachment(sequence_number: int, source_timestamp_ns: int, gid: bytes) -> bytes:
+    """Return the 33 bytes of an `Attachment`, as ROS 2 Jazzy (0.2.4) and later write them."""
+    return _LAYOUT.pack(sequence_number, source_timestamp_ns, _GID_SIZE, gid)

@@ -18,7 +18,9 @@ class Calls:
     """
 
     def __init__(self) -> None:
-        self._condition = threading.Condition()
+        # The lock itself is taken by each call: the methods of a condition are in Python, and slow.
+        self._lock = threading.RLock()
+        self._changed = threading.Condition(self._lock)
         self._running: list[int] = []
         self._closed = False
 
@@ -28,21 +30,21 @@ class Calls:
         Raises:
             WireError: The client is closed.
         """
-        with self._condition:
+        with self._lock:
             if self._closed:
                 raise WireError("the context is closed")
             self._running.append(threading.get_ident())
 
     def __exit__(self, *_: object) -> None:
         """End a call."""
-        with self._condition:
+        with self._lock:
             self._running.remove(threading.get_ident())
             if self._closed:
-                self._condition.notify_all()
+                self._changed.notify_all()
 
     def close(self) -> None:
         """Reject further calls."""
-        with self._condition:
+        with self._lock:
             self._closed = True
 
     def join(self) -> None:
@@ -51,5 +53,5 @@ class Calls:
         A signal handler may close what its own thread is about to use.
         """
         own = threading.get_ident()
-        with self._condition:
-            self._condition.wait_for(lambda: all(caller == own for caller in self._running))
+        with self._changed:
+            self._changed.wait_for(lambda: all(caller == own for caller in self._running))

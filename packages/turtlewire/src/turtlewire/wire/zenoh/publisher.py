@@ -11,10 +11,10 @@ from zenoh import ext
 
 from turtlewire.errors import WireError
 from turtlewire.wire.base import Publisher
-from turtlewire.wire.encapsulation import joined, require_message
+from turtlewire.wire.encapsulation import is_message, joined, no_message
 from turtlewire.wire.qos import Durability, History, Reliability
 
-from .attachment import Attachment
+from .attachment import pack_attachment
 from .endpoint import ZenohEndpoint
 from .library import reason_of
 from .token import PUBLISHER
@@ -65,15 +65,17 @@ class ZenohPublisher(ZenohEndpoint, Publisher):
         self._core.reader.submit(self._core.graph.notify_changed)
 
     def publish(self, cdr: Cdr) -> None:
-        cdr = joined(cdr)
-        require_message(cdr, self.topic)
-        attachment = Attachment(next(self._numbers), time.time_ns(), self.gid)
+        if type(cdr) is not bytes:
+            cdr = joined(cdr)
+        if not is_message(cdr):
+            raise no_message(cdr, self.topic)
+        attachment = pack_attachment(next(self._numbers), time.time_ns(), self.gid)
         with self._sending:
             if self._closed:
                 raise WireError(f"publish on {self.topic}: the publisher is closed")
             try:
                 with self._core.calls:
-                    self._publisher.put(cdr, attachment=attachment.pack())
+                    self._publisher.put(cdr, attachment=attachment)
             except zenoh.ZError as error:
                 raise WireError(f"publish on {self.topic}: {reason_of(error)}") from error
 

@@ -17,7 +17,7 @@ from turtlewire.wire.qos import History
 from turtlewire.wire.queue_wait_set import Queued
 from turtlewire.wire.report import warn_once
 
-from .attachment import Attachment
+from .attachment import Attachment, pack_attachment
 from .endpoint import ZenohEndpoint
 from .library import reason_of
 from .token import CLIENT, SERVICE
@@ -101,12 +101,12 @@ class ZenohClient(_QueuedEndpoint, Client):
 
     def send_request(self, cdr: bytes) -> int:
         number = next(self._numbers)
-        attachment = Attachment(number, time.time_ns(), self.gid)
+        attachment = pack_attachment(number, time.time_ns(), self.gid)
         with self._sending:
             if self._closed:
                 raise WireError(f"call {self.service}: the client is closed")
             with self._core.calls:
-                self._querier.get(self._handler, payload=cdr, attachment=attachment.pack())
+                self._querier.get(self._handler, payload=cdr, attachment=attachment)
         return number
 
     def _on_reply(self, reply: zenoh.Reply) -> None:
@@ -165,17 +165,17 @@ class ZenohService(_QueuedEndpoint, Service):
 
     def send_response(self, request_id: RequestId, cdr: bytes) -> None:
         gid = request_id.client_id.to_bytes(16, "little")
-        attachment = Attachment(request_id.sequence_number, time.time_ns(), gid)
+        attachment = pack_attachment(request_id.sequence_number, time.time_ns(), gid)
         with self._core.calls:  # when they end, nothing here refers to the query any more
             self._reply(request_id, cdr, attachment)
 
-    def _reply(self, request_id: RequestId, cdr: bytes, attachment: Attachment) -> None:
+    def _reply(self, request_id: RequestId, cdr: bytes, attachment: bytes) -> None:
         with self._lock:
             query = self._queries.pop(request_id, None)
         if query is None:
             return
         try:
-            query.reply(self.token.data_key, cdr, attachment=attachment.pack())
+            query.reply(self.token.data_key, cdr, attachment=attachment)
         except zenoh.ZError as error:
             warn_once(
                 f"reply {self.service}",
