@@ -25,6 +25,7 @@ module                       contents
 `node`                       nodes
 `endpoint`                   the common base of all endpoints
 `publisher`, `subscription`  the ends of a topic
+`shared_memory`              the pool for large messages
 `inlet`                      subscriptions whose messages go to a native sink
 `services`                   clients and servers
 `router`, `router_log`       ``rmw_zenohd``, and its messages about rejected peers

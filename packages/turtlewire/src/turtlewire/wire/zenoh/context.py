@@ -23,6 +23,7 @@ from .graph import ZenohGraph
 from .library import reason_of
 from .node import ZenohNode
 from .router_check import wait_for_router
+from .shared_memory import SharedMemory
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -63,10 +64,12 @@ class ZenohContext(Context):
     def __init__(self, domain_id: int) -> None:
         self._require_threads()
         self.domain_id = domain_id
-        session = _open()
+        configuration = session_configuration()
+        session = _open(configuration)
         reader = ReaderThread()
         self._graph = ZenohGraph(domain_id, reader)
-        self._core = ZenohContextState(session, domain_id, reader, self._graph)
+        memory = SharedMemory(configuration)
+        self._core = ZenohContextState(session, domain_id, reader, self._graph, memory)
         self.gid = bytes.fromhex(self._core.session_id.zfill(32))
         self._process = os.getpid()
         self._nodes: dict[ZenohNode, None] = {}
@@ -139,6 +142,7 @@ class ZenohContext(Context):
             wait_set.close()
         self._graph.end_waits()
         self._core.calls.join()
+        self._core.memory.close()
         self._core.threads.join()
         self._closed.set()
         atexit.unregister(self._close_at_exit)
@@ -154,8 +158,7 @@ class ZenohContext(Context):
             self._closed.wait(_LONGEST_CLOSE_S)
 
 
-def _open() -> zenoh.Session:
-    configuration = session_configuration()
+def _open(configuration: zenoh.Config) -> zenoh.Session:
     former = open_sockets()
     try:
         session = zenoh.open(configuration)

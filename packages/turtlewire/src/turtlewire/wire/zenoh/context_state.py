@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from turtlewire.wire.reader_thread import ReaderThread
 
     from .graph import ZenohGraph
+    from .shared_memory import SharedMemory
     from .token import Token
 
 __all__ = ["Owner", "ZenohContextState"]
@@ -54,13 +55,19 @@ class ZenohContextState:
             Zenoh's threads take it.
         reader: Calls callbacks.
         graph: Nodes and endpoints.
+        memory: Where large messages are written, if it is enabled.
         calls: Who is in Zenoh's library.
         threads: Those on which Zenoh's callbacks run.
         closing: Whether the context is being closed, or is closed.
     """
 
     def __init__(
-        self, session: zenoh.Session, domain_id: int, reader: ReaderThread, graph: ZenohGraph
+        self,
+        session: zenoh.Session,
+        domain_id: int,
+        reader: ReaderThread,
+        graph: ZenohGraph,
+        memory: SharedMemory,
     ) -> None:
         self.session = session
         self.session_id = str(session.zid())
@@ -68,6 +75,7 @@ class ZenohContextState:
         self.lock: threading.RLock = graph.lock
         self.reader = reader
         self.graph = graph
+        self.memory = memory
         self.calls = Calls()
         self.threads = CallbackThreads()
         self.closing = False

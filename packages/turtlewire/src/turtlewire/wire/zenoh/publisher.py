@@ -45,6 +45,8 @@ class ZenohPublisher(ZenohEndpoint, Publisher):
         super().__init__(core, node, topic, type_id, qos)
         self._numbers = itertools.count(1)
         self._has_subscriber = False
+        # What is kept for late subscriptions would fill the shared memory.
+        self._memory = core.memory if self.qos.durability == Durability.VOLATILE else None
         with core.calls:
             self._publisher = ext.declare_advanced_publisher(
                 core.session, self.token.data_key, **_options(self.qos)
@@ -75,7 +77,11 @@ class ZenohPublisher(ZenohEndpoint, Publisher):
                 raise WireError(f"publish on {self.topic}: the publisher is closed")
             try:
                 with self._core.calls:
-                    self._publisher.put(cdr, attachment=attachment)
+                    # No variable holds what is placed, since it may be freed only in here.
+                    self._publisher.put(
+                        cdr if self._memory is None else self._memory.placed(cdr),
+                        attachment=attachment,
+                    )
             except zenoh.ZError as error:
                 raise WireError(f"publish on {self.topic}: {reason_of(error)}") from error
 
