@@ -135,13 +135,14 @@ std::optional<std::pair<std::size_t, Verdict>> first_refused(const Tree& tree, c
   const Link* link = tree.find_link(batch.child);
   if (link != nullptr && !link->samples().empty()) newest = std::max(newest, link->newest());
   const Stamp limit = earlier(newest, tree.keep());
-  for (std::size_t i = 0; i < batch.size(); ++i) {
-    Verdict verdict =
-        i == 0 ? tree.judge(batch.parent, batch.child, batch.pose(i)) : tree.judge(batch.pose(i));
-    if (verdict == Verdict::accepted && batch.stamp(i) < limit) verdict = Verdict::old_data;
-    if (verdict != Verdict::accepted) return std::pair(i, verdict);
+  const Verdict first = tree.judge(batch.parent, batch.child, batch.pose(0));
+  if (first != Verdict::accepted) return std::pair(std::size_t{0}, first);
+  const std::size_t accepted = tree.count_accepted(batch.rows_from(0));
+  for (std::size_t i = 0; i < accepted; ++i) {
+    if (batch.stamp(i) < limit) return std::pair(i, Verdict::old_data);
   }
-  return std::nullopt;
+  if (accepted == batch.size()) return std::nullopt;
+  return std::pair(accepted, tree.judge(batch.pose(accepted)));
 }
 
 // Returns how many of the rows the buffer now holds.

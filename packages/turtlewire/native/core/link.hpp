@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,9 @@ class Link {
   // A rotation was stored that is not unit, as tf2 does since Kilted: poses on the way scale.
   bool has_scaling() const { return has_scaling_; }
   void note_scaling() { has_scaling_ = true; }
+  void note_infinity(const Vec3& translation) {
+    has_infinity_ = has_infinity_ || !is_finite(translation);
+  }
   const Pose& static_pose() const { return static_pose_; }
   const Samples& samples() const { return samples_; }
 
@@ -136,6 +140,26 @@ class Link {
     if (stamp <= samples_.newest()) return false;
     append(stamp, sample);
     return true;
+  }
+
+  // Inserts further samples, up to the first that is not newer than all before, but no more than
+  // fit into one block; returns their number. `write` gets the memory for their poses, and returns
+  // how many it has written, one at least. Needs a sample.
+  template <typename Write>
+  std::size_t append_newer(std::span<const Stamp> stamps, FrameId parent, Stamp keep, Write write) {
+    Stamp newest = samples_.newest();
+    prune(earlier(newest, keep));
+    if (stamps.empty() || stamps.front() <= newest) return 0;
+    const Samples::Room room = samples_.room();
+    std::size_t count = 0;
+    for (; count < std::min(room.size, stamps.size()) && stamps[count] > newest; ++count)
+      room.stamps[count] = newest = stamps[count];
+    count = write(std::span(room.samples, count));
+    parent_changes_ += samples_.back().parent != parent;
+    samples_.add_written(count);
+    parent_ = parent;
+    if (count > 1) prune(earlier(stamps[count - 2], keep));
+    return count;
   }
 
   // Counts an accepted sample for its sender.
@@ -296,7 +320,7 @@ class Link {
 
   void note(const Sample& sample) {
     parent_ = samples_.back().parent;
-    has_infinity_ = has_infinity_ || !is_finite(sample.pose.translation);
+    note_infinity(sample.pose.translation);
   }
 
   void prune(Stamp limit) {

@@ -34,9 +34,10 @@ Quat through_matrix(const Quat& q) {
           ((xy + wz) - (xy - wz)) * f};
 }
 
-Quat canonical_of_any_length(const Quat& q) {
+Quat canonical_of_any_length(Quat q) {
   const double norm2 = dot(q, q);
-  if (std::isnormal(norm2)) {
+  const bool is_far_from_unit = !(norm2 > 0.5 && norm2 < 2.0);  // else no power of 2 helps
+  if (is_far_from_unit && std::isnormal(norm2)) {
     const double k = std::ldexp(
         1.0, -static_cast<int>(std::lround(0.5 * std::log2(norm2))));  // exact, as all powers of 2
     const Quat scaled{k * q.x, k * q.y, k * q.z, k * q.w};

@@ -2,6 +2,7 @@
 // does with them.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace turtlewire {
@@ -97,18 +98,20 @@ inline bool is_finite(const Vec3& v) {
 // steps and their order are tf2's.
 Quat through_matrix(const Quat& q);
 
+// Whether one Newton step makes a quaternion of this squared length unit; false for NaN.
+inline bool is_nearly_unit(double norm2) { return std::fabs(norm2 - 1.0) < 1e-8; }
+
 // What through_matrix gives, but for rounding, at a fraction of the cost for a quaternion that is
 // nearly unit: one Newton step, and the same choice of sign. As with tf2, q, -q and 2q give the
 // same to the last bit.
-Quat canonical_of_any_length(const Quat& q);
+Quat canonical_of_any_length(Quat q);
 inline Quat canonical(const Quat& q) {
   const double norm2 = dot(q, q);
-  if (!(std::fabs(norm2 - 1.0) < 1e-8)) return canonical_of_any_length(q);
-  double leading = q.w;
-  if (!(4.0 * q.w * q.w > norm2)) {
-    const double xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z;
-    leading = xx >= yy && xx >= zz ? q.x : yy >= zz ? q.y : q.z;
-  }
+  if (!is_nearly_unit(norm2)) return canonical_of_any_length(q);
+  const double xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z;
+  const double larger = xx >= yy ? q.x : q.y;
+  const double largest = std::max(xx, yy) >= zz ? larger : q.z;
+  const double leading = 4.0 * q.w * q.w > norm2 ? q.w : largest;
   const double k = std::copysign(1.5 - 0.5 * norm2, leading);
   return {k * q.x, k * q.y, k * q.z, k * q.w};
 }

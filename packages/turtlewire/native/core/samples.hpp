@@ -82,6 +82,25 @@ class Samples {
     if (size_ < 64 || at % kBlock == 0) measure_rate();
   }
 
+  // Memory for further samples, to be written in place; one at least.
+  struct Room {
+    Stamp* stamps;
+    Sample* samples;
+    std::size_t size;
+  };
+  Room room() {
+    if (head_ + size_ == room_) grow();
+    const std::size_t at = head_ + size_, place = at % kBlock;
+    const Block& block = block_at(at);
+    return {block.stamps + place, block.samples + place, std::min(kBlock - place, room_ - at)};
+  }
+  // Adds the first `count` samples of the room, one at least.
+  void add_written(std::size_t count) {
+    size_ += count;
+    note_ends();
+    measure_rate();
+  }
+
   void insert(std::size_t i, Stamp stamp, const Sample& sample) {
     push_back(stamp, sample);
     for (std::size_t at = head_ + size_ - 1; at > head_ + i; --at) {

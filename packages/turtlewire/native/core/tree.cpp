@@ -24,6 +24,16 @@ std::string_view without_slash(std::string_view name) {
   return name;
 }
 
+// Whether all rules accept the pose, and its translation changes no path.
+bool is_usual(const Pose& pose) {
+  return std::fabs(dot(pose.rotation, pose.rotation) - 1.0) < kLengthTolerance &&
+         is_finite(pose.translation);
+}
+
+Pose pose_of(const PoseRow& row) {
+  return {{row[0], row[1], row[2]}, {row[3], row[4], row[5], row[6]}};
+}
+
 }  // namespace
 
 // ---------------------------------------------------------------- in
@@ -113,18 +123,40 @@ Verdict Tree::set(std::string_view parent, std::string_view child, Stamp stamp, 
 std::size_t Tree::append(std::span<const Stamp> stamps, std::span<const PoseRow> rows) {
   Link& link = *last_link_;
   const std::uint64_t shape = link.shape();
-  Sample sample{{}, link.parent_of_sender(), link.sender()};
+  const FrameId parent = link.parent_of_sender();
+  const SourceId sender = link.sender();
   std::size_t added = 0;
-  for (; added < stamps.size(); ++added) {
-    const PoseRow& row = rows[added];
-    sample.pose = {{row[0], row[1], row[2]}, stored({row[3], row[4], row[5], row[6]})};
-    if (judge_stored(sample.pose) != Verdict::accepted) break;
-    if (!link.append_newer(stamps[added], sample, keep_)) break;
-    if (rules_.keeps_rotations && !is_unit(sample.pose.rotation)) link.note_scaling();
+  const auto write = [&](std::span<Sample> room) {
+    std::size_t count = 0;
+    for (; count < room.size(); ++count) {
+      const Pose pose = pose_of(rows[added + count]);
+      if (!is_usual(pose)) [[unlikely]] {
+        if (judge(pose_of(rows[added + count])) != Verdict::accepted) break;
+        link.note_infinity(pose.translation);
+      }
+      const Quat rotation = stored(pose.rotation);
+      room[count] = {{pose.translation, rotation}, parent, sender};
+      if (rules_.keeps_rotations && !is_unit(rotation)) link.note_scaling();
+    }
+    return count;
+  };
+  while (added < rows.size() && count_accepted(rows.subspan(added, 1)) == 1) {
+    const std::size_t count = link.append_newer(stamps.subspan(added), parent, keep_, write);
+    if (count == 0) break;
+    added += count;
   }
   if (added > 0) link.count_more(added, stamps[added - 1]);
   if (link.shape() != shape) ++version_;
   return added;
+}
+
+std::size_t Tree::count_accepted(std::span<const PoseRow> rows) const {
+  std::size_t count = 0;
+  for (; count < rows.size(); ++count) {
+    const Pose pose = pose_of(rows[count]);
+    if (!is_usual(pose) && judge(pose) != Verdict::accepted) break;
+  }
+  return count;
 }
 
 Verdict Tree::judge_stored(const Pose& pose) const {

@@ -87,6 +87,8 @@ class Tree {
   Verdict judge(const Pose& pose) const {
     return judge_stored({pose.translation, stored(pose.rotation)});
   }
+  // The number of rows before the first that judge() refuses.
+  std::size_t count_accepted(std::span<const PoseRow> rows) const;
   // Counts a transform that is not added.
   Verdict refuse(Verdict verdict, std::string_view parent, std::string_view child, Stamp stamp,
                  const Pose& pose, SourceId source);

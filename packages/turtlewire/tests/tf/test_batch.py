@@ -396,3 +396,36 @@ def test_rows_of_a_batch_are_added_as_single_transforms_are(
             np.testing.assert_array_equal(one.poses, other.poses)
         assert together.to_yaml() == single.to_yaml()
         assert together._describe_links(9) == single._describe_links(9)
+
+
+@pytest.mark.parametrize("cache_s", [3, 50, 10_000])
+@pytest.mark.parametrize("refused", [None, 0, 32, 77, 199])
+@pytest.mark.parametrize("held", [0, 1, 5, 40])
+def test_a_long_array_in_order_is_added_as_single_transforms_are(
+    core, cache_s, refused, held
+) -> None:
+    count = 200
+    rng = np.random.default_rng(held)
+    poses = rng.normal(size=(count, 7))
+    poses[:, 3:] /= np.linalg.norm(poses[:, 3:], axis=1)[:, None]
+    poses[::3] = poses[::3].astype(np.float32)  # not unit to double precision
+    poses[5, 0] = math.inf
+    if refused is not None:
+        poses[refused, 2] = math.nan
+    stamps = (np.arange(count) + held) * 10**9
+    together, single = core.Buffer(cache_s * 10**9), core.Buffer(cache_s * 10**9)
+    for buffer in together, single:
+        for second in range(held):
+            buffer.set_transform("z", "b", second * 10**9, (second, 0, 0))
+    kept = together.set_transforms("a", "b", stamps, poses, errors="skip")
+    for stamp, pose in zip(stamps.tolist(), poses.tolist(), strict=True):
+        with contextlib.suppress(errors.InvalidTransformError):
+            single.set_transform("a", "b", stamp, pose[:3], pose[3:])
+    assert together._describe_refusals() == single._describe_refusals()
+    assert together._describe_links(9) == single._describe_links(9)
+    for one, other in zip(together.samples("b"), single.samples("b"), strict=True):
+        assert one.parent_frame == other.parent_frame
+        np.testing.assert_array_equal(one.stamps_ns, other.stamps_ns)
+        np.testing.assert_array_equal(one.poses, other.poses)
+    assert kept == len(single.samples("b")[-1].stamps_ns)
+    assert together._fault() == ""
