@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 ROOT = Path(__file__).resolve().parent.parent
 LESSON = ROOT / "build" / "lesson"
 SITE = ROOT / "build" / "site"
-URDF_TUTORIAL = ROOT / "tests" / "robots" / "urdf_ws" / "src" / "urdf_tutorial"
+TESTS = ROOT / "tests"
 GRAPH_NODES = Path(__file__).with_name("graph_nodes.py")
 WALKER = ROOT / "examples" / "robots" / "walker.urdf.xacro"
 LIVE = "document.querySelector('#connection')?.dataset.state === 'live'"
@@ -88,12 +88,15 @@ def address_of(process: subprocess.Popen[str]) -> str:
 def view() -> Iterator[str]:
     """Serve the 3D view of the robot of the URDF tutorial."""
     with tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as programs:
+        unpack = (TESTS / "archive.py", "unpack", TESTS / "robots" / "urdf_packages.txt")
+        subprocess.run([sys.executable, *unpack, Path(folder) / "src"], check=True)
+        tutorial = Path(folder) / "src" / "urdf_tutorial"
         share = Path(folder) / "share"
         index = share / "ament_index" / "resource_index" / "packages"
         index.mkdir(parents=True)
         (index / "urdf_tutorial").touch()
-        (share / "urdf_tutorial").symlink_to(URDF_TUTORIAL)
-        robot = str(URDF_TUTORIAL / "urdf" / "06-flexible.urdf")
+        (share / "urdf_tutorial").symlink_to(tutorial)
+        robot = str(tutorial / "urdf" / "06-flexible.urdf")
         for name in ("robot_state_publisher", "joint_state_publisher"):
             programs.enter_context(running(program("ros2"), "run", name, name, robot))
         command = (program("turtlewire"), "view", "--port", "0")

@@ -4,24 +4,25 @@ from __future__ import annotations
 
 import importlib.util
 import os
-import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from tests import archive
 
 BIN = Path(sys.executable).parent
-SOURCES = Path(__file__).parent / "urdf_ws" / "src"
+#: The packages of the URDF tutorials.
+PACKAGES = Path(__file__).parent / "urdf_packages.txt"
 
 
 @pytest.fixture(scope="session")
 def workspace(tmp_path_factory):
-    """The workspace `urdf_ws`, built by colcon; its `install` folder is `workspace.install`."""
+    """The workspace of `urdf_packages.txt`, built by colcon; its `install` folder is `workspace.install`."""
     if importlib.util.find_spec("colcon_ros") is None:
         pytest.skip("needs colcon: pip install 'turtlewire-colcon[workspace]'")
-    folder = tmp_path_factory.mktemp("urdf_ws")
-    shutil.copytree(SOURCES, folder / "src")
+    folder = tmp_path_factory.mktemp("urdf")
+    archive.unpack(PACKAGES, folder / "src")
     done = subprocess.run(
         [
             BIN / "colcon",

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import signal
 import xml.etree.ElementTree as ET
-from pathlib import Path
 
 import pytest
 from tests.pages import wait_until
@@ -23,7 +22,6 @@ MODELS = {
     "07-physics.urdf": 12,
     "08-macroed.urdf.xacro": 8,
 }
-SOURCES = Path(__file__).parent / "urdf_ws" / "src"
 #: Whether much of the picture is of the tutorial's orange, lit.
 ORANGE_IS_SEEN = """async () => {
     const { stage } = await import("./js/main.js");
@@ -157,8 +155,8 @@ XML = """
 
 
 @pytest.mark.parametrize(("name", "content"), [("a.launch.yaml", YAML), ("a.launch.xml", XML)])
-def test_a_command_in_yaml_and_xml(name, content, ros2_launch):
-    model = SOURCES / "urdf_tutorial" / "urdf" / "06-flexible.urdf"
+def test_a_command_in_yaml_and_xml(name, content, workspace, ros2_launch):
+    model = workspace / "src" / "urdf_tutorial" / "urdf" / "06-flexible.urdf"
     launch = ros2_launch(content, f"model:={model}", name=name)
     launch.wait_for(r"\[robot_state_publisher\]: Robot initialized")
     end(launch)

@@ -1,7 +1,7 @@
 """``colcon build`` and ``colcon test`` of ament_cmake packages, as typed, in a shell.
 
 The builds use neither CMake nor a compiler; afterwards Python and ros2 find the packages. Each
-package in ``ament_ws`` has the structure of a widely used one.
+package in ``good_packages.txt`` has the structure of a widely used one.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests import archive
 
 PREFIX = Path(sys.prefix)
 
@@ -227,9 +228,9 @@ def test_a_broken_manifest_is_named_with_its_line(workspace):
     assert "my_interfaces\tsrc/my_interfaces\t(turtlewire.unreadable)" in done.stdout
 
 
-# The packages in ament_ws: built once, then used by each test.
+# The packages in good_packages.txt: built once, then used by each test.
 
-PACKAGES_HERE = Path(__file__).parent / "ament_ws"
+HERE = Path(__file__).parent
 
 
 def shell(workspace: Path, script: str) -> list[str]:
@@ -243,8 +244,8 @@ def shell(workspace: Path, script: str) -> list[str]:
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
     """The good packages, built, and the output of the build as `built_output`."""
-    folder = tmp_path_factory.mktemp("ament_ws")
-    shutil.copytree(PACKAGES_HERE / "good", folder / "src")
+    folder = tmp_path_factory.mktemp("good_packages")
+    archive.unpack(HERE / "good_packages.txt", folder / "src")
     # Of the tutorial's three commands, the third one sources the result.
     script = """
 source {prefix}/setup.bash
@@ -477,7 +478,7 @@ grep -c changed src/macro_tool/macro_tool/__init__.py
 
 
 def test_each_fault_is_one_line_that_names_file_and_line(tmp_path):
-    shutil.copytree(PACKAGES_HERE / "bad", tmp_path / "src")
+    archive.unpack(HERE / "bad_packages.txt", tmp_path / "src")
     script = "source {prefix}/setup.bash; colcon build --continue-on-error"
     done = run_in(tmp_path, script)
     assert done.returncode == 1
@@ -499,7 +500,7 @@ def test_each_fault_is_one_line_that_names_file_and_line(tmp_path):
 def test_pip_installs_such_packages(tmp_path):
     """With three lines of pyproject.toml by pip itself, without them by our command."""
     for name in ("macro_tool", "bridge_msgs"):
-        shutil.copytree(PACKAGES_HERE / "good" / name, tmp_path / name)
+        archive.unpack(HERE / "good_packages.txt", tmp_path / name, within=f"{name}/")
     (tmp_path / "macro_tool/pyproject.toml").write_text(
         '[build-system]\nrequires = ["turtlewire-colcon"]\n'
         'build-backend = "turtlewire_colcon.build_backend"\n'

@@ -1,6 +1,6 @@
 """Replays the captured command lines against this implementation and compares what is not volatile.
 
-As a script: ``python tests/golden/cli/replay.py [first [last]]`` prints the differences and the count.
+As a script: ``python -m tests.golden.cli.replay [first [last]]`` prints the differences and the count.
 """
 
 from __future__ import annotations
@@ -25,11 +25,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
+from tests.golden.cli.captures import Case, captures
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
 HERE = Path(__file__).parent
-MORE = HERE.parent / "cli2"
 #: A container on a computer without demo_nodes_cpp, as the captured one was.
 CONTAINER = """
 import sys
@@ -43,71 +44,12 @@ INTERRUPTED = {0, 1, 2, 15, 124}
 
 
 @dataclass(frozen=True)
-class Case:
-    """One captured command."""
-
-    name: str
-    command: str
-    exit_code: int
-    interrupt_after: float | None
-    stdout: str
-    stderr: str
-    cut_to: int | None
-
-    @property
-    def number(self) -> int:
-        return int(self.name[:3])
-
-
-@dataclass(frozen=True)
 class Result:
     """What a command did here."""
 
     exit_code: int
     stdout: str
     stderr: str
-
-
-def load_cases() -> list[Case]:
-    """All captures, those of ``cli2`` last."""
-    cases = [_parse(path) for path in sorted(HERE.glob("[0-9]*.txt"))]
-    return cases + [_parse_short(path) for path in sorted(MORE.glob("[0-9]*.txt"))]
-
-
-def _parse_short(path: Path) -> Case:
-    """A capture of ``cli2``: its command, exit code and streams."""
-    text = path.read_text(encoding="utf-8")
-    header, _, rest = text.partition("--- stdout\n")
-    stdout, _, stderr = rest.rpartition("--- stderr\n")
-    fields = re.fullmatch(r"\$ (.*)\n--- exit (\d+)(?: \(stopped after (\d+) s\))?\n", header)
-    return Case(
-        name=path.stem,
-        command=fields[1],
-        exit_code=int(fields[2]),
-        interrupt_after=float(fields[3]) if fields[3] else None,
-        stdout=stdout,
-        stderr=stderr,
-        cut_to=None,
-    )
-
-
-def _parse(path: Path) -> Case:
-    raw = path.read_bytes()
-    header, _, rest = raw.partition(b"----- stdout -----\n")
-    fields = dict(re.findall(r"^# ([a-z ]+): (.*)$", header.decode(), re.MULTILINE))
-    # Paths and source lines in the captures were replaced, so the byte counts are not those of the files.
-    stdout, _, stderr = rest.partition(b"\n----- stderr -----\n")
-    ended = re.search(r"after ([0-9.]+) s", fields["ended"])
-    cut = re.search(r"cut to its first (\d+) lines", fields["note"])
-    return Case(
-        name=path.stem,
-        command=fields["command"],
-        exit_code=int(fields["exit code"]),
-        interrupt_after=float(ended.group(1)) if ended else None,
-        stdout=stdout.decode(),
-        stderr=stderr.removesuffix(b"\n----- end -----\n").decode(),
-        cut_to=int(cut.group(1)) if cut else None,
-    )
 
 
 def run(case: Case, timeout: float = 30.0, environment: Mapping[str, str] | None = None) -> Result:
@@ -301,7 +243,7 @@ def terminal_process(command: list[str]) -> Iterator[None]:
 def process(command: list[str]) -> Iterator[None]:
     """A process that runs meanwhile and is ended by Ctrl-C."""
     running = subprocess.Popen(
-        command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
+        command, cwd=ROOT, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
     )
     try:
         yield
@@ -384,11 +326,11 @@ def surroundings(number: int) -> Iterator[None]:
             ):
                 stack.enter_context(process(_ros2(*words)))
             stack.enter_context(process([sys.executable, "-c", CONTAINER]))
-            stack.enter_context(process([sys.executable, str(MORE / "nodes.py")]))
+            stack.enter_context(process([sys.executable, str(HERE / "servers.py")]))
             _wait_for("node", "/turtlesim", "/ComponentManager", "/minimal_action_server", "/lc_talker")
             _wait_for("topic", "/tf_static", "/hidden_chatter")
         elif number >= 345:
-            stack.enter_context(process([sys.executable, str(HERE / "wire_talker.py")]))
+            stack.enter_context(process([sys.executable, "-m", "tests.golden.cli.wire_talker"]))
             _wait_for("topic", "/w/wstring_empty")  # the last one that it makes
         yield
 
@@ -405,7 +347,7 @@ def main() -> None:
     parser.add_argument("last", type=int, nargs="?")
     args = parser.parse_args()
     last = args.last if args.last is not None else (args.first or 999)
-    cases = [case for case in load_cases() if args.first <= case.number <= last]
+    cases = [case for case in captures() if args.first <= case.number <= last]
     agreed = 0
     for block in blocks(cases):
         if not block:

@@ -16,6 +16,7 @@ import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rosidl_runtime_py import set_message_fields
+from tests.golden.cli.captures import capture, captures
 from turtlewire.msg import get_message
 
 HERE = Path(__file__).parent
@@ -24,12 +25,11 @@ HERE = Path(__file__).parent
 def captured_values() -> dict[str, dict]:
     """What the captures of ``ros2 topic echo`` show, by topic; complete messages only."""
     values = {}
-    for path in HERE.glob("*echo*.txt"):
-        text = path.read_text(encoding="utf-8")
-        command = re.search(r"^# command: ros2 topic echo --once (.*)(/w/\w+)$", text, re.MULTILINE)
+    for case in captures():
+        command = re.search(r"^ros2 topic echo --once (.*)(/w/\w+)$", case.command)
         if command is None or {"--csv", "--raw", "--no-arr", "--filter"} & set(command.group(1).split()):
             continue
-        shown = yaml.safe_load(text.split("----- stdout -----\n")[1].split("---\n")[0])
+        shown = yaml.safe_load(case.stdout.split("---\n")[0])
         field = re.search(r"--field (\w+)", command.group(1))
         values[command.group(2)] = {field.group(1): shown} if field else shown
     return values
@@ -42,7 +42,7 @@ class WireTalker(Node):
         super().__init__("wire_talker")
         cases = {f"/w/{case['name']}": case for case in json.loads((HERE.parent / "wire" / "cdr_cases.json").read_text(encoding="utf-8"))}
         values = captured_values()
-        listed = re.findall(r"^(/w/\w+) \[(\S+)\]$", (HERE / "401_topic_list_hidden2.txt").read_text(encoding="utf-8"), re.MULTILINE)
+        listed = re.findall(r"^(/w/\w+) \[(\S+)\]$", capture("401_topic_list_hidden2").stdout, re.MULTILINE)
         self._messages = []
         for topic, type_name in listed:
             message = get_message(type_name)()

@@ -17,15 +17,18 @@ from rclpy.impl.arguments import Arguments
 from rclpy.impl.rcl_lexer import Lexeme, Lexer, RuleError
 from rclpy.impl.rcl_yaml_param_parser import parse_file, parse_value
 from tests import places
+from tests.golden.cli.captures import captures
 from turtlewire.wire import names
 
-GOLDEN = places.GOLDEN / "cli"
+INPUTS = places.GOLDEN / "cli" / "inputs"
 #: Runs of a whole node (it ends by Ctrl-C; a parameter of turtlesim has the wrong type):
 #: tests/rclpy and tests/turtlesim play them.
-NEEDS_A_NODE = {"160_rosargs_rclpy_param_range.txt", "170_rosargs_rclcpp_wrong_param_type.txt"}
-CASES = sorted(
-    path.name for path in GOLDEN.glob("*_rosargs_*.txt") if path.name not in NEEDS_A_NODE
-)
+NEEDS_A_NODE = {"160_rosargs_rclpy_param_range", "170_rosargs_rclcpp_wrong_param_type"}
+CASES = {
+    case.name: case
+    for case in captures()
+    if "_rosargs_" in case.name and case.name not in NEEDS_A_NODE
+}
 SOURCE_LOCATION = re.compile(r", at /\S+\.c:\d+")
 STAMP = re.compile(r"\[\d+\.\d{9}\]")
 
@@ -34,9 +37,8 @@ def golden(name):
     """Words after `--ros-args`, log lines of rcl with masked stamps, and the error's text without
     places in C sources.
     """
-    text = (GOLDEN / name).read_text()
-    command = shlex.split(re.search(r"^# command: (.*)$", text, re.MULTILINE)[1])
-    lines = text.split("----- stderr -----\n")[1].splitlines()
+    command = shlex.split(CASES[name].command)
+    lines = CASES[name].stderr.splitlines()
     log = [STAMP.sub("[t]", line) for line in lines if "] [rcl]: " in line]
     prefixes = ("rclpy._rclpy_pybind11.", "  what():  ")
     (error,) = [line for line in lines if line.startswith(prefixes)]
@@ -53,7 +55,7 @@ def test_the_golden_cases_are_there():
 
 @pytest.mark.parametrize("name", CASES)
 def test_golden_errors(name, capfd, monkeypatch):
-    monkeypatch.chdir(GOLDEN / "inputs")
+    monkeypatch.chdir(INPUTS)
     words, log, error = golden(name)
     log_output.configure(file=False)
     with pytest.raises((RCLError, UnknownROSArgsError)) as caught:
@@ -64,7 +66,7 @@ def test_golden_errors(name, capfd, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    "name", ["151_rosargs_rclpy_bad_remap2.txt", "154_rosargs_rclpy_unknown_flag.txt"]
+    "name", ["151_rosargs_rclpy_bad_remap2", "154_rosargs_rclpy_unknown_flag"]
 )
 def test_golden_exit_codes(name):
     """A program that lets the error through.
@@ -77,12 +79,11 @@ def test_golden_exit_codes(name):
         [sys.executable, "-c", program, "--ros-args", *words],
         capture_output=True,
         text=True,
-        cwd=GOLDEN / "inputs",
+        cwd=INPUTS,
         timeout=300,
         check=False,
     )
-    expected = int(re.search(r"^# exit code: (\d+)$", (GOLDEN / name).read_text(), re.MULTILINE)[1])
-    assert (run.returncode, run.stderr.splitlines()[-1]) == (expected, error)
+    assert (run.returncode, run.stderr.splitlines()[-1]) == (CASES[name].exit_code, error)
 
 
 @pytest.mark.parametrize(

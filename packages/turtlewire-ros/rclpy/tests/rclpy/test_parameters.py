@@ -17,9 +17,9 @@ from rclpy import exceptions
 from rclpy._node.parameters import NodeParameters
 from rclpy.parameter import Parameter
 from rclpy.time import Time
-from tests import places
+from tests.golden.cli.captures import capture
+from tests.places import GOLDEN
 
-GOLDEN = places.GOLDEN / "cli"
 Type = Parameter.Type
 OK = SetParametersResult(successful=True)
 
@@ -269,8 +269,8 @@ def test_undeclared_parameters(parameters):
 
 def test_the_text_for_an_undeclared_name_is_ros_2s(parameters):
     """`ros2 param set /broadcaster1 nope 5` of a real ROS 2."""
-    text = (GOLDEN / "289_param_set_py_undeclared.txt").read_text()
-    expected = re.search(r"Setting parameter failed: (.*)", text)[1]
+    shown = capture("289_param_set_py_undeclared")
+    expected = re.search(r"Setting parameter failed: (.*)", shown.stdout + shown.stderr)[1]
     with pytest.raises(exceptions.ParameterNotDeclaredException) as caught:
         parameters.set_parameters_atomically([Parameter("nope", value=5)])
     assert str(caught.value) == expected
@@ -415,7 +415,7 @@ def test_a_single_declaration_makes_the_event_of_a_real_node():
 
     from turtlewire import msg
 
-    samples = json.loads((GOLDEN.parent / "wire" / "demo_topics.json").read_text())
+    samples = json.loads((GOLDEN / "wire" / "demo_topics.json").read_text())
     (golden, *_) = [
         each
         for each in samples

@@ -9,21 +9,16 @@ from rclpy.endpoint_info import EndpointTypeEnum, ServiceEndpointInfo
 from rclpy.qos import LivelinessPolicy, QoSProfile
 from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 from rclpy.type_hash import TypeHash
-from tests import places
+from tests.golden.cli.captures import capture
 from turtlewire.wire import base
 from turtlewire.wire.qos import INFINITE_NS, Liveliness, QoS
 
-GOLDEN = places.GOLDEN / "cli"
 HASH = "RIHS01_9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a"
 
 
 def test_the_text_is_that_of_ros_2():
     """Both endpoints that `ros2 topic info -v /turtle1/cmd_vel` of a real ROS 2 shows."""
-    output = (
-        (GOLDEN / "187_topic_info_v_turtle1_cmd_vel.txt")
-        .read_text()
-        .split("----- stdout -----\n")[1]
-    )
+    output = capture("187_topic_info_v_turtle1_cmd_vel").stdout
     shown = re.findall(r"Node name: .*?Liveliness lease duration: Infinite", output, re.DOTALL)
     assert len(shown) == 2
     for text in shown:

@@ -5,18 +5,16 @@ What deviates is listed here with its reason.
 
 from __future__ import annotations
 
-import importlib.util
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 from tests.needs import needs_cyclone_dds
-from tests.places import GOLDEN
 
 from ros2cli.node.daemon import shutdown_daemon, spawn_daemon
+from tests.golden.cli import replay
+from tests.golden.cli.captures import captures
 from turtlewire.testing import reserved_domain
-
-REPLAY = GOLDEN / "cli" / "replay.py"
 
 CPP = (
     "turtlesim is a Python node here: it ends with an exception and status 1, where the C++ one "
@@ -49,16 +47,7 @@ DEVIATIONS = {
 }
 
 
-def load_replay():
-    spec = importlib.util.spec_from_file_location("cli_replay", REPLAY)
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
-    return module
-
-
-replay = load_replay()
-BLOCKS = replay.blocks(replay.load_cases())
+BLOCKS = replay.blocks(captures())
 
 
 def differences(case, environment=None):

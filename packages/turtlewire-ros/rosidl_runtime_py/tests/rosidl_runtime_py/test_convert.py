@@ -8,6 +8,7 @@ import re
 import numpy as np
 import pytest
 import yaml
+from tests.golden.cli.captures import captures
 from tests.places import GOLDEN
 
 from rosidl_runtime_py import (
@@ -28,7 +29,6 @@ OPTIONS = {
     "--full-length": {"truncate_length": None},
 }
 
-
 # Types of the captured messages whose bytes were not captured.
 TYPES = {
     "string_empty": "std_msgs/msg/String",
@@ -48,12 +48,10 @@ TYPES = {
 
 def _echoes(known=CASES):
     """(file name, options, message name, printed text) of every capture whose message we have."""
-    for path in sorted((GOLDEN / "cli").glob("*_echo_*.txt")):
-        text = path.read_text()
-        found = re.match(r"# command: ros2 topic echo --once (.*)/w/(\w+)\n", text)
+    for case in captures():
+        found = re.fullmatch(r"ros2 topic echo --once (.*)/w/(\w+)", case.command)
         if found and found[2] in known and not {"--field", "--raw"} & set(found[1].split()):
-            output = text.partition("----- stdout -----\n")[2].rpartition("\n----- stderr -----")[0]
-            yield path.stem, found[1].split(), found[2], output
+            yield case.name, found[1].split(), found[2], case.stdout
 
 
 @pytest.mark.parametrize(

@@ -1,2 +1,0 @@
-def shorten(name):
-    return name.rpartition("/")[2]

@@ -1,1 +1,0 @@
-include("${macro_tool_DIR}/macro_tool_expand.cmake")

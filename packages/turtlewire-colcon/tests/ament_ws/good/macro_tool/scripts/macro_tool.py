@@ -1,4 +1,0 @@
-#!/usr/bin/env python3
-import macro_tool
-
-macro_tool.main()

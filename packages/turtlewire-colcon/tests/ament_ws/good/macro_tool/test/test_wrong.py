@@ -1,2 +1,0 @@
-def test_wrong():
-    assert 1 == 2

@@ -1,3 +1,0 @@
-from .prefixed import prefixed
-
-__all__ = ["prefixed"]

@@ -1,2 +1,0 @@
-def prefixed(name):
-    return f"nav_{name}"

@@ -1,4 +1,0 @@
-#!/usr/bin/env python3
-from updater import status
-
-print(status("motor").name)

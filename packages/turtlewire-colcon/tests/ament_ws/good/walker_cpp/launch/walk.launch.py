@@ -1,6 +1,0 @@
-from launch import LaunchDescription
-from launch_ros.actions import Node
-
-
-def generate_launch_description():
-    return LaunchDescription([Node(package="walker_cpp", executable="walk")])

@@ -1,0 +1,55 @@
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests import archive
+from tests.archive import Entry
+
+NAMES = st.from_regex(r"[a-z0-9_./-]{1,20}", fullmatch=True)
+LINES = st.lists(st.sampled_from([b"a", b"", b"====", b"==== a", b"\r", b"\xff\x00", b"a ===="]))
+
+
+@given(st.dictionaries(NAMES, st.builds(Entry, LINES.map(b"\n".join), st.booleans()), min_size=1))
+def test_each_byte_is_kept(tmp_path_factory, entries):
+    path = tmp_path_factory.mktemp("archive") / "archive.txt"
+    path.write_bytes(archive.write(entries))
+    assert archive.read(path) == entries
+
+
+def test_a_folder_is_packed_and_unpacked(tmp_path):
+    source = tmp_path / "source"
+    (source / "bin").mkdir(parents=True)
+    (source / "bin" / "run").write_text("#!/bin/sh")
+    (source / "bin" / "run").chmod(0o755)
+    (source / "empty").touch()
+    (source / "notes.txt").write_text("a\n\n")
+    path = tmp_path / "archive.txt"
+    command = [sys.executable, archive.__file__]
+    path.write_bytes(subprocess.check_output([*command, "pack", source]))
+    assert path.read_text() == (
+        "==== bin/run (executable) (no newline at the end) ====\n#!/bin/sh\n"
+        "==== empty ====\n==== notes.txt ====\na\n\n"
+    )
+    subprocess.check_call([*command, "unpack", path, tmp_path / "again"])
+    assert archive.pack(tmp_path / "again") == path.read_bytes()
+    archive.unpack(path, tmp_path / "part", "bin/")
+    assert archive.pack(tmp_path / "part").startswith(b"==== run (executable)")
+
+
+def test_what_does_not_fit_is_refused(tmp_path):
+    for entries in ({"a b": Entry(b"")}, {"a": Entry(b"c\n==== b ====")}):
+        with pytest.raises(ValueError, match="does not fit"):
+            archive.write(entries)
+    path = tmp_path / "archive.txt"
+    for text in ("", "a\n==== a ====\n"):
+        path.write_text(text)
+        with pytest.raises(ValueError, match="does not begin"):
+            archive.read(path)
+    path.write_text("==== a ====\n==== a ====\n")
+    with pytest.raises(ValueError, match="twice"):
+        archive.read(path)
