@@ -36,8 +36,8 @@ def read(path: Path) -> dict[str, Entry]:
     for name, executable, unended, content in zip(*[iter(parts)] * 4, strict=True):
         if name.decode() in entries:
             raise ValueError(f"{path} has {name.decode()} twice")
-        content = content.removesuffix(b"\n") if unended else content
-        entries[name.decode()] = Entry(content, executable is not None)
+        kept = content.removesuffix(b"\n") if unended else content
+        entries[name.decode()] = Entry(kept, executable is not None)
     return entries
 
 

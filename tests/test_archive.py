@@ -6,9 +6,9 @@ import sys
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.archive import Entry
 
 from tests import archive
-from tests.archive import Entry
 
 NAMES = st.from_regex(r"[a-z0-9_./-]{1,20}", fullmatch=True)
 LINES = st.lists(st.sampled_from([b"a", b"", b"====", b"==== a", b"\r", b"\xff\x00", b"a ===="]))

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+
 from tests import archive
 
 BIN = Path(sys.executable).parent
@@ -18,7 +19,7 @@ PACKAGES = Path(__file__).parent / "urdf_packages.txt"
 
 @pytest.fixture(scope="session")
 def workspace(tmp_path_factory):
-    """The workspace of `urdf_packages.txt`, built by colcon; its `install` folder is `workspace.install`."""
+    """The packages of the URDF tutorials, built by colcon; `install` is in this folder."""
     if importlib.util.find_spec("colcon_ros") is None:
         pytest.skip("needs colcon: pip install 'turtlewire-colcon[workspace]'")
     folder = tmp_path_factory.mktemp("urdf")

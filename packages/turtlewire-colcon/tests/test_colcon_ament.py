@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import importlib.util
 import os
-import shutil
 import signal
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+
 from tests import archive
 
 PREFIX = Path(sys.prefix)

@@ -10,6 +10,7 @@ import sys
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from tests.golden.cli.captures import captures
 
 from rclpy._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
 from rclpy.impl import log_output
@@ -17,7 +18,6 @@ from rclpy.impl.arguments import Arguments
 from rclpy.impl.rcl_lexer import Lexeme, Lexer, RuleError
 from rclpy.impl.rcl_yaml_param_parser import parse_file, parse_value
 from tests import places
-from tests.golden.cli.captures import captures
 from turtlewire.wire import names
 
 INPUTS = places.GOLDEN / "cli" / "inputs"
@@ -65,9 +65,7 @@ def test_golden_errors(name, capfd, monkeypatch):
     assert [STAMP.sub("[t]", line) for line in capfd.readouterr().err.splitlines()] == log
 
 
-@pytest.mark.parametrize(
-    "name", ["151_rosargs_rclpy_bad_remap2", "154_rosargs_rclpy_unknown_flag"]
-)
+@pytest.mark.parametrize("name", ["151_rosargs_rclpy_bad_remap2", "154_rosargs_rclpy_unknown_flag"])
 def test_golden_exit_codes(name):
     """A program that lets the error through.
 

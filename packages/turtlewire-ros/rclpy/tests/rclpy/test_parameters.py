@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 
 import pytest
+from tests.golden.cli.captures import capture
+from tests.places import GOLDEN
 
 from rcl_interfaces.msg import (
     FloatingPointRange,
@@ -17,8 +19,6 @@ from rclpy import exceptions
 from rclpy._node.parameters import NodeParameters
 from rclpy.parameter import Parameter
 from rclpy.time import Time
-from tests.golden.cli.captures import capture
-from tests.places import GOLDEN
 
 Type = Parameter.Type
 OK = SetParametersResult(successful=True)

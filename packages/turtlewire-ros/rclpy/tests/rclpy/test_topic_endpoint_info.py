@@ -3,13 +3,13 @@ from __future__ import annotations
 import re
 
 import pytest
+from tests.golden.cli.captures import capture
 
 from rclpy.duration import Infinite
 from rclpy.endpoint_info import EndpointTypeEnum, ServiceEndpointInfo
 from rclpy.qos import LivelinessPolicy, QoSProfile
 from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 from rclpy.type_hash import TypeHash
-from tests.golden.cli.captures import capture
 from turtlewire.wire import base
 from turtlewire.wire.qos import INFINITE_NS, Liveliness, QoS
 

@@ -9,11 +9,11 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
+from tests.golden.cli import replay
+from tests.golden.cli.captures import captures
 from tests.needs import needs_cyclone_dds
 
 from ros2cli.node.daemon import shutdown_daemon, spawn_daemon
-from tests.golden.cli import replay
-from tests.golden.cli.captures import captures
 from turtlewire.testing import reserved_domain
 
 CPP = (

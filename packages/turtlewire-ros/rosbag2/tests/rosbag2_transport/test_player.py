@@ -22,6 +22,8 @@ from .conftest import DEEP, LATCHED, end, texts
 GOLDEN = places.GOLDEN / "bag"
 SMALL = GOLDEN / "p_small"
 SCENES = {scene["name"]: scene for scene in json.loads((GOLDEN / "play.json").read_text())}
+#: What listeners of the real player received.
+PLAYED = json.loads((GOLDEN / "played.json").read_text())
 LOSSY = QoSProfile(depth=1000, reliability=ReliabilityPolicy.BEST_EFFORT)
 LEAVES = [f"leaf{i:02d}" for i in range(13)]
 START = 1_700_000_000_000_000_000
@@ -71,7 +73,7 @@ def log_of(program):
 )
 def test_received_messages_equal_those_of_the_real_node(peer, bag_verb, name):
     scene = SCENES[name]
-    golden = json.loads((GOLDEN / "play" / f"{name}.json").read_text())
+    golden = PLAYED[name]
     got = listen(peer, scene["listen"])
     clock = peer.listen("/clock", LOSSY, Clock)
     player = bag_verb("play", SMALL, *scene["options"])
@@ -92,7 +94,7 @@ def test_each_deviation_is_listed():
     """Listeners get what is latched from before an offset, and late ones as much as early ones."""
     found = set()
     for name, scene in SCENES.items():
-        golden = json.loads((GOLDEN / "play" / f"{name}.json").read_text())
+        golden = PLAYED[name]
         for topic in ALL_LATCHED.keys() & scene["listen"].keys():
             early, late = (
                 [row[1] for row in golden[who] if row[0] == topic] for who in ("early", "late")
@@ -108,7 +110,7 @@ def test_each_deviation_is_listed():
 
 def test_services_answer_as_the_real_ones(peer, bag_verb):
     scene = SCENES["services"]
-    golden = json.loads((GOLDEN / "play" / "services.json").read_text())
+    golden = PLAYED["services"]
     got = listen(peer, scene["listen"])
     bag_verb("play", SMALL, *scene["options"])
     everything = 0

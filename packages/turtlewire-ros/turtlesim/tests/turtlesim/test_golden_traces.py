@@ -10,12 +10,13 @@ import json
 import struct
 
 import pytest
+from tests.places import GOLDEN
 
-from tests import places
+from tests import archive
 from turtlesim.model import Pen, World
 from turtlesim.path import PathImage
 
-GOLDEN = places.GOLDEN / "sim"
+TRACED = {path.stem: archive.read(path) for path in (GOLDEN / "sim").glob("*.txt")}
 #: name -> number of ticks in the trace
 TRACES = {
     "arc": 144,
@@ -37,20 +38,19 @@ def float32(value: float) -> float:
     return struct.unpack("<f", struct.pack("<f", value))[0]
 
 
-def read_csv(name: str) -> list[dict[str, str]]:
-    with (GOLDEN / name).open(newline="") as file:
-        return list(csv.DictReader(file))
+def read_csv(trace: str, name: str) -> list[dict[str, str]]:
+    return list(csv.DictReader(TRACED[trace][name].content.decode().splitlines()))
 
 
-def read_json(name: str) -> dict:
-    return json.loads((GOLDEN / name).read_text())
+def read_json(trace: str, name: str) -> dict:
+    return json.loads(TRACED[trace][name].content)
 
 
 class Replay:
     """One trace run through our model: what it published, and the picture that it drew."""
 
     def __init__(self, name: str) -> None:
-        self.rows = read_csv(f"{name}.csv")
+        self.rows = read_csv(name, "poses.csv")
         self.poses: list[tuple[float, ...]] = []
         self.colours: list[tuple[int, int, int]] = []
         self.feedback: list[float] = []
@@ -59,7 +59,7 @@ class Replay:
         self.path = PathImage()
         self.world = World()
         self.turtle = self.world.spawn_centred()
-        commands = read_json(f"{name}.json")["commands"]
+        commands = read_json(name, "commands.json")["commands"]
         for row in self.rows:
             now_s = float(row["t"])
             while commands and commands[0]["t"] <= now_s - SEND_TO_RECEIVE:
@@ -99,8 +99,8 @@ def replays() -> dict[str, Replay]:
 
 
 def test_every_trace_of_the_shelf_is_replayed():
-    assert {path.stem for path in GOLDEN.glob("*.csv") if "." not in path.stem} == set(TRACES)
-    assert {path.name.split(".")[0] for path in GOLDEN.glob("*.path_pixels.json")} == set(PICTURES)
+    assert TRACED.keys() == TRACES.keys()
+    assert {name for name in TRACED if "path_pixels.json" in TRACED[name]} == set(PICTURES)
     assert sum(TRACES.values()) == 2397
 
 
@@ -130,18 +130,20 @@ def test_colours_are_equal(replays, name):
     ]
     assert changes == [
         tuple(int(row[field]) for field in ("tick", "r", "g", "b"))
-        for row in read_csv(f"{name}.color.csv")
+        for row in read_csv(name, "colours.csv")
     ]
 
 
 def test_feedback_and_results_of_rotations_are_equal(replays):
     replay = replays["rotate_absolute"]
-    golden = [float32(float(row["remaining"])) for row in read_csv("rotate_absolute.feedback.csv")]
+    golden = [
+        float32(float(row["remaining"])) for row in read_csv("rotate_absolute", "feedback.csv")
+    ]
     assert len(golden) == 492
     assert replay.feedback == golden
     results = [
         command["delta"]
-        for command in read_json("rotate_absolute.json")["commands"]
+        for command in read_json("rotate_absolute", "commands.json")["commands"]
         if command["kind"] == "result"
     ]
     assert len(results) == 4
@@ -150,7 +152,9 @@ def test_feedback_and_results_of_rotations_are_equal(replays):
 
 @pytest.mark.parametrize(("name", "lines"), [("teleport_absolute", 2), ("wall", 90)])
 def test_wall_warnings_are_equal(replays, name, lines):
-    golden = [line.split("]: ")[1] for line in read_json(f"{name}.json")["log"] if "[WARN]" in line]
+    golden = [
+        line.split("]: ")[1] for line in read_json(name, "commands.json")["log"] if "[WARN]" in line
+    ]
     assert len(golden) == lines
     assert [
         f"Oh no! I hit the wall! (Clamping from [x={x:f}, y={y:f}])"
@@ -160,7 +164,7 @@ def test_wall_warnings_are_equal(replays, name, lines):
 
 @pytest.mark.parametrize(("name", "drawn"), PICTURES.items())
 def test_path_pictures(replays, name, drawn):
-    golden = read_json(f"{name}.path_pixels.json")
+    golden = read_json(name, "path_pixels.json")
     wanted = {
         (column, row): tuple(bytes.fromhex(colour))
         for row, first, last, colour in golden["runs"]
