@@ -51,9 +51,9 @@ Ctrl-C in `ros2 bag convert` leaves a bag that looks complete
 interfaces, from Jazzy on
   msg/test_distro_interfaces.py test_names_and_hashes_are_those_of_the_distribution test_interfaces_of_other_distributions_can_be_loaded
 TF, from Kilted on
-  tf2_py/test_golden.py test_all_answers_equal
+  tf2_py/test_buffer_core.py test_all_answers_equal
 TF, in Lyrical
-  tf2_py/test_golden.py test_all_answers_equal
+  tf2_py/test_buffer_core.py test_all_answers_equal
   tf2_ros/test_buffer_server.py test_a_time_message_is_refused_in_lyrical
   tf2_ros/test_tools.py test_lyrical_ignores_what_are_no_flags
 rclpy, from Kilted on
@@ -505,7 +505,7 @@ rosbags, mcap, mcap-ros2-support (PyPI)
   bag/test_other_writers.py test_rosbags test_mcap
 evo (PyPI)
   trajectory/test_metrics.py test_the_table_is_evos
-  trajectory/test_evo_reads_bags.py test_evo_samples_our_buffer
+  trajectory/test_metrics.py test_evo_samples_our_buffer
 transforms3d (PyPI)
   tf_transformations/test_tf_transformations.py test_euler_conventions
 yourdfpy (PyPI)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import builtins
+import importlib.metadata
 import re
 
 import pytest
@@ -67,3 +68,21 @@ def test_an_attribute_of_a_subclass_is_its_own() -> None:
         Base.old  # type: ignore[attr-defined]  # noqa: B018
     Base.old = 3  # type: ignore[attr-defined]
     assert "old" in dir(Derived())
+
+
+# The public names of ``import turtlewire``.
+
+
+def test_dir_lists_the_public_names() -> None:
+    assert dir(turtlewire) == ["Buffer", "Transform", "__version__", "connect", "show"]
+    for name in dir(turtlewire):
+        assert getattr(turtlewire, name) is not None
+
+
+def test_version() -> None:
+    assert turtlewire.__version__ == importlib.metadata.version("turtlewire")
+
+
+def test_other_names_are_errors() -> None:
+    with pytest.raises(AttributeError, match="'turtlewire' has no attribute 'Bufer'"):
+        _ = turtlewire.Bufer  # type: ignore[attr-defined]

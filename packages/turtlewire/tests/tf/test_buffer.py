@@ -1,6 +1,6 @@
 """The buffer's public interface, on both cores.
 
-What tf2 answers is in tests/tf2_py/test_golden.py.
+What tf2 answers is in tests/tf2_py/test_buffer_core.py.
 """
 
 from __future__ import annotations

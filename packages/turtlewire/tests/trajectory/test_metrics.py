@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 import functools
+import os
+import subprocess
+import sys
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.bags import write_bag
 
+from turtlewire import Buffer
 from turtlewire.trajectory import Trajectory, compare
 from turtlewire.trajectory.alignment import align, associate
 from turtlewire.trajectory.metrics import RELATIONS, ape, rpe
@@ -335,3 +341,30 @@ def test_uncomputable_values_are_reported():
         rpe(standing, standing, "point_distance_error_ratio")
     with pytest.raises(ValueError, match="no two of 2 poses are 3 m apart"):
         rpe(standing, standing, delta=3, unit="m")
+
+
+# evo, unmodified, reads the transforms of a bag through our `tf2_py`.
+
+
+EVO = Path(sys.executable).parent / "evo_traj"
+
+
+def test_evo_samples_our_buffer(tmp_path):
+    bag = write_bag(tmp_path / "made", count=500)
+    (path,) = bag.glob("*.mcap")
+    done = subprocess.run(
+        [EVO, "mcap", path, "/tf:odom.camera", "--save_as_tum"],
+        cwd=tmp_path,
+        env={**os.environ, "HOME": str(tmp_path), "MPLBACKEND": "Agg"},
+        capture_output=True,
+        text=True,
+        timeout=840,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "50 poses" in done.stdout
+    (saved,) = tmp_path.glob("*.tum")
+    of_evo = Trajectory.load(saved)
+    ours = Buffer.from_bag(bag).trajectory("odom", "camera", stamps=of_evo.stamps_ns)
+    assert len(ours) == len(of_evo) == 50
+    assert ours.poses == pytest.approx(of_evo.poses, abs=1e-6)

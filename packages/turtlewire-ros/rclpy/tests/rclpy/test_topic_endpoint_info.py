@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import json
 import re
 
 import pytest
@@ -7,11 +8,13 @@ from tests.golden.cli.captures import capture
 
 from rclpy.duration import Infinite
 from rclpy.endpoint_info import EndpointTypeEnum, ServiceEndpointInfo
+from rclpy.node import Node
 from rclpy.qos import LivelinessPolicy, QoSProfile
 from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 from rclpy.type_hash import TypeHash
-from turtlewire.wire import base
-from turtlewire.wire.qos import INFINITE_NS, Liveliness, QoS
+from tests import places
+from turtlewire.wire import base, names
+from turtlewire.wire.qos import INFINITE_NS, Durability, Liveliness, QoS, Reliability
 
 HASH = "RIHS01_9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a"
 
@@ -150,3 +153,61 @@ def test_values_of_other_types_are_refused(kind):
     with pytest.raises(AssertionError, match="expected an object of type str"):
         kind(node_namespace=3)
     assert kind(node_name="a") == kind(node_name="a") != kind(node_name="b")
+
+
+# The built-in endpoints of every node, compared with the endpoints that a real node announced
+# (golden/wire/endpoints.json).
+
+
+GOLDEN = places.GOLDEN / "wire" / "endpoints.json"
+
+
+def announced():
+    """Of `/ns1/bare_node`.
+
+    (reader or writer, topic, type, its hash, reliable, transient local, depth, lifespan).
+    """
+    for each in json.loads(GOLDEN.read_text())["nodes"]["/ns1/bare_node"]:
+        qos = each["qos"]
+        yield (
+            each["kind"],
+            each["topic"],
+            each["type"],
+            re.search(r"RIHS01_\w+", each["user_data"])[0],
+            qos["Reliability"]["kind"] == "Reliable",
+            qos["Durability"]["kind"] == "TransientLocal",
+            qos["History"]["depth"],
+            qos.get("Lifespan", {}).get("lifespan", INFINITE_NS),
+        )
+
+
+def ours(graph):
+    for each in graph.endpoints():
+        yield (
+            "writer" if each.kind == "publisher" else "reader",
+            names.topic_to_dds(each.topic) if each.topic.startswith("/") else each.topic,
+            names.type_to_dds(each.type_name),
+            each.type_hash,
+            each.qos.reliability == Reliability.RELIABLE,
+            each.qos.durability == Durability.TRANSIENT_LOCAL,
+            each.qos.depth,
+            each.qos.lifespan_ns or INFINITE_NS,
+        )
+
+
+def test_a_bare_node_announces_what_a_real_one_does(context):
+    node = Node("bare_node", namespace="/ns1", context=context)
+    golden = sorted(announced())
+    assert len(golden) == 16
+    assert sorted(ours(context.wire.graph)) == golden
+    node.destroy_node()
+    assert context.wire.graph.endpoints() == []
+
+
+def test_the_type_description_service_can_be_destroyed(context):
+    node = Node("described", context=context, start_parameter_services=False)
+    service = node._type_description_service
+    assert len(list(node.services)) == 1
+    service.destroy()
+    service.destroy()
+    assert list(node.services) == []

@@ -6,6 +6,9 @@ Carrots, time travel and awaiting, in lock-step.
 from __future__ import annotations
 
 import math
+import re
+import subprocess
+import sys
 
 import pytest
 from learning_tf2_py.dynamic_frame_tf2_broadcaster import DynamicFrameBroadcaster
@@ -14,6 +17,7 @@ from learning_tf2_py.turtle_tf2_async_listener import AsyncListener
 from learning_tf2_py.turtle_tf2_broadcaster import TurtleBroadcaster
 from learning_tf2_py.turtle_tf2_listener import TurtleListener
 from learning_tf2_py.turtle_tf2_time_travel import TimeTraveller
+from tests.places import HOW_TO
 
 from rclpy.time import Time
 from turtlesim.testing import Simulation
@@ -73,3 +77,20 @@ def test_turtle2_is_driven_by_transforms_that_are_awaited(simulation):
     assert simulation.distance("turtle1", "turtle2") < 0.1
     assert len(asked) > 150
     assert all(answer.done() for answer in asked[:-1])  # one after the other
+
+
+# The program of the how-to page prints what the page says.
+
+
+PAGE = HOW_TO / "simulate.md"
+
+
+def test_the_page_does_what_it_says():
+    (program, printed), *others = re.findall(
+        r"^```python\n(.*?)^```\n\n```text\n(.*?)^```$", PAGE.read_text(), re.MULTILINE | re.DOTALL
+    )
+    assert not others
+    run = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    assert run.stdout == printed
