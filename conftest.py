@@ -25,6 +25,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 from tests.needs import CYCLONE_DDS, HAS_CYCLONE_DDS
+from tests.places import ROS2
 
 from turtlewire.testing import isolated_domain, reserved_domain
 
@@ -378,7 +379,7 @@ def ros2_launch(run, tmp_path):
     def start(content, *arguments, name="test.launch.py", **options):
         (tmp_path / name).write_text(content)
         return run(
-            Path(sys.executable).parent / "ros2",
+            ROS2,
             "launch",
             f"./{name}",
             *arguments,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -25,6 +27,12 @@ LESSON_CODE = ROOT / "packages" / "turtlewire-class" / "src"
 LESSONS = LESSON_CODE / "turtle_lesson" / "lessons"
 #: Sphinx's settings.
 SITE = ROOT / "docs" / "sphinx"
+#: The commands of this environment.
+BIN = Path(sys.executable).parent
+ROS2 = BIN / "ros2"
+TURTLEWIRE = BIN / "turtlewire"
+#: The variable that has them first.
+PATH = f"{BIN}{os.pathsep}{os.environ['PATH']}"
 
 
 def modules_of_tests() -> list[Path]:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import doctest
-import re
 import subprocess
 import sys
 
+from tests.how_to import blocks_of
 from tests.places import ROOT
 
 
@@ -21,8 +21,7 @@ def test_its_examples(tmp_path, monkeypatch):
 
 def test_its_two_programs_meet():
     text = (ROOT / "docs" / "api.md").read_text()
-    blocks = re.findall(r"^```python\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
-    sender, receiver = (block for block in blocks if not block.startswith(">>>"))
+    sender, receiver = (each for each in blocks_of(text, "python") if not each.startswith(">>>"))
     with subprocess.Popen([sys.executable, "-c", sender]) as sending:
         try:
             found = subprocess.run(

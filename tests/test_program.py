@@ -7,13 +7,12 @@ import sys
 from pathlib import Path
 
 import pytest
-from tests.places import ROOT
+from tests.places import BIN, ROOT
 
 from turtlewire.program import program
 from turtlewire_ros.executables import executable_paths
 from turtlewire_ros.prefix import own_prefix, package_names
 
-BIN = Path(sys.executable).parent
 BAG = "tests/golden/bag/talker"
 COMMANDS = [
     "turtlewire --help",

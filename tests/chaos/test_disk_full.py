@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import sys
-from pathlib import Path
 
 import pytest
+from tests.places import ROS2
 
 pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(sys.platform == "win32", reason="there a file's size cannot be limited"),
 ]
 
-ROS2 = Path(sys.executable).parent / "ros2"
 #: Runs the arguments while no file can grow beyond so many bytes.
 LIMITED = "import os, sys; os.execvp(sys.argv[1], sys.argv[1:])"
 LOGGING = """

@@ -13,10 +13,10 @@ import urllib.request
 from pathlib import Path
 
 import pytest
+from tests.places import ROS2
 
 pytestmark = pytest.mark.slow
 
-ROS2 = Path(sys.executable).parent / "ros2"
 DATAGRAMS = 20_000
 #: Submessages of RTPS: data, fragments, heartbeats, gaps, acknowledgements, times, and unknown
 #: ones.

@@ -8,13 +8,13 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.places import ROS2
 
 pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(sys.platform != "linux", reason="only Linux shows whose descendant it is"),
 ]
 
-ROS2 = Path(sys.executable).parent / "ros2"
 
 #: A program with a child, which it does not stop. Both say that they are ready, each by a single
 #: write: an unbuffered `print` makes two, and the other's may come in between.

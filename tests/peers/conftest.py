@@ -8,13 +8,12 @@ from contextlib import suppress
 from pathlib import Path
 
 import pytest
-from tests.places import ROOT
+from tests.places import BIN, ROOT
 
 from turtlewire.wire import open_context
 
 PEER = Path(__file__).with_name("peer.py")
 SERVER = Path(__file__).with_name("server.py")
-BIN = Path(sys.executable).parent
 LONG = 60_000_000_000
 
 #: A node takes 700 MB of address space; one that misreads a request takes all that it can get.

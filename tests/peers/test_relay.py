@@ -7,12 +7,10 @@ from __future__ import annotations
 
 import os
 import re
-import sys
-from pathlib import Path
 
 import pytest
+from tests.places import BIN
 
-BIN = Path(sys.executable).parent
 pytestmark = pytest.mark.slow
 
 #: Services with Fast DDS need the compiled core.

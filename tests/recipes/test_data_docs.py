@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import os
 import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
-from tests.places import EXAMPLES, HOW_TO
+from tests.how_to import blocks_of
+from tests.places import EXAMPLES, HOW_TO, PATH
 
 TRAINING = (HOW_TO / "training_data.md").read_text(encoding="utf-8")
 RERUN = (HOW_TO / "rerun.md").read_text(encoding="utf-8")
@@ -17,13 +17,9 @@ RERUN = (HOW_TO / "rerun.md").read_text(encoding="utf-8")
 
 @pytest.fixture(autouse=True)
 def _in_a_clone(monkeypatch, tmp_path):
-    monkeypatch.setenv("PATH", f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")
+    monkeypatch.setenv("PATH", PATH)
     (tmp_path / "examples").symlink_to(EXAMPLES, target_is_directory=True)
     monkeypatch.chdir(tmp_path)
-
-
-def blocks(page, kind):
-    return re.findall(rf"^```{kind}\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
 
 
 def shell(commands):
@@ -47,10 +43,10 @@ def test_the_search_words_stand_in_the_first_line(page, words):
 
 
 def test_the_bags_are_converted_and_read():
-    (convert,) = blocks(TRAINING, "sh")
-    printed, rows = blocks(TRAINING, "text")
+    (convert,) = blocks_of(TRAINING, "sh")
+    printed, rows = blocks_of(TRAINING, "text")
     assert shell(convert).stdout == printed
-    (program,) = blocks(TRAINING, "python")
+    (program,) = blocks_of(TRAINING, "python")
     done = subprocess.run(
         [sys.executable, "-W", "error", "-c", program], capture_output=True, text=True, check=False
     )
@@ -69,11 +65,11 @@ def test_the_options_and_modules_of_the_page_exist():
 
 def test_a_bag_becomes_a_file_of_rerun():
     rerun = pytest.importorskip("rerun", reason="the recipe needs Python 3.11")
-    (commands,) = blocks(RERUN, "sh")
+    (commands,) = blocks_of(RERUN, "sh")
     shell(commands)
     chunks = list(rerun.chunk.RrdReader("arm.rrd").stream())
     assert {"/tf/hand", "/joint_states/elbow"} <= {chunk.entity_path for chunk in chunks}
-    live = blocks(RERUN, "bash")[1]
+    live = blocks_of(RERUN, "bash")[1]
     shell(f"{live.strip()} -o live.rrd --seconds 0.5")
     assert Path("live.rrd").stat().st_size > 0
 

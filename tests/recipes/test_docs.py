@@ -2,25 +2,21 @@
 
 from __future__ import annotations
 
-import doctest
-import os
 import re
 import subprocess
 import sys
-import time
-from pathlib import Path
 
 import pytest
-from tests.places import EXAMPLES, HOW_TO, ROOT
+from tests.how_to import blocks_of, wait_until_printed
+from tests.places import EXAMPLES, HOW_TO, PATH, ROOT
 
 PAGE = (HOW_TO / "simulators.md").read_text(encoding="utf-8")
-BIN = Path(sys.executable).parent
 MUJOCO = (EXAMPLES / "mujoco_robot" / "mujoco_robot.py").read_text(encoding="utf-8")
 
 
 @pytest.fixture(autouse=True)
 def _in_a_clone(monkeypatch):
-    monkeypatch.setenv("PATH", f"{BIN}{os.pathsep}{os.environ['PATH']}")
+    monkeypatch.setenv("PATH", PATH)
     monkeypatch.chdir(ROOT)
 
 
@@ -33,17 +29,14 @@ def test_the_search_words_stand_in_the_first_line():
 
 
 def test_the_commands_move_the_arm(run):
-    start, command = re.findall(r"^```sh\n(.*?)```$", PAGE, re.MULTILINE | re.DOTALL)
+    start, command = blocks_of(PAGE, "sh")
     program = run("bash", "-c", f"exec {start.strip().removesuffix(' &')}")
     program.wait_for("simulating ")
     publish, echo = command.replace("\\\n", " ").splitlines()
     published = run("bash", "-c", f"exec {publish}")
     assert published.wait() == 0, published.text
-    (wanted,) = re.findall(r"^```text\n(At time .*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
-    limit = time.monotonic() + 60
-    check = doctest.OutputChecker().check_output
-    while not check(wanted, printed := text_of(run, echo), doctest.ELLIPSIS):  # the arm moves
-        assert time.monotonic() < limit, printed
+    (wanted,) = (text for text in blocks_of(PAGE, "text") if text.startswith("At time "))
+    wait_until_printed(wanted, lambda: text_of(run, echo))  # the arm moves
 
 
 def text_of(run, command):

@@ -5,14 +5,13 @@ from __future__ import annotations
 import importlib.util
 import os
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+from tests.places import BIN, PATH
 
 from tests import archive
 
-BIN = Path(sys.executable).parent
 #: The packages of the URDF tutorials.
 PACKAGES = Path(__file__).parent / "urdf_packages.txt"
 
@@ -34,7 +33,7 @@ def workspace(tmp_path_factory):
             "console_direct+",
         ],
         cwd=folder,
-        env=os.environ | {"PATH": f"{BIN}{os.pathsep}{os.environ['PATH']}"},
+        env=os.environ | {"PATH": PATH},
         capture_output=True,
         text=True,
         check=False,

@@ -2,44 +2,38 @@
 
 from __future__ import annotations
 
-import doctest
-import os
 import re
-import sys
 import time
-from pathlib import Path
+from functools import partial
 
-from tests.places import HOW_TO
+from tests.how_to import blocks, wait_until_printed
+from tests.places import BIN, HOW_TO, PATH
 
 from joint_state_publisher.description import JointOptions, read_joints
 
 PAGE = HOW_TO / "robots.md"
-BIN = Path(sys.executable).parent
-BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 #: Commands that the page shows without running them.
 ONLY_SHOWN = ("ros2 launch urdf_tutorial", "ros2 launch examples/robots/walker")
 
 
 def test_the_page_does_what_it_says(run, tmp_path, monkeypatch):
-    monkeypatch.setenv("PATH", f"{BIN}{os.pathsep}{os.environ['PATH']}")
+    monkeypatch.setenv("PATH", PATH)
     monkeypatch.setenv("TURTLEWIRE_BROWSER", "0")
     monkeypatch.chdir(tmp_path)
     names = iter(re.findall(r"^Save this as `(\S+)`:$", PAGE.read_text(), re.MULTILINE))
-    lines: list[str] = []
     background = []
     checked = 0
-    for kind, text in BLOCK.findall(PAGE.read_text()):
+    for kind, text in blocks(PAGE.read_text()):
         if kind in {"xml", "python"}:
             (tmp_path / next(names)).write_text(text)
         elif kind == "sh":
             for line in text.splitlines():
-                lines = [line]
                 if line.endswith(" &"):
                     background.append(run("bash", "-c", f"exec {line.removesuffix(' &')}"))
                 else:
                     printed(run, line)
         elif not text.startswith(ONLY_SHOWN):
-            wait_until_printed(run, lines[-1], text)
+            wait_until_printed(text, partial(printed, run, line))
             checked += 1
     assert checked == 2
     background[-1].wait_for(r"The joints' sliders are at http://127\.0\.0\.1:\d+/")
@@ -50,13 +44,6 @@ def printed(run, line: str) -> str:
     program = run("bash", "-c", f"exec {line}")
     assert program.wait() == 0, program.text
     return "".join(f"{text}\n" for text in program.text.splitlines() if "[INFO]" not in text)
-
-
-def wait_until_printed(run, line: str, text: str) -> None:
-    limit = time.monotonic() + 60
-    options = doctest.ELLIPSIS | doctest.DONT_ACCEPT_BLANKLINE
-    while not doctest.OutputChecker().check_output(text, got := printed(run, line), options):
-        assert time.monotonic() < limit, got
 
 
 def test_the_table_names_every_parameter(run, tmp_path):

@@ -6,14 +6,11 @@ import importlib
 import math
 import re
 import signal
-import sys
-from pathlib import Path
 
 import pytest
-from tests.places import EXAMPLES
+from tests.places import EXAMPLES, ROS2
 
 ROBOTS = EXAMPLES / "robots"
-ROS2 = Path(sys.executable).parent / "ros2"
 
 
 @pytest.fixture(autouse=True)

@@ -5,16 +5,15 @@ from __future__ import annotations
 import json
 import re
 import subprocess
-import sys
 import xml.etree.ElementTree as ET
-from pathlib import Path
 
 import pytest
+from tests.places import BIN
 
 from tests import places
 
 GOLDEN = places.GOLDEN / "robots"
-XACRO = Path(sys.executable).parent / "xacro"
+XACRO = BIN / "xacro"
 RUNS = {
     " ".join(run["args"]): run for run in json.loads((GOLDEN / "xacro/expected.json").read_text())
 }

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import doctest
-import os
 import re
-import sys
 from pathlib import Path
 
 import pytest
-from tests.places import ROOT, SITE, modules_of_tests
+from tests.how_to import blocks_of
+from tests.places import PATH, ROOT, SITE, modules_of_tests
 
 import turtlewire
 from turtlewire.cli.main import main
@@ -38,13 +37,9 @@ def test_the_examples(page, examples):
 
 @pytest.mark.parametrize("page", ["install.md", "differences.md"])
 def test_the_commands(page, run, monkeypatch):
-    monkeypatch.setenv("PATH", f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")
+    monkeypatch.setenv("PATH", PATH)
     text = (DOCS / page).read_text(encoding="utf-8")
-    commands = [
-        line
-        for block in re.findall(r"^```sh\n(.*?)```$", text, re.MULTILINE | re.DOTALL)
-        for line in block.splitlines()
-    ]
+    commands = [line for block in blocks_of(text, "sh") for line in block.splitlines()]
     assert len(commands) == 1
     for command in commands:
         program = run("bash", "-c", f"exec {command}")
@@ -161,11 +156,11 @@ def test_programs_named_on_a_page_exist(page):
 
 def test_the_commands_of_turtlesims_page(run, monkeypatch):
     """turtlesim.md, but for the ssh into a robot that is not there."""
-    monkeypatch.setenv("PATH", f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")
+    monkeypatch.setenv("PATH", PATH)
     monkeypatch.setenv("TURTLEWIRE_BROWSER", "0")
     monkeypatch.setenv("TURTLEWIRE_PORT", "0")
     text = (DOCS / "how-to" / "turtlesim.md").read_text(encoding="utf-8")
-    blocks = re.findall(r"^```sh\n(.*?)```$", text, re.MULTILINE | re.DOTALL)
+    blocks = blocks_of(text, "sh")
     simulator, parameter, mimic, lan, ssh = (block.replace("\\\n", "") for block in blocks)
     started = run("bash", "-c", f"exec {simulator}")
     started.wait_for(r"Spawning turtle \[turtle1\]")

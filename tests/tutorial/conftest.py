@@ -7,11 +7,8 @@ import re
 import shutil
 import sys
 import threading
-from pathlib import Path
 
 import pytest
-
-BIN = Path(sys.executable).parent
 
 
 @pytest.fixture

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import re
 import shlex
 import shutil
-import sys
-from pathlib import Path
 
 import pytest
-from tests.places import HOW_TO, LEARNING, ROOT
+from tests.how_to import blocks
+from tests.places import BIN, HOW_TO, LEARNING, ROOT
 
 PAGE = (HOW_TO / "first_package.md").read_text(encoding="utf-8")
-BIN = Path(sys.executable).parent
-BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
+BLOCKS = blocks(PAGE)
 HAT, LAUNCH = (text for kind, text in BLOCKS if kind == "python")
 MAKE, BUILD = (text for kind, text in BLOCKS if kind == "bash")
 (DATA_FILES,) = (text for kind, text in BLOCKS if kind == "diff")

@@ -9,15 +9,13 @@ import os
 import signal
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
-from tests.places import LEARNING
+from tests.places import LEARNING, ROS2
 
 from turtlewire import Buffer
 from turtlewire.tf.listener import TransformListener
 
-ROS2 = Path(sys.executable).parent / "ros2"
 PACKAGE = LEARNING
 LONG_NS = 60_000_000_000
 

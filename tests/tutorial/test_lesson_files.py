@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import shutil
 import signal
-import sys
-from pathlib import Path
 
 import pytest
-from tests.places import LESSONS, ROOT
+from tests.places import LESSONS, ROOT, ROS2
 
 from turtle_lesson.lesson import load_lesson
 
-ROS2 = Path(sys.executable).parent / "ros2"
 VERBATIM = ROOT / "tests" / "tutorial" / "verbatim" / "learning_tf2_py"
 SPAWN = "{x: 4.0, y: 2.0, theta: 0.0, name: 'turtle2'}"
 

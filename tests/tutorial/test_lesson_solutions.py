@@ -8,10 +8,9 @@ import math
 import re
 import signal
 import sys
-from pathlib import Path
 
 import pytest
-from tests.places import LEARNING, LESSONS
+from tests.places import LEARNING, LESSONS, ROS2
 
 from turtle_lesson.lesson import load_lesson
 from turtlesim.testing.faults import WrongTime
@@ -21,7 +20,6 @@ from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import QoS
 
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(300)]
-ROS2 = Path(sys.executable).parent / "ros2"
 PACKAGE = LEARNING
 LONG_NS = 60_000_000_000
 MIDDLE = 499 / 90  # where turtle1 stands

@@ -7,16 +7,13 @@ from __future__ import annotations
 
 import math
 import signal
-import sys
-from pathlib import Path
 
 import pytest
-from tests.places import LEARNING
+from tests.places import LEARNING, ROS2
 
 from turtlewire import Buffer
 from turtlewire.tf.listener import TransformListener
 
-ROS2 = Path(sys.executable).parent / "ros2"
 PACKAGE = LEARNING
 LONG_NS = 60_000_000_000
 

@@ -6,12 +6,9 @@ Its programs use `with rclpy.init()` and `turtlesim_msgs`; its launch files come
 from __future__ import annotations
 
 import signal
-import sys
-from pathlib import Path
 
 import pytest
-
-ROS2 = Path(sys.executable).parent / "ros2"
+from tests.places import ROS2
 
 BROADCASTER = """
 import math

@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import itertools
 import signal
-import sys
 import threading
-from pathlib import Path
 
 import pytest
-from tests.places import LEARNING
+from tests.places import LEARNING, ROS2
 
 from turtlewire import Buffer, msg
 from turtlewire.tf.listener import QOS, TOPIC, TYPE_NAME, TransformListener
 from turtlewire.wire.base import TypeId
 
-ROS2 = Path(sys.executable).parent / "ros2"
 PACKAGE = LEARNING
 COUNT = 20
 NAMES = [f"turtle{k}" for k in range(1, COUNT + 1)]

@@ -8,12 +8,12 @@ from __future__ import annotations
 import hashlib
 import re
 import signal
-import sys
 from itertools import pairwise
 from pathlib import Path
 
+from tests.places import ROS2
+
 HERE = Path(__file__).parent
-ROS2 = Path(sys.executable).parent / "ros2"
 VERBATIM = HERE / "verbatim" / "learning_tf2_py"
 GOLDEN = HERE.parent / "golden" / "tutorial" / "main"
 LISTINGS = {

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import signal
-import sys
-from pathlib import Path
 
 import pytest
+from tests.places import ROS2
 
 import demo_nodes_cpp
 
-ROS2 = Path(sys.executable).parent / "ros2"
 ROBOT = """<?xml version="1.0"?>
 <robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:property name="tip" value="hand"/>

@@ -6,29 +6,24 @@ import doctest
 import re
 import signal
 import sys
-from pathlib import Path
 
 import pytest
-from tests.places import HOW_TO
+from tests.how_to import blocks_of
+from tests.places import HOW_TO, ROS2
 
 from turtlewire.package_sources import source_hint
 
-PAGE = HOW_TO / "extras.md"
-ROS2 = Path(sys.executable).parent / "ros2"
-
-
-def blocks(kind):
-    return re.findall(rf"^```{kind}\n(.*?)^```$", PAGE.read_text(), re.MULTILINE | re.DOTALL)
+PAGE = (HOW_TO / "extras.md").read_text()
 
 
 def test_the_images_are_as_shown():
-    result = doctest.testfile(str(PAGE), module_relative=False)
+    result = doctest.testfile(str(HOW_TO / "extras.md"), module_relative=False)
     assert result.attempted >= 6
     assert result.failed == 0
 
 
 def test_the_diagnostics_arrive(run):
-    node = run(sys.executable, "-c", blocks("python")[0])
+    node = run(sys.executable, "-c", blocks_of(PAGE, "python")[0])
     words = ("--once", "/diagnostics", "diagnostic_msgs/msg/DiagnosticArray")
     echo = run(ROS2, "topic", "echo", *words)
     assert echo.wait() == 0
@@ -38,7 +33,7 @@ def test_the_diagnostics_arrive(run):
 
 
 def test_the_markers_are_offered(run):
-    node = run(sys.executable, "-c", blocks("python")[1])
+    node = run(sys.executable, "-c", blocks_of(PAGE, "python")[1])
     service = "/slider/get_interactive_markers"
     call = run(ROS2, "service", "call", service, "visualization_msgs/srv/GetInteractiveMarkers")
     assert call.wait() == 0
@@ -53,7 +48,7 @@ def test_the_markers_are_offered(run):
 
 
 def test_the_commands_run(run):
-    programs = [run(ROS2, *line.split()[1:]) for line in blocks("sh")[0].splitlines()]
+    programs = [run(ROS2, *line.split()[1:]) for line in blocks_of(PAGE, "sh")[0].splitlines()]
     for program in programs:
         program.wait_for("Hello World")
     for program in programs:
@@ -62,7 +57,7 @@ def test_the_commands_run(run):
 
 
 def test_the_components_are_loaded(run):
-    start, *loads = [line.split()[1:] for line in blocks("sh")[1].splitlines()]
+    start, *loads = [line.split()[1:] for line in blocks_of(PAGE, "sh")[1].splitlines()]
     container = run(ROS2, *start)
     seen = ""
     while "/ComponentManager" not in seen:
@@ -79,16 +74,14 @@ def test_the_components_are_loaded(run):
 
 
 def test_a_missing_package_names_its_repository(run):
-    command, *output = blocks("console")[0].splitlines()
+    command, *output = blocks_of(PAGE, "console")[0].splitlines()
     result = run(ROS2, *command.split()[2:])
     assert result.wait() == 1
     assert result.text.splitlines() == output
 
 
 def test_the_table_says_what_the_errors_say():
-    rows = re.findall(
-        r"^\| `.*` \| (\S+), `(\S+)` \| `(.* (\S+))` \|$", PAGE.read_text(), re.MULTILINE
-    )
+    rows = re.findall(r"^\| `.*` \| (\S+), `(\S+)` \| `(.* (\S+))` \|$", PAGE, re.MULTILINE)
     assert len(rows) == 3
     for repository, branch, build, package in rows:
         hint = source_hint(package)
@@ -97,7 +90,7 @@ def test_the_table_says_what_the_errors_say():
 
 
 def test_the_launch_file_is_one(run, tmp_path):
-    (tmp_path / "show_launch.py").write_text(blocks("python")[2])
+    (tmp_path / "show_launch.py").write_text(blocks_of(PAGE, "python")[2])
     shown = run(ROS2, "launch", tmp_path / "show_launch.py", "--print-description")
     assert shown.wait() == 0, shown.text
     assert "IncludeLaunchDescription" in shown.text
@@ -107,4 +100,4 @@ def test_the_launch_file_is_one(run, tmp_path):
     "package", ["cv_bridge", "diagnostic_updater", "interactive_markers", "demo_nodes_cpp"]
 )
 def test_the_page_names_every_package(package):
-    assert f"`{package}`" in PAGE.read_text()
+    assert f"`{package}`" in PAGE

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import os
-import re
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
-from tests.places import EXAMPLES, HOW_TO
+from tests.how_to import blocks_of
+from tests.places import EXAMPLES, HOW_TO, ROS2
 
 from turtle_class.catalogue import exercises
 from turtle_class.roster import read_roster
@@ -20,18 +19,14 @@ PAGE = (HOW_TO / "classroom.md").read_text(encoding="utf-8")
 PROGRAM = "import sys; from turtlewire.cli.main import main; sys.exit(main())"
 
 
-def blocks(language):
-    return re.findall(rf"^```{language}\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
-
-
 def test_the_page_does_what_it_says(run, tmp_path, monkeypatch):
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join(sys.path))
     shutil.copytree(EXAMPLES, tmp_path / "examples")
-    (tmp_path / "roster.csv").write_text(blocks("text")[0], encoding="utf-8")
+    (tmp_path / "roster.csv").write_text(blocks_of(PAGE, "text")[0], encoding="utf-8")
     assert [seat.name for seat in read_roster(tmp_path / "roster.csv")] == ["Ana", "Björn"]
     solved = exercises()[0]
     solve(solved, tmp_path / "submissions/ana" / solved.name)
-    lines = [line for block in blocks("sh") for line in block.splitlines()]
+    lines = [line for block in blocks_of(PAGE, "sh") for line in block.splitlines()]
     assert len(lines) == 9
     for line in lines:
         do(run, line, tmp_path)
@@ -51,7 +46,7 @@ def do(run, line, folder):
         program.kill()
         return
     if words[0] == "ros2":
-        ros2 = Path(sys.executable).parent / "ros2"
+        ros2 = ROS2
         program = run(ros2, *words[1:], cwd=folder, environment={"TURTLEWIRE_BROWSER": "0"})
         program.wait_for("static_frame_broadcaster|python-\\d.: process started")
         program.kill()

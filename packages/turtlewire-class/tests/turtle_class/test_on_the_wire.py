@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 import signal
-import sys
 import threading
-from pathlib import Path
 
 import pytest
+from tests.places import ROS2
 
 from turtle_class import commands
 from turtle_class.catalogue import chosen
@@ -20,7 +19,6 @@ from turtlewire.wire.qos import QoS
 
 from .conftest import solve
 
-ROS2 = Path(sys.executable).parent / "ros2"
 POSE = "turtlesim/msg/Pose"
 MINUTE_NS = 60_000_000_000
 #: Of each exercise: target, source, and where turtle1 and turtle2, as (x, y, theta), put it.

@@ -3,13 +3,10 @@
 import json
 import signal
 import socket
-import sys
-from pathlib import Path
 
 import pytest
+from tests.places import TURTLEWIRE
 from websockets.sync.client import connect
-
-TURTLEWIRE = Path(sys.executable).parent / "turtlewire"
 
 
 @pytest.fixture

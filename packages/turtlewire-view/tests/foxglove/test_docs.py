@@ -3,22 +3,17 @@
 import re
 import shlex
 import sys
-from pathlib import Path
 
-from tests.places import HOW_TO
+from tests.how_to import blocks_of
+from tests.places import BIN, HOW_TO
 
 from turtlewire.wire.qos import Durability
 
 PAGE = (HOW_TO / "foxglove.md").read_text()
-BIN = Path(sys.executable).parent
-
-
-def blocks(language):
-    return re.findall(rf"```{language}\n(.*?)```", PAGE, re.DOTALL)
 
 
 def test_the_commands_of_the_page_start(run):
-    commands = [shlex.split(line) for block in blocks("sh") for line in block.splitlines()]
+    commands = [shlex.split(line) for block in blocks_of(PAGE, "sh") for line in block.splitlines()]
     commands += [shlex.split(line) for line in re.findall(r"`(turtlewire foxglove [^`]+)`", PAGE)]
     assert len(commands) == 8
     first = commands[0]
@@ -30,13 +25,13 @@ def test_the_commands_of_the_page_start(run):
             r"^Foxglove and Lichtblick connect to ws://.*:\d+ \(Ctrl-C ends\)$"
         )
         if words == first:
-            assert re.sub(r":\d+ ", ":8765 ", said[0]) + "\n" == blocks("text")[0]
+            assert re.sub(r":\d+ ", ":8765 ", said[0]) + "\n" == blocks_of(PAGE, "text")[0]
         program.kill()
 
 
 def test_the_client_of_the_page(serve, robot, run, tmp_path):
     robot.say(robot.publisher("/greeting", durability=Durability.TRANSIENT_LOCAL), "hello")
-    (tmp_path / "client.py").write_text(blocks("python")[0])
+    (tmp_path / "client.py").write_text(blocks_of(PAGE, "python")[0])
     program = run(sys.executable, tmp_path / "client.py", serve().url, "/greeting")
     program.wait_for("^hello$")
     assert program.wait() == 0

@@ -2,16 +2,13 @@
 
 import signal
 import socket
-import sys
-from pathlib import Path
 
 import pytest
+from tests.places import ROS2
 
 from foxglove_bridge.foxglove_bridge import FoxgloveBridge
 from rclpy.context import Context
 from rclpy.parameter import Parameter
-
-ROS2 = Path(sys.executable).parent / "ros2"
 
 
 @pytest.fixture

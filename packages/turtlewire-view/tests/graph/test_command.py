@@ -6,16 +6,15 @@ import json
 import signal
 import socket
 import sys
-from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
+from tests.places import BIN
 from websockets.sync.client import connect
 
 from turtlewire.cli.main import main
 from turtlewire.doctor import network
 
-BIN = Path(sys.executable).parent
 TALKER = """
 import threading
 from turtlewire import msg, wire

@@ -6,10 +6,8 @@ import json
 import os
 import re
 import subprocess
-import sys
-from pathlib import Path
 
-from tests.places import HOW_TO
+from tests.places import BIN, HOW_TO, PATH
 
 from turtlewire_view.graph.files import as_data
 from turtlewire_view.graph.selection import Selection
@@ -17,7 +15,6 @@ from turtlewire_view.graph.selection import Selection
 from .pictures import robot
 
 PAGE = (HOW_TO / "graph.md").read_text(encoding="utf-8")
-BIN = Path(sys.executable).parent
 
 
 def test_the_search_words_stand_in_the_first_line():
@@ -27,7 +24,7 @@ def test_the_search_words_stand_in_the_first_line():
 def test_the_commands_print_what_the_page_says(run, tmp_path):
     examples = re.findall(r"```sh\n(.*?)```\n\n```text\n(.*?)```", PAGE, re.DOTALL)
     assert len(examples) == 2
-    environment = {**os.environ, "PATH": f"{BIN}{os.pathsep}{os.environ['PATH']}"}
+    environment = {**os.environ, "PATH": PATH}
     for commands, expected in examples:
         said = ""
         for line in commands.splitlines():

@@ -5,17 +5,14 @@ from __future__ import annotations
 import json
 import signal
 import socket
-import sys
-from pathlib import Path
 from urllib.request import urlopen
 
 import pytest
 from tests.bags import write_bag
+from tests.places import TURTLEWIRE
 from websockets.sync.client import connect
 
 from .packets import decode_packet
-
-TURTLEWIRE = Path(sys.executable).parent / "turtlewire"
 
 
 @pytest.fixture

@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 import signal
 import sys
-from pathlib import Path
 
 import pytest
+from tests.places import TURTLEWIRE
 from websockets.sync.client import connect
 
 import turtlewire
@@ -15,7 +15,6 @@ from turtlewire_view.named_robots import find_robot
 
 from .packets import decode_packet
 
-TURTLEWIRE = Path(sys.executable).parent / "turtlewire"
 URDF = """<robot name="crane">
   <link name="mast"><visual><geometry><mesh filename="package://{package}/mast.stl"/></geometry>
   </visual></link><link name="boom"/>

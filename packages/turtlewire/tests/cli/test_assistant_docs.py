@@ -7,12 +7,12 @@ import os
 import re
 import subprocess
 import sys
-from pathlib import Path
 
 import anyio
 import pytest
 from mcp import Client, StdioServerParameters, stdio_client
-from tests.places import HOW_TO
+from tests.how_to import blocks_of
+from tests.places import HOW_TO, PATH
 
 from turtlewire.cli.assistant.limits import LONGEST_ANSWER
 from turtlewire.cli.main import main
@@ -20,12 +20,8 @@ from turtlewire.cli.main import main
 PAGE = (HOW_TO / "assistant.md").read_text(encoding="utf-8")
 ENVIRONMENT = {
     **os.environ,
-    "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}",
+    "PATH": PATH,
 }
-
-
-def blocks(kind):
-    return re.findall(rf"^```{kind}\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
 
 
 def test_the_search_words_stand_in_the_first_line():
@@ -34,7 +30,7 @@ def test_the_search_words_stand_in_the_first_line():
 
 
 def test_the_configuration_starts_the_server_with_the_tools_of_the_page():
-    (configuration,) = blocks("json")
+    (configuration,) = blocks_of(PAGE, "json")
     (entry,) = json.loads(configuration)["mcpServers"].values()
     assert list(entry) == ["command", "args", "env"]
     table = PAGE.partition("| tool | does |")[2].partition("\n\n")[0]
@@ -54,7 +50,7 @@ def test_the_configuration_starts_the_server_with_the_tools_of_the_page():
 def test_the_program_prints_what_the_page_says(run):
     node = run("ros2", "run", "turtlesim", "turtlesim_node", "--headless", environment=ENVIRONMENT)
     node.wait_for("Spawning turtle")
-    (program,) = blocks("python")
+    (program,) = blocks_of(PAGE, "python")
     said = subprocess.run(
         [sys.executable, "-c", program],
         check=True,
@@ -62,11 +58,11 @@ def test_the_program_prints_what_the_page_says(run):
         text=True,
         env=ENVIRONMENT,
     ).stdout
-    assert said == blocks("text")[-1]
+    assert said == blocks_of(PAGE, "text")[-1]
 
 
 def test_the_refusal_and_the_limit_are_those_of_the_server(run):
-    refusal = " ".join(blocks("text")[0].split())
+    refusal = " ".join(blocks_of(PAGE, "text")[0].split())
 
     async def session():
         server = StdioServerParameters(command="turtlewire", args=["mcp"], env=ENVIRONMENT)

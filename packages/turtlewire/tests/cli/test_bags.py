@@ -8,11 +8,11 @@ import os
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 from tests.bags import SECOND, START, transform, write_bag
+from tests.places import TURTLEWIRE
 
 from turtlewire import msg
 from turtlewire.bag import BagWriter, reindex
@@ -84,7 +84,7 @@ def test_the_tree_where_the_output_has_no_such_characters(monkeypatch, tmp_path)
 
 def test_a_reader_that_has_seen_enough(bag):
     """`turtlewire bag tf BAG | head` ends without a word."""
-    command = [Path(sys.executable).parent / "turtlewire", "bag", "tf", bag]
+    command = [TURTLEWIRE, "bag", "tf", bag]
     reader, writer = os.pipe()
     os.close(reader)
     done = subprocess.run(command, stdout=writer, stderr=subprocess.PIPE, text=True, check=False)

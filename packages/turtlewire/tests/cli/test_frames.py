@@ -9,12 +9,11 @@ import json
 import os
 import re
 import signal
-import sys
 import threading
 import time
-from pathlib import Path
 
 import pytest
+from tests.places import TURTLEWIRE
 
 import turtlewire
 from geometry_msgs.msg import TransformStamped
@@ -27,7 +26,7 @@ from turtlewire.doctor import network
 from turtlewire.tf.listener import QOS, STATIC_QOS
 from turtlewire.wire.base import TypeId
 
-COMMAND = (Path(sys.executable).parent / "turtlewire", "frames")
+COMMAND = (TURTLEWIRE, "frames")
 TF = TypeId("tf2_msgs/msg/TFMessage", msg.type_hash("tf2_msgs/msg/TFMessage"))
 SECOND = 1_000_000_000
 NOW_NS = 1_800_000_000 * SECOND

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import os
 import subprocess
-import sys
 from importlib.metadata import version
 from pathlib import Path
 
 import pytest
+from tests.places import TURTLEWIRE
 
 from tests import places
 from turtlewire import msg, wire
@@ -17,7 +17,6 @@ from turtlewire.cli.main import main
 from turtlewire.tf.listener import STATIC_QOS
 from turtlewire.wire.base import TypeId
 
-COMMAND = Path(sys.executable).parent / "turtlewire"
 BAG = places.GOLDEN / "bag/d_mcap"
 SHOW_BAG = f"Its transforms: turtlewire bag tf {BAG}; what is in it: turtlewire bag info {BAG}; "
 TF = TypeId("tf2_msgs/msg/TFMessage", msg.type_hash("tf2_msgs/msg/TFMessage"))
@@ -67,7 +66,7 @@ def offered(line, answers):
         "COMP_POINT": str(len(line)),
         "COMP_TYPE": "9",
     }
-    subprocess.run([COMMAND], env={**os.environ, **environment}, check=True, timeout=300)
+    subprocess.run([TURTLEWIRE], env={**os.environ, **environment}, check=True, timeout=300)
     return [word.strip() for word in answers.read_text().split("\n") if word.strip()]
 
 

@@ -15,6 +15,7 @@ import anyio
 import pytest
 from mcp import Client, StdioServerParameters, stdio_client
 from tests.needs import needs_cyclone_dds
+from tests.places import BIN
 
 import turtlewire
 from turtlewire import msg
@@ -22,7 +23,6 @@ from turtlewire.cli.main import main
 from turtlewire.wire.base import ServiceTypes, TypeId
 from turtlewire.wire.qos import Durability, QoS
 
-BIN = Path(sys.executable).parent
 COMMAND = str(BIN / "turtlewire")
 LONG_NS = 60_000_000_000
 DEEP = QoS(depth=100)

@@ -9,10 +9,10 @@ import subprocess
 import sys
 import threading
 import time
-from pathlib import Path
 
 import pytest
 from tests.needs import needs_cyclone_dds
+from tests.places import TURTLEWIRE
 
 from turtlewire import Buffer, msg
 from turtlewire.cli.main import main
@@ -557,7 +557,7 @@ def test_right_after_the_installation_all_is_well(run):
     variables = {"PATH": "/usr/bin:/bin", "HOME": os.environ["HOME"]}
     variables["ROS_DOMAIN_ID"] = os.environ["ROS_DOMAIN_ID"]
     words = ["env", "-i", *(f"{name}={value}" for name, value in variables.items())]
-    program = run(*words, str(Path(sys.executable).parent / "turtlewire"), "doctor")
+    program = run(*words, str(TURTLEWIRE), "doctor")
     assert program.wait() == 0, program.text
     first, *others = program.text.splitlines()
     assert first.startswith("All is well: middleware rmw_")
@@ -683,7 +683,7 @@ NO_WIRE = "PROBLEM: join domain"
     ids=["no interface", "no multicast", "multicast"],
 )
 def test_the_multicast_of_a_real_network(run, network, problems):
-    doctor = f"{network} && {Path(sys.executable).parent / 'turtlewire'} doctor"
+    doctor = f"{network} && {TURTLEWIRE} doctor"
     program = run(
         "unshare", "-n", "sh", "-c", doctor, environment={"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"}
     )
@@ -707,7 +707,7 @@ def test_everything_at_once_on_the_wire(run):
     senders = [node.create_publisher("/tf", TF, QoS()) for node in nodes.values()]
     nodes["one"].create_publisher("/x", STRING, QoS(reliability=Reliability.BEST_EFFORT))
     nodes["two"].create_subscription("/x", STRING, QoS())
-    program = run(Path(sys.executable).parent / "turtlewire", "doctor", "--listen", "2")
+    program = run(TURTLEWIRE, "doctor", "--listen", "2")
     end = threading.Event()
 
     def send():

@@ -6,11 +6,11 @@ import random
 import re
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.places import TURTLEWIRE
 
 from turtlewire.doctor.tf_gaps import find_gaps
 
@@ -132,7 +132,7 @@ rclpy.spin(node)
 def test_the_doctor_tells_of_loss_on_the_wire(run):
     """A busy host holds the timer up, and its rhythm is none: the doctor is asked again."""
     run(sys.executable, "-c", LOSSY)
-    doctor = [Path(sys.executable).parent / "turtlewire", "doctor"]
+    doctor = [TURTLEWIRE, "doctor"]
     told = ""
     while not re.search("About [3-7].% of the transforms of 'turtle1' are missing", told):
         told = subprocess.run(doctor, capture_output=True, text=True, check=False).stdout

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import signal
-import sys
 import threading
 from contextlib import contextmanager
-from pathlib import Path
 
 import pytest
 from tests.needs import needs_cyclone_dds
+from tests.places import TURTLEWIRE
 
 from turtlewire import msg
 from turtlewire.relay.ends import End, parse_end
@@ -22,7 +21,6 @@ pytestmark = needs_cyclone_dds
 
 LONG = 60_000_000_000
 CYCLONE, ZENOH = "rmw_cyclonedds_cpp", "rmw_zenoh_cpp"
-RELAY = Path(sys.executable).with_name("turtlewire")
 #: A type that is installed nowhere.
 SECRET = TypeId("secret_msgs/msg/Secret", "RIHS01_" + "5e" * 32)
 ASK = ServiceTypes(
@@ -138,7 +136,7 @@ def relay(run):
     """Starts a relay, and waits until it is up."""
 
     def start(near, far, *words):
-        program = run(RELAY, "relay", "--from", near.end, "--to", far.end, *words)
+        program = run(TURTLEWIRE, "relay", "--from", near.end, "--to", far.end, *words)
         program.wait_for("relay between")
         return program
 
@@ -361,14 +359,14 @@ def test_a_signal_ends_it_cleanly(networks, relay, number):
     ],
 )
 def test_wrong_words_are_explained(run, words, told):
-    program = run(RELAY, "relay", *words)
+    program = run(TURTLEWIRE, "relay", *words)
     assert (program.wait(), told in " ".join(program.text.split())) == (2, True), program.text
 
 
 def test_a_network_that_cannot_be_joined_is_one_line(run):
     variables = {"ROS_SECURITY_ENABLE": "true", "ROS_SECURITY_STRATEGY": "Enforce"}
     words = ("--from", "cyclonedds:0", "--to", "cyclonedds:1")
-    program = run(RELAY, "relay", *words, environment=variables)
+    program = run(TURTLEWIRE, "relay", *words, environment=variables)
     assert program.wait() == 2
     assert program.text.startswith("turtlewire relay: ")
     assert "Traceback" not in program.text

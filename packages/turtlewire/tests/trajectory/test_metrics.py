@@ -5,13 +5,12 @@ from __future__ import annotations
 import functools
 import os
 import subprocess
-import sys
 import warnings
-from pathlib import Path
 
 import numpy as np
 import pytest
 from tests.bags import write_bag
+from tests.places import BIN
 
 from turtlewire import Buffer
 from turtlewire.trajectory import Trajectory, compare
@@ -346,7 +345,7 @@ def test_uncomputable_values_are_reported():
 # evo, unmodified, reads the transforms of a bag through our `tf2_py`.
 
 
-EVO = Path(sys.executable).parent / "evo_traj"
+EVO = BIN / "evo_traj"
 
 
 def test_evo_samples_our_buffer(tmp_path):

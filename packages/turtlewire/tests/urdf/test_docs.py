@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import doctest
-import os
 import re
 import sys
-from pathlib import Path
 
-from tests.places import HOW_TO
+from tests.how_to import blocks
+from tests.places import HOW_TO, PATH
 
 PAGE = HOW_TO / "urdf.md"
-BIN = Path(sys.executable).parent
-BLOCKS = 13
 
 
 def commands(text):
@@ -23,12 +20,12 @@ def commands(text):
 
 
 def test_the_page_does_what_it_says(run, tmp_path):
-    path = f"{BIN}{os.pathsep}{os.environ['PATH']}"
+    path = PATH
     options = {"cwd": tmp_path, "environment": {"PATH": path}}
-    blocks = re.findall(r"^```(\w+)\n(.*?)^```$", PAGE.read_text(), re.MULTILINE | re.DOTALL)
-    assert len(blocks) == BLOCKS
+    found = blocks(PAGE.read_text())
+    assert len(found) == 13
     printed = ""
-    for kind, text in blocks:
+    for kind, text in found:
         if kind == "text":
             flags = doctest.ELLIPSIS
             assert doctest.OutputChecker().check_output(text, printed, flags), printed

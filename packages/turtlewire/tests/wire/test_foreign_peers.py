@@ -8,11 +8,11 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
-import sys
 from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from tests.places import ROS2
 
 from turtlewire import msg
 from turtlewire.errors import CdrError
@@ -24,7 +24,6 @@ from turtlewire.wire.qos import Durability, QoS
 pytestmark = pytest.mark.slow
 
 PEERS = Path(__file__).parent / "peers"
-ROS2 = Path(sys.executable).parent / "ros2"
 LONG = 60_000_000_000
 LATCHED = QoS(depth=100, durability=Durability.TRANSIENT_LOCAL)
 LIVE = QoS(depth=100)

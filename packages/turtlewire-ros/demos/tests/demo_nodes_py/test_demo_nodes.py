@@ -5,13 +5,12 @@ from __future__ import annotations
 import signal
 import sys
 from itertools import groupby
-from pathlib import Path
 
 import pytest
+from tests.places import ROS2
 
 from geometry_msgs.msg import Twist, TwistStamped
 
-ROS2 = Path(sys.executable).parent / "ros2"
 FIBONACCI = r"array\('i', \[0, 1, 1, 2, 3, 5, 8, 13, 21, 34, 55\]\)"
 
 

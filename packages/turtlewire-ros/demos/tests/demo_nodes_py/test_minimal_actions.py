@@ -6,10 +6,10 @@ import signal
 import sys
 import threading
 from contextlib import contextmanager
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from tests.places import ROS2
 
 import rclpy
 from action_msgs.msg import GoalStatus
@@ -22,7 +22,6 @@ from examples_rclpy_minimal_action_server import (
 from rclpy.action import ActionClient
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 
-ROS2 = Path(sys.executable).parent / "ros2"
 HURRIED = """
 import time
 time.sleep = lambda _: None  # the server waits a second before each number

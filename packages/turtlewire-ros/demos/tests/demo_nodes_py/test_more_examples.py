@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import signal
 import sys
-from pathlib import Path
 
 import pytest
+from tests.places import ROS2
 
 import rclpy
 from rcl_interfaces.srv import SetParameters
 from rclpy.executors import ExternalShutdownException
 from sensor_msgs.msg import PointCloud2
 
-ROS2 = Path(sys.executable).parent / "ros2"
 EXECUTABLES = {
     "demo_nodes_py": (
         "add_two_ints_client add_two_ints_client_async add_two_ints_server async_param_client"

@@ -10,9 +10,9 @@ import signal
 import sys
 import threading
 import time
-from pathlib import Path
 
 import pytest
+from tests.places import ROS2
 
 from rclpy.context import Context
 from rclpy.duration import Duration
@@ -20,7 +20,6 @@ from rclpy.node import Node
 from rclpy.time import Time
 from tf2_ros import BufferClient, TimeoutException, TransformException
 
-ROS2 = Path(sys.executable).parent / "ros2"
 SIMULATED = ("--ros-args", "-p", "use_sim_time:=true")
 
 #: Plays from a time on, 50 times as fast as real time: the clock, a robot at x, a point in its

@@ -14,9 +14,9 @@ import signal
 import subprocess
 import sys
 import threading
-from pathlib import Path
 
 import pytest
+from tests.places import BIN
 
 from rclpy.context import Context
 from rclpy.duration import Duration
@@ -37,7 +37,6 @@ from turtlewire.tf.listener import QOS, TYPE_NAME
 from turtlewire.wire.base import MessageInfo, TypeId
 
 LONG = Duration(seconds=60)
-BIN = Path(sys.executable).parent
 TOOLS = {
     "tf2_echo": "tf2_ros.tf2_echo",
     "tf2_monitor": "tf2_ros.tf2_monitor",

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import os
 import signal
-import sys
-from pathlib import Path
 
 import pytest
+from tests.places import ROS2
 
 HEAD = """
 import sys
@@ -36,7 +35,6 @@ signal.pause()
 def generate_launch_description():
     return LaunchDescription([
 """
-ROS2 = Path(sys.executable).parent / "ros2"
 TWO_CHILDREN = HEAD + "child(WAITS), child(WAITS)])"
 STUBBORN_CHILD = HEAD + "child(IGNORES, sigterm_timeout=0.3)])"
 

@@ -3,28 +3,25 @@
 from __future__ import annotations
 
 import os
-import re
 import shlex
 import subprocess
-import sys
-from pathlib import Path
 
-from tests.places import HOW_TO
+from tests.how_to import blocks, blocks_of
+from tests.places import HOW_TO, PATH
 
 PAGE = HOW_TO / "test_a_node.md"
 
 
 def test_the_page_does_what_it_says(tmp_path):
     text = PAGE.read_text()
-    blocks = re.findall(r"^```(\w+)\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
-    assert [kind for kind, _ in blocks] == ["python", "sh", "sh", "python", "sh"]
+    assert [kind for kind, _ in blocks(text)] == ["python", "sh", "sh", "python", "sh"]
     names = ("test_talker.py", "test_talker_functions.py")
     assert [f"`{name}`" in text for name in names] == [True, True]
-    programs = [code for kind, code in blocks if kind == "python"]
+    programs = blocks_of(text, "python")
     for name, code in zip(names, programs, strict=True):
         (tmp_path / name).write_text(code)
-    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    for line in "".join(code for kind, code in blocks if kind == "sh").splitlines():
+    path = PATH
+    for line in "".join(blocks_of(text, "sh")).splitlines():
         done = subprocess.run(
             shlex.split(line),
             cwd=tmp_path,

@@ -5,13 +5,10 @@ from __future__ import annotations
 import os
 import re
 import signal
-import sys
-from pathlib import Path
 
 import pytest
-from tests.places import EXAMPLES
+from tests.places import EXAMPLES, ROS2
 
-ROS2 = Path(sys.executable).parent / "ros2"
 HEADLESS = {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0"}
 
 

@@ -11,10 +11,9 @@ import shutil
 import subprocess
 import sys
 from contextlib import suppress
-from pathlib import Path
 
 import pytest
-from tests.places import ROS
+from tests.places import BIN, ROS
 
 from turtlewire import msg
 from turtlewire.wire import open_context
@@ -164,7 +163,7 @@ def test_tab_completes_words_topics_nodes_and_frames(prefix, run, shell):
         "main\nsys.exit(main())\n"
     )
     ros2.chmod(0o755)
-    path = os.pathsep.join((str(ros2.parent), str(Path(sys.executable).parent), "/usr/bin", "/bin"))
+    path = os.pathsep.join((str(ros2.parent), str(BIN), "/usr/bin", "/bin"))
     environment = {"HOME": str(prefix), "PATH": path, "TERM": "xterm", "PS1": "> "}
     terminal = run(shutil.which(shell), *SHELLS[shell], terminal=True, environment=environment)
     terminal.type(f"source {prefix}/setup.{shell}; echo sour''ced\n")

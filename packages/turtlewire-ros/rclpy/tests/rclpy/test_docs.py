@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-import re
 import subprocess
 import sys
 
 import pytest
+from tests.how_to import blocks, blocks_of
 from tests.places import HOW_TO
 
-BLOCKS = re.findall(
-    r"^```(\w+)\n(.*?)^```$", (HOW_TO / "asyncio.md").read_text(), re.MULTILINE | re.DOTALL
-)
-PROGRAMS = [text for kind, text in BLOCKS if kind == "python"]
-OUTPUTS = [text for kind, text in BLOCKS if kind == "text"]
+PAGE = (HOW_TO / "asyncio.md").read_text()
+PROGRAMS, OUTPUTS = blocks_of(PAGE, "python"), blocks_of(PAGE, "text")
 
 
 def test_each_program_has_its_output():
-    assert [kind for kind, _ in BLOCKS] == ["python", "text"] * 4
+    assert [kind for kind, _ in blocks(PAGE)] == ["python", "text"] * 4
 
 
 @pytest.mark.parametrize("middleware", ["local", "rmw_cyclonedds_cpp"])

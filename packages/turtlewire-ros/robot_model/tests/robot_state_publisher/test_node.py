@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import re
 import signal
-import sys
-from pathlib import Path
 
 import pytest
+from tests.places import ROS2
 
 from rclpy.serialization import serialize_message
 from robot_state_publisher.node import StartError
@@ -217,7 +216,6 @@ URDF = """<robot name="r">
     <parent link="arm"/><child link="tool"/><origin xyz="0 0 2"/>
   </joint>
 </robot>"""
-ROS2 = Path(sys.executable).parent / "ros2"
 STATE = "{header: {stamp: {sec: 10}}, name: [turn], position: [0.0]}"
 
 

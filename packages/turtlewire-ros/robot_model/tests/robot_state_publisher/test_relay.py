@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import signal
-import sys
-from pathlib import Path
 
 import pytest
 from tests.needs import COMPILED_CORE
+from tests.places import ROS2
 
 from sensor_msgs.msg import JointState
 from turtlewire.tf.buffer import CORE
 
-ROS2 = Path(sys.executable).parent / "ros2"
 ONE = (
     '<robot name="r"><link name="base"/><link name="tip"/><joint name="turn" type="continuous">'
     '<parent link="base"/><child link="tip"/><axis xyz="0 0 1"/></joint></robot>'

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.places import BIN
 
 from tests import places
 from urdfdom import check_urdf, urdf_to_graphviz
@@ -108,7 +109,7 @@ def test_a_closed_pipe_is_quiet():
 
 @pytest.mark.parametrize("name", ["check_urdf", "urdf_to_graphviz"])
 def test_as_a_command_and_with_ros2_run(name):
-    folder = Path(sys.executable).parent
+    folder = BIN
     for command in ([folder / name], [folder / "ros2", "run", "urdfdom", name]):
         done = subprocess.run(
             [*command, "--help"], capture_output=True, text=True, timeout=300, check=True

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import doctest
-import os
 import re
-import sys
-import time
-from pathlib import Path
+from functools import partial
 
 import pytest
-from tests.places import ROOT
+from tests.how_to import blocks, wait_until_printed
+from tests.places import PATH, ROOT
 
 from ros2cli.main import make_parser
 
 PAGE = (ROOT / "docs" / "reference" / "ros2_json.md").read_text()
-PATH = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
+BLOCKS = blocks(PAGE)
 
 
 def test_the_page_shows_what_the_commands_print(run):
@@ -26,18 +22,13 @@ def test_the_page_shows_what_the_commands_print(run):
     run("bash", "-c", f"exec {start}", environment={"PATH": PATH}).wait_for("Spawning turtle")
     for (_, command), (kind, text) in zip(others[::2], others[1::2], strict=True):
         assert kind == "text"
-        wait_until_printed(run, command, text)
+        wait_until_printed(text, partial(printed, run, command))
 
 
-def wait_until_printed(run, command, text):
-    """Repeat a command until it prints the text: a busy machine may not find the node at once."""
-    limit = time.monotonic() + 60
-    while True:
-        program = run("bash", "-c", command, environment={"PATH": PATH})
-        program.wait()
-        if doctest.OutputChecker().check_output(text, f"{program.text}\n", doctest.ELLIPSIS):
-            return
-        assert time.monotonic() < limit, program.text
+def printed(run, command):
+    program = run("bash", "-c", command, environment={"PATH": PATH})
+    program.wait()
+    return f"{program.text}\n"
 
 
 VERBS = [

@@ -4,26 +4,23 @@ from __future__ import annotations
 
 import os
 import re
-import sys
-from pathlib import Path
 
+from tests.how_to import blocks_of
 from tests.needs import needs_cyclone_dds
-from tests.places import HOW_TO
+from tests.places import HOW_TO, PATH
 
 PAGE = (HOW_TO / "relay.md").read_text()
-PATH = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
 
 
-def blocks(kind, far=7):
-    """The blocks of a kind, with domains of this test."""
+def with_domains(far):
+    """The page with the domains of this test."""
     page = PAGE.replace("cyclonedds:0", f"cyclonedds:{os.environ['ROS_DOMAIN_ID']}")
-    page = page.replace("zenoh:7", f"zenoh:{far}").replace("DOMAIN_ID=7", f"DOMAIN_ID={far}")
-    return re.findall(rf"^```{kind}\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+    return page.replace("zenoh:7", f"zenoh:{far}").replace("DOMAIN_ID=7", f"DOMAIN_ID={far}")
 
 
 @needs_cyclone_dds
 def test_the_robot_is_used_from_the_other_network(run, other_domain):
-    start, use, _ = blocks("sh", other_domain)
+    start, use, _ = blocks_of(with_domains(other_domain), "sh")
     environment = {"PATH": PATH, "RMW_IMPLEMENTATION": ""}
     node, relay = (
         run("bash", "-c", f"exec {line.removesuffix(' &')}", environment=environment)
@@ -32,7 +29,7 @@ def test_the_robot_is_used_from_the_other_network(run, other_domain):
     relay.wait_for(r"/turtlesim/get_parameters ->")
     user = run("bash", "-ec", use, environment=environment)
     assert user.wait() == 0, user.text
-    (printed,) = blocks("text")
+    (printed,) = blocks_of(PAGE, "text")
     assert user.text.endswith(printed.strip())
     assert "Goal finished with status: SUCCEEDED" in user.text
     assert "response:\nturtlesim.srv.Spawn_Response(name='bob')" in user.text

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import contextlib
 import signal
-import sys
 import threading
-from pathlib import Path
 
 import pytest
+from tests.places import ROS2
 
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
@@ -17,7 +16,6 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
 from turtlewire.bag import open_bag
 
-ROS2 = Path(sys.executable).parent / "ros2"
 LATCHED = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 DEEP = QoSProfile(depth=10_000)
 

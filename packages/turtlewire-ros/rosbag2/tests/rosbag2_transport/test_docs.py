@@ -2,30 +2,29 @@
 
 from __future__ import annotations
 
-import os
-import re
 import sys
 
 import pytest
-from tests.places import HOW_TO
+from tests.how_to import blocks
+from tests.places import HOW_TO, PATH
 
 from turtlewire.bag import open_bag
 
-from .conftest import ROS2, end, texts
+from .conftest import end, texts
 
 PAGE = HOW_TO / "record_and_play.md"
 
 
 @pytest.fixture
 def shell(run, tmp_path, monkeypatch):
-    monkeypatch.setenv("PATH", f"{ROS2.parent}{os.pathsep}{os.environ['PATH']}")
+    monkeypatch.setenv("PATH", PATH)
     return lambda line: run("bash", "-c", f"exec {line}", cwd=tmp_path)
 
 
 def test_the_page_does_what_it_says(shell, run, tmp_path):
-    blocks = re.findall(r"^```(\w+)\n(.*?)^```$", PAGE.read_text(), re.MULTILINE | re.DOTALL)
-    assert len(blocks) == 11
-    for kind, text in blocks:
+    found = blocks(PAGE.read_text())
+    assert len(found) == 11
+    for kind, text in found:
         if kind == "yaml":
             (tmp_path / "wanted.yaml").write_text(text)
         elif kind == "python":

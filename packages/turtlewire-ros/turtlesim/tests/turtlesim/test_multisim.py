@@ -7,20 +7,17 @@ from __future__ import annotations
 
 import math
 import signal
-import sys
 import threading
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from tests.places import ROS2
 
 from turtlesim.draw_square import SquarePlan, _left_of
 from turtlesim.model import TICK_NS, World
 from turtlewire import msg, wire
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import QoS
-
-ROS2 = Path(sys.executable).parent / "ros2"
 
 
 def test_two_fields_one_mimics_the_other(run):

@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from tests.places import HOW_TO, LEARNING
+from tests.places import HOW_TO, LEARNING, PATH
 
 from turtlewire.wire.zenoh.router_log import explain
 
@@ -52,7 +52,7 @@ def commands(name: str, upto: str = ACCESS) -> str:
 
 
 def environment(**more: str) -> dict[str, str]:
-    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    path = PATH
     return {**os.environ, "PATH": path, "PYTHONUNBUFFERED": "1", **more}
 
 
