@@ -378,13 +378,6 @@ def ros2_launch(run, tmp_path):
 
     def start(content, *arguments, name="test.launch.py", **options):
         (tmp_path / name).write_text(content)
-        return run(
-            ROS2,
-            "launch",
-            f"./{name}",
-            *arguments,
-            cwd=tmp_path,
-            **options,
-        )
+        return run(ROS2, "launch", f"./{name}", *arguments, cwd=tmp_path, **options)
 
     return start

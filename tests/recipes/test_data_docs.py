@@ -32,10 +32,7 @@ def shell(commands):
 
 @pytest.mark.parametrize(
     ("page", "words"),
-    [
-        (TRAINING, ["rosbag to parquet", "rosbag to lerobot dataset"]),
-        (RERUN, ["ros 2 rerun"]),
-    ],
+    [(TRAINING, ["rosbag to parquet", "rosbag to lerobot dataset"]), (RERUN, ["ros 2 rerun"])],
 )
 def test_the_search_words_stand_in_the_first_line(page, words):
     title = page.splitlines()[0].lower()

@@ -18,10 +18,7 @@ def built():
     """The site as `scripts/docs` builds it, with the lesson that `scripts/lesson` has built."""
     output = ROOT / "build" / "site"
     done = subprocess.run(
-        [sys.executable, str(TOOLS / "docs.py")],
-        capture_output=True,
-        text=True,
-        check=False,
+        [sys.executable, str(TOOLS / "docs.py")], capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
     return output

@@ -186,11 +186,7 @@ def test_not_even_sigkill_leaves_processes_behind(run, command):
 
 
 @pytest.mark.parametrize(
-    "middleware",
-    [
-        pytest.param("rmw_cyclonedds_cpp", marks=needs_cyclone_dds),
-        "rmw_zenoh_cpp",
-    ],
+    "middleware", [pytest.param("rmw_cyclonedds_cpp", marks=needs_cyclone_dds), "rmw_zenoh_cpp"]
 )
 def test_a_second_demo_in_the_same_domain_is_warned(run, middleware):
     environment = {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0", "DISPLAY": ""}

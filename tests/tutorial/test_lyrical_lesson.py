@@ -204,8 +204,7 @@ FILES = {
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "launch_file",
-    ["demo_launch.py", "including_launch.py", "demo_launch.xml", "demo_launch.yaml"],
+    "launch_file", ["demo_launch.py", "including_launch.py", "demo_launch.xml", "demo_launch.yaml"]
 )
 def test_turtle2_comes_close_to_turtle1(run, workspace, tmp_path, launch_file):
     package = tmp_path / "src" / "lyrical_tf2"

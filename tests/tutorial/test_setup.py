@@ -369,9 +369,7 @@ class TestUv:
         monkeypatch.delenv("CI", raising=False)
         monkeypatch.setattr(made.shutil, "which", lambda name: f"/bin/{name}")
         monkeypatch.setattr(
-            made,
-            "run_python",
-            lambda *_: subprocess.CompletedProcess((), 0, self.told, ""),
+            made, "run_python", lambda *_: subprocess.CompletedProcess((), 0, self.told, "")
         )
         monkeypatch.setattr(made, "checked", lambda words, _settings: self.run.append(words))
         monkeypatch.setattr(made, "pip", lambda *words, settings: self.run.append(words))
@@ -548,8 +546,7 @@ class TestCore:
         assert core.core_key() == ""
 
     @pytest.mark.parametrize(
-        ("script", "version"),
-        [("echo c++ 12", "c++ 12\n"), ("echo install me; exit 1", "")],
+        ("script", "version"), [("echo c++ 12", "c++ 12\n"), ("echo install me; exit 1", "")]
     )
     def test_a_stub_that_prints_install_advice_is_not_a_compiler(
         self, core, monkeypatch, tmp_path, script, version

@@ -47,17 +47,7 @@ from turtlewire.trajectory import (
     compare,
     plot,
 )
-from turtlewire.urdf import (
-    Joint,
-    JointLimits,
-    Link,
-    Material,
-    Mesh,
-    Mimic,
-    Pose,
-    Robot,
-    UrdfError,
-)
+from turtlewire.urdf import Joint, JointLimits, Link, Material, Mesh, Mimic, Pose, Robot, UrdfError
 from turtlewire.viewing import Viewer
 from turtlewire.viewing import show as open_view
 

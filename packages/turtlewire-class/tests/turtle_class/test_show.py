@@ -91,9 +91,7 @@ def test_nodes_and_turtles_come_and_go(watch, student):
     publisher = ana.turtle(node)
     pose = msg.get_message(POSE)(x=3.0, y=4.0, theta=1.5)
     picture = picture_when(
-        watch,
-        lambda picture: picture["turtles"],
-        lambda: publisher.publish(msg.serialize(pose)),
+        watch, lambda picture: picture["turtles"], lambda: publisher.publish(msg.serialize(pose))
     )
     assert picture["nodes"] == ["/turtlesim"]
     assert picture["turtles"] == [["turtle1", 3.0, 4.0, 1.5]]
@@ -225,11 +223,7 @@ def test_the_page_in_a_browser(page, student, browser):
 
 def command(*words):
     program = "import sys; from turtlewire.cli.main import main; sys.exit(main())"
-    environment = {
-        **os.environ,
-        "PYTHONPATH": os.pathsep.join(sys.path),
-        "TURTLEWIRE_BROWSER": "0",
-    }
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "TURTLEWIRE_BROWSER": "0"}
     return subprocess.Popen(
         [sys.executable, "-c", program, "class", *words],
         env=environment,

@@ -55,10 +55,7 @@ WRONG_ANSWERS = [
     WrongAnswer("static", "no_rotation", (("= q[3]", "= 0.0"), ("= q[2]", "= 0.0")), "w is 1"),
     WrongAnswer("static", "x_and_y", (("2.0", "8.1"), ("8.0", "2.0"), ("8.1", "8.0")), "swapped"),
     WrongAnswer(
-        "broadcaster",
-        "one_name",
-        (("f'{self.turtlename}_nose'", "'nose'"),),
-        "a name of its own",
+        "broadcaster", "one_name", (("f'{self.turtlename}_nose'", "'nose'"),), "a name of its own"
     ),
     WrongAnswer(
         "broadcaster",
@@ -143,10 +140,7 @@ WRONG_ANSWERS = [
     ),
     WrongAnswer("time_travel", "present", ((FULL, LOOKUP),), "position three seconds ago"),
     WrongAnswer(
-        "time_travel",
-        "five_seconds",
-        (("seconds=3.0", "seconds=5.0"),),
-        "Three seconds, not more",
+        "time_travel", "five_seconds", (("seconds=3.0", "seconds=5.0"),), "Three seconds, not more"
     ),
     WrongAnswer(
         "time_travel",
@@ -155,12 +149,7 @@ WRONG_ANSWERS = [
         "does not move in between",
     ),
     WrongAnswer("faults", "no_limit", (("> 1e9", "> 1e12"),), "publish nothing if"),
-    WrongAnswer(
-        "faults",
-        "wrong_order",
-        (("> 1e9", "< 1e9"),),
-        "The age is now minus stamp",
-    ),
+    WrongAnswer("faults", "wrong_order", (("> 1e9", "< 1e9"),), "The age is now minus stamp"),
     WrongAnswer(
         "faults",
         "not_caught",

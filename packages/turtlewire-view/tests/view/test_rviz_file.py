@@ -15,12 +15,7 @@ from turtlewire.web.commands import CommandError
 from turtlewire_view.displays import display_types
 from turtlewire_view.page_commands import READER, SaveView
 from turtlewire_view.page_requests import message_of_tool, text_of_view
-from turtlewire_view.rviz_file import (
-    RvizFileError,
-    SavedDisplay,
-    SavedView,
-    read_rviz,
-)
+from turtlewire_view.rviz_file import RvizFileError, SavedDisplay, SavedView, read_rviz
 from turtlewire_view.rviz_options import CLASSES, class_for
 from turtlewire_view.rviz_writing import write_rviz
 

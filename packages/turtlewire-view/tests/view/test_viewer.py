@@ -157,11 +157,7 @@ def test_a_display_takes_the_type_that_its_topic_comes_with(robot, page):
 
 
 @pytest.mark.parametrize(
-    "qos",
-    [
-        QoS(durability=Durability.TRANSIENT_LOCAL),
-        QoS(reliability=Reliability.BEST_EFFORT),
-    ],
+    "qos", [QoS(durability=Durability.TRANSIENT_LOCAL), QoS(reliability=Reliability.BEST_EFFORT)]
 )
 def test_a_display_subscribes_as_its_publishers_offer(robot, page, qos):
     """Whatever a file says: it hears the best-effort ones, and what latched ones have said."""

@@ -18,10 +18,7 @@ PLACES = {
         m.pose.pose.position,
         m.pose.pose.orientation,
     ),
-    "geometry_msgs/msg/TransformStamped": lambda m: (
-        m.transform.translation,
-        m.transform.rotation,
-    ),
+    "geometry_msgs/msg/TransformStamped": lambda m: (m.transform.translation, m.transform.rotation),
 }
 
 

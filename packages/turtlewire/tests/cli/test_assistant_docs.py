@@ -18,10 +18,7 @@ from turtlewire.cli.assistant.limits import LONGEST_ANSWER
 from turtlewire.cli.main import main
 
 PAGE = (HOW_TO / "assistant.md").read_text(encoding="utf-8")
-ENVIRONMENT = {
-    **os.environ,
-    "PATH": PATH,
-}
+ENVIRONMENT = {**os.environ, "PATH": PATH}
 
 
 def test_the_search_words_stand_in_the_first_line():

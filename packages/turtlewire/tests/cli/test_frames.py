@@ -337,10 +337,7 @@ def test_forced_ascii_is_borne(run):
 def test_q_ends_it_and_the_terminal_is_as_before(run):
     """The echo of typed words is off meanwhile, on again afterwards."""
     program = run(
-        "bash",
-        "-c",
-        f"'{COMMAND[0]}' frames --period 0.3; echo status $?; stty -a",
-        terminal=True,
+        "bash", "-c", f"'{COMMAND[0]}' frames --period 0.3; echo status $?; stty -a", terminal=True
     )
     program.wait_for(r"─ map +static", count=2)
     program.type("q")
@@ -353,10 +350,7 @@ def test_q_ends_it_and_the_terminal_is_as_before(run):
 @pytest.mark.usefixtures("talker")
 def test_a_terminal_scrolls(run):
     program = run(
-        "bash",
-        "-c",
-        f"stty rows 5 cols 80; exec '{COMMAND[0]}' frames --period 0.3",
-        terminal=True,
+        "bash", "-c", f"stty rows 5 cols 80; exec '{COMMAND[0]}' frames --period 0.3", terminal=True
     )
     program.wait_for(r"^1-2 of 3: arrow keys scroll, q quits")
     program.type("\x1b[B")

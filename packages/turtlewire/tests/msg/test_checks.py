@@ -74,11 +74,7 @@ def _make(name, **fields):
             {"uuid": [1, 2]},
             "The 'uuid' numpy.ndarray() must have a size of 16",
         ),
-        (
-            "std_msgs/msg/UInt8MultiArray",
-            {"data": array("B", [1]), "layout": None},
-            "",
-        ),
+        ("std_msgs/msg/UInt8MultiArray", {"data": array("B", [1]), "layout": None}, ""),
     ],
 )
 def test_unsuitable_values_are_assertion_errors(name, fields, text):

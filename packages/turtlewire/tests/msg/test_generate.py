@@ -156,10 +156,7 @@ def test_stubs_satisfy_a_type_checker(generated, tmp_path):
         "Sphere(radius='big')\n"
         "Sphere().rdius\n"
     )
-    environment = {
-        **os.environ,
-        "MYPYPATH": ":".join(map(str, (generated, *IMPORT_PATH))),
-    }
+    environment = {**os.environ, "MYPYPATH": ":".join(map(str, (generated, *IMPORT_PATH)))}
     command = [
         sys.executable,
         "-m",

@@ -27,13 +27,7 @@ def cores() -> list[Any]:
     try:
         from turtlewire import _native
     except ImportError:
-        found.append(
-            pytest.param(
-                None,
-                id="native",
-                marks=pytest.mark.skip(reason=COMPILED_CORE),
-            )
-        )
+        found.append(pytest.param(None, id="native", marks=pytest.mark.skip(reason=COMPILED_CORE)))
     else:
         found.append(pytest.param(_native, id="native"))
     return found

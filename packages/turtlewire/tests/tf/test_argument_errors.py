@@ -43,10 +43,7 @@ def text_of(kind: type[Exception], call: Any, *arguments: Any, **keywords: Any) 
         ([1.5], "float64; for seconds, write np.round(seconds * 1e9).astype(np.int64)"),
         (1.5, "float64; for seconds, write np.round(seconds * 1e9).astype(np.int64)"),
         (["2026-05-01"], "str; write np.array(stamps, dtype='datetime64[ns]')"),
-        (
-            [DATE],
-            "datetime; write np.array(stamps, dtype='datetime64[ns]')",
-        ),
+        ([DATE], "datetime; write np.array(stamps, dtype='datetime64[ns]')"),
         (
             np.array([1], dtype="m8[s]"),
             "timedelta64[s]; write stamps.astype('timedelta64[ns]').astype(np.int64)",
@@ -85,10 +82,7 @@ def test_stamps_that_follow_the_advice_are_taken(filled: turtlewire.Buffer) -> N
     ("stamps", "rest"),
     [
         (SECOND, "(); for a single time, call lookup_transform or set_transform"),
-        (
-            np.datetime64(1, "s"),
-            "(); for a single time, call lookup_transform or set_transform",
-        ),
+        (np.datetime64(1, "s"), "(); for a single time, call lookup_transform or set_transform"),
         (STAMPS[:, None], "(5, 1); write stamps.ravel()"),
         (np.zeros((2, 3), dtype=np.int64), "(2, 3)"),
     ],

@@ -291,10 +291,7 @@ class TestVelocity:
             )
         buffer.set_static_transform("disc", "rim", (1, 0, 0), (0, 0, 0, 1))
         buffer.set_static_transform(
-            "world",
-            "tilted",
-            (5, 5, 5),
-            (math.sin(math.pi / 4), 0, 0, math.cos(math.pi / 4)),
+            "world", "tilted", (5, 5, 5), (math.sin(math.pi / 4), 0, 0, math.cos(math.pi / 4))
         )
         return buffer
 

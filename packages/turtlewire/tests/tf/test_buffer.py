@@ -97,10 +97,7 @@ class TestLookup:
 
     def test_keywords(self, buffer: turtlewire.Buffer) -> None:
         buffer.set_static_transform(
-            parent_frame="a",
-            child_frame="b",
-            translation=(1, 2, 3),
-            rotation=NO_TURN,
+            parent_frame="a", child_frame="b", translation=(1, 2, 3), rotation=NO_TURN
         )
         assert (
             buffer.lookup_transform(target_frame="a", source_frame="b", stamp_ns=7, timeout_ns=0).x
@@ -175,11 +172,7 @@ class TestErrors:
     )
     def test_wrong_types(self, buffer: turtlewire.Buffer, arguments: tuple[Any, ...]) -> None:
         buffer.set_transform("a", "b", 1, (0, 0, 0), NO_TURN)
-        for question in (
-            buffer.lookup_transform,
-            buffer.can_transform,
-            buffer.explain,
-        ):
+        for question in (buffer.lookup_transform, buffer.can_transform, buffer.explain):
             with pytest.raises((TypeError, UnicodeEncodeError)):
                 question(*arguments)
 

@@ -52,8 +52,7 @@ def test_invalid_time(filled, wrong):
         filled.lookup_transforms("a", "b", np.array([wrong]))
     for other in (1.5, "now", np.timedelta64(1, "s")):
         with pytest.raises(
-            TypeError,
-            match=f"int of nanoseconds or a numpy.datetime64, not {type(other).__name__}",
+            TypeError, match=f"int of nanoseconds or a numpy.datetime64, not {type(other).__name__}"
         ):
             filled.lookup_transform("a", "b", other)
     with pytest.raises(TypeError, match=r"not float; for seconds, write round\(seconds \* 1e9\)$"):

@@ -45,12 +45,7 @@ def test_links_and_senders(buffer: turtlewire.Buffer) -> None:
 def test_two_publishers(buffer: turtlewire.Buffer) -> None:
     for t in range(10):
         buffer.set_transform(
-            "map",
-            "base",
-            t * SECOND + 1,
-            (0, 0, 0),
-            STILL,
-            sender="odometry" if t % 2 else "slam",
+            "map", "base", t * SECOND + 1, (0, 0, 0), STILL, sender="odometry" if t % 2 else "slam"
         )
     (conflict,) = faults.conflicts(buffer)
     assert (conflict.kind, conflict.child_frame) == ("two publishers", "base")

@@ -288,10 +288,7 @@ def test_latched_transforms_take_part(flow):
         with flow.listen(buffer):
             for number in range(10):
                 buffer.lookup_transform("world", f"wall{number}", None, timeout_ns=LONG_NS)
-        assert {link.senders[0].name for link in links(buffer)} <= {
-            "/walls",
-            static.gid.hex(),
-        }
+        assert {link.senders[0].name for link in links(buffer)} <= {"/walls", static.gid.hex()}
 
 
 def test_listeners_and_contexts_close_in_the_middle_of_the_stream(flow):

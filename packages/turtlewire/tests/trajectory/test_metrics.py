@@ -240,10 +240,7 @@ def test_association(swapped, offset_ns):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         a, b = evo_sync.associate_trajectories(
-            evo_trajectory(first),
-            evo_trajectory(second),
-            max_diff=0.002,
-            offset_2=offset_ns / 1e9,
+            evo_trajectory(first), evo_trajectory(second), max_diff=0.002, offset_2=offset_ns / 1e9
         )
     rows = associate(first, second, 2_000_000, offset_ns)
     assert 10 < len(rows[0]) < 100

@@ -13,10 +13,7 @@ import numpy as np
 import pytest
 
 from turtlewire.cli.main import main
-from turtlewire.trajectory import (
-    compare,
-    plot,
-)
+from turtlewire.trajectory import compare, plot
 from turtlewire.trajectory.pictures import pdf_of
 
 from .conftest import disturbed, random_walk

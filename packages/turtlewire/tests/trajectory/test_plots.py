@@ -8,13 +8,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pytest
 
-from turtlewire.trajectory import (
-    Gap,
-    Plot,
-    Trajectory,
-    compare,
-    plot,
-)
+from turtlewire.trajectory import Gap, Plot, Trajectory, compare, plot
 from turtlewire.trajectory.chart import GREY
 
 from .conftest import disturbed, random_walk

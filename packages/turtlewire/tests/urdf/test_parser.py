@@ -241,8 +241,7 @@ def test_text_before_the_declaration_counts_as_lines():
 
 
 @pytest.mark.parametrize(
-    ("text", "value"),
-    [("1", 1.0), ("-.5", -0.5), ("+1.e3", 1000.0), (" 7", 7.0), ("1e-999", 0.0)],
+    ("text", "value"), [("1", 1.0), ("-.5", -0.5), ("+1.e3", 1000.0), (" 7", 7.0), ("1e-999", 0.0)]
 )
 def test_numbers(text, value):
     assert as_number(text) == value

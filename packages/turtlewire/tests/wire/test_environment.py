@@ -370,10 +370,7 @@ def test_a_platform_without_cyclone_gets_one_clear_line():
         [sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=False
     )
     assert "WireError: Cyclone DDS is not available for Python" in done.stderr
-    assert "use Zenoh: pip install 'turtlewire[zenoh]'" in done.stderr or sys.version_info < (
-        3,
-        11,
-    )
+    assert "use Zenoh: pip install 'turtlewire[zenoh]'" in done.stderr or sys.version_info < (3, 11)
 
 
 @pytest.mark.parametrize("domain_id", [-1, 233])

@@ -51,10 +51,7 @@ def test_a_best_effort_talker_and_its_listener(start):
 
 @pytest.mark.parametrize(
     "client",
-    [
-        ("demo_nodes_py", "add_two_ints_client"),
-        ("demo_nodes_py", "add_two_ints_client_async"),
-    ],
+    [("demo_nodes_py", "add_two_ints_client"), ("demo_nodes_py", "add_two_ints_client_async")],
 )
 def test_the_demo_service(start, client):
     server = start("demo_nodes_py", "add_two_ints_server")

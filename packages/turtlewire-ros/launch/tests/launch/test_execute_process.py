@@ -317,10 +317,7 @@ def test_single_processes_can_be_stopped_signalled_and_fed(launch):
                 )
             ),
         ),
-        when_ready(
-            fed,
-            OpaqueFunction(function=feed),
-        ),
+        when_ready(fed, OpaqueFunction(function=feed)),
     )
     assert [process.return_code for process in (stopped, signalled, fed)] == [0, 5, 0]
     assert "] got this" in outcome.text

@@ -347,8 +347,7 @@ def test_languages():
 
 
 @pytest.mark.parametrize(
-    ("distro", "result"),
-    [("kilted", "Action ['condition']"), ("lyrical", "Mine ['condition']")],
+    ("distro", "result"), [("kilted", "Action ['condition']"), ("lyrical", "Mine ['condition']")]
 )
 def test_an_action_s_own_parse(distro, result):
     """Its class is Lyrical's answer; a subclass calls it in the same way."""

@@ -94,8 +94,7 @@ def test_values_outside_of_loops(context):
     assert ForEachVar("x", default_value="default").perform(context) == "default"
     for variable, kind in ((ForEachVar("x"), "ForEachVar"), (ForLoopIndex("x"), "ForLoopIndex")):
         with pytest.raises(
-            RuntimeError,
-            match=f"^No value available for {kind} 'x' and no default value provided$",
+            RuntimeError, match=f"^No value available for {kind} 'x' and no default value provided$"
         ):
             variable.perform(context)
 

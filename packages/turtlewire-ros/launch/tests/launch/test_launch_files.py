@@ -261,11 +261,7 @@ def generate_launch_description():
             4,
         ),
         ("x.launch.py", "from launch import LaunchDescription\nimport nowhere_at_all\n", 2),
-        (
-            "x.launch.py",
-            LATE,
-            6,
-        ),
+        ("x.launch.py", LATE, 6),
         ("x.launch.xml", "<launch>\n  <group>\n    <nope/>\n  </group>\n</launch>", 3),
         ("x.launch.xml", "<launch>\n  <log message='a' massage='b'/>\n</launch>", 2),
         ("x.launch.yaml", "launch:\n- log:\n    message: hello\n- let:\n    name: x\n", 4),

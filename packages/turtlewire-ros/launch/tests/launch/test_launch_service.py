@@ -52,11 +52,7 @@ def test_a_handler_may_handle_once(launch):
         on_ping("each"),
         EmitEvent(event=Ping()),
         EmitEvent(event=Ping()),
-    ).messages == [
-        "each",
-        "once",
-        "each",
-    ]
+    ).messages == ["each", "once", "each"]
 
 
 def test_a_handler_function_gets_event_and_context(launch):

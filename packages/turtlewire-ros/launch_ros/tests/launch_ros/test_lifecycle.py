@@ -25,10 +25,7 @@ from launch_ros.actions import (
     RosTimer,
     SetUseSimTime,
 )
-from launch_ros.actions.lifecycle_transition import (
-    match_node_name_goal,
-    match_node_name_start_goal,
-)
+from launch_ros.actions.lifecycle_transition import match_node_name_goal, match_node_name_start_goal
 from launch_ros.descriptions import ComposableLifecycleNode
 from launch_ros.event_handlers import OnStateTransition
 from launch_ros.events import matches_node_name
@@ -196,9 +193,7 @@ def test_managed_nodes_of_a_container(launch, tmp_path, monkeypatch):
     outcome = launch(
         RegisterEventHandler(
             OnStateTransition(
-                target_lifecycle_node=first,
-                goal_state="active",
-                entities=[EmitEvent(event=change)],
+                target_lifecycle_node=first, goal_state="active", entities=[EmitEvent(event=change)]
             )
         ),
         RegisterEventHandler(

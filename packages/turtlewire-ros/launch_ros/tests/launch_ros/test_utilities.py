@@ -55,12 +55,7 @@ def test_namespaces():
     assert make_namespace_absolute("") == "/"
     assert [
         prefix_namespace(*pair) for pair in ((None, ""), ("a", ""), ("a", "b"), (None, None))
-    ] == [
-        "",
-        "a",
-        "a/b",
-        None,
-    ]
+    ] == ["", "a", "a/b", None]
 
 
 def test_node_names_are_counted(context):

@@ -64,17 +64,9 @@ REFUSED_TRUE = (
 @pytest.mark.parametrize(
     ("distro", "of_true", "of_offsets"),
     [
-        (
-            "jazzy",
-            "([], True, [0, 0], False) []",
-            REFUSED_OFFSETS,
-        ),
+        ("jazzy", "([], True, [0, 0], False) []", REFUSED_OFFSETS),
         *[
-            (
-                distro,
-                REFUSED_TRUE,
-                "([2], False, [0, 5000], False) []",
-            )
+            (distro, REFUSED_TRUE, "([2], False, [0, 5000], False) []")
             for distro in ("kilted", "lyrical")
         ],
     ],

@@ -281,10 +281,7 @@ def test_the_cache_answers_by_time(collected):
     assert cache.getElemBeforeTime(ros_time(30)).point.x == 30.0
     assert cache.getElemBeforeTime(ros_time(29)).point.x == 20.0
     assert cache.getElemBeforeTime(ros_time(19)) is None
-    assert (
-        cache.getOldestTime().nanoseconds,
-        cache.getLatestTime().nanoseconds,
-    ) == (20, 50)
+    assert (cache.getOldestTime().nanoseconds, cache.getLatestTime().nanoseconds) == (20, 50)
     assert cache.getLast().point.x == 50.0
     assert len(collected) == 5
 

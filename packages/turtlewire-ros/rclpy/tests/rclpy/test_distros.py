@@ -34,10 +34,7 @@ def said(distro, program):
                 ":py:classmethod:RcutilsLogger.warning:.']"
             ),
         ),
-        (
-            "lyrical",
-            "AttributeError: 'RcutilsLogger' object has no attribute 'warn'",
-        ),
+        ("lyrical", "AttributeError: 'RcutilsLogger' object has no attribute 'warn'"),
     ],
 )
 def test_warn_of_a_logger(distro, expected):
@@ -74,10 +71,7 @@ print(outcome(lambda: client.call(AddTwoInts.Request(), timeout_sec=0.01)))
     ("distro", "expected"),
     [
         ("jazzy", "node []"),
-        (
-            "kilted",
-            "InvalidHandle: cannot use Destroyable because destruction was requested",
-        ),
+        ("kilted", "InvalidHandle: cannot use Destroyable because destruction was requested"),
     ],
 )
 def test_a_node_after_the_shutdown_of_its_context(distro, expected):
@@ -283,10 +277,7 @@ def test_rosout_is_a_preset_since_kilted():
     ("distro", "type_hash"),
     [
         ("kilted", "INVALID"),
-        (
-            "lyrical",
-            "RIHS01_e118de6bf5eeb66a2491b5bda11202e7b68f198d6f67922cf30364858239c81a",
-        ),
+        ("lyrical", "RIHS01_e118de6bf5eeb66a2491b5bda11202e7b68f198d6f67922cf30364858239c81a"),
     ],
 )
 def test_services_announce_their_hash(middleware, distro, type_hash):
@@ -339,8 +330,7 @@ def test_clocks_of_ros_time(distro, expected):
 
 
 @pytest.mark.parametrize(
-    ("distro", "subject"),
-    [("kilted", "Subscription.__init__():"), ("lyrical", "Subscription")],
+    ("distro", "subject"), [("kilted", "Subscription.__init__():"), ("lyrical", "Subscription")]
 )
 def test_a_callback_of_a_wrong_shape(distro, subject):
     program = """

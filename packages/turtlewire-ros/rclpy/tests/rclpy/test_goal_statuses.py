@@ -63,11 +63,7 @@ def test_the_state_of_a_goal_that_was_removed_is_not_kept():
     assert deserialize(GoalStatusArray, statuses.cdr()) == GoalStatusArray()
 
 
-@given(
-    st.dictionaries(SIMILAR_IDS, STATES),
-    st.sets(SIMILAR_IDS, max_size=40),
-    st.integers(0, 3),
-)
+@given(st.dictionaries(SIMILAR_IDS, STATES), st.sets(SIMILAR_IDS, max_size=40), st.integers(0, 3))
 def test_states_are_read_as_by_the_codec(states, others, padding):
     cdr = serialize(message_of(states))
     cdr += bytes(min(padding, -len(cdr) % 4))

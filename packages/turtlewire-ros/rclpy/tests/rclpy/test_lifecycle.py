@@ -177,10 +177,7 @@ def test_services(managed, node, executor, capfd):
     ).available_transitions
     assert [
         (each.transition.id, each.transition.label, each.goal_state.label) for each in available
-    ] == [
-        (1, "configure", "configuring"),
-        (5, "shutdown", "shuttingdown"),
-    ]
+    ] == [(1, "configure", "configuring"), (5, "shutdown", "shuttingdown")]
     graph = call(
         node, executor, GetAvailableTransitions, "get_transition_graph"
     ).available_transitions

@@ -41,14 +41,7 @@ def test_times_compare_and_differ_as_their_nanoseconds(one, other):
         first != second,
         first >= second,
         first > second,
-    ) == (
-        one < other,
-        one <= other,
-        one == other,
-        one != other,
-        one >= other,
-        one > other,
-    )
+    ) == (one < other, one <= other, one == other, one != other, one >= other, one > other)
     assert (first - second).nanoseconds == one - other
 
 
@@ -62,14 +55,7 @@ def test_durations_compare_as_their_nanoseconds(one, other):
         first != second,
         first >= second,
         first > second,
-    ) == (
-        one < other,
-        one <= other,
-        one == other,
-        one != other,
-        one >= other,
-        one > other,
-    )
+    ) == (one < other, one <= other, one == other, one != other, one >= other, one > other)
 
 
 @given(message_stamps)

@@ -44,11 +44,7 @@ def graph(context):
         "/turn/_action/feedback", kind("turtlesim/action/RotateAbsolute_FeedbackMessage"), QoS()
     )
     node.create_service("/spawn", service("turtlesim/srv/Spawn"), QoS())
-    node.create_service(
-        "/turn/_action/send_goal",
-        service("a/action/B_SendGoal"),
-        QoS(),
-    )
+    node.create_service("/turn/_action/send_goal", service("a/action/B_SendGoal"), QoS())
     other = context.create_node("listener", "/robot")
     other.create_subscription("/pose", kind("turtlesim/msg/Pose"), QoS())
     other.create_subscription(

@@ -142,11 +142,7 @@ def test_services(servers, capsys):
     assert info == counted
     assert main(["service", "call", "--json", "set", SET[0], "{data: true}"]) == 0
     assert lines(capsys) == [
-        {
-            "service": "/set",
-            "request": {"data": True},
-            "response": {"success": True, "message": ""},
-        }
+        {"service": "/set", "request": {"data": True}, "response": {"success": True, "message": ""}}
     ]
 
 

@@ -138,10 +138,7 @@ def generate_launch_description():
 
 @pytest.mark.parametrize(
     ("package", "executable", "meant"),
-    [
-        ("turtlesm", "mimic", "turtlesim"),
-        ("turtlesim", "mimik", "mimic"),
-    ],
+    [("turtlesm", "mimic", "turtlesim"), ("turtlesim", "mimik", "mimic")],
 )
 def test_names_in_a_launch_file_that_are_nearly_right(launch, package, executable, meant):
     from launch_ros.actions import Node

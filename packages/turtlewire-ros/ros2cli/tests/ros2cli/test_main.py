@@ -130,12 +130,7 @@ def test_a_reader_that_ends_early_is_no_error():
 def test_a_reader_that_has_enough_of_a_definition_is_no_unknown_interface():
     program = "import sys; from ros2cli.main import main; sys.exit(main())"
     command = f'{sys.executable} -c "{program}" interface show sensor_msgs/msg/Imu | head -1'
-    done = subprocess.run(
-        ["sh", "-c", command],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, check=False)
     assert done.stdout == "std_msgs/Header header\n"
     assert done.stderr == ""
 

@@ -33,8 +33,7 @@ def golden(bag):
 def reader(bag):
     reader = rosbag2_py.SequentialReader()
     reader.open(
-        rosbag2_py.StorageOptions(uri=str(GOLDEN / bag)),
-        rosbag2_py.ConverterOptions("cdr", "cdr"),
+        rosbag2_py.StorageOptions(uri=str(GOLDEN / bag)), rosbag2_py.ConverterOptions("cdr", "cdr")
     )
     yield reader
     reader.close()

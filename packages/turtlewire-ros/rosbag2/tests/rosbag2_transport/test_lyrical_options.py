@@ -177,10 +177,7 @@ def test_latched_messages_are_repeated_in_snapshots(tmp_path):
     assert recording.take_snapshot()
     recording.close()
     assert contents(tmp_path / "bag") == [
-        [
-            *("/map a 1", "/map b 2", "/map c 3"),
-            *("/map c 5", "/chat x 5", "/map d 6", "/chat x 7"),
-        ]
+        [*("/map a 1", "/map b 2", "/map c 3"), *("/map c 5", "/chat x 5", "/map d 6", "/chat x 7")]
     ]
 
 
@@ -209,8 +206,7 @@ def test_a_recorder_repeats_latched_topics(bag_verb, peer, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("words", "depths"),
-    [([], {}), (["/a", "b=3", "/c=1"], {"/a": 1, "/b": 3, "/c": 1})],
+    ("words", "depths"), [([], {}), (["/a", "b=3", "/c=1"], {"/a": 1, "/b": 3, "/c": 1})]
 )
 def test_depths_of_repeated_topics(words, depths):
     assert record.parse_repeat_transient_local_topics(words) == depths

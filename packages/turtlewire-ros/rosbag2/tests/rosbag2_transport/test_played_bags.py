@@ -44,10 +44,7 @@ def texts(messages):
     return [message.decode().data for message in messages]
 
 
-TWO = (
-    [("/a", 0, 0), ("/b", 20, 20), ("/b", 40, 40)],
-    [("/a", 10, 10), ("/c", 50, 50)],
-)
+TWO = ([("/a", 0, 0), ("/b", 20, 20), ("/b", 40, 40)], [("/a", 10, 10), ("/c", 50, 50)])
 
 
 def test_bags_are_one(bags):

@@ -40,8 +40,7 @@ def player(peer, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("until", "sent"),
-    [(0, [0]), (9, [0]), (10, [0, 10]), (29, [0, 10, 20]), (30, [0, 10, 20, 30])],
+    ("until", "sent"), [(0, [0]), (9, [0]), (10, [0, 10]), (29, [0, 10, 20]), (30, [0, 10, 20, 30])]
 )
 def test_a_message_at_the_last_moment_is_played(player, until, sent):
     bounded = player(playback_until_timestamp=START + until)

@@ -123,10 +123,7 @@ def test_all_fields_have_the_types_that_classes_have():
         found, real = parsed(name), get_interface(name)
         pairs = [(found, real)]
         if isinstance(found, Service):
-            pairs = [
-                (found.request_message, real.Request),
-                (found.response_message, real.Response),
-            ]
+            pairs = [(found.request_message, real.Request), (found.response_message, real.Response)]
         elif isinstance(found, Action):
             pairs = [
                 (found.goal, real.Goal),

@@ -219,11 +219,7 @@ def test_start_spawn_kill_and_reset_with_their_texts(make_world, capfd):
         name
         for name, _ in world.user.get_topic_names_and_types()
         if "turtle" in name and "/_action/" not in name
-    } == {
-        "/turtle1/cmd_vel",
-        "/turtle1/color_sensor",
-        "/turtle1/pose",
-    }
+    } == {"/turtle1/cmd_vel", "/turtle1/color_sensor", "/turtle1/pose"}
 
 
 def test_names_in_requests_do_not_steer_the_terminal(make_world, capfd):

@@ -195,12 +195,7 @@ def with_certificate(name: str) -> str:
             "the other side does not know the authority that signed .*/mallory.pem",
             "its certificate is not signed by an authority",
         ),
-        (
-            MUTUAL,
-            with_certificate("late"),
-            "late.pem has expired",
-            "its certificate has expired",
-        ),
+        (MUTUAL, with_certificate("late"), "late.pem has expired", "its certificate has expired"),
         (
             MUTUAL,
             'SETTINGS+=("$TLS/root_ca_certificate=\\"$PWD/otherca.pem\\"")',
