@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import threading
 
-import pytest
 from tests.needs import needs_cyclone_dds
 
-from turtlewire.wire import open_context
 from turtlewire.wire.base import Context, EventKind, TypeId
 from turtlewire.wire.qos import Liveliness, QoS
 
@@ -17,14 +15,6 @@ STRING = TypeId("std_msgs/msg/String", "RIHS01_" + "0" * 64)
 MESSAGE = b"\x00\x01\x00\x00" + bytes(8)
 LONG = 60_000_000_000
 MILLISECOND = 1_000_000
-
-
-@pytest.fixture
-def contexts():
-    opened = [open_context(middleware="rmw_cyclonedds_cpp") for _ in range(2)]
-    yield opened
-    for context in opened:
-        context.close()
 
 
 def connected(contexts: list[Context], qos: QoS):

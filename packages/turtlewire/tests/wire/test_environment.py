@@ -38,6 +38,17 @@ def clean(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(report, "_said", set())
 
 
+def run_python(code: str, **variables: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-c", code],
+        env=os.environ | variables,
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+
+
 def test_domain_id(monkeypatch: pytest.MonkeyPatch):
     assert environment.domain_id() == 0
     monkeypatch.setenv("ROS_DOMAIN_ID", "42")
@@ -94,15 +105,8 @@ def test_a_middleware_that_is_not_here_is_one_line_and_cyclone_is_taken(theirs: 
         "    print(type(context).__name__)\n"
         "    context.close()\n"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", code],
-        capture_output=True,
-        text=True,
-        timeout=300,
-        check=True,
-        env=os.environ | {"RMW_IMPLEMENTATION": theirs},
-    )
-    assert done.stdout.split() == ["CycloneContext", "CycloneContext"]
+    done = run_python(code, RMW_IMPLEMENTATION=theirs)
+    assert (done.returncode, done.stdout.split()) == (0, ["CycloneContext", "CycloneContext"])
     [line] = done.stderr.splitlines()
     assert f"RMW_IMPLEMENTATION is {theirs}, which is not available here" in line
 
@@ -129,15 +133,8 @@ def test_missing_middleware_is_reported_and_replaced(asked, missing, taken, said
         "print(type(context).__name__)\n"
         "context.close()\n"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", code],
-        capture_output=True,
-        text=True,
-        timeout=300,
-        check=True,
-        env=os.environ | {"RMW_IMPLEMENTATION": asked},
-    )
-    assert done.stdout.split() == [taken]
+    done = run_python(code, RMW_IMPLEMENTATION=asked)
+    assert (done.returncode, done.stdout.split()) == (0, [taken])
     assert len(done.stderr.splitlines()) == bool(said)
     assert said in done.stderr
 
@@ -271,15 +268,7 @@ def test_static_peer_fatal_to_cyclone_is_skipped_with_a_warning(peer: str):
         "from turtlewire.wire import open_context; open_context().close(); "
         "open_context().close(); print('alive')"
     )
-    variables = os.environ | {"ROS_STATIC_PEERS": f"{peer};localhost", "ROS_DOMAIN_ID": OWN_DOMAIN}
-    done = subprocess.run(
-        [sys.executable, "-c", code],
-        env=variables,
-        capture_output=True,
-        text=True,
-        timeout=300,
-        check=False,
-    )
+    done = run_python(code, ROS_STATIC_PEERS=f"{peer};localhost", ROS_DOMAIN_ID=OWN_DOMAIN)
     assert (done.returncode, done.stdout) == (0, "alive\n")
     [line] = done.stderr.splitlines()
     assert f"ROS_STATIC_PEERS: {peer} is ignored" in line
@@ -293,29 +282,13 @@ def test_cyclone_accepts_the_configuration_of_each_range(chosen: str):
     )
     if chosen in {"SUBNET", "SYSTEM_DEFAULT"} and not HAS_WHEEL:
         pytest.skip("Cyclone DDS 0.10 warns of an interface without multicast")
-    variables = os.environ | {"ROS_AUTOMATIC_DISCOVERY_RANGE": chosen, "ROS_DOMAIN_ID": OWN_DOMAIN}
-    done = subprocess.run(
-        [sys.executable, "-c", code],
-        env=variables,
-        capture_output=True,
-        text=True,
-        timeout=300,
-        check=True,
-    )
-    assert (done.stdout, done.stderr) == ("1\n", "")
+    done = run_python(code, ROS_AUTOMATIC_DISCOVERY_RANGE=chosen, ROS_DOMAIN_ID=OWN_DOMAIN)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "1\n", "")
 
 
 def test_a_broken_configuration_of_the_user_is_one_clear_error():
     code = "from turtlewire.wire import open_context; open_context()"
-    variables = os.environ | {"CYCLONEDDS_URI": "<Nonsense>"}
-    done = subprocess.run(
-        [sys.executable, "-c", code],
-        env=variables,
-        capture_output=True,
-        text=True,
-        timeout=300,
-        check=False,
-    )
+    done = run_python(code, CYCLONEDDS_URI="<Nonsense>")
     assert done.returncode == 1
     assert "WireError: join domain" in done.stderr
     assert (
@@ -355,9 +328,7 @@ def test_the_last_domain_works():
         "from turtlewire.wire import open_context; c = open_context(232); c.create_node('n'); "
         "print(len(c.graph.nodes())); c.close()"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=False
-    )
+    done = run_python(code)
     assert (done.stdout, done.stderr) == ("1\n", "")
 
 
@@ -366,9 +337,7 @@ def test_a_platform_without_cyclone_gets_one_clear_line():
         "import importlib.util\nimportlib.util.find_spec = lambda name: None\nfrom "
         "turtlewire.wire import libddsc, open_context\nlibddsc._SYSTEM = ()\nopen_context()\n"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=False
-    )
+    done = run_python(code)
     assert "WireError: Cyclone DDS is not available for Python" in done.stderr
     assert "use Zenoh: pip install 'turtlewire[zenoh]'" in done.stderr or sys.version_info < (3, 11)
 

@@ -9,10 +9,9 @@ import struct
 import pytest
 from tests.needs import COMPILED_CORE
 
-from turtlewire import msg
 from turtlewire.errors import UncallableServiceError
-from turtlewire.wire import open_context, report
-from turtlewire.wire.base import MessageInfo, ServiceTypes, TypeId
+from turtlewire.wire import report
+from turtlewire.wire.base import MessageInfo
 from turtlewire.wire.cyclone import fast_dds
 from turtlewire.wire.cyclone import library as dds
 from turtlewire.wire.cyclone.fast_dds import FAST_DDS, guid_of_client, split_identity
@@ -29,22 +28,6 @@ GUID = bytes.fromhex("010f") + bytes(range(10)) + b"\x00\x00\x09\x04"
 MARK = b"\xfaFastDDS"
 
 compiled = pytest.mark.skipif(NATIVE is None, reason=COMPILED_CORE)
-
-
-@pytest.fixture
-def context():
-    opened = open_context(middleware="rmw_cyclonedds_cpp")
-    yield opened
-    opened.close()
-
-
-@pytest.fixture
-def types():
-    request, response = (
-        TypeId(f"{EMPTY}_{part}", msg.type_hash(f"{EMPTY}_{part}"))
-        for part in ("Request", "Response")
-    )
-    return ServiceTypes(EMPTY, request, response, msg.type_hash)
 
 
 @pytest.fixture

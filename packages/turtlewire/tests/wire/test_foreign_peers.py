@@ -97,13 +97,6 @@ def program(vendor: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return build(vendor, tmp_path_factory.mktemp(vendor))
 
 
-@pytest.fixture
-def context():
-    opened = open_context(middleware="rmw_cyclonedds_cpp")
-    yield opened
-    opened.close()
-
-
 @contextmanager
 def running(program: Path, context: Context | None, *arguments: str):
     environment = os.environ | {"CYCLONEDDS_URI": RMW_CYCLONEDDS_LOCALHOST}

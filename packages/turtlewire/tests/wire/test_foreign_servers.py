@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from turtlewire import msg
 from turtlewire.errors import UncallableServiceError
 from turtlewire.wire import open_context, report
-from turtlewire.wire.base import ForeignServer, MessageInfo, NodeInfo, ServiceTypes, TypeId
+from turtlewire.wire.base import ForeignServer, MessageInfo, NodeInfo
 from turtlewire.wire.cyclone.fast_dds import FAST_DDS
 from turtlewire.wire.cyclone.servers import foreign_middleware
 from turtlewire.wire.qos import QoS
@@ -17,22 +16,6 @@ LONG = 60_000_000_000
 EMPTY = "std_srvs/srv/Empty"
 CDR = b"\x00\x01\x00\x00\x00\x00\x00\x00"
 NO_ID = "a middleware that announces no serviceid"
-
-
-@pytest.fixture
-def context():
-    opened = open_context(middleware="rmw_cyclonedds_cpp")
-    yield opened
-    opened.close()
-
-
-@pytest.fixture
-def types():
-    request, response = (
-        TypeId(f"{EMPTY}_{part}", msg.type_hash(f"{EMPTY}_{part}"))
-        for part in ("Request", "Response")
-    )
-    return ServiceTypes(EMPTY, request, response, msg.type_hash)
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,6 @@ import pytest
 from tests.needs import needs_cyclone_dds
 
 from turtlewire.errors import WireError
-from turtlewire.wire import open_context
 from turtlewire.wire.base import Context, TypeId
 from turtlewire.wire.cyclone import library
 from turtlewire.wire.cyclone.announcer import ANNOUNCEMENT_INTERVAL_NS
@@ -27,14 +26,6 @@ PEERS = Path(__file__).parent / "peers"
 STRING = TypeId("std_msgs/msg/String", "RIHS01_" + "0" * 64)
 MESSAGE = b"\x00\x01\x00\x00" + bytes(8)
 LONG = 60_000_000_000
-
-
-@pytest.fixture
-def contexts():
-    opened = [open_context(middleware="rmw_cyclonedds_cpp") for _ in range(2)]
-    yield opened
-    for context in opened:
-        context.close()
 
 
 def test_a_thousand_endpoints_take_a_handful_of_announcements(contexts: list[Context]):

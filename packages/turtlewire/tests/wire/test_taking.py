@@ -7,7 +7,6 @@ from __future__ import annotations
 import pytest
 from tests.needs import needs_cyclone_dds
 
-from turtlewire import wire
 from turtlewire.wire.base import EventKind, TypeId
 from turtlewire.wire.cyclone import taking
 from turtlewire.wire.qos import History, QoS
@@ -28,13 +27,6 @@ def cdr(number, size):
 WAYS = {"ctypes": taking.take_with_ctypes}
 if taking.take_messages is not taking.take_with_ctypes:
     WAYS["native"] = taking.take_messages
-
-
-@pytest.fixture
-def context():
-    context = wire.open_context(middleware="rmw_cyclonedds_cpp")
-    yield context
-    context.close()
 
 
 @pytest.fixture

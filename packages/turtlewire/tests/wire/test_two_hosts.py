@@ -15,6 +15,8 @@ from typing import TYPE_CHECKING
 import pytest
 from tests.places import LEARNING
 
+from .hosts import DEMO, PEERS, delete_namespaces, ip, namespace
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
@@ -28,33 +30,7 @@ pytestmark = [
     ),
 ]
 
-PEERS = Path(__file__).parent / "peers"
 HOSTS = {"here": "10.77.0.1", "there": "10.77.0.2"}
-
-#: Which host runs which node of the follow demo, and its arguments: each arrow of the data flow
-#: crosses the cable.
-DEMO = [
-    ("here", "turtlesim.turtlesim_node", []),
-    (
-        "there",
-        "learning_tf2_py.turtle_tf2_broadcaster",
-        ["-r", "__node:=broadcaster1", "-p", "turtlename:=turtle1"],
-    ),
-    (
-        "here",
-        "learning_tf2_py.turtle_tf2_broadcaster",
-        ["-r", "__node:=broadcaster2", "-p", "turtlename:=turtle2"],
-    ),
-    ("there", "learning_tf2_py.turtle_tf2_listener", ["-p", "target_frame:=turtle1"]),
-]
-
-
-def ip(*arguments: str) -> None:
-    subprocess.run(["ip", *arguments], check=True, capture_output=True)
-
-
-def namespace(host: str) -> str:
-    return f"turtlewire-{host}-{os.getpid()}"
 
 
 @pytest.fixture(scope="module")
@@ -66,18 +42,8 @@ def hosts() -> Iterator[None]:
     try:
         ip("netns", "add", namespace("there"))
         ip(
-            "link",
-            "add",
-            "tw-here",
-            "netns",
-            namespace("here"),
-            "type",
-            "veth",
-            "peer",
-            "name",
-            "tw-there",
-            "netns",
-            namespace("there"),
+            *("link", "add", "tw-here", "netns", namespace("here")),
+            *("type", "veth", "peer", "name", "tw-there", "netns", namespace("there")),
         )
         for host, address in HOSTS.items():
             ip("-n", namespace(host), "addr", "add", f"{address}/24", "dev", f"tw-{host}")
@@ -85,10 +51,7 @@ def hosts() -> Iterator[None]:
             ip("-n", namespace(host), "link", "set", "lo", "up")
         yield
     finally:
-        for host in HOSTS:
-            subprocess.run(
-                ["ip", "netns", "delete", namespace(host)], check=False, capture_output=True
-            )
+        delete_namespaces(*HOSTS)
 
 
 def command(host: str, script: str) -> list[str]:

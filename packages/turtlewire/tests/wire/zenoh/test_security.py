@@ -8,12 +8,17 @@ import shutil
 import socket
 import subprocess
 import sys
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 from tests.places import HOW_TO, LEARNING, PATH
 
 from turtlewire.wire.zenoh.router_log import explain
+
+from ..hosts import DEMO, PEERS, delete_namespaces, ip, namespace
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 pytestmark = [
     pytest.mark.skipif(
@@ -336,30 +341,6 @@ def test_messages_that_the_router_forwards():
 
 #: The addresses of the router and of the host in each network.
 NETWORKS = {"here": ("10.78.1.1", "10.78.1.2"), "there": ("10.78.2.1", "10.78.2.2")}
-PEERS = Path(__file__).parents[1] / "peers"
-#: The nodes of the follow demo, and their hosts: each arrow of the data flow crosses the router.
-DEMO = [
-    ("here", "turtlesim.turtlesim_node", []),
-    (
-        "there",
-        "learning_tf2_py.turtle_tf2_broadcaster",
-        ["-r", "__node:=broadcaster1", "-p", "turtlename:=turtle1"],
-    ),
-    (
-        "here",
-        "learning_tf2_py.turtle_tf2_broadcaster",
-        ["-r", "__node:=broadcaster2", "-p", "turtlename:=turtle2"],
-    ),
-    ("there", "learning_tf2_py.turtle_tf2_listener", ["-p", "target_frame:=turtle1"]),
-]
-
-
-def ip(*arguments: str) -> None:
-    subprocess.run(["ip", *arguments], check=True, capture_output=True)
-
-
-def space(host: str) -> str:
-    return f"turtlewire-{host}-{os.getpid()}"
 
 
 @pytest.fixture
@@ -370,27 +351,26 @@ def networks():
     hosts = ("router", *NETWORKS)
     try:
         for host in hosts:
-            ip("netns", "add", space(host))
-            ip("-n", space(host), "link", "set", "lo", "up")
+            ip("netns", "add", namespace(host))
+            ip("-n", namespace(host), "link", "set", "lo", "up")
         for host, (of_router, own) in NETWORKS.items():
             link = f"tw-{host}"
             ip(
-                *("link", "add", link, "netns", space("router")),
-                *("type", "veth", "peer", "name", link, "netns", space(host)),
+                *("link", "add", link, "netns", namespace("router")),
+                *("type", "veth", "peer", "name", link, "netns", namespace(host)),
             )
             for place, address in ("router", of_router), (host, own):
-                ip("-n", space(place), "addr", "add", f"{address}/24", "dev", link)
-                ip("-n", space(place), "link", "set", link, "up")
+                ip("-n", namespace(place), "addr", "add", f"{address}/24", "dev", link)
+                ip("-n", namespace(place), "link", "set", link, "up")
         yield
     except subprocess.CalledProcessError as error:
         pytest.skip(f"this container has no network namespaces: {error.stderr.decode().strip()}")
     finally:
-        for host in hosts:
-            subprocess.run(["ip", "netns", "delete", space(host)], check=False, capture_output=True)
+        delete_namespaces(*hosts)
 
 
 def on_host(host: str, script: str) -> list[str]:
-    return ["ip", "netns", "exec", space(host), "bash", "-c", script]
+    return ["ip", "netns", "exec", namespace(host), "bash", "-c", script]
 
 
 @pytest.mark.slow
