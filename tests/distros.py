@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
+
+from tests.programs import run_python
 
 #: A function for such programs: what a call returns and warns of, or the error that it raises.
 OUTCOME = """
@@ -23,13 +23,11 @@ def outcome(call):
 
 def lines_in(distro: object, program: str) -> list[str]:
     """Run a program; return the lines that it prints."""
-    done = subprocess.run(
-        [sys.executable, "-c", program],
-        env={**os.environ, "ROS_DISTRO": str(distro), "RMW_IMPLEMENTATION": "local"},
-        capture_output=True,
-        text=True,
-        timeout=120,
+    done = run_python(
+        program,
         check=False,
+        timeout=120,
+        env={**os.environ, "ROS_DISTRO": str(distro), "RMW_IMPLEMENTATION": "local"},
     )
     assert done.returncode == 0, done.stderr
     return done.stdout.splitlines()

@@ -8,6 +8,7 @@ import sys
 
 from tests.how_to import blocks_of
 from tests.places import ROOT
+from tests.programs import run_python
 
 
 def test_its_examples(tmp_path, monkeypatch):
@@ -24,13 +25,7 @@ def test_its_two_programs_meet():
     sender, receiver = (each for each in blocks_of(text, "python") if not each.startswith(">>>"))
     with subprocess.Popen([sys.executable, "-c", sender]) as sending:
         try:
-            found = subprocess.run(
-                [sys.executable, "-c", receiver],
-                capture_output=True,
-                text=True,
-                timeout=120,
-                check=False,
-            )
+            found = run_python(receiver, check=False, timeout=120)
         finally:
             sending.kill()
     assert (found.stdout, found.stderr) == ("hello (1.0, 2.0, 0.0)\n", "")

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
 
 import pytest
 from tests.needs import COMPILED_CORE
+from tests.programs import run_python
 
 pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="the system has no fork()")
 
@@ -58,13 +57,10 @@ print(failures, "failures")
 
 
 def failures(core: str, count: int) -> str:
-    return subprocess.run(
-        [sys.executable, "-c", PROGRAM.replace("COUNT", str(count))],
-        env={**os.environ, "TURTLEWIRE_CORE": core},
-        capture_output=True,
-        text=True,
-        check=True,
+    return run_python(
+        PROGRAM.replace("COUNT", str(count)),
         timeout=840,
+        env={**os.environ, "TURTLEWIRE_CORE": core},
     ).stdout
 
 

@@ -14,6 +14,7 @@ from pathlib import Path
 
 import pytest
 from tests.places import COLCON, ENGINE, SCRIPTS, TOOLS
+from tests.programs import run_python
 
 SETUP = TOOLS / "setup.py"
 
@@ -180,7 +181,7 @@ def test_a_full_disk_is_one_line(setup, monkeypatch, capfd):
 def test_an_old_python_is_refused_before_it_reads_the_rest():
     code = "import runpy, sys; sys.version_info = (3, 9, 18); sys.version = '3.9.18 (main)'; "
     code += f"runpy.run_path({str(SETUP)!r}, run_name='__main__')"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    done = run_python(code, check=False)
     assert done.returncode == 1
     assert "is Python 3.9.18; 3.10 or newer is needed (PYTHON=python3.12" in done.stderr
     assert done.stderr.count("\n") == 1

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
-
 import pytest
+from tests.programs import run_python
 
 from turtlewire import msg
 from turtlewire.errors import InterfaceError
@@ -60,9 +58,7 @@ def test_an_unknown_interface_has_the_hint():
 
 
 def last_lines(program):
-    result = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=False
-    )
+    result = run_python(program, check=False)
     assert result.returncode == 1
     return result.stderr.splitlines()[-2:]
 

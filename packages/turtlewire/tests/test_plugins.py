@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 
 import pytest
+from tests.programs import run_python
 
 from turtlewire.plugins import Entry, declared
 
@@ -67,5 +67,5 @@ def test_the_metadata_of_packages_is_not_loaded():
         "import sys; from turtlewire.plugins import declared; "
         "assert declared('console_scripts'); print('importlib.metadata' in sys.modules)"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    done = run_python(code)
     assert done.stdout == "False\n"

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import os
 import socket
-import subprocess
-import sys
 import threading
 
 import pytest
+from tests.programs import run_python
 
 from turtlewire import testing, wire
 
@@ -35,9 +34,7 @@ def test_a_domain_of_its_own_and_everything_as_before_afterwards(monkeypatch):
 def test_a_domain_is_reserved_for_one_process():
     code = "from turtlewire.testing import reserved_domain\nwith reserved_domain() as d: print(d)"
     with testing.reserved_domain() as mine, testing.reserved_domain() as other:
-        child = subprocess.run(
-            [sys.executable, "-c", code], capture_output=True, text=True, check=True
-        )
+        child = run_python(code)
         assert len({mine, other, int(child.stdout)}) == 3
 
 

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import json
 import struct
-import subprocess
-import sys
 
 import pytest
 from tests.places import LESSON_CODE, LESSONS
+from tests.programs import run_python
 
 from turtle_lesson import classroom
 from turtle_lesson.lesson import load_lesson
@@ -190,9 +189,7 @@ print(turtlewire.tf.buffer.CORE, middleware_name())
 def test_it_needs_no_thread_no_numpy_and_no_compiled_core():
     """As in a browser tab: what is missing there is taken away here."""
     code = TAB.format(python=str(LESSON_CODE), lesson=str(LESSONS / "listener"))
-    done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=110
-    )
+    done = run_python(code, check=False, timeout=110)
     assert done.returncode == 0, done.stderr
     assert done.stdout.split() == ["python", "local"]
     assert "compiled core" not in done.stderr

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-import subprocess
-import sys
 from array import array
 
 import numpy as np
 import pytest
+from tests.programs import run_python
 
 from turtlewire import msg
 
@@ -173,12 +172,6 @@ def test_without_checks_anything_can_be_assigned():
 def test_the_environment_turns_checks_on(value, status):
     program = "from turtlewire import msg; msg.get_message('std_msgs/msg/String')().data = 3"
     environment = {"ROS_PYTHON_CHECK_FIELDS": value, "PATH": ""}
-    done = subprocess.run(
-        [sys.executable, "-c", program],
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = run_python(program, check=False, env=environment)
     assert done.returncode == status
     assert ("AssertionError: The 'data' field must be of type 'str'" in done.stderr) == bool(status)

@@ -5,12 +5,11 @@ from __future__ import annotations
 import copy
 import os
 import pickle
-import subprocess
-import sys
 from array import array
 
 import numpy as np
 import pytest
+from tests.programs import run_python
 
 from geometry_msgs.msg import PoseWithCovariance, Quaternion, TransformStamped, Vector3
 from rcl_interfaces.msg import Log, ParameterValue
@@ -293,7 +292,7 @@ def test_the_private_modules_of_interfaces_are_imported():
         "except ImportError:\n"
         "    print('fine')\n"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    done = run_python(code, check=False)
     assert (done.stdout, done.stderr) == ("fine\n", "")
 
 
@@ -324,7 +323,5 @@ try:
 except KeyboardInterrupt:
     print("caught")
 """
-    done = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=False
-    )
+    done = run_python(program, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (0, "caught\n", "")

@@ -9,6 +9,7 @@ import sys
 
 import pytest
 from tests.places import IMPORT_PATH
+from tests.programs import run_python
 
 from turtlewire.errors import InterfaceError
 from turtlewire.msg import registry
@@ -105,13 +106,7 @@ print(again.three.tolist(), again.numbers.tolist(), again.words, again.raw,
 print(msg.interfaces()["my_interfaces"])
 """
     environment = {**os.environ, "PYTHONPATH": str(generated)}
-    done = subprocess.run(
-        [sys.executable, "-c", program],
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = run_python(program, check=False, env=environment)
     assert done.stderr == ""
     assert done.stdout.splitlines() == [
         (
@@ -131,9 +126,7 @@ def test_a_type_is_found_by_name_before_its_package_was_imported(generated):
         "from turtlewire import msg; print(msg.get_message('my_interfaces/msg/Sphere')().radius)"
     )
     environment = {**os.environ, "PYTHONPATH": str(generated)}
-    done = subprocess.run(
-        [sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True
-    )
+    done = run_python(program, env=environment)
     assert done.stdout == "1.5\n"
 
 

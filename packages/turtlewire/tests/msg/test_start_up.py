@@ -7,6 +7,7 @@ import subprocess
 import sys
 
 import pytest
+from tests.programs import run_python
 
 HEAVY = {
     "numpy",
@@ -63,7 +64,5 @@ steps.append(made())
 msg.deserialize(cls, data)
 print([*steps, made()])
 """
-    done = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=True
-    )
+    done = run_python(program)
     assert done.stdout == "[[False, False], [True, False], [True, True]]\n"

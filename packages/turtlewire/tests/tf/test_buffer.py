@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 from tests.needs import COMPILED_CORE
+from tests.programs import run_python
 
 from turtlewire import errors, msg
 
@@ -741,14 +742,7 @@ class TestListeners:
 class TestChoiceOfCore:
     def run(self, code: str, **environment: str) -> subprocess.CompletedProcess[str]:
         clean = {k: v for k, v in os.environ.items() if not k.startswith("TURTLEWIRE_")}
-        return subprocess.run(
-            [sys.executable, "-c", code],
-            env=clean | environment,
-            capture_output=True,
-            text=True,
-            timeout=300,
-            check=False,
-        )
+        return run_python(code, check=False, timeout=300, env=clean | environment)
 
     def test_python_on_request(self) -> None:
         run = self.run(

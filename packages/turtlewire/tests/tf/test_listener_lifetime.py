@@ -6,11 +6,10 @@ Nothing is used after its end.
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
 
 import pytest
 from tests.needs import needs_cyclone_dds
+from tests.programs import run_python
 
 PROGRAM = """
 import gc, random, sys, threading
@@ -96,14 +95,7 @@ def test_everything_may_end_while_messages_arrive():
         "PYTHONMALLOC": "malloc",
         "MALLOC_PERTURB_": "165",
     }
-    done = subprocess.run(
-        [sys.executable, "-c", PROGRAM],
-        env=variables,
-        capture_output=True,
-        text=True,
-        timeout=840,
-        check=False,
-    )
+    done = run_python(PROGRAM, check=False, timeout=840, env=variables)
     assert (done.returncode, done.stdout) == (0, "alive\n"), done.stderr[-2000:]
     assert [
         line for line in done.stderr.splitlines() if "a message on /tf was lost" not in line

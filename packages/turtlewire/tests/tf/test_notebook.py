@@ -6,6 +6,7 @@ import sys
 from xml.etree import ElementTree as ET
 
 import pytest
+from tests.programs import run_python
 
 from tf2_ros import Buffer
 
@@ -81,9 +82,7 @@ def test_pictures_are_loaded_when_they_are_asked_for():
         "import sys, turtlewire; turtlewire.Buffer(); print('turtlewire.tf.notebook' in "
         "sys.modules, 'numpy' in sys.modules)"
     )
-    assert subprocess.run(
-        [sys.executable, "-c", program], check=True, capture_output=True, text=True
-    ).stdout.split() == ["False", "False"]
+    assert run_python(program).stdout.split() == ["False", "False"]
 
 
 def test_a_message_shows_what_a_transform_shows_in_a_notebook_alone():

@@ -5,8 +5,6 @@ from __future__ import annotations
 import importlib.util
 import os
 import pickle
-import subprocess
-import sys
 import types
 from pathlib import Path
 
@@ -15,6 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation, Slerp
+from tests.programs import run_python
 
 from turtlewire.errors import InvalidTransformError
 
@@ -216,13 +215,7 @@ def test_the_twin_reads_bags(tmp_path):
         "import sys, turtlewire; b = turtlewire.Buffer.from_bag(sys.argv[1]); print(b.bag_report)"
     )
     done = {
-        core: subprocess.run(
-            [sys.executable, "-c", code, str(path)],
-            env={**os.environ, "TURTLEWIRE_CORE": core},
-            capture_output=True,
-            text=True,
-            check=True,
-        ).stdout
+        core: run_python(code, str(path), env={**os.environ, "TURTLEWIRE_CORE": core}).stdout
         for core in ("python", "")
     }
     assert done["python"] == done[""]

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 import time
 from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.programs import run_python
 
 SECOND = 1_000_000_000
 POSE = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
@@ -99,8 +98,6 @@ for round in range(50):
     sizes.append(int(Path("/proc/self/statm").read_text().split()[1]) * 4)
 print(sizes[-1] - sizes[4])
 """
-    run = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=True
-    )
+    run = run_python(program)
     # 45 rounds of links and names are 60,000 kB. The kernel may add a huge page of 2,048 kB.
     assert int(run.stdout) < 6000

@@ -15,6 +15,7 @@ import threading
 import types
 
 import pytest
+from tests.programs import run_python
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
@@ -316,9 +317,4 @@ def test_importing_the_room_stays_light():
         "import sys, turtlewire.web; print(*[name for name in ('asyncio', 'websockets', 'http') "
         "if name in sys.modules])"
     )
-    assert (
-        subprocess.run(
-            [sys.executable, "-c", code], check=True, capture_output=True, text=True
-        ).stdout.strip()
-        == ""
-    )
+    assert run_python(code).stdout.strip() == ""

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 import signal
-import subprocess
 import sys
 from importlib.util import find_spec
 
 import pytest
 from tests.needs import COMPILED_CORE, needs_cyclone_dds
+from tests.programs import run_python
 
 from turtlewire.tf.buffer import CORE
 
@@ -19,15 +19,8 @@ OPEN = "from turtlewire.wire import open_context\nopen_context(5).close()\n"
 LIMIT_S = 60
 
 
-def run(code: str, **environment: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-c", code],
-        capture_output=True,
-        text=True,
-        timeout=LIMIT_S,
-        check=False,
-        env=os.environ | environment,
-    )
+def run(code: str, **environment: str):
+    return run_python(code, check=False, timeout=LIMIT_S, env=os.environ | environment)
 
 
 @needs_cyclone_dds

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import hashlib
 import os
-import subprocess
 import sys
 import threading
 import tracemalloc
 
 import pytest
+from tests.programs import run_python
 
 from turtlewire.wire.cyclone.log import CycloneLog, LineLimiter, explain
 
@@ -37,9 +37,7 @@ def test_cyclone_log_of_a_domain_goes_into_the_pipe():
         "    assert dds.create_domain(3, b'<Nonsense>') < 0\n"
         "print(log.unread(), log.unread())\n"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=True
-    )
+    done = run_python(code, timeout=300)
     assert "Nonsense: unknown element" in done.stdout
     assert done.stdout.endswith("] []\n")
     assert done.stderr == ""

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
-
 import pytest
+from tests.programs import run_python
 
 import tf2_geometry_msgs as tf2
 import tf2_ros
@@ -91,9 +89,7 @@ def test_importing_it_is_light():
         "import sys, tf2_geometry_msgs; print('numpy' in sys.modules); "
         "tf2_geometry_msgs.array_from_pose; print('numpy' in sys.modules)"
     )
-    printed = subprocess.run(
-        [sys.executable, "-c", program], check=True, capture_output=True, text=True
-    ).stdout
+    printed = run_python(program).stdout
     assert printed.split() == ["False", "True"]
 
 

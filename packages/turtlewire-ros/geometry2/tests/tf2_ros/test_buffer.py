@@ -7,8 +7,6 @@ from __future__ import annotations
 
 import asyncio
 import gc
-import subprocess
-import sys
 import threading
 import time
 import weakref
@@ -18,6 +16,7 @@ from functools import partial
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.programs import run_python
 
 import tf2_ros
 from geometry_msgs.msg import TransformStamped
@@ -308,9 +307,7 @@ TransformListener(buffer, node)
 MessageFilter(None, buffer, "world", 10, node).registerCallback(lambda message: buffer)
 future = buffer.wait_for_transform_async("a", "b", rclpy.time.Time())
 """
-    ended = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=False
-    )
+    ended = run_python(program, check=False)
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, "", "")
 
 

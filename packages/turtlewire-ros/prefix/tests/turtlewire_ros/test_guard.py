@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
 
 import pytest
+from tests.programs import run_python
 
 from turtlewire_ros.guard import foreign_package
 
@@ -16,14 +15,7 @@ def ros2(*words, path=""):
         "import sys; from turtlewire_ros.guard import main; sys.argv[0] = 'ros2'; sys.exit(main())"
     )
     environment = {**os.environ, "PYTHONPATH": path}
-    done = subprocess.run(
-        [sys.executable, "-c", program, *words],
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=300,
-    )
+    done = run_python(program, *words, check=False, timeout=300, env=environment)
     return done.returncode, done.stdout, done.stderr
 
 
@@ -65,7 +57,5 @@ sys.exit(guard.main())
 
 
 def test_ctrl_c_at_the_end_of_an_import_ends_ros2():
-    done = subprocess.run(
-        [sys.executable, "-c", INTERRUPTED], capture_output=True, text=True, timeout=60, check=False
-    )
+    done = run_python(INTERRUPTED, check=False, timeout=60)
     assert (done.returncode, done.stderr) == (2, "")

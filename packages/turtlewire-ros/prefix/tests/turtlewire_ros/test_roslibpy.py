@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 import threading
 
 import pytest
+from tests.programs import run_python
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.server import serve
 
@@ -137,9 +136,7 @@ def port(monkeypatch):
 
 
 def test_topics_and_services(port):
-    done = subprocess.run(
-        [sys.executable, "-c", CLIENT, str(port)], capture_output=True, text=True, check=False
-    )
+    done = run_python(CLIENT, str(port), check=False)
     assert done.stdout.splitlines() == [
         "{'data': 'HELLO'}",
         "{'sum': 42}",

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import re
 import shlex
-import subprocess
-import sys
 
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from tests.golden.cli.captures import captures
+from tests.programs import run_python
 
 from rclpy._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
 from rclpy.impl import log_output
@@ -73,14 +72,7 @@ def test_golden_exit_codes(name):
     """
     words, _, error = golden(name)
     program = "import sys, rclpy; rclpy.init(args=sys.argv)"
-    run = subprocess.run(
-        [sys.executable, "-c", program, "--ros-args", *words],
-        capture_output=True,
-        text=True,
-        cwd=INPUTS,
-        timeout=300,
-        check=False,
-    )
+    run = run_python(program, "--ros-args", *words, check=False, timeout=300, cwd=INPUTS)
     assert (run.returncode, run.stderr.splitlines()[-1]) == (CASES[name].exit_code, error)
 
 

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.programs import run_python
 
 from action_msgs.msg import GoalInfo, GoalStatus, GoalStatusArray
 from builtin_interfaces.msg import Time
@@ -111,7 +109,5 @@ print(list(result.result().result.sequence), "numpy" in sys.modules)
 print(type(goal.result().goal_id.uuid).__name__)
 rclpy.shutdown()
 """
-    done = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=True, timeout=300
-    )
+    done = run_python(program, timeout=300)
     assert done.stdout == "[0, 1, 1] False\nndarray\n"

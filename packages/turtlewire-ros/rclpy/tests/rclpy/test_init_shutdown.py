@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 import threading
 
 import pytest
 from tests.needs import needs_cyclone_dds
+from tests.programs import run_python
 
 import rclpy
 from rclpy._rclpy_pybind11 import RCLError
@@ -280,12 +279,7 @@ def test_every_module_is_an_attribute_of_the_package():
     )
     lines = [f"assert rclpy.{name}.__name__ == 'rclpy.{name}'" for name in names.split()]
     program = "\n".join(["import rclpy", *lines, "print(rclpy.time.Time().nanoseconds)"])
-    assert (
-        subprocess.run(
-            [sys.executable, "-c", program], capture_output=True, text=True, check=True
-        ).stdout
-        == "0\n"
-    )
+    assert run_python(program).stdout == "0\n"
     assert rclpy.Parameter is rclpy.parameter.Parameter
     assert rclpy.Future is rclpy.task.Future
     assert rclpy.Context is Context
@@ -303,12 +297,7 @@ heavy = {"numpy", "asyncio.events", "inspect", "concurrent.futures", "dataclasse
          "subprocess", "uuid", "http", "yaml"}
 print(sorted(heavy & set(sys.modules)))
 """
-    assert (
-        subprocess.run(
-            [sys.executable, "-c", program], capture_output=True, text=True, check=True
-        ).stdout
-        == "[]\n"
-    )
+    assert run_python(program).stdout == "[]\n"
 
 
 @needs_cyclone_dds
@@ -399,7 +388,5 @@ for context in (silent, loud, later):
     context.shutdown()
     print(count())
 """
-    done = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True
-    )
+    done = run_python(program, timeout=60)
     assert done.stdout.split() == ["0", "INFO", "2", "DEBUG", "2", "1", "0"]

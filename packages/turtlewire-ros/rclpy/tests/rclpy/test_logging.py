@@ -2,13 +2,13 @@ from __future__ import annotations
 
 import os
 import re
-import subprocess
 import sys
 import threading
 import time
 from typing import ClassVar
 
 import pytest
+from tests.programs import run_python
 
 import rclpy.logging
 from rclpy.clock import Clock, ClockType
@@ -460,9 +460,7 @@ def test_a_closed_stream_does_not_end_the_program():
         "import os; os.close(2); import rclpy.logging; "
         "print(rclpy.logging.get_logger('x').info('y'))"
     )
-    run = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, timeout=300, check=True
-    )
+    run = run_python(program, timeout=300)
     assert run.stdout == "True\n"
 
 

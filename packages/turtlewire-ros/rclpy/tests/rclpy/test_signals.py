@@ -10,6 +10,7 @@ import sys
 
 import pytest
 from tests.needs import needs_cyclone_dds
+from tests.programs import run_python
 
 TUTORIAL_MAIN = """
 import rclpy
@@ -509,9 +510,7 @@ os.kill(os.getpid(), signal.SIGINT)
 @pytest.mark.parametrize("first", ["SIGINT", "SIGTERM"])
 def test_sigint_after_a_signal_does_not_kill_an_ending_process(first):
     """`ros2 launch` passes signals on to processes that the terminal or `timeout` told already."""
-    done = subprocess.run(
-        [sys.executable, "-c", LATE, first], capture_output=True, text=True, check=False
-    )
+    done = run_python(LATE, first, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (0, "a second time\n", "")
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import json
 import shutil
-import sys
 
 import pytest
+from tests.programs import run_python
 
 import ros2cli.main
 from tests import places
@@ -112,12 +112,11 @@ def test_wrong_words(capfd):
 
 def test_info_is_quick_to_start():
     """No NumPy and no middleware for a look at a file."""
-    import subprocess
 
     code = (
         "import sys, ros2cli.main\n"
         f"ros2cli.main.main(['bag', 'info', {str(GOLDEN / 'p_small')!r}])\n"
         "print([m for m in ('numpy', 'turtlewire.wire.cyclone') if m in sys.modules])\n"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    done = run_python(code)
     assert done.stdout.splitlines()[-1] == "[]"

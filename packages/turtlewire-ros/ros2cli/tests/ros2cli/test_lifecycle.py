@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 import pytest
+from tests.programs import run_python
 
 from ros2cli.main import main
 
@@ -40,13 +41,7 @@ def managed():
 def ros2(*words):
     """Run in a separate process, as rclpy's default context belongs to a process."""
     program = "import sys; from ros2cli.main import main; sys.exit(main(sys.argv[1:]))"
-    result = subprocess.run(
-        [sys.executable, "-c", program, *words],
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=840,
-    )
+    result = run_python(program, *words, check=False, timeout=840)
     return result.returncode, result.stdout, result.stderr
 
 

@@ -9,6 +9,7 @@ import sys
 import threading
 
 import pytest
+from tests.programs import run_python
 
 from ros2cli import main as ros2cli_main
 from ros2cli.installed import declared, first_line, summary
@@ -100,9 +101,7 @@ except SystemExit:
 heavy = {{"numpy", "asyncio", "rclpy", "rich", "yaml", "launch", "turtlewire.msg"}}
 print("loaded:", sorted(heavy & set(sys.modules)))
 """
-    result = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=True
-    )
+    result = run_python(program)
     assert result.stdout.splitlines()[-1] == "loaded: []"
 
 
@@ -113,9 +112,7 @@ from ros2cli.main import main
 status = main(["topic", "list"])
 print("status", status, sorted({"numpy", "asyncio", "rclpy", "turtlewire.msg"} & set(sys.modules)))
 """
-    result = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=True
-    )
+    result = run_python(program)
     assert result.stdout.splitlines() == ["/parameter_events", "/rosout", "status 0 []"]
 
 
@@ -248,7 +245,5 @@ except SystemExit:
     pass
 print(sorted(name for name in sys.modules if name.startswith("ros2") and ".verb." in name))
 """
-    result = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=True
-    )
+    result = run_python(program)
     assert result.stdout.splitlines()[-1] == "[]"

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import gzip
 import json
-import subprocess
-import sys
 import zlib
 
 import pytest
+from tests.programs import run_python
 
 import rosbag2_py
 from rclpy.serialization import deserialize_message
@@ -158,12 +157,7 @@ def test_a_program_that_ends_finishes_its_bag(tmp_path):
         "node.writer.open(rosbag2_py.StorageOptions(uri=sys.argv[1], storage_id='mcap'))\n"
         "sys.kept = node\n"
     )
-    run = subprocess.run(
-        [sys.executable, "-c", program, str(tmp_path / "bag")],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
+    run = run_python(program, str(tmp_path / "bag"))
     assert run.stderr == ""
     assert (tmp_path / "bag" / "metadata.yaml").exists()
 

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 from tests.completion import offered
 from tests.places import GOLDEN
+from tests.programs import run_python
 
 import ros2cli.main
 
@@ -83,14 +82,8 @@ def test_wrong_words(words, status, answer, tmp_path, monkeypatch, capfd):
 def test_a_snapshot_needs_a_limit(distro, answer, tmp_path):
     words = ["bag", "record", "--topics", "/a", "--snapshot-mode", "--max-cache-size", "0"]
     code = f"import sys; from ros2cli.main import main; sys.exit(main({words}))"
-    done = subprocess.run(
-        [sys.executable, "-c", code],
-        cwd=tmp_path,
-        env={**os.environ, "ROS_DISTRO": distro},
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=False,
+    done = run_python(
+        code, check=False, timeout=60, env={**os.environ, "ROS_DISTRO": distro}, cwd=tmp_path
     )
     assert (done.returncode, done.stderr) == (1, answer)
     assert list(tmp_path.iterdir()) == []

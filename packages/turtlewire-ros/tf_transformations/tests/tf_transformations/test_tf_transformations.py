@@ -5,8 +5,6 @@ from __future__ import annotations
 import inspect
 import itertools
 import math
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -14,6 +12,7 @@ import transforms3d as t3d
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
+from tests.programs import run_python
 
 import tf_transformations as tft
 
@@ -115,12 +114,7 @@ def test_the_broadcaster_s_function_needs_no_numpy():
         "import sys, tf_transformations as t; t.quaternion_from_euler(0, 0, 1.0); print('numpy' "
         "in sys.modules)"
     )
-    assert (
-        subprocess.run(
-            [sys.executable, "-c", code], capture_output=True, text=True, check=True
-        ).stdout
-        == "False\n"
-    )
+    assert run_python(code).stdout == "False\n"
 
 
 def test_there_are_24_conventions():

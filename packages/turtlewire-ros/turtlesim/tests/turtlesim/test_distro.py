@@ -5,10 +5,9 @@ wire.
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
 
 import pytest
+from tests.programs import run_python
 
 from turtlewire import msg
 from turtlewire.msg.registry import interface_path
@@ -45,9 +44,7 @@ print(find_missing(node.context.wire.graph.endpoints(), "/", ["turtle1"]),
 def test_types_are_those_of_the_distribution(distro, package):
     environment = {name: value for name, value in os.environ.items() if name != "ROS_DISTRO"}
     environment |= {"RMW_IMPLEMENTATION": "local"} | ({"ROS_DISTRO": distro} if distro else {})
-    done = subprocess.run(
-        [sys.executable, "-c", LOOK], env=environment, capture_output=True, text=True, check=False
-    )
+    done = run_python(LOOK, check=False, env=environment)
     assert done.returncode == 0, done.stderr
     assert done.stdout.splitlines() == [
         (
@@ -90,12 +87,8 @@ node.create_subscription(Pose, "/turtle1/pose", print, 1)
 
 @pytest.mark.parametrize("distro", ["jazzy", "lyrical"])
 def test_a_listener_of_another_distribution_is_told_the_remedy(distro):
-    done = subprocess.run(
-        [sys.executable, "-c", LISTEN],
-        env=os.environ | {"RMW_IMPLEMENTATION": "local", "ROS_DISTRO": distro},
-        capture_output=True,
-        text=True,
-        check=True,
+    done = run_python(
+        LISTEN, env=os.environ | {"RMW_IMPLEMENTATION": "local", "ROS_DISTRO": distro}
     )
     remedy = "Type export ROS_DISTRO=lyrical in both terminals"
     assert (remedy in done.stderr) == (distro == "jazzy"), done.stderr

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.programs import run_python
 
 from turtlesim.model import DEFAULT_PEN, Pen, Stroke
 from turtlesim.path import EMPTY_COLOUR, PathImage
@@ -129,9 +127,4 @@ for tick in range(60):
 path.colour_at(250, 250)
 print("numpy" in sys.modules)
 """
-    assert (
-        subprocess.run(
-            [sys.executable, "-c", code], check=True, capture_output=True, text=True
-        ).stdout
-        == "False\n"
-    )
+    assert run_python(code).stdout == "False\n"

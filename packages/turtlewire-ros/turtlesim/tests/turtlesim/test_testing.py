@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from tests.places import EXAMPLES
+from tests.programs import run_python
 
 import rclpy
 from geometry_msgs.msg import Twist
@@ -155,12 +156,8 @@ def test_one_that_fails_to_begin_leaves_nothing_behind(monkeypatch):
 def test_the_same_bits_in_every_process():
     digests = set()
     for seed in ("1", "2", "3"):
-        run = subprocess.run(
-            [sys.executable, "-c", RUN.format(exercise=str(EXERCISE))],
-            env={**os.environ, "PYTHONHASHSEED": seed},
-            capture_output=True,
-            text=True,
-            check=True,
+        run = run_python(
+            RUN.format(exercise=str(EXERCISE)), env={**os.environ, "PYTHONHASHSEED": seed}
         )
         assert run.stdout.count("Pose(") == 20
         digests.add(hashlib.sha256(run.stdout.encode()).hexdigest())

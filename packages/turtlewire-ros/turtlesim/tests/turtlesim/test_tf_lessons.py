@@ -7,8 +7,6 @@ from __future__ import annotations
 
 import math
 import re
-import subprocess
-import sys
 
 import pytest
 from learning_tf2_py.dynamic_frame_tf2_broadcaster import DynamicFrameBroadcaster
@@ -18,6 +16,7 @@ from learning_tf2_py.turtle_tf2_broadcaster import TurtleBroadcaster
 from learning_tf2_py.turtle_tf2_listener import TurtleListener
 from learning_tf2_py.turtle_tf2_time_travel import TimeTraveller
 from tests.places import HOW_TO
+from tests.programs import run_python
 
 from rclpy.time import Time
 from turtlesim.testing import Simulation
@@ -90,7 +89,5 @@ def test_the_page_does_what_it_says():
         r"^```python\n(.*?)^```\n\n```text\n(.*?)^```$", PAGE.read_text(), re.MULTILINE | re.DOTALL
     )
     assert not others
-    run = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=True
-    )
+    run = run_python(program)
     assert run.stdout == printed

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import json
 import re
-import subprocess
-import sys
 
 import pytest
+from tests.programs import run_python
 
 from turtlewire.errors import WireError
 from turtlewire.wire import open_context, report
@@ -154,12 +153,7 @@ def test_a_program_that_cannot_join_ends_with_one_line(
 ):
     monkeypatch.setenv("RMW_IMPLEMENTATION", "rmw_zenoh_cpp")
     monkeypatch.setenv(variable, value)
-    done = subprocess.run(
-        [sys.executable, "-c", "import rclpy; rclpy.init(); print('joined')"],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = run_python("import rclpy; rclpy.init(); print('joined')", check=False)
     assert (done.returncode, done.stdout) == (1, "")
     [line] = done.stderr.splitlines()
     assert said in line
