@@ -9,7 +9,7 @@ import sys
 
 import pytest
 from benchmarks.tf_buffer import CASES
-from tests.places import ROOT, SCRIPTS
+from tests.places import ROOT, SCRIPTS, TOOLS
 
 
 @pytest.mark.parametrize("words", [["-h"], ["tf_buffer", "--help"]])
@@ -36,3 +36,27 @@ def test_the_figures_of_the_buffer_are_measured():
     measured = {case for _, case, *_ in CASES}
     assert measured <= figures.keys()
     assert all(min(figure) > 0 for figure in figures.values())
+
+
+# `scripts/soak` for a minute: the processes that stay neither grow nor end.
+
+
+SOAK = TOOLS / "soak.py"
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(600)
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="it measures with Linux's /proc")
+def test_a_minute(run):
+    program = run(sys.executable, SOAK, "--minutes", "1")
+    assert program.wait(500) == 0, program.text
+    (said,) = program.wait_for(r"^visitors: (\d+), of them killed: (\d+)$")
+    come, killed = map(int, said.groups())
+    assert killed >= come // 3
+
+
+def test_invalid_times(run):
+    for minutes in ("0", "-1", "nan"):
+        program = run(sys.executable, SOAK, f"--minutes={minutes}")
+        assert program.wait() == 2
+        assert "--minutes is between 0.5 and 10000" in program.text

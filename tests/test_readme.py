@@ -5,10 +5,14 @@ from __future__ import annotations
 import contextlib
 import doctest
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
+from tests.how_to import blocks_of
 from tests.places import LEARNING, ROOT
+from tests.programs import run_python
 
 import turtlewire
 from turtlewire_ros.executables import executable_paths
@@ -46,3 +50,26 @@ def test_named_programs_exist():
         assert executable in [Path(path).name for path in executable_paths(package)]
     for _, launch_file in launches:
         assert list(LEARNING.rglob(launch_file))
+
+
+# The examples of `docs/api.md` give the answers on the page.
+
+
+def test_its_examples(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("TURTLEWIRE_BROWSER", "0")
+    monkeypatch.setenv("TURTLEWIRE_PORT", "0")
+    failed, tried = doctest.testfile(str(ROOT / "docs" / "api.md"), module_relative=False)
+    assert failed == 0
+    assert tried >= 85
+
+
+def test_its_two_programs_meet():
+    text = (ROOT / "docs" / "api.md").read_text()
+    sender, receiver = (each for each in blocks_of(text, "python") if not each.startswith(">>>"))
+    with subprocess.Popen([sys.executable, "-c", sender]) as sending:
+        try:
+            found = run_python(receiver, check=False, timeout=120)
+        finally:
+            sending.kill()
+    assert (found.stdout, found.stderr) == ("hello (1.0, 2.0, 0.0)\n", "")

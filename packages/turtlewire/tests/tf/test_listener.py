@@ -13,9 +13,11 @@ import weakref
 import pytest
 
 from turtlewire import Buffer, errors, msg, wire
+from turtlewire.errors import InvalidTransformError
 from turtlewire.tf import faults, full_buffers
 from turtlewire.tf.links import links
 from turtlewire.tf.listener import QOS, STATIC_QOS, TYPE_NAME, TransformListener
+from turtlewire.tf.restarts import RestartWatch
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import QoS
 
@@ -390,3 +392,29 @@ def test_alone_it_joins_the_domain_of_the_environment(monkeypatch):
             assert all(name.startswith("transform_listener_impl_") for name in listeners)
     assert [node.name for node in sender.graph.nodes()] == ["talker"]
     sender.close()
+
+
+# A simulation that starts again is noticed, and only that.
+
+
+SECOND = 1_000_000_000
+POSE = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)
+
+
+def test_a_world_that_begins_anew_is_forgotten():
+    buffer = Buffer()
+    restarts = RestartWatch(buffer)
+    buffer.set_static_transform("world", "base", *POSE)
+    buffer.set_transform("world", "robot", 100 * SECOND, *POSE)
+    assert not restarts.look()
+    with pytest.raises(InvalidTransformError, match="TF_OLD_DATA"):
+        buffer.set_transform("world", "robot", SECOND, *POSE)
+    buffer.set_transform("world", "robot", 101 * SECOND, *POSE)
+    assert not restarts.look()  # one late message; it still goes on
+    with pytest.raises(InvalidTransformError):
+        buffer.set_transform("world", "robot", 2 * SECOND, *POSE)
+    assert restarts.look()
+    buffer.set_transform("world", "robot", 3 * SECOND, *POSE)
+    assert not restarts.look()
+    assert buffer.lookup_transform("world", "robot").stamp_ns == 3 * SECOND
+    assert buffer.can_transform("world", "base")

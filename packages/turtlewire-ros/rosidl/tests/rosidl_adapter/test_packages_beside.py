@@ -22,6 +22,10 @@ from rosidl_parser.definition import (
     NamespacedType,
     Structure,
 )
+from rosidl_pycommon.interface_base_classes import BaseAction, BaseImpl, BaseMessage, BaseService
+from std_msgs.msg import String
+from std_srvs.srv import SetBool
+from turtlesim.action import RotateAbsolute
 
 
 def message(name):
@@ -95,3 +99,17 @@ def test_processes_of_osrf_pycommon():
     assert status == 0
     assert b"".join(lines).strip() == b"hello"
     assert remove_ansi_escape_sequences(format_color("@{gf}green@|")).strip() == "green"
+
+
+# The base classes of interfaces.
+
+
+def test_interfaces_have_their_bases():
+    assert isinstance(String(), BaseMessage)
+    assert isinstance(SetBool.Request(), BaseMessage)
+    assert issubclass(RotateAbsolute.Goal, BaseMessage)
+    assert issubclass(SetBool, BaseService)
+    assert issubclass(RotateAbsolute, BaseAction)
+    assert issubclass(RotateAbsolute.Impl, BaseImpl)
+    assert not issubclass(SetBool, BaseMessage)
+    assert RotateAbsolute.Impl.SendGoalService.Request().goal_id is not None
