@@ -46,7 +46,7 @@ class House:
     def __init__(self, root: Path) -> None:
         interfaces = root / "packages/turtlewire/src/turtlewire/msg/interfaces"
         # turtlesim has code besides its interfaces.
-        self.shells = {folder.name for folder in interfaces.glob("*")} - {"turtlesim"}
+        self.shells = {file.stem for file in interfaces.glob("*.txt")} - {"turtlesim"}
         self.paths = dict(_modules(root))
         self.trees = {name: ast.parse(path.read_bytes()) for name, path in self.paths.items()}
         self.imports = sorted({found for name in self.trees for found in self._imports(name)})

@@ -12,9 +12,9 @@ import sys
 from pathlib import Path
 
 from rosidl_adapter.idl import interface_to_idl
-from turtlewire.msg.bundled import bundled_folders
+from turtlewire.msg.bundled import bundled_interfaces, bundled_packages
 from turtlewire.msg.generate import import_lines, write_modules
-from turtlewire.msg.registry import interfaces_in
+from turtlewire.msg.registry import interface_text
 
 __all__ = ["INDEX", "write_interface_files", "write_interface_modules"]
 
@@ -28,14 +28,13 @@ def write_interface_files(prefix: Path) -> None:
     Raises:
         OSError: A file cannot be written.
     """
-    for folder in _bundled():
-        package = folder.name
-        kinds = interfaces_in(str(folder))
+    for package in bundled_packages():
+        kinds = bundled_interfaces(package)
         share = prefix / "share" / package
         for kind, names in kinds.items():
             for name in names:
                 source = Path(kind, f"{name}.{kind}")
-                text = (folder / source).read_text(encoding="utf-8")
+                text = interface_text(f"{package}/{kind}/{name}")
                 _write(share / source, text)
                 idl = interface_to_idl(package, source, text)
                 _write(share / source.with_suffix(".idl"), idl)
@@ -56,17 +55,13 @@ def write_interface_modules(folder: Path) -> None:
     Raises:
         OSError: A file cannot be written.
     """
-    for source in _bundled():
-        package = source.name
-        imports = import_lines(write_modules(package, source, folder / package))
+    for package in bundled_packages():
+        kinds = bundled_interfaces(package)
+        imports = import_lines(write_modules(package, kinds, folder / package))
         if package != "turtlesim":
             text = f'"""Interfaces of {package}."""\n\n{imports}'
             _write(folder / package / "__init__.py", text)
             _write(folder / package / "py.typed", "")
-
-
-def _bundled() -> list[Path]:
-    return sorted(Path(bundled_folders()[-1]).iterdir())
 
 
 def _write(path: Path, text: str) -> None:

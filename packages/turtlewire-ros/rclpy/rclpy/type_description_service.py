@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from turtlewire import msg
 from turtlewire.errors import InterfaceError
-from turtlewire.msg.registry import interface_path
+from turtlewire.msg.registry import interface_text
 
 from .qos import qos_profile_services_default
 from .validate_topic_name import TOPIC_SEPARATOR_STRING
@@ -101,10 +101,8 @@ def _source(type_name: str) -> TypeSource:
     from type_description_interfaces.msg import TypeSource
 
     try:
-        path = interface_path(type_name)
+        text = interface_text(type_name)
     except InterfaceError:
         return TypeSource(type_name=type_name, encoding="implicit")
-    with open(path, encoding="utf-8") as file:
-        return TypeSource(
-            type_name=type_name, encoding=path.rpartition(".")[2], raw_file_contents=file.read()
-        )
+    kind = type_name.split("/")[1]
+    return TypeSource(type_name=type_name, encoding=kind, raw_file_contents=text)

@@ -86,22 +86,22 @@ def get_interface_path(interface_name: str) -> str:
     if parts[0] not in msg.interfaces():
         raise LookupError(f"Unknown package '{parts[0]}'")
     stem, dot, ending = interface_name.partition(".")
-    path = _in_share(interface_path(stem), parts[0])
+    path = _in_share(interface_path(stem), stem)
     asked = f"{os.path.splitext(path)[0]}.{ending}" if dot else path
     if asked != path and (ending != "idl" or not os.path.isfile(asked)):
         raise LookupError(f"Could not find the interface '{asked}'")
     return asked
 
 
-def _in_share(path: str, package: str) -> str:
+def _in_share(path: str, full_name: str) -> str:
     """Return the file of a package's share folder for a definition, or the definition itself."""
     from turtlewire_ros.prefix import share_directory
 
+    package, kind, name = full_name.split("/")
     share = share_directory(package)
     if share is None:
         return path
-    kind, name = path.split(os.sep)[-2:]
-    installed = os.path.join(share, kind, name)
+    installed = os.path.join(share, kind, f"{name}.{kind}")
     return installed if os.path.isfile(installed) else path
 
 

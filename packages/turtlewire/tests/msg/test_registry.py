@@ -13,6 +13,7 @@ from turtlewire import msg
 from turtlewire.errors import InterfaceError
 from turtlewire.msg.registry import (
     interface_path,
+    interface_text,
     interfaces,
     load_action,
     load_message,
@@ -57,7 +58,7 @@ def test_our_definitions_win_over_those_of_a_prefix(tmp_path, monkeypatch):
     folder.mkdir(parents=True)
     (folder / "String.msg").write_text("int32 other\n")
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
-    assert "other" not in interface_path("std_msgs/msg/String")
+    assert "other" not in interface_text("std_msgs/msg/String")
     assert len(interfaces()["std_msgs"]["msg"]) == 30
 
 

@@ -37,7 +37,7 @@ def wheel(tmp_path_factory):
 def packages():
     inits = ROS.glob("*/*/__init__.py")
     return sorted(
-        {init.parent.name for init in inits} | {path.name for path in INTERFACES.iterdir()}
+        {init.parent.name for init in inits} | {path.stem for path in INTERFACES.glob("*.txt")}
     )
 
 
@@ -75,18 +75,19 @@ def said_by(definition):
 
 def test_interfaces_are_in_share_as_text_and_as_idl(wheel):
     """The text is the engine's, IDL says the same, and the index names both."""
-    definitions = sorted(
-        path for kind in KINDS for path in INTERFACES.glob(f"*/{kind}/*.{kind}") if path.is_file()
-    )
+    definitions = [
+        part.partition("\n")
+        for path in INTERFACES.glob("*.txt")
+        for part in path.read_text(encoding="utf-8").split("=== ")[1:]
+    ]
     assert len(definitions) == 411
     index = {}
-    for path in definitions:
-        package, kind, name = (path.parents[1].name, path.parent.name, path.stem)
-        place = f"{DATA}share/{package}/{kind}/{name}"
-        text = path.read_text(encoding="utf-8")
+    for full_name, _, text in definitions:
+        package, kind, name = full_name.split("/")
+        place = f"{DATA}share/{full_name}"
         assert wheel.read(f"{place}.{kind}").decode() == text
-        translated = idl_to_text(f"{package}/{kind}/{name}", wheel.read(f"{place}.idl").decode())
-        meant = [PARSERS[kind](f"{package}/{kind}/{name}", each) for each in (translated, text)]
+        translated = idl_to_text(full_name, wheel.read(f"{place}.idl").decode())
+        meant = [PARSERS[kind](full_name, each) for each in (translated, text)]
         assert said_by(meant[0]) == said_by(meant[1]), place
         index.setdefault(package, []).extend([f"{kind}/{name}.{kind}", f"{kind}/{name}.idl"])
     for package, names in index.items():

@@ -22,7 +22,7 @@ from rosidl_adapter.cli import (
 from rosidl_adapter.main import main
 from rosidl_adapter.msg import convert_msg_to_idl
 from turtlewire import msg
-from turtlewire.msg.registry import interface_path
+from turtlewire.msg.registry import interface_text
 
 STAMPED = """# Where and when.
 builtin_interfaces/Time stamp
@@ -122,7 +122,7 @@ def all_interfaces(*kinds):
 
 
 def source(name):
-    return pathlib.Path(interface_path(name)).read_text()
+    return interface_text(name)
 
 
 def read_by_rosbags(text):

@@ -26,7 +26,7 @@ from rosidl_parser.parser import parse_idl_file, parse_idl_string
 from rosidl_runtime_py.utilities import get_interface
 from turtlewire.errors import InterfaceError
 from turtlewire.msg import interfaces
-from turtlewire.msg.registry import interface_path
+from turtlewire.msg.registry import interface_text
 
 SHAPE = r"""
 // a comment
@@ -104,9 +104,8 @@ def test_a_message_with_all_that_there_is():
 
 def parsed(name):
     """The interface of a name, by way of its IDL."""
-    package, *_ = name.split("/")
-    source = Path(interface_path(name))
-    text = interface_to_idl(package, Path(*source.parts[-2:]), source.read_text())
+    package, kind, stem = name.split("/")
+    text = interface_to_idl(package, Path(kind, f"{stem}.{kind}"), interface_text(name))
     return parse_idl_string(text).elements[-1]
 
 

@@ -48,7 +48,7 @@ from rosidl_parser.parser import (
 )
 from turtlewire.errors import InterfaceError
 from turtlewire.msg import interfaces
-from turtlewire.msg.registry import interface_path
+from turtlewire.msg.registry import interface_text
 
 from .test_parser import SHAPE
 
@@ -85,10 +85,10 @@ def test_the_content_of_each_interface():
         for kind, names in kinds.items():
             for name in names:
                 source = PurePath(kind, f"{name}.{kind}")
-                path = Path(interface_path(f"{package}/{kind}/{name}"))
-                text = interface_to_idl(package, source, path.read_text(encoding="utf-8"))
+                full_name = f"{package}/{kind}/{name}"
+                text = interface_to_idl(package, source, interface_text(full_name))
                 made = extract_content_from_ast(get_ast_from_idl_string(text))
-                assert described(made) == described(parse_idl_string(text)), path
+                assert described(made) == described(parse_idl_string(text)), full_name
                 count += 1
     assert count >= 363
 

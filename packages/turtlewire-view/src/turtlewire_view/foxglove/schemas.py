@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from turtlewire.errors import InterfaceError
-from turtlewire.msg.registry import interface_path, load_message
+from turtlewire.msg.registry import interface_text, load_message
 from turtlewire.msg.types import (
     AbstractGenericString,
     AbstractNestedType,
@@ -69,8 +69,7 @@ def _used(definition: MessageDefinition, seen: set[str]) -> Iterator[str]:
 def _text(type_name: str) -> str:
     if type_name.split("/")[1] != "msg":
         return _written(load_message(type_name))
-    with open(interface_path(type_name), encoding="utf-8") as file:
-        return file.read()
+    return interface_text(type_name)
 
 
 def _written(definition: MessageDefinition) -> str:

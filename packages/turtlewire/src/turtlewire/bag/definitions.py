@@ -13,7 +13,13 @@ from turtlewire.bag.metadata import full_type_name
 from turtlewire.errors import InterfaceError
 from turtlewire.msg.definition import MessageDefinition, ServiceDefinition, nested_types
 from turtlewire.msg.parser import parse_message
-from turtlewire.msg.registry import define, interface_path, load_interface, load_message
+from turtlewire.msg.registry import (
+    define,
+    interface_path,
+    interface_text,
+    load_interface,
+    load_message,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -140,8 +146,7 @@ def definition_text(type_name: str) -> str:
 def _source(full_name: str) -> str:
     if full_name in _learned:
         return _learned[full_name]
-    with open(interface_path(full_name), encoding="utf-8") as file:
-        return file.read()
+    return interface_text(full_name)
 
 
 def _used(definition: Definition, seen: set[str]) -> Iterator[str]:

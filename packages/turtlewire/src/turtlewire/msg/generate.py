@@ -78,7 +78,7 @@ def generate_package(source: Path, output: Path, package: str = "") -> Path:
     for path in files:
         _put_definition(package, path, folder)
     add_package(package, str(folder))
-    imports = import_lines(write_modules(package, folder, folder))
+    imports = import_lines(write_modules(package, interfaces_in(str(folder)), folder))
     text = _PACKAGE.format(package=package, imports=imports)
     (folder / "__init__.py").write_text(text, encoding="utf-8")
     (folder / "py.typed").touch()
@@ -117,15 +117,15 @@ def import_lines(kinds: list[str]) -> str:
     return "".join(f"from . import {kind} as {kind}\n" for kind in kinds)
 
 
-def write_modules(package: str, source: Path, folder: Path) -> list[str]:
-    """Write modules and stubs for the definitions in ``source`` into ``folder``.
+def write_modules(package: str, interfaces: dict[str, list[str]], folder: Path) -> list[str]:
+    """Write modules and stubs for the interfaces of a package into ``folder``.
 
     Returns:
         The modules with definitions, among ``msg``, ``srv`` and ``action``.
     """
     kinds = []
     for kind in KINDS:
-        names = sorted(interfaces_in(str(source))[kind], key=_natural_order)
+        names = sorted(interfaces[kind], key=_natural_order)
         if not names:
             continue
         kinds.append(kind)

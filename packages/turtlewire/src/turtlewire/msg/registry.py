@@ -14,7 +14,13 @@ import time
 from typing import TYPE_CHECKING
 
 from turtlewire.errors import InterfaceError
-from turtlewire.msg.bundled import bundled_folders, is_listed
+from turtlewire.msg.bundled import (
+    bundled_definitions,
+    bundled_file,
+    bundled_interfaces,
+    bundled_packages,
+    is_listed,
+)
 from turtlewire.msg.definition import (
     ActionDefinition,
     MessageDefinition,
@@ -35,6 +41,7 @@ __all__ = [
     "class_advice",
     "define",
     "interface_path",
+    "interface_text",
     "interfaces",
     "interfaces_in",
     "load_action",
@@ -115,7 +122,7 @@ def load_action(full_name: str) -> ActionDefinition:
 
 
 def interface_path(full_name: str) -> str:
-    """Path of the file that defines ``"pkg/msg/X"``.
+    """Path of the file that defines ``"pkg/msg/X"``; for ours, that of the whole package.
 
     Raises:
         InterfaceError: The interface does not exist.
@@ -137,6 +144,8 @@ def interface_path(full_name: str) -> str:
     failed = _not_found.get(full_name)
     if failed and failed[0] == places and time.monotonic() < failed[1]:
         raise InterfaceError(f"unknown interface '{full_name}'").with_hint(failed[2])
+    if package not in _registered and (bundled := bundled_file(full_name)):
+        return bundled
     for directory in _directories(package):
         path = os.path.join(directory, kind, f"{name}.{kind}")
         if os.path.isfile(path):
@@ -144,6 +153,15 @@ def interface_path(full_name: str) -> str:
     hint = _nearest(full_name)
     _not_found[full_name] = places, time.monotonic() + _NOT_FOUND_S, hint
     raise InterfaceError(f"unknown interface '{full_name}'").with_hint(hint)
+
+
+def interface_text(full_name: str) -> str:
+    """Text of the definition of ``"pkg/msg/X"``; raises as `interface_path` does."""
+    path = interface_path(full_name)
+    if path.endswith(".txt"):
+        return bundled_definitions(path)[full_name]
+    with open(path, encoding="utf-8") as file:
+        return file.read()
 
 
 def interfaces() -> dict[str, dict[str, list[str]]]:
@@ -157,15 +175,17 @@ def interfaces() -> dict[str, dict[str, list[str]]]:
     directories = _installed()
     for parent in reversed(_parents()):
         directories.update(_packages_in(parent))
-    # What a distribution changed is in its own folder; the others are complete.
-    directories.update(_packages_in(bundled_folders()[-1]))
+    ours = bundled_packages()
     listed = {
-        package: {
-            kind: [name for name in names if is_listed(f"{package}/{kind}/{name}")]
-            for kind, names in interfaces_in(directory).items()
-        }
+        package: interfaces_in(directory)
         for package, directory in directories.items()
+        if package not in ours
     }
+    for package in ours:
+        listed[package] = {
+            kind: [name for name in names if is_listed(f"{package}/{kind}/{name}")]
+            for kind, names in bundled_interfaces(package).items()
+        }
     listed |= {package: interfaces_in(directory) for package, directory in _registered.items()}
     return {package: listed[package] for package in sorted(listed) if any(listed[package].values())}
 
@@ -216,16 +236,11 @@ def load_interface(full_name: str) -> Definition:
         kind, name = rest[:2] if len(rest) > 1 else ("", "")
         is_whole = not (package and name)
         whole = full_name if is_whole else f"{package}/{kind}/{name.partition('_')[0]}"
-        _parse_file(whole)
+        define(whole, interface_text(whole))
         definition = _loaded.get(full_name)
         if definition is None:
             raise InterfaceError(f"unknown interface '{full_name}'")
     return definition
-
-
-def _parse_file(full_name: str) -> None:
-    with open(interface_path(full_name), encoding="utf-8") as file:
-        define(full_name, file.read())
 
 
 def define(full_name: str, text: str, *, strict: bool = True) -> None:
@@ -259,7 +274,7 @@ def _store_service(service: ServiceDefinition) -> None:
 
 def _parents() -> list[str]:
     prefixes = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
-    return [*bundled_folders(), *(os.path.join(prefix, "share") for prefix in prefixes if prefix)]
+    return [os.path.join(prefix, "share") for prefix in prefixes if prefix]
 
 
 def _installed() -> dict[str, str]:
