@@ -11,7 +11,6 @@ module            contents
 `direction`       opens and closes routes from one end to the other
 `topic_route`     one topic
 `service_route`   one service
-`service_types`   the type hashes of a service, known or announced
 `relay`           `Relay`, which follows the changes at both ends
 ================  =================================================================
 """

@@ -5,16 +5,20 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING
 
-from turtlewire.errors import WireError
+from turtlewire import msg
+from turtlewire.errors import InterfaceError, WireError
+from turtlewire.wire.base import ServiceTypes, TypeId
 from turtlewire.wire.qos import QoS
 from turtlewire.wire.report import warn_once
 
 if TYPE_CHECKING:
-    from turtlewire.wire.base import Node, RequestId, Service, ServiceTypes
+    from collections.abc import Iterable
+
+    from turtlewire.wire.base import EndpointInfo, Node, RequestId, Service
 
     from .side import Side
 
-__all__ = ["ServiceRoute"]
+__all__ = ["ServiceRoute", "installed_hash", "service_types"]
 
 #: Largest number of requests that wait for a response; beyond it, the oldest is dropped.
 _MOST_PENDING = 1000
@@ -80,3 +84,35 @@ class ServiceRoute:
         if self._service is not None:
             self._far.forget(self._service)
         self._near.forget(self._client)
+
+
+def service_types(
+    type_name: str, on_dds: Iterable[EndpointInfo], on_zenoh: Iterable[EndpointInfo]
+) -> ServiceTypes:
+    """Return the types of a service; a hash that is not known is empty.
+
+    On DDS, the two halves of a service announce the hashes of their own types. On Zenoh, both
+    announce the hash of the service, which cannot be computed from those. So the hash of a service
+    without an installed definition is known only once an end on Zenoh has announced it.
+
+    Args:
+        type_name: Name of the type (``turtlesim/srv/Spawn``).
+        on_dds: Its servers and clients on DDS.
+        on_zenoh: Its servers and clients on Zenoh.
+    """
+    parts = f"{type_name}_Request", f"{type_name}_Response"
+    announced = {each.type_name: each.type_hash for each in on_dds if each.type_hash}
+    installed = {name: installed_hash(name) for name in (type_name, *parts)}
+    is_another = any(announced.get(part, installed[part]) != installed[part] for part in parts)
+    hashes = (each.type_hash for each in on_zenoh if each.type_name in parts)
+    whole = next(hashes, "" if is_another else installed[type_name])
+    request, response = (TypeId(part, announced.get(part, installed[part])) for part in parts)
+    return ServiceTypes(type_name, request, response, lambda _: whole)
+
+
+def installed_hash(type_name: str) -> str:
+    """Return the hash of an installed definition; empty if it is not installed."""
+    try:
+        return msg.type_hash(type_name)
+    except InterfaceError:
+        return ""
