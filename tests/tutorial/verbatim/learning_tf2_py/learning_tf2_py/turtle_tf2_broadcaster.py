@@ -8,22 +8,24 @@ import tf_transformations
 # Import the dynamic broadcaster library from tf2_ros.
 from tf2_ros import TransformBroadcaster
 
-
 class TurtleTF2Broadcaster(Node):
     def __init__(self):
-        super().__init__("turtle_tf2_broadcaster")
+        super().__init__('turtle_tf2_broadcaster')
 
         # Retrieve the turtle name as a parameter. (Default: 'turtle1')
-        self.turtlename = (
-            self.declare_parameter("turtlename", "turtle1").get_parameter_value().string_value
-        )
+        self.turtlename = self.declare_parameter(
+            'turtlename', 'turtle1'
+        ).get_parameter_value().string_value
 
         # 1. Create a dynamic transform broadcaster object.
         self.tf_broadcaster = TransformBroadcaster(self)
 
         # 2. Create a subscriber to receive the turtle's pose information.
         self.subscription = self.create_subscription(
-            Pose, f"/{self.turtlename}/pose", self.handle_turtle_pose, 1
+            Pose,
+            f'/{self.turtlename}/pose',
+            self.handle_turtle_pose,
+            1
         )
 
     # 3. Callback function executed whenever pose data is received.
@@ -32,7 +34,7 @@ class TurtleTF2Broadcaster(Node):
 
         # Configure the header: set the current timestamp and parent frame.
         t.header.stamp = self.get_clock().now().to_msg()
-        t.header.frame_id = "world"
+        t.header.frame_id = 'world'
         t.child_frame_id = self.turtlename
 
         # Copy the turtle's 2D pose (x, y) into the 3D translation data.
@@ -50,7 +52,6 @@ class TurtleTF2Broadcaster(Node):
         # 4. Broadcast the configured transform to the TF2 network.
         self.tf_broadcaster.sendTransform(t)
 
-
 def main(args=None):
     rclpy.init(args=args)
     node = TurtleTF2Broadcaster()
@@ -63,6 +64,5 @@ def main(args=None):
         node.destroy_node()
         rclpy.shutdown()
 
-
-if __name__ == "__main__":
+if __name__ == '__main__':
     main()
