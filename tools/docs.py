@@ -18,6 +18,7 @@ from pathlib import Path
 
 import early_options
 from docs_links import faults_of
+from docs_releases import LIST, add_releases
 from lesson import serve
 from lesson_npm import BuildError
 
@@ -44,6 +45,9 @@ def main() -> int:
             gather_texts(BUILD / "gettext")
             return 0
         build(options.output, options.language, options.base)
+        if options.releases:
+            built = add_releases(ROOT, options.output, options.base)
+            print(f"{options.output}: releases: {', '.join(built) or 'none yet'}", flush=True)
         print(f"{options.output}: built in {time.monotonic() - started:.0f} s", flush=True)
         if options.serve:
             serve(options.output, options.port)
@@ -95,6 +99,7 @@ def build(output: Path, language: str = "en", base: str = "/") -> None:
             _link_back(fresh / "lesson" / "index.html")
         else:
             _without_lesson(fresh)
+        (fresh / LIST).write_text("[]", encoding="ascii")
         if faults := list(faults_of(fresh, apart={"lesson"})):
             raise BuildError("\n".join(["the built pages have faults:", *faults]))
         shutil.rmtree(output, ignore_errors=True)

@@ -51,6 +51,11 @@ def docs(words: list[str]) -> argparse.Namespace:
         "--language", default="en", help="a language of docs/sphinx/locale (default: en)"
     )
     parser.add_argument(
+        "--releases",
+        action="store_true",
+        help="also build each release (the tags v*), below its number",
+    )
+    parser.add_argument(
         "--gettext",
         action="store_true",
         help="write the texts for translators into build/gettext instead",

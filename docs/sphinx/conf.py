@@ -23,6 +23,7 @@ os.environ["TURTLEWIRE_CORE"] = "python"
 sys.path[:0] = [str(ROOT / "tools"), str(DOCS / "sphinx")]
 
 from distributions import import_path  # noqa: E402 -- its folder was unknown before
+from docs_releases import is_of_release  # noqa: E402
 
 sys.path[:0] = map(str, import_path())
 
@@ -69,6 +70,7 @@ html_sidebars = {
     "**": [
         "sidebar/brand.html",
         "sidebar/search.html",
+        "sidebar/version.html",
         "sidebar/run.html",
         "sidebar/scroll-start.html",
         "sidebar/navigation.html",
@@ -89,10 +91,20 @@ gettext_location = False
 def setup(app: Sphinx) -> None:
     """Register what this site adds to Sphinx."""
     app.add_transform(LeaveBuiltinsAlone)
+    app.connect("html-page-context", name_version)
     app.connect("source-read", name_files_outside)
     app.connect("source-read", add_unsorted_pages)
     app.connect("source-read", add_run_button)
     app.connect("autodoc-process-docstring", leave_out_module_tables)
+
+
+def name_version(
+    app: Sphinx, _pagename: str, _template: str, context: dict[str, Any], _doctree: object
+) -> None:
+    """Give the template the release whose folder this is, and where the root of the site is."""
+    base = str(app.config.html_context.get("base", "/"))  # what `-A` sets is in the context
+    context["release_shown"] = release if is_of_release(base, release) else ""
+    context["site_root"] = "../" if context["release_shown"] else ""
 
 
 def name_files_outside(_app: Sphinx, docname: str, source: list[str]) -> None:
