@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import heapq
 import itertools
-import sys
 import threading
 import time
 from typing import TYPE_CHECKING
+
+from turtlewire.guarded import call_guarded
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -26,7 +27,10 @@ class Deadlines:
         self._running = False
 
     def call_after(self, seconds: float, call: Callable[[], None]) -> Callable[[], None]:
-        """Call ``call()`` after some seconds, unless the returned function is called before."""
+        """Call ``call()`` after some seconds, unless the returned function is called before.
+
+        If it raises, the exception is reported, and later calls still run.
+        """
         with self._condition:
             number = next(self._numbers)
             self._calls[number] = call
@@ -45,7 +49,7 @@ class Deadlines:
 
     def _run(self) -> None:
         while (call := self._next()) is not None:
-            _call_guarded(call)
+            call_guarded(call)
 
     def _next(self) -> Callable[[], None] | None:
         """Block until a call is due; None if no call is left."""
@@ -65,12 +69,3 @@ class Deadlines:
             self._due.clear()
             self._running = False
             return None
-
-
-def _call_guarded(call: Callable[[], None]) -> None:
-    """Report an exception as for any thread, so that later calls still run."""
-    try:
-        call()
-    except BaseException:  # noqa: BLE001
-        arguments = (*sys.exc_info(), threading.current_thread())
-        threading.excepthook(threading.ExceptHookArgs(arguments))

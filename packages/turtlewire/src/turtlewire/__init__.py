@@ -12,6 +12,7 @@ module               contents
 `doctor`             checks of the installation, the graph and the transforms
 `errors`             every error that turtlewire raises on purpose
 `geometry`           quaternions, poses and matrices as numbers
+`guarded`            calls on threads that an exception must not end
 `msg`                interface definitions, message classes, CDR and type hashes
 `net`                topics and transforms of a network: `connect`
 `package_sources`    repositories of well-known packages that are missing

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import queue
+import threading
 
 import pytest
 
-from turtlewire import Buffer, msg, wire
+from turtlewire import Buffer, guarded, msg, wire
 from turtlewire.tf.listener import QOS, STATIC_QOS, TYPE_NAME, TransformListener
 from turtlewire.wire.base import TypeId
 
@@ -145,3 +146,32 @@ def test_closing_does_not_wait_for_frames_that_are_due_later(middleware, receive
         robot.leave(receiver.graph)
     assert buffer.removed.empty()
     listener.close()
+
+
+class FailingBuffer(NotingBuffer):
+    """A buffer from which the removal of ``moving`` fails."""
+
+    def remove_frame(self, child_frame):
+        removed = super().remove_frame(child_frame)
+        if child_frame == "moving":
+            raise OSError("no thanks")
+        return removed
+
+
+def test_a_removal_that_fails_does_not_keep_later_frames(monkeypatch):
+    reported = []
+    monkeypatch.setattr(guarded, "_reported", set())
+    monkeypatch.setattr(threading, "excepthook", lambda report: reported.append(report.exc_value))
+    context, buffer = wire.open_context(middleware="local"), FailingBuffer()
+    one, two = Robot("local", "one"), Robot("local", "two")
+    with TransformListener(
+        buffer, context.create_node("listener"), context=context, forget_after_ns=10_000_000
+    ):
+        one.send(buffer, "moving")
+        two.send(buffer, "other")
+        one.leave(context.graph)
+        assert buffer.removed.get(timeout=LONG_S) == ("moving", True)
+        two.leave(context.graph)
+        assert buffer.removed.get(timeout=LONG_S) == ("other", True)
+    context.close()
+    assert [str(error) for error in reported] == ["no thanks"]

@@ -7,6 +7,7 @@ import time
 
 import pytest
 
+from turtlewire import guarded
 from turtlewire.errors import WireError
 from turtlewire.wire import open_context, report
 from turtlewire.wire.base import (
@@ -66,6 +67,15 @@ def node(open_here) -> Node:
 def other(open_here) -> Node:
     """A node of another participant."""
     return open_here().create_node("other")
+
+
+@pytest.fixture
+def reported(monkeypatch: pytest.MonkeyPatch) -> list[BaseException | None]:
+    """The exceptions of threads that were reported."""
+    errors: list[BaseException | None] = []
+    monkeypatch.setattr(guarded, "_reported", set())
+    monkeypatch.setattr(threading, "excepthook", lambda report: errors.append(report.exc_value))
+    return errors
 
 
 def wait_until(context: Context, predicate) -> None:
@@ -300,8 +310,8 @@ def test_on_message_is_called_on_the_reader_thread(node: Node, other: Node):
     assert calls == [(cdr(text), publisher.gid, "turtlewire-reader") for text in ("a", "b", "c")]
 
 
-def test_a_callback_that_raises_is_said_once_and_later_messages_arrive(
-    node: Node, other: Node, capfd
+def test_a_callback_that_raises_is_reported_once_and_later_messages_arrive(
+    node: Node, other: Node, reported
 ):
     seen: list[bytes] = []
     done = threading.Event()
@@ -312,16 +322,40 @@ def test_a_callback_that_raises_is_said_once_and_later_messages_arrive(
             done.set()
         raise ValueError("no thanks")
 
-    topic = f"/raises_{type(node).__name__}"
-    subscription = node.create_subscription(topic, STRING, QoS(), on_message)
-    publisher = other.create_publisher(topic, STRING, QoS())
+    subscription = node.create_subscription("/raises", STRING, QoS(), on_message)
+    publisher = other.create_publisher("/raises", STRING, QoS())
     connect(other, publisher, node, subscription)
     for text in ("first", "second", "last"):
         publisher.publish(cdr(text))
     assert done.wait(60)
     node.context.close()
     assert len(seen) == 3
-    assert capfd.readouterr().err.count("no thanks") == 1
+    assert [str(error) for error in reported] == ["no thanks"]
+
+
+@pytest.mark.parametrize("kind", ["call", "listener"])
+def test_a_call_that_raises_does_not_end_the_reader_thread(
+    node: Node, other: Node, reported, kind: str
+):
+    def fail() -> None:
+        raise ValueError("no thanks")
+
+    called, received = threading.Event(), threading.Event()
+    if kind == "call":
+        node.context.call_soon(fail)
+        node.context.call_soon(called.set)
+    else:
+        node.context.graph.add_listener(fail)
+        node.context.graph.add_listener(called.set)
+    subscription = node.create_subscription(
+        "/chatter", STRING, QoS(), lambda *_: received.set()
+    )
+    publisher = other.create_publisher("/chatter", STRING, QoS())
+    connect(other, publisher, node, subscription)
+    assert called.wait(60)
+    publisher.publish(cdr("x"))
+    assert received.wait(60)
+    assert [str(error) for error in reported] == ["no thanks"]
 
 
 def test_wake_ends_the_current_and_the_next_wait(node: Node):

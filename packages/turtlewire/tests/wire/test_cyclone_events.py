@@ -6,6 +6,7 @@ import threading
 
 from tests.needs import needs_cyclone_dds
 
+from turtlewire import guarded
 from turtlewire.wire.base import Context, EventKind, TypeId
 from turtlewire.wire.qos import Liveliness, QoS
 
@@ -52,6 +53,21 @@ def test_a_match_during_the_callbacks_of_another_is_told_too(contexts: list[Cont
     node.create_subscription("/chatter", STRING, QoS())
     assert seen_all.wait(60)
     assert counts == [1, 2]
+
+
+def test_a_call_that_raises_at_a_match_keeps_nothing_from_the_others(
+    contexts: list[Context], monkeypatch
+):
+    reported, matched = [], threading.Event()
+    monkeypatch.setattr(guarded, "_reported", set())
+    monkeypatch.setattr(threading, "excepthook", lambda report: reported.append(report.exc_type))
+    publisher = contexts[0].create_node("talker").create_publisher("/chatter", STRING, QoS())
+    publisher.on_matched += [lambda: [].pop(), matched.set]
+    event = publisher.create_event(EventKind.MATCHED)
+    contexts[1].create_node("listener").create_subscription("/chatter", STRING, QoS())
+    assert matched.wait(60)
+    assert wait_for(contexts[0], event, lambda status: status.current_count == 1)
+    assert reported == [IndexError]
 
 
 def test_a_missed_deadline_is_reported_on_both_sides(contexts: list[Context]):

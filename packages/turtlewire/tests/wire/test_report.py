@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import io
+import sys
+
 import pytest
 
 from turtlewire.wire import report
@@ -36,6 +39,21 @@ def test_a_thousand_warnings_are_remembered(monkeypatch, capfd, keys, said):
     capfd.readouterr()
     report.warn_once("topic 0", "a mistake")
     assert capfd.readouterr().err.count("a mistake") == said
+
+
+class _BrokenPipe(io.StringIO):
+    def flush(self):
+        raise BrokenPipeError
+
+
+@pytest.mark.parametrize("state", ["none", "closed", "without a reader"])
+def test_a_warning_that_cannot_be_written_ends_no_thread(monkeypatch, state):
+    stream = None if state == "none" else _BrokenPipe()
+    if state == "closed":
+        stream.close()
+    monkeypatch.setattr(sys, "stderr", stream)
+    report.warn("nobody reads it")
+    assert state != "without a reader" or "nobody reads it" in stream.getvalue()
 
 
 def test_only_a_node_that_is_there_has_a_twin(monkeypatch, capfd):

@@ -11,6 +11,7 @@ import threading
 import time
 from typing import TYPE_CHECKING, Protocol
 
+from turtlewire.guarded import call_guarded
 from turtlewire.tf.links import links
 
 if TYPE_CHECKING:
@@ -67,6 +68,7 @@ class DepartureWatch:
         self._topic = topic
         self._after_s = after_ns / 1e9
         self._condition = threading.Condition()
+        self._due: dict[str, float] = {}  # moments of removal, by frame
         self._changed = True
         self._closed = False
         self._thread = threading.Thread(target=self._run, name="tf-departures", daemon=True)
@@ -79,14 +81,17 @@ class DepartureWatch:
             self._condition.notify_all()
 
     def _run(self) -> None:
-        due: dict[str, float] = {}  # moments of removal, by frame
-        while self._wait(min(due.values(), default=None)):
-            departed = departed_frames(self._buffer, self._graph, self._topic)
-            now = time.monotonic()
-            due = {frame: due.get(frame, now + self._after_s) for frame in departed}
-            for frame in [frame for frame, moment in due.items() if moment <= now]:
-                self._buffer.remove_frame(frame)
-                del due[frame]
+        while self._wait(min(self._due.values(), default=None)):
+            call_guarded(self._remove_departed)
+
+    def _remove_departed(self) -> None:
+        former, self._due = self._due, {}
+        departed = departed_frames(self._buffer, self._graph, self._topic)
+        now = time.monotonic()
+        self._due = {frame: former.get(frame, now + self._after_s) for frame in departed}
+        for frame in [frame for frame, moment in self._due.items() if moment <= now]:
+            del self._due[frame]
+            self._buffer.remove_frame(frame)
 
     def _wait(self, until: float | None) -> bool:
         """Wait for a change of the graph, at most until a moment; False once closed."""

@@ -18,6 +18,7 @@ from weakref import WeakKeyDictionary
 
 from turtlewire import msg, wire
 from turtlewire.errors import CdrError, WireError
+from turtlewire.guarded import call_guarded
 from turtlewire.tf.buffer import CORE, Buffer
 from turtlewire.tf.departures import DepartureWatch, departed_frames
 from turtlewire.tf.full_buffers import FullBuffers
@@ -122,7 +123,7 @@ class _Arrivals:
             calls, self._calls = self._calls, {}
         # Without the lock: a call may expect the next message at once.
         for call in calls:
-            call()
+            call_guarded(call)
 
 
 class _Feed:

@@ -309,8 +309,8 @@ class Node(Entity):
             type_id: What to match.
             qos: What is requested.
             on_message: When given, the context's reader thread calls it for every message, and the
-                subscription cannot be attached to a wait set. It must be short and must not raise
-                (an exception is reported once and the message is lost).
+                subscription cannot be attached to a wait set. It must be short. If it raises, the
+                exception is reported once, and the next message is delivered.
             sink: It may get the messages first, without Python and on any thread of the
                 middleware; those that it leaves go to ``on_message``, or are taken. A middleware
                 is free to do without it.
@@ -405,6 +405,8 @@ class Graph(ABC):
     def add_listener(self, on_change: Callable[[], None]) -> Callable[[], None]:
         """Call ``on_change`` on the context's reader thread after changes.
 
+        If it raises, the exception is reported, and the other listeners are called.
+
         Returns a function that ends it.
         """
 
@@ -441,7 +443,7 @@ class Context(ABC):
         """Call ``call()`` once, when a subscription, client or service has something to take.
 
         It is called at once if there is something already, on any thread, perhaps with locks held:
-        it may only wake a thread. Use it to wait without a separate thread.
+        it may only wake a thread, and must not raise. Use it to wait without a separate thread.
 
         Args:
             entity: What to wait for. It has one such call at a time.
@@ -457,6 +459,8 @@ class Context(ABC):
     @abstractmethod
     def call_soon(self, call: Callable[[], None]) -> None:
         """Call ``call()`` on the context's reader thread, unless the context closes before.
+
+        If it raises, the exception is reported, and the thread goes on.
 
         Takes no lock that this thread may hold already, so a finalizer may use it.
         """

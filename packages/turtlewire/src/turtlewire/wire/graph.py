@@ -13,6 +13,7 @@ from struct import Struct
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.errors import CdrError
+from turtlewire.guarded import call_guarded
 
 from . import names
 from .base import EndpointInfo, Graph, TypeId
@@ -256,7 +257,7 @@ class GraphView(Graph):
             self._change.notify_all()
             listeners = list(self._listeners)
         for listener in listeners:
-            listener()
+            call_guarded(listener)
 
     def end_waits(self) -> None:
         """End all waits, now and in the future."""

@@ -9,6 +9,7 @@ import time
 from collections import deque
 from typing import TYPE_CHECKING, Protocol
 
+from turtlewire.guarded import call_guarded
 from turtlewire.wake_up import WakeUp
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ __all__ = ["LoopReader", "Reader", "ReaderThread"]
 
 
 class Reader(Protocol):
-    """Runs what is submitted, in order."""
+    """Runs what is submitted, in order; if it raises, that is reported, and the next runs."""
 
     def submit(self, work: Callable[[], None]) -> None:
         """Run ``work`` soon."""
@@ -74,7 +75,7 @@ class ReaderThread:
             if work is None:
                 self._changed.wait(delay)
             else:
-                work()
+                call_guarded(work)
 
     def _next_work(self) -> Callable[[], None]:
         return self._work.popleft() if self._work else heapq.heappop(self._later)[2]
@@ -108,7 +109,7 @@ class LoopReader:
 
     def _run(self, work: Callable[[], None]) -> None:
         if not self._closed:
-            work()
+            call_guarded(work)
 
     def close(self) -> None:
         """Run nothing more."""

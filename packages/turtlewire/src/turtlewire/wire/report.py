@@ -4,16 +4,11 @@ from __future__ import annotations
 
 import sys
 import time
-from typing import TYPE_CHECKING
+from contextlib import suppress
 
 from turtlewire.terminal.printable import printable
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from .base import MessageInfo
-
-__all__ = ["call_guarded", "warn", "warn_once"]
+__all__ = ["warn", "warn_once"]
 
 #: Keys contain names, and peers may invent new ones without end. After this many the set is
 #: cleared, and a warning can be repeated.
@@ -31,22 +26,12 @@ def warn_once(key: str, text: str) -> None:
 
 
 def warn(text: str) -> None:
-    """Write ``text`` as a ROS 2 warning, on one line even if a peer's name has line feeds."""
-    seconds, nanoseconds = divmod(time.time_ns(), 1_000_000_000)
-    sys.stderr.write(f"[WARN] [{seconds}.{nanoseconds:09d}] [turtlewire.wire]: {printable(text)}\n")
-    sys.stderr.flush()
+    """Write ``text`` as a ROS 2 warning, on one line even if a peer's name has line feeds.
 
-
-def call_guarded(
-    on_message: Callable[[bytes, MessageInfo], None], message: tuple[bytes, MessageInfo], topic: str
-) -> None:
-    """Call ``on_message`` on a thread that serves other subscriptions, too.
-
-    An exception is reported once per topic and goes no further, because it would end the thread.
+    Never raises: it is called on threads that must go on.
     """
-    try:
-        on_message(*message)
-    except Exception as error:  # noqa: BLE001 - the thread must continue
-        warn_once(
-            f"on_message {topic}", f"a message on {topic} was lost, its callback raised {error!r}"
-        )
+    seconds, nanoseconds = divmod(time.time_ns(), 1_000_000_000)
+    line = f"[WARN] [{seconds}.{nanoseconds:09d}] [turtlewire.wire]: {printable(text)}\n"
+    with suppress(OSError, ValueError, AttributeError):  # stderr may be closed, or None
+        sys.stderr.write(line)
+        sys.stderr.flush()

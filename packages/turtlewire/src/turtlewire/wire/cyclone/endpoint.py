@@ -10,6 +10,7 @@ import threading
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from turtlewire.errors import WireError
+from turtlewire.guarded import call_guarded
 from turtlewire.wire.base import Entity, EventKind, EventStatus
 from turtlewire.wire.events import StatusEvent
 from turtlewire.wire.graph import format_user_data
@@ -143,7 +144,7 @@ class Endpoint(Entity):
         # Before the events, which find what the callbacks set.
         if changed.value & self._sources[EventKind.MATCHED].bit:
             for call in self.on_matched:
-                call()
+                call_guarded(call)
         for kind, translated in news:
             self._event(kind).add(translated)
 

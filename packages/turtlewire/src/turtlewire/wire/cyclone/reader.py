@@ -12,6 +12,8 @@ import time
 from collections import deque
 from typing import TYPE_CHECKING
 
+from turtlewire.guarded import call_guarded
+
 from .waiting import ConditionSet
 
 if TYPE_CHECKING:
@@ -24,6 +26,7 @@ class CycloneReaderThread:
     """Waits in C for all of its conditions and calls the function of each one that is triggered.
 
     The functions run one after the other, without locks held; each must take what triggered it.
+    If one raises, that is reported, and the others run.
     """
 
     def __init__(self, participant: int) -> None:
@@ -67,7 +70,7 @@ class CycloneReaderThread:
         for call in calls:
             if self._closed:  # by one of them: what the others are about has been deleted
                 return
-            call()
+            call_guarded(call)
 
     def _time_to_next(self) -> int | None:
         with self._lock:

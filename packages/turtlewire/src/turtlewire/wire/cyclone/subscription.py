@@ -5,10 +5,11 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING, ClassVar
 
+from turtlewire.guarded import call_guarded
 from turtlewire.wire.base import EventKind, MessageInfo, Subscription
 from turtlewire.wire.encapsulation import LITTLE_ENDIAN
 from turtlewire.wire.graph import parse_user_data
-from turtlewire.wire.report import call_guarded, warn_once
+from turtlewire.wire.report import warn_once
 
 from . import library as dds
 from .endpoint import (
@@ -254,7 +255,7 @@ def deliver_to(
         for message in subscription.take():
             if subscription.closed:
                 return
-            call_guarded(on_message, message, subscription.topic)
+            call_guarded(on_message, *message)
 
     return deliver
 
@@ -274,6 +275,6 @@ def deliver_rest_to(
             for message in rest:
                 if subscription.closed:
                     return
-                call_guarded(on_message, message, subscription.topic)
+                call_guarded(on_message, *message)
 
     return deliver

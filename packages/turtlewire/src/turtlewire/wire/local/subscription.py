@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from turtlewire.guarded import call_guarded
 from turtlewire.wire.base import MessageInfo, Subscription
 from turtlewire.wire.qos import Durability
 from turtlewire.wire.queue_wait_set import Queued
-from turtlewire.wire.report import call_guarded
 
 from .endpoint import LocalEndpoint
 
@@ -60,7 +60,7 @@ class LocalSubscription(LocalEndpoint, Queued, Subscription):
         """Hand over all waiting messages; on the reader thread."""
         assert self._on_message is not None
         for message in self.take(limit=len(self._queue)):
-            call_guarded(self._on_message, message, self.topic)
+            call_guarded(self._on_message, *message)
 
     @property
     def is_waiting(self) -> bool:

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import zenoh
 from zenoh.handlers import FifoChannel
 
+from turtlewire.guarded import call_guarded
 from turtlewire.wire.base import MessageInfo
-from turtlewire.wire.report import call_guarded
 
 from .subscription import ZenohSubscription
 
@@ -76,7 +76,7 @@ class ZenohSinkSubscription(ZenohSubscription):
                 batch = [channel.recv()]
                 while len(batch) < _CAPACITY and (sample := channel.try_recv()) is not None:
                     batch.append(sample)
-                self._hand_over(batch)
+                call_guarded(self._hand_over, batch)
         except zenoh.ZError:  # the channel is closed
             return
         finally:
@@ -106,7 +106,7 @@ class ZenohSinkSubscription(ZenohSubscription):
             for message in messages:
                 if self._closed:
                     return
-                call_guarded(self._on_message, message, self.topic)
+                call_guarded(self._on_message, *message)
 
     def _serve(self) -> list[tuple[bytes, MessageInfo]]:
         gid_of = self._native.gid_of

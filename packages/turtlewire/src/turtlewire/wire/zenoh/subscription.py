@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING
 
 from zenoh import ext
 
+from turtlewire.guarded import call_guarded
 from turtlewire.wire.base import EventKind, EventStatus, MessageInfo, Subscription
 from turtlewire.wire.encapsulation import HEADER_SIZE
 from turtlewire.wire.qos import Durability, History, Reliability
 from turtlewire.wire.queue_wait_set import Queued
-from turtlewire.wire.report import call_guarded, warn_once
+from turtlewire.wire.report import warn_once
 
 from .attachment import Attachment
 from .endpoint import ZenohEndpoint
@@ -149,7 +150,7 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
             messages = list(self._queue)
             self._queue.clear()
         for message in messages:
-            call_guarded(self._on_message, message, self.topic)
+            call_guarded(self._on_message, *message)
 
     def part(self, partner: Token) -> None:
         super().part(partner)

@@ -1,0 +1,46 @@
+"""Calls of functions on a thread that serves others, too, which an exception would end."""
+
+from __future__ import annotations
+
+import threading
+import traceback
+from contextlib import suppress
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["call_guarded"]
+
+#: Programs can make code without end; after this many places, an exception can be reported again.
+_MOST_PLACES = 1000
+_reported: set[tuple[str, int, type[BaseException]]] = set()
+
+
+def call_guarded(call: Callable[..., object], *arguments: object) -> None:
+    """Call ``call(*arguments)``; an exception is reported and goes no further.
+
+    It is reported as the end of any thread, by ``threading.excepthook``, and once for each line
+    that raises it: what fails for one message often fails for a thousand each second.
+    """
+    try:
+        call(*arguments)
+    except KeyboardInterrupt:  # of the main thread, which calls in a browser tab
+        raise
+    except BaseException as error:  # noqa: BLE001 - the thread must continue
+        _report(error)
+
+
+def _report(error: BaseException) -> None:
+    *_, (frame, line) = traceback.walk_tb(error.__traceback__)
+    place = frame.f_code.co_filename, line, type(error)
+    if place in _reported:
+        return
+    if len(_reported) >= _MOST_PLACES:
+        _reported.clear()
+    _reported.add(place)
+    arguments = threading.ExceptHookArgs(
+        (type(error), error, error.__traceback__, threading.current_thread())
+    )
+    with suppress(Exception):  # stderr may be closed; then there is nobody to tell
+        threading.excepthook(arguments)
