@@ -5,13 +5,18 @@ from __future__ import annotations
 import contextlib
 import threading
 import traceback
+from functools import partial
 
 import pytest
+import zenoh
+from tests.needs import COMPILED_CORE
 
 from turtlewire.errors import WireError
+from turtlewire.tf.buffer import CORE
 from turtlewire.wire import open_context
 from turtlewire.wire.base import RequestId, ServiceTypes, TypeId
 from turtlewire.wire.qos import QoS
+from turtlewire.wire.zenoh.callback_threads import CallbackThreads
 from turtlewire.wire.zenoh.calls import Calls
 
 REQUEST = TypeId("std_srvs/srv/SetBool_Request", "RIHS01_" + "1" * 64)
@@ -63,6 +68,67 @@ def test_closing_waits_for_other_threads():
     joined.join(60)
     assert not joined.is_alive()
     caller.join(60)
+
+
+def test_what_zenoh_refuses_starts_no_thread_to_wait_for():
+    context, threads = open_context(middleware="rmw_zenoh_cpp"), CallbackThreads()
+    session = context._core.session
+    with pytest.raises(zenoh.ZError):  # before it starts the thread
+        threads.declare(print, partial(session.declare_subscriber, "no#key"))
+    session.close()
+    with pytest.raises(zenoh.ZError):  # afterwards
+        threads.declare(print, partial(session.declare_subscriber, "key"))
+    end_on_a_thread(threads.join)
+    end_on_a_thread(context.close)
+
+
+def end_on_a_thread(end):
+    ending = threading.Thread(target=end, daemon=True)
+    ending.start()
+    ending.join(60)
+    assert not ending.is_alive()
+
+
+class _Refusing:
+    """A session that refuses tokens, or subscribers."""
+
+    def __init__(self, session, refused):
+        self._session, self._refused = session, refused
+
+    def __getattr__(self, name):
+        if name == self._refused:
+            raise zenoh.ZError("refused")
+        return getattr(self._session, name)
+
+
+@pytest.mark.parametrize("refused", ["liveliness", "declare_subscriber"])
+@pytest.mark.parametrize(
+    "has_sink", [False, pytest.param(True, marks=pytest.mark.skipif(CORE != "native", reason=COMPILED_CORE))]
+)
+def test_an_endpoint_that_zenoh_refuses_leaves_nothing(refused: str, has_sink: bool):
+    context = open_context(middleware="rmw_zenoh_cpp")
+    node, core = context.create_node("node"), context._core
+    session, core.session = core.session, _Refusing(core.session, refused)
+    sink = None
+    if has_sink:
+        from turtlewire._native import Intake
+
+        sink = Intake(False, 1, lambda *_: (b"", ""), int)
+    with pytest.raises(WireError, match="create subscription /chatter: refused"):
+        node.create_subscription("/chatter", KIND, QoS(), None, sink)
+    core.session = session
+    assert context.graph.endpoints() == []
+    publisher = node.create_publisher("/chatter", KIND, QoS())
+    assert publisher.subscription_count() == 0
+    end_on_a_thread(context.close)
+
+
+def test_a_node_that_zenoh_refuses_leaves_nothing():
+    with contextlib.closing(open_context(middleware="rmw_zenoh_cpp")) as context:
+        context._core.session.close()
+        with pytest.raises(WireError, match="create node late: "):
+            context.create_node("late")
+        assert context.graph.nodes() == []
 
 
 # A session that ends while something is declared in it.

@@ -25,8 +25,8 @@ class CallbackThreads:
 
     def __init__(self) -> None:
         self._changed = threading.Condition()
-        self._running = 0
-        self._ended: list[threading.Thread] = []
+        self._running: set[object] = set()
+        self._to_join: list[threading.Thread] = []
 
     def declare(self, call: Callable[[Any], None], declare: Callable[[Any], _T]) -> _T:
         """Declare something whose callbacks run on a separate thread, which the library starts.
@@ -35,29 +35,43 @@ class CallbackThreads:
             call: The callback.
             declare: Makes the declaration with the handler that it is given.
         """
-        self.count_start()
-        handler = Handler(call, self.count_end, indirect=True)
-        return _on_a_daemon_thread(lambda: declare(handler))
-
-    def count_start(self) -> None:
-        """Count a thread that is about to start."""
+        running = object()
         with self._changed:
-            self._running += 1
+            self._running.add(running)
+        handler = Handler(call, lambda: self._end(running), indirect=True)
+        try:
+            return _on_a_daemon_thread(lambda: declare(handler))
+        except BaseException:
+            # The library may have refused before it started the thread, which then never ends.
+            self._remove(running)
+            raise
 
-    def count_end(self) -> None:
+    def start(self, run: Callable[[], None], name: str) -> None:
+        """Start another thread, which ends by itself when the session is closed."""
+        thread = threading.Thread(target=run, name=name, daemon=True)
+        thread.start()
+        self._join_later(thread)
+
+    def _end(self, running: object) -> None:
         """Note that the calling thread has nothing more to do."""
+        self._join_later(threading.current_thread())
+        self._remove(running)
+
+    def _join_later(self, thread: threading.Thread) -> None:
         with self._changed:
-            self._running -= 1
-            self._ended = [thread for thread in self._ended if thread.is_alive()]
-            self._ended.append(threading.current_thread())
+            self._to_join = [*(other for other in self._to_join if other.is_alive()), thread]
+
+    def _remove(self, running: object) -> None:
+        with self._changed:
+            self._running.discard(running)
             self._changed.notify_all()
 
     def join(self) -> None:
         """Wait until all have ended; after closing the session."""
         with self._changed:
             self._changed.wait_for(lambda: not self._running)
-            ended = self._ended
-        for thread in ended:
+            threads = self._to_join
+        for thread in threads:
             thread.join()
 
 

@@ -76,10 +76,15 @@ class ZenohEndpoint(Entity):
     def announce(self, declared: Declared) -> None:
         """Keep what was declared for its data, and show it in the graph."""
         self._declared.append(declared)
+        try:
+            with self._core.calls:
+                token = self._core.session.liveliness().declare_token(self.token.text)
+        except BaseException:
+            self.close()
+            raise
+        self._declared.append(token)
         self._core.graph.watch(self)
         self._core.graph.add(self.token)
-        with self._core.calls:
-            self._declared.append(self._core.session.liveliness().declare_token(self.token.text))
         self._node.adopt(self)
 
     def create_event(self, kind: EventKind) -> Event:

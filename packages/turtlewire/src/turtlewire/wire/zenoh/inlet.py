@@ -61,12 +61,9 @@ class ZenohSinkSubscription(ZenohSubscription):
         super().__init__(core, node, topic, type_id, qos, on_message)
 
     def _subscribe(self) -> Declared:
-        self._core.threads.count_start()
         subscriber = self._declare(FifoChannel(_CAPACITY))
         channel: Any = subscriber.handler  # type: ignore[attr-defined]
-        threading.Thread(
-            target=self._receive, args=(channel,), name="turtlewire-intake", daemon=True
-        ).start()
+        self._core.threads.start(lambda: self._receive(channel), "turtlewire-intake")
         return subscriber
 
     def _receive(self, channel: Any) -> None:
@@ -79,8 +76,6 @@ class ZenohSinkSubscription(ZenohSubscription):
                 call_guarded(self._hand_over, batch)
         except zenoh.ZError:  # the channel is closed
             return
-        finally:
-            self._core.threads.count_end()
 
     def _hand_over(self, batch: list[zenoh.Sample]) -> None:
         with self._receiving:  # so that nothing comes after close()

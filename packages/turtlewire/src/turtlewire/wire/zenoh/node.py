@@ -69,9 +69,9 @@ class ZenohNode(Node):
         self._core = core
         self._on_closed = on_closed
         self._endpoints: dict[Entity, None] = {}
-        core.graph.add(self.token)
-        with core.calls:
+        with core.declaring(f"create node {self.name}"), core.calls:
             self._liveliness = core.session.liveliness().declare_token(self.token.text)
+        core.graph.add(self.token)
 
     def adopt(self, endpoint: Entity) -> None:
         """Own an endpoint until it closes."""
