@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from contextlib import ExitStack
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -28,8 +29,12 @@ class CycloneContextState:
 
     def __init__(self, domain_id: int, enclave: str) -> None:
         self.participant = Participant(domain_id, enclave)
-        self.reader = CycloneReaderThread(self.participant.handle)
-        self.announcer = Announcer(self.participant, self.reader)
+        with ExitStack() as if_it_fails:
+            if_it_fails.callback(self.participant.close)
+            self.reader = CycloneReaderThread(self.participant.handle)
+            if_it_fails.callback(self.reader.close)
+            self.announcer = Announcer(self.participant, self.reader)
+            if_it_fails.pop_all()
         self.graph: CycloneGraph | None = None
         self.closing = False
         self._service_numbers = itertools.count(1)

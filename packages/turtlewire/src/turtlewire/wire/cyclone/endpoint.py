@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ctypes
 import threading
+from contextlib import ExitStack
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from turtlewire.errors import WireError
@@ -109,7 +110,10 @@ class Endpoint(Entity):
     def _created(self, handle: int) -> None:
         """Store the new reader or writer; raises if creating it failed."""
         self.handle = dds.check(handle, f"create an endpoint of {self.spec.name}")
-        self.gid = dds.guid_of(self.handle)
+        with ExitStack() as if_it_fails:
+            if_it_fails.callback(dds.delete, handle)
+            self.gid = dds.guid_of(self.handle)
+            if_it_fails.pop_all()
         dds.set_status_mask(self.handle, sum(source.bit for source in self._sources.values()))
 
     @property

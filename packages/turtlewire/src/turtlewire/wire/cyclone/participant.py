@@ -170,14 +170,14 @@ class Participant:
 
     def __init__(self, domain_id: int, enclave: str) -> None:
         self.domain_id = domain_id
-        _domains.join(domain_id)
-        try:
+        with contextlib.ExitStack() as if_it_fails:
+            _domains.join(domain_id)
+            if_it_fails.callback(_domains.leave, domain_id)
             self.handle = self._create(enclave)
-        except WireError:
-            _domains.leave(domain_id)
-            raise
-        self.gid = dds.guid_of(self.handle)
-        self._check_types()
+            if_it_fails.callback(dds.delete, self.handle)
+            self.gid = dds.guid_of(self.handle)
+            self._check_types()
+            if_it_fails.pop_all()
 
     def _check_types(self) -> None:
         """Make sure that this build of Cyclone understands our opaque type.

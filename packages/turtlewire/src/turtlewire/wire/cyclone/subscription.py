@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from contextlib import ExitStack
 from typing import TYPE_CHECKING, ClassVar
 
 from turtlewire.guarded import call_guarded
@@ -95,18 +96,19 @@ class CycloneSubscription(Endpoint, Subscription):
         self._forget = False
         self.on_matched.append(self._publishers_changed)
         self.inlet = None
-        if sink is not None and NATIVE is not None:
-            self.inlet = Inlet(NATIVE, participant.handle, sink)
-        listener = None if self.inlet is None else self.inlet.listener
+        listener = None
         with (
+            ExitStack() as if_it_fails,
             FAST_DDS.shared_type(participant, self) as shared_type,
             participant.topic(spec.dds_topic, spec.type_id.name, shared_type) as topic,
             dds_qos(spec.qos, spec.user_data, writer=False, ignore_local=ignore_local) as qos,
         ):
-            handle = dds.create_reader(participant.handle, topic, qos, listener)
-            if handle < 0 and self.inlet is not None:
-                self.inlet.close()
-            self._created(handle)
+            if sink is not None and NATIVE is not None:
+                self.inlet = Inlet(NATIVE, participant.handle, sink)
+                if_it_fails.callback(self.inlet.close)
+                listener = self.inlet.listener
+            self._created(dds.create_reader(participant.handle, topic, qos, listener))
+            if_it_fails.pop_all()
 
     def condition(self) -> int:
         """Return the condition that is true while messages are waiting."""

@@ -6,6 +6,7 @@ import atexit
 import ctypes
 import os
 import threading
+from contextlib import ExitStack
 from typing import TYPE_CHECKING, ClassVar
 from weakref import WeakSet
 
@@ -68,13 +69,16 @@ class ZenohContext(Context):
         session = _open(configuration)
         reader = ReaderThread()
         self._graph = ZenohGraph(domain_id, reader)
-        memory = SharedMemory(configuration)
-        self._core = ZenohContextState(session, domain_id, reader, self._graph, memory)
-        self.gid = bytes.fromhex(self._core.session_id.zfill(32))
         self._process = os.getpid()
         self._nodes: dict[ZenohNode, None] = {}
         self._wait_sets: set[QueueWaitSet] = set()
-        self._graph.start(session, self._core.threads)
+        with ExitStack() as if_it_fails:
+            if_it_fails.callback(session.close)
+            memory = SharedMemory(configuration)
+            self._core = ZenohContextState(session, domain_id, reader, self._graph, memory)
+            self.gid = bytes.fromhex(self._core.session_id.zfill(32))
+            self._graph.start(session, self._core.threads)
+            if_it_fails.pop_all()
         _contexts.add(self)
         self._closed = threading.Event()
         atexit.register(self._close_at_exit)
