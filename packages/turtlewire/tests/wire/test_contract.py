@@ -333,6 +333,36 @@ def test_a_callback_that_raises_is_reported_once_and_later_messages_arrive(
     assert [str(error) for error in reported] == ["no thanks"]
 
 
+def test_messages_that_wait_are_not_delivered_after_closing(node: Node, other: Node):
+    seen: list[bytes] = []
+    called, go_on = threading.Semaphore(0), threading.Semaphore(0)
+
+    def on_message(data: bytes, _info) -> None:
+        seen.append(data)
+        called.release()
+        go_on.acquire()
+
+    subscription = node.create_subscription("/chatter", STRING, QoS(), on_message)
+    beside = node.create_subscription("/chatter", STRING, QoS())
+    publisher = other.create_publisher("/chatter", STRING, QoS())
+    wait_until(other.context, lambda: publisher.subscription_count() == 2)
+    connect(other, publisher, node, subscription)
+    connect(other, publisher, node, beside)
+    publisher.publish(cdr("a"))
+    assert called.acquire(timeout=60)
+    for text in ("b", "c", "d"):
+        publisher.publish(cdr(text))
+    take_all(node, beside, 4)
+    go_on.release()
+    assert called.acquire(timeout=60)
+    subscription.close()
+    go_on.release(3)
+    delivered = threading.Event()
+    node.context.call_soon(delivered.set)
+    assert delivered.wait(60)
+    assert seen == [cdr("a"), cdr("b")]
+
+
 @pytest.mark.parametrize("kind", ["call", "listener"])
 def test_a_call_that_raises_does_not_end_the_reader_thread(
     node: Node, other: Node, reported, kind: str

@@ -310,7 +310,8 @@ class Node(Entity):
             qos: What is requested.
             on_message: When given, the context's reader thread calls it for every message, and the
                 subscription cannot be attached to a wait set. It must be short. If it raises, the
-                exception is reported once, and the next message is delivered.
+                exception is reported once, and the next message is delivered. What still waits when
+                the subscription closes is not delivered.
             sink: It may get the messages first, without Python and on any thread of the
                 middleware; those that it leaves go to ``on_message``, or are taken. A middleware
                 is free to do without it.

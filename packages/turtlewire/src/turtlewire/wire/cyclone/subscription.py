@@ -6,8 +6,8 @@ import time
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, ClassVar
 
-from turtlewire.guarded import call_guarded
 from turtlewire.wire.base import EventKind, MessageInfo, Subscription
+from turtlewire.wire.delivery import deliver
 from turtlewire.wire.encapsulation import LITTLE_ENDIAN
 from turtlewire.wire.graph import parse_user_data
 from turtlewire.wire.report import warn_once
@@ -253,13 +253,7 @@ def deliver_to(
 ) -> Callable[[], None]:
     """Return the function that the reader thread calls when messages wait."""
 
-    def deliver() -> None:
-        for message in subscription.take():
-            if subscription.closed:
-                return
-            call_guarded(on_message, *message)
-
-    return deliver
+    return lambda: deliver(subscription.take(), on_message, lambda: subscription.closed)
 
 
 def deliver_rest_to(
@@ -272,11 +266,8 @@ def deliver_rest_to(
     What the reader thread calls when the inlet's guard is triggered.
     """
 
-    def deliver() -> None:
+    def deliver_rest() -> None:
         while not subscription.closed and (rest := subscription.take_rest(inlet)) is not None:
-            for message in rest:
-                if subscription.closed:
-                    return
-                call_guarded(on_message, *message)
+            deliver(rest, on_message, lambda: subscription.closed)
 
-    return deliver
+    return deliver_rest

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from turtlewire.guarded import call_guarded
 from turtlewire.wire.base import MessageInfo, Subscription
+from turtlewire.wire.delivery import deliver
 from turtlewire.wire.qos import Durability
 from turtlewire.wire.queue_wait_set import Queued
 
@@ -59,8 +59,7 @@ class LocalSubscription(LocalEndpoint, Queued, Subscription):
     def _deliver(self) -> None:
         """Hand over all waiting messages; on the reader thread."""
         assert self._on_message is not None
-        for message in self.take(limit=len(self._queue)):
-            call_guarded(self._on_message, *message)
+        deliver(self.take(limit=len(self._queue)), self._on_message, lambda: self._closed)
 
     @property
     def is_waiting(self) -> bool:

@@ -11,6 +11,7 @@ from zenoh.handlers import FifoChannel
 
 from turtlewire.guarded import call_guarded
 from turtlewire.wire.base import MessageInfo
+from turtlewire.wire.delivery import deliver
 
 from .subscription import ZenohSubscription
 
@@ -98,10 +99,7 @@ class ZenohSinkSubscription(ZenohSubscription):
         with self._lock:
             self._is_delivering = False
         while not self._closed and (messages := self._serve()):
-            for message in messages:
-                if self._closed:
-                    return
-                call_guarded(self._on_message, *message)
+            deliver(messages, self._on_message, lambda: self._closed)
 
     def _serve(self) -> list[tuple[bytes, MessageInfo]]:
         gid_of = self._native.gid_of

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from zenoh import ext
 
-from turtlewire.guarded import call_guarded
 from turtlewire.wire.base import EventKind, EventStatus, MessageInfo, Subscription
+from turtlewire.wire.delivery import deliver
 from turtlewire.wire.encapsulation import HEADER_SIZE
 from turtlewire.wire.qos import Durability, History, Reliability
 from turtlewire.wire.queue_wait_set import Queued
@@ -149,8 +149,7 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
             self._is_delivering = False
             messages = list(self._queue)
             self._queue.clear()
-        for message in messages:
-            call_guarded(self._on_message, *message)
+        deliver(messages, self._on_message, lambda: self._closed)
 
     def part(self, partner: Token) -> None:
         super().part(partner)
