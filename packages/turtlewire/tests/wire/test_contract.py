@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import gc
 import threading
 import time
+import weakref
 
 import pytest
 
@@ -440,6 +442,23 @@ def test_closed_unattached_endpoint_can_be_detached(node: Node):
         end.close()
         wait_set.detach(end)
     assert wait_set.wait(0) == []
+
+
+def test_a_closed_wait_set_is_forgotten_by_what_it_waited_for(node: Node):
+    subscription = node.create_subscription("/chatter", STRING, QoS())
+    client = node.create_client("/switch", SWITCH, QoS())
+    service = node.create_service("/switch", SWITCH, QoS())
+    event = subscription.create_event(EventKind.MATCHED)
+    closed = []
+    for _ in range(3):
+        wait_set = node.context.create_wait_set()
+        for entity in (subscription, client, service, event):
+            wait_set.attach(entity)
+        wait_set.close()
+        closed.append(weakref.ref(wait_set))
+    del wait_set
+    gc.collect()
+    assert [reference() for reference in closed] == [None, None, None]
 
 
 def test_an_entity_can_be_attached_while_a_thread_waits(node: Node, other: Node):

@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 import threading
 import time
+import weakref
 from collections import deque
 from contextlib import contextmanager
 from types import CoroutineType
@@ -62,7 +63,12 @@ class Scheduler:
 
     def __init__(self, context: Context) -> None:
         self.context = context
-        self.wait: ExecutorWait[Entity] = ExecutorWait(context.wire.create_wait_set())
+        wait_set = context.wire.create_wait_set()
+        self.wait: ExecutorWait[Entity] = ExecutorWait(wait_set)
+        # Of an executor that is dropped without a shutdown. On another thread, because the garbage
+        # collector runs anywhere, with any lock held.
+        self._end = weakref.finalize(self, context.wire.call_soon, wait_set.close)
+        self._end.atexit = False  # the context closes all wait sets
         self.is_shutdown = False
         self.serves_endlessly = False
         self.blocked: set[WakeUp] = set()
@@ -390,4 +396,5 @@ class Scheduler:
 
     def close(self) -> None:
         """Release the wait set after :meth:`shutdown`."""
+        self._end.detach()
         self.wait.close()

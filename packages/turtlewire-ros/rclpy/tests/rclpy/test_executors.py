@@ -865,6 +865,19 @@ def test_a_group_keeps_no_executor_that_waited_for_it(context, node):
     group.ending_execution(holder)
 
 
+def test_an_executor_that_is_dropped_gives_back_its_wait_set(context):
+    gc.collect()
+    before = set(context.wire._wait_sets)
+    other = SingleThreadedExecutor(context=context)
+    assert len(context.wire._wait_sets) == len(before) + 1
+    del other
+    gc.collect()
+    closed = threading.Event()
+    context.wire.call_soon(closed.set)
+    assert closed.wait(60)
+    assert context.wire._wait_sets == before
+
+
 class _WaitSet:
     """A wait set that notes what is attached, and how often that changes."""
 

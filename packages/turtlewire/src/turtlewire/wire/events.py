@@ -18,10 +18,15 @@ class EventWatcher:
 
     def __init__(self) -> None:
         self._happened: dict[StatusEvent, None] = {}
+        self._watched: set[StatusEvent] = set()
 
     def wake(self) -> None:
         """End the wait; the wait set does it."""
         raise NotImplementedError
+
+    def watch(self, event: StatusEvent) -> None:
+        """Note that ``event`` reports here."""
+        self._watched.add(event)
 
     def happened(self, event: StatusEvent) -> None:
         """Report ``event`` at this and later waits, until it is taken."""
@@ -41,7 +46,13 @@ class EventWatcher:
 
     def forget(self, event: StatusEvent) -> None:
         """Report it no more."""
+        self._watched.discard(event)
         self._happened.pop(event, None)
+
+    def leave_events(self) -> None:
+        """Detach from all events; at the end of the wait set."""
+        for event in list(self._watched):
+            event.detach(self)
 
 
 class StatusEvent(Event):
@@ -79,6 +90,7 @@ class StatusEvent(Event):
         """Tell ``watcher`` when it happens, and at once when it has."""
         with self._lock:
             self._watchers.add(watcher)
+            watcher.watch(self)
             pending = self.pending
         if pending:
             watcher.happened(self)

@@ -112,6 +112,7 @@ class QueueWaitSet(EventWatcher, WaitSet):
 
     def close(self) -> None:
         self._on_closing(self)
+        self.leave_events()
         with self._lock:
             self._closed = True
             for queue in self._attached:

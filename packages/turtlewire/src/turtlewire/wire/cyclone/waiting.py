@@ -86,15 +86,21 @@ class ConditionSet(Generic[T]):
         """The guard condition that :meth:`wake` triggers."""
         return self._guard
 
-    def close(self) -> None:
-        """End the waits, now and in the future, and delete. Idempotent."""
+    def close(self) -> list[T]:
+        """End the waits, now and in the future, and delete. Idempotent.
+
+        Returns:
+            What was attached.
+        """
         with self._lock:
             if self._closed:
-                return
+                return []
             self._closed = True
+            attached, self._objects = list(self._objects.values()), {}
         self.wake()
         dds.delete(self._wait_set)
         dds.delete(self._guard)
+        return attached
 
 
 class CycloneWaitSet(EventWatcher, WaitSet):
@@ -138,10 +144,12 @@ class CycloneWaitSet(EventWatcher, WaitSet):
 
     def close(self) -> None:
         self._on_closing(self)
-        self._conditions.close()
+        self.leave_events()
+        for entity in self._conditions.close():
+            readable_part(entity).wait_sets.discard(self)
 
 
-def readable_part(entity: Waitable) -> CycloneSubscription:
+def readable_part(entity: Entity) -> CycloneSubscription:
     """Return the subscription that makes an entity ready."""
     if isinstance(entity, TopicClient):
         entity = entity.replies
