@@ -631,6 +631,20 @@ def test_close_ends_everything(node: Node, other: Node):
         node.context.create_node("late")
 
 
+@pytest.mark.parametrize("closed", ["node", "context"])
+def test_nothing_is_made_on_a_closed_node(node: Node, other: Node, closed: str):
+    (node if closed == "node" else node.context).close()
+    for create in (node.create_publisher, node.create_subscription):
+        with pytest.raises(WireError, match=r"create \w+ /ghost: the node is closed"):
+            create("/ghost", STRING, QoS())
+    for create in (node.create_client, node.create_service):
+        with pytest.raises(WireError, match=r"create \w+ /ghost: the node is closed"):
+            create("/ghost", SWITCH, QoS())
+    node.close()
+    other.create_publisher("/real", STRING, QoS())
+    assert [end.topic for end in other.context.graph.endpoints()] == ["/real"]
+
+
 def test_no_thread_stays_behind(open_here):
     before = {*threading.enumerate()}  # one of another test may be ending
     context = open_here()

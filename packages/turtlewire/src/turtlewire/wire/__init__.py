@@ -19,6 +19,7 @@ module            contents
 `conflicts`       two types on one topic or service, two nodes with one name
 `encapsulation`   the four bytes in front of every serialized message
 `events`          counters of endpoints' events
+`checked_node`    what the nodes of all middlewares refuse
 `delivery`        calls the callbacks of subscriptions
 `services`        services over two topics
 `report`          warnings on stderr, each printed once

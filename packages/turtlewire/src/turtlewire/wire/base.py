@@ -284,7 +284,10 @@ class WaitSet(Entity):
 
 
 class Node(Entity):
-    """A named member of the graph that owns endpoints. Closing it closes them."""
+    """A named member of the graph that owns endpoints. Closing it closes them.
+
+    The methods that create one raise a WireError if the node or its context is closed.
+    """
 
     name: str
     namespace: str

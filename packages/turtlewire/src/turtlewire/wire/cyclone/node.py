@@ -6,7 +6,8 @@ import threading
 from typing import TYPE_CHECKING
 
 from turtlewire.wire import names
-from turtlewire.wire.base import Client, MessageInfo, Node, Publisher, Service, Subscription
+from turtlewire.wire.base import Client, MessageInfo, Publisher, Service, Subscription
+from turtlewire.wire.checked_node import CheckedNode
 from turtlewire.wire.graph import with_best_available
 
 from .announcer import NodeRecord
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 __all__ = ["CycloneNode"]
 
 
-class CycloneNode(Node):
+class CycloneNode(CheckedNode):
     """A node of a context.
 
     Args:
@@ -46,6 +47,7 @@ class CycloneNode(Node):
         namespace: str,
         on_closed: Callable[[CycloneNode], None],
     ) -> None:
+        super().__init__()
         self.context = context
         self._core = core
         self._on_closed = on_closed
@@ -56,18 +58,18 @@ class CycloneNode(Node):
         self.record = NodeRecord(namespace, name)
         core.announcer.add(self.record)
 
-    def create_publisher(self, topic: str, type_id: TypeId, qos: QoS) -> Publisher:
+    def _create_publisher(self, topic: str, type_id: TypeId, qos: QoS) -> Publisher:
         qos = with_best_available(qos, topic, "publisher", self.context)
         dds_topic = names.topic_to_dds(topic, bare=qos.avoid_ros_namespace_conventions)
         return self._publisher(EndpointSpec(topic, dds_topic, type_id, qos))
 
-    def create_subscription(
+    def _create_subscription(
         self,
         topic: str,
         type_id: TypeId,
         qos: QoS,
-        on_message: Callable[[bytes, MessageInfo], None] | None = None,
-        sink: Sink | None = None,
+        on_message: Callable[[bytes, MessageInfo], None] | None,
+        sink: Sink | None,
     ) -> Subscription:
         qos = with_best_available(qos, topic, "subscription", self.context)
         dds_topic = names.topic_to_dds(topic, bare=qos.avoid_ros_namespace_conventions)
@@ -88,7 +90,7 @@ class CycloneNode(Node):
         subscription.on_closing.append(lambda: self._core.reader.unwatch(condition))
         self._core.reader.watch(condition, deliver)
 
-    def create_client(self, service: str, types: ServiceTypes, qos: QoS) -> Client:
+    def _create_client(self, service: str, types: ServiceTypes, qos: QoS) -> Client:
         identity = self._identity("clientid", types)
         spec = EndpointSpec(service, names.request_topic(service), types.request, qos, identity)
         requests = self._publisher(spec._replace(partition=ONLY_CYCLONE))
@@ -97,7 +99,7 @@ class CycloneNode(Node):
         )
         return CycloneClient(service, requests, replies, lambda: self._publisher(spec))
 
-    def create_service(self, service: str, types: ServiceTypes, qos: QoS) -> Service:
+    def _create_service(self, service: str, types: ServiceTypes, qos: QoS) -> Service:
         identity = self._identity("serviceid", types)
         replies = self._publisher(
             EndpointSpec(service, names.reply_topic(service), types.response, qos, identity)
@@ -146,7 +148,7 @@ class CycloneNode(Node):
         self._core.reader.watch(endpoint.handle, endpoint.statuses_changed)
         self._core.announcer.changed()
 
-    def close(self) -> None:
+    def _close(self) -> None:
         with self._lock:
             endpoints = list(self._endpoints)
         for endpoint in endpoints:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from turtlewire.wire import names
-from turtlewire.wire.base import Client, MessageInfo, Node, Publisher, Service, Subscription
+from turtlewire.wire.base import Client, MessageInfo, Publisher, Service, Subscription
+from turtlewire.wire.checked_node import CheckedNode
 from turtlewire.wire.graph import with_best_available
 from turtlewire.wire.services import TopicClient, TopicService
 
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 __all__ = ["LocalNode"]
 
 
-class LocalNode(Node):
+class LocalNode(CheckedNode):
     """A node of a context.
 
     Args:
@@ -36,6 +37,7 @@ class LocalNode(Node):
     def __init__(
         self, context: Context, core: LocalNodeState, on_closed: Callable[[LocalNode], None]
     ) -> None:
+        super().__init__()
         self.context = context
         self.info = core.info
         self.name = core.info.name
@@ -43,37 +45,37 @@ class LocalNode(Node):
         self._core = core
         self._on_closed = on_closed
 
-    def create_publisher(self, topic: str, type_id: TypeId, qos: QoS) -> Publisher:
+    def _create_publisher(self, topic: str, type_id: TypeId, qos: QoS) -> Publisher:
         qos = with_best_available(qos, topic, "publisher", self.context)
         dds_topic = names.topic_to_dds(topic, bare=qos.avoid_ros_namespace_conventions)
         return LocalPublisher(self._core, LocalEndpointSpec(topic, dds_topic, type_id, qos))
 
-    def create_subscription(
+    def _create_subscription(
         self,
         topic: str,
         type_id: TypeId,
         qos: QoS,
-        on_message: Callable[[bytes, MessageInfo], None] | None = None,
-        sink: Sink | None = None,  # noqa: ARG002 - it would gain nothing here
+        on_message: Callable[[bytes, MessageInfo], None] | None,
+        sink: Sink | None,  # noqa: ARG002 - it would gain nothing here
     ) -> Subscription:
         qos = with_best_available(qos, topic, "subscription", self.context)
         dds_topic = names.topic_to_dds(topic, bare=qos.avoid_ros_namespace_conventions)
         spec = LocalEndpointSpec(topic, dds_topic, type_id, qos)
         return LocalSubscription(self._core, spec, on_message)
 
-    def create_client(self, service: str, types: ServiceTypes, qos: QoS) -> Client:
+    def _create_client(self, service: str, types: ServiceTypes, qos: QoS) -> Client:
         requests_, replies_ = _specs(service, types, qos)
         replies = LocalSubscription(self._core, replies_)
         requests = LocalPublisher(self._core, requests_)
         return TopicClient(service, int.from_bytes(requests.gid[-8:], "big"), requests, replies)
 
-    def create_service(self, service: str, types: ServiceTypes, qos: QoS) -> Service:
+    def _create_service(self, service: str, types: ServiceTypes, qos: QoS) -> Service:
         requests_, replies_ = _specs(service, types, qos)
         requests = LocalSubscription(self._core, requests_)
         replies = LocalPublisher(self._core, replies_)
         return TopicService(service, requests, replies)
 
-    def close(self) -> None:
+    def _close(self) -> None:
         with self._core.bus.lock:
             endpoints = list(self._core.endpoints)
         for endpoint in endpoints:

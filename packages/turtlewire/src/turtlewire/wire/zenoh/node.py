@@ -6,7 +6,8 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from turtlewire.errors import WireError
-from turtlewire.wire.base import Node, NodeInfo
+from turtlewire.wire.base import NodeInfo
+from turtlewire.wire.checked_node import CheckedNode
 
 from .inlet import ZenohSinkSubscription
 from .publisher import ZenohPublisher
@@ -36,7 +37,7 @@ if TYPE_CHECKING:
 __all__ = ["ZenohNode"]
 
 
-class ZenohNode(Node):
+class ZenohNode(CheckedNode):
     """A node of a context.
 
     Args:
@@ -53,6 +54,7 @@ class ZenohNode(Node):
         info: NodeInfo,
         on_closed: Callable[[ZenohNode], None],
     ) -> None:
+        super().__init__()
         self.context = context
         self.name, self.namespace = info.name, info.namespace
         number = core.next_number()
@@ -83,32 +85,32 @@ class ZenohNode(Node):
         with self._core.lock:
             self._endpoints.pop(endpoint, None)
 
-    def create_publisher(self, topic: str, type_id: TypeId, qos: QoS) -> Publisher:
+    def _create_publisher(self, topic: str, type_id: TypeId, qos: QoS) -> Publisher:
         with self._core.declaring(f"create publisher {topic}"):
             return ZenohPublisher(self._core, self, topic, type_id, qos)
 
-    def create_subscription(
+    def _create_subscription(
         self,
         topic: str,
         type_id: TypeId,
         qos: QoS,
-        on_message: Callable[[bytes, MessageInfo], None] | None = None,
-        sink: Sink | None = None,
+        on_message: Callable[[bytes, MessageInfo], None] | None,
+        sink: Sink | None,
     ) -> Subscription:
         with self._core.declaring(f"create subscription {topic}"):
             if sink is None:
                 return ZenohSubscription(self._core, self, topic, type_id, qos, on_message)
             return ZenohSinkSubscription(self._core, self, topic, type_id, qos, on_message, sink)
 
-    def create_client(self, service: str, types: ServiceTypes, qos: QoS) -> Client:
+    def _create_client(self, service: str, types: ServiceTypes, qos: QoS) -> Client:
         with self._core.declaring(f"create client {service}"):
             return ZenohClient(self._core, self, service, types.service_id(), qos)
 
-    def create_service(self, service: str, types: ServiceTypes, qos: QoS) -> Service:
+    def _create_service(self, service: str, types: ServiceTypes, qos: QoS) -> Service:
         with self._core.declaring(f"create service {service}"):
             return ZenohService(self._core, self, service, types.service_id(), qos)
 
-    def close(self) -> None:
+    def _close(self) -> None:
         with self._core.lock:
             endpoints = list(self._endpoints)
         for endpoint in endpoints:
