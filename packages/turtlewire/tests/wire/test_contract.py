@@ -642,7 +642,39 @@ def test_nothing_is_made_on_a_closed_node(node: Node, other: Node, closed: str):
             create("/ghost", SWITCH, QoS())
     node.close()
     other.create_publisher("/real", STRING, QoS())
-    assert [end.topic for end in other.context.graph.endpoints()] == ["/real"]
+    assert list(other.context.graph.topic_names_and_types()) == ["/real"]
+
+
+@pytest.mark.parametrize(
+    ("name", "fault"),
+    [
+        ("", "topic name must not be empty"),
+        ("chatter", "topic name must be absolute, it must lead with a '/'"),
+        ("//", "topic name must not end with a '/'"),
+        ("/a\0b", "topic name must not contain characters other than alphanumerics, '_', or '/'"),
+        ("/\ud800", "topic name must not contain characters other than alphanumerics, '_', or '/'"),
+        ("/a b", "topic name must not contain characters other than alphanumerics, '_', or '/'"),
+        ("/é", "topic name must not contain characters other than alphanumerics, '_', or '/'"),
+        ("/" + "x" * 247, "topic length should not exceed '247'"),
+    ],
+)
+def test_a_wrong_name_is_refused_with_ros_2s_reason(node: Node, name: str, fault: str):
+    for create in (node.create_publisher, node.create_subscription):
+        with pytest.raises(WireError) as refused:
+            create(name, STRING, QoS())
+        assert str(refused.value).endswith(f" {name!r}: {fault}")
+    for create in (node.create_client, node.create_service):
+        with pytest.raises(WireError) as refused:
+            create(name, SWITCH, QoS())
+        assert str(refused.value).endswith(f" {name!r}: {fault}")
+    assert node.context.graph.topic_names_and_types() == {}
+
+
+@pytest.mark.parametrize("name", ["", "a\0b", "\ud800"])
+def test_a_name_of_dds_can_be_written(node: Node, name: str):
+    bare = QoS(avoid_ros_namespace_conventions=True)
+    with pytest.raises(WireError, match="empty or contain unprintable characters"):
+        node.create_publisher(name, STRING, bare)
 
 
 def test_no_thread_stays_behind(open_here):

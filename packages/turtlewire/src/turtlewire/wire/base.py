@@ -286,7 +286,8 @@ class WaitSet(Entity):
 class Node(Entity):
     """A named member of the graph that owns endpoints. Closing it closes them.
 
-    The methods that create one raise a WireError if the node or its context is closed.
+    The methods that create one raise a WireError if the name is not valid, or the node or its
+    context is closed.
     """
 
     name: str
@@ -294,7 +295,10 @@ class Node(Entity):
 
     @abstractmethod
     def create_publisher(self, topic: str, type_id: TypeId, qos: QoS) -> Publisher:
-        """Announce and return a publisher of ``topic`` (a fully qualified ROS name)."""
+        """Announce and return a publisher of ``topic``.
+
+        It is a fully qualified ROS name, or any with QoS ``avoid_ros_namespace_conventions``.
+        """
 
     @abstractmethod
     def create_subscription(
@@ -308,7 +312,7 @@ class Node(Entity):
         """Announce and return a subscription.
 
         Args:
-            topic: Fully qualified ROS name.
+            topic: As for a publisher.
             type_id: What to match.
             qos: What is requested.
             on_message: When given, the context's reader thread calls it for every message, and the

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from turtlewire.errors import WireError
 
 from .base import Node
+from .names import NameFault, validate_full_topic_name
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -31,7 +32,7 @@ class CheckedNode(Node):
         self._closed = False
 
     def create_publisher(self, topic: str, type_id: TypeId, qos: QoS) -> Publisher:
-        with self._open_for(f"create publisher {topic}"):
+        with self._checked("publisher", topic, bare=qos.avoid_ros_namespace_conventions):
             return self._create_publisher(topic, type_id, qos)
 
     def create_subscription(
@@ -42,22 +43,32 @@ class CheckedNode(Node):
         on_message: Callable[[bytes, MessageInfo], None] | None = None,
         sink: Sink | None = None,
     ) -> Subscription:
-        with self._open_for(f"create subscription {topic}"):
+        with self._checked("subscription", topic, bare=qos.avoid_ros_namespace_conventions):
             return self._create_subscription(topic, type_id, qos, on_message, sink)
 
     def create_client(self, service: str, types: ServiceTypes, qos: QoS) -> Client:
-        with self._open_for(f"create client {service}"):
+        with self._checked("client", service):
             return self._create_client(service, types, qos)
 
     def create_service(self, service: str, types: ServiceTypes, qos: QoS) -> Service:
-        with self._open_for(f"create service {service}"):
+        with self._checked("service", service):
             return self._create_service(service, types, qos)
 
     @contextmanager
-    def _open_for(self, what: str) -> Iterator[None]:
+    def _checked(self, kind: str, name: str, *, bare: bool = False) -> Iterator[None]:
+        """Let the block make an endpoint.
+
+        Args:
+            kind: What it makes.
+            name: Name of the topic or service.
+            bare: Whether it is a name of DDS, for which ROS has no rules.
+        """
+        fault = _fault_of_bare(name) if bare else validate_full_topic_name(name)
+        if fault is not None:
+            raise WireError(f"create {kind} {name!r}: {fault.message}")
         with self._making:
             if self._closed:
-                raise WireError(f"{what}: the node is closed")
+                raise WireError(f"create {kind} {name}: the node is closed")
             yield
 
     def close(self) -> None:
@@ -93,3 +104,10 @@ class CheckedNode(Node):
     @abstractmethod
     def _close(self) -> None:
         """Close the endpoints, and leave the graph."""
+
+
+def _fault_of_bare(name: str) -> NameFault | None:
+    """Check what C and UTF-8 cannot express."""
+    if name and name.isprintable():
+        return None
+    return NameFault("topic name must not be empty or contain unprintable characters", 0)
