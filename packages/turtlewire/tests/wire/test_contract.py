@@ -24,7 +24,15 @@ from turtlewire.wire.base import (
     TypeId,
 )
 from turtlewire.wire.graph import DISCOVERY_TOPIC
-from turtlewire.wire.qos import BEST_AVAILABLE_NS, Durability, History, Liveliness, QoS, Reliability
+from turtlewire.wire.qos import (
+    BEST_AVAILABLE_NS,
+    INFINITE_NS,
+    Durability,
+    History,
+    Liveliness,
+    QoS,
+    Reliability,
+)
 
 STRING = TypeId(
     "std_msgs/msg/String", "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
@@ -399,6 +407,28 @@ def test_wake_ends_the_current_and_the_next_wait(node: Node):
     started = time.monotonic()
     assert wait_set.wait(None) == []
     assert time.monotonic() - started < 15
+
+
+@pytest.mark.parametrize("timeout_ns", [INFINITE_NS, 10**19, 10**400])
+def test_long_timeouts_are_without_limit(node: Node, timeout_ns: int):
+    context, wait_set, ended = node.context, node.context.create_wait_set(), threading.Event()
+
+    def wait() -> None:
+        assert wait_set.wait(timeout_ns) == []
+        assert not context.graph.wait_for(lambda: False, timeout_ns)
+        ended.set()
+
+    waiting = threading.Thread(target=wait, daemon=True)
+    waiting.start()
+    wait_set.wake()
+    context.close()
+    assert ended.wait(60)
+
+
+def test_a_negative_timeout_looks_once(node: Node):
+    assert node.context.create_wait_set().wait(-SECOND) == []
+    assert not node.context.graph.wait_for(lambda: False, -SECOND)
+    assert node.create_publisher("/chatter", STRING, QoS()).wait_for_acknowledgments(-SECOND)
 
 
 def test_wait_ends_in_time(node: Node):

@@ -259,7 +259,7 @@ class WaitSet(Entity):
         """Block until an attached entity is ready, :meth:`wake` is called, or the timeout passes.
 
         Args:
-            timeout_ns: None waits forever, 0 looks once.
+            timeout_ns: None and centuries wait forever, 0 and less look once.
 
         Returns:
             The ready entities, empty after a wake-up or at the end of the time. An entity stays
@@ -385,7 +385,7 @@ class Graph(ABC):
 
         Args:
             predicate: Called without locks held, on the calling thread.
-            timeout_ns: None waits forever.
+            timeout_ns: As in :meth:`WaitSet.wait`.
 
         Returns:
             The last value of the predicate. Closing the context ends the wait.

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from turtlewire.errors import CdrError
 from turtlewire.guarded import call_guarded
 
-from . import names
+from . import names, timeouts
 from .base import EndpointInfo, Graph, TypeId
 from .qos import fit_publisher, fit_subscription
 
@@ -212,7 +212,8 @@ class GraphView(Graph):
         return _grouped(pairs)
 
     def wait_for(self, predicate: Callable[[], bool], timeout_ns: int | None = None) -> bool:
-        deadline = None if timeout_ns is None else time.monotonic() + timeout_ns / 1e9
+        timeout = timeouts.of_threading(timeout_ns)
+        deadline = None if timeout is None else time.monotonic() + timeout
         while True:
             seen = self._version
             if predicate():

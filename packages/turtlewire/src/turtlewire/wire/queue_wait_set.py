@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING, Protocol
 
+from . import timeouts
 from .base import Entity, WaitSet
 from .events import EventWatcher, StatusEvent
 from .services import TopicClient, TopicService
@@ -89,9 +90,7 @@ class QueueWaitSet(EventWatcher, WaitSet):
 
     def wait(self, timeout_ns: int | None = None) -> list[Entity]:
         with self._lock:
-            self._condition.wait_for(
-                self._has_news, None if timeout_ns is None else timeout_ns / 1e9
-            )
+            self._condition.wait_for(self._has_news, timeouts.of_threading(timeout_ns))
             self._woken = self._closed
             ready: list[Entity] = [
                 entity for queue, entity in self._attached.items() if queue.is_waiting

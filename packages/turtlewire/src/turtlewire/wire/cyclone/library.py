@@ -34,7 +34,6 @@ from turtlewire.wire.report import warn_once
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-INFINITY = 0x7FFF_FFFF_FFFF_FFFF
 ANY_STATE = 127
 WHOLE_LIBRARY = 0x7FFF_0100  # what all domains of the process belong to
 BUILTIN_TOPIC_PARTICIPANT = 0x7FFF_0001

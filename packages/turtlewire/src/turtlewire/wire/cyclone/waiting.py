@@ -6,6 +6,7 @@ import ctypes
 import threading
 from typing import TYPE_CHECKING, Generic, TypeVar
 
+from turtlewire.wire import timeouts
 from turtlewire.wire.base import Entity, WaitSet
 from turtlewire.wire.events import EventWatcher, StatusEvent
 from turtlewire.wire.services import TopicClient, TopicService
@@ -59,8 +60,7 @@ class ConditionSet(Generic[T]):
     def wait(self, timeout_ns: int | None) -> list[T]:
         """Block until something is triggered or :meth:`wake` is called; one thread at a time."""
         triggered = self._triggered
-        timeout = dds.INFINITY if timeout_ns is None else max(timeout_ns, 0)
-        count = _wait(self._wait_set, triggered, len(triggered), timeout)
+        count = _wait(self._wait_set, triggered, len(triggered), timeouts.of_dds(timeout_ns))
         if count < 0:
             if self._closed:
                 return []
