@@ -146,3 +146,11 @@ def test_declaration_rejected_by_zenoh_is_named(what: str):
         kind = KIND if what in ("publisher", "subscription") else TYPES
         with pytest.raises(WireError, match=f"create {what} /name: session closed"):
             getattr(node, f"create_{what}")("/name", kind, QoS())
+
+
+def test_a_request_that_zenoh_refuses_is_an_error_of_the_wire():
+    with contextlib.closing(open_context(middleware="rmw_zenoh_cpp")) as context:
+        client = context.create_node("node").create_client("/name", TYPES, QoS())
+        context._core.session.close()
+        with pytest.raises(WireError, match="call /name: session closed"):
+            client.send_request(bytes(8))

@@ -28,7 +28,7 @@ class Calls:
         """Begin a call.
 
         Raises:
-            WireError: The client is closed.
+            WireError: The context is closed.
         """
         with self._lock:
             if self._closed:

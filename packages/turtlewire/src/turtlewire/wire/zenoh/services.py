@@ -105,8 +105,11 @@ class ZenohClient(_QueuedEndpoint, Client):
         with self._sending:
             if self._closed:
                 raise WireError(f"call {self.service}: the client is closed")
-            with self._core.calls:
-                self._querier.get(self._handler, payload=cdr, attachment=attachment)
+            try:
+                with self._core.calls:
+                    self._querier.get(self._handler, payload=cdr, attachment=attachment)
+            except zenoh.ZError as error:
+                raise WireError(f"call {self.service}: {reason_of(error)}") from error
         return number
 
     def _on_reply(self, reply: zenoh.Reply) -> None:
