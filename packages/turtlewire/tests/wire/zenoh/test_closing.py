@@ -23,6 +23,8 @@ REQUEST = TypeId("std_srvs/srv/SetBool_Request", "RIHS01_" + "1" * 64)
 RESPONSE = TypeId("std_srvs/srv/SetBool_Response", "RIHS01_" + "2" * 64)
 SWITCH = ServiceTypes("std_srvs/srv/SetBool", REQUEST, RESPONSE, lambda _: "RIHS01_" + "3" * 64)
 
+LONG = 60_000_000_000
+
 
 def test_a_response_that_comes_too_late_lets_go_of_no_query():
     """The interpreter may be about to end: freeing a query then aborts the process."""
@@ -154,3 +156,30 @@ def test_a_request_that_zenoh_refuses_is_an_error_of_the_wire():
         context._core.session.close()
         with pytest.raises(WireError, match="call /name: session closed"):
             client.send_request(bytes(8))
+
+
+def test_requests_of_a_client_that_leaves_are_forgotten():
+    with (
+        contextlib.closing(open_context(middleware="rmw_zenoh_cpp")) as context,
+        contextlib.closing(open_context(middleware="rmw_zenoh_cpp")) as callers,
+    ):
+        service = context.create_node("server").create_service("/switch", SWITCH, QoS(depth=9))
+        node = callers.create_node("callers")
+        clients = [node.create_client("/switch", SWITCH, QoS()) for _ in range(2)]
+        wait_set = context.create_wait_set()
+        wait_set.attach(service)
+        for client in clients:
+            assert callers.graph.wait_for(client.is_ready, LONG)
+            client.send_request(bytes(8))
+        requests = []
+        while len(requests) < 2:
+            assert wait_set.wait(LONG)
+            requests += service.take()
+        clients[0].close()
+        assert context.graph.wait_for(lambda: len(service._queries) == 1, LONG)
+        wait_set = callers.create_wait_set()
+        wait_set.attach(clients[1])
+        for request_id, _ in requests:
+            service.send_response(request_id, bytes(8))
+        assert wait_set.wait(LONG) == [clients[1]]
+        assert service._queries == {}

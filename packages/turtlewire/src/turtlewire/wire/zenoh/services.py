@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from turtlewire.wire.queue_wait_set import Watcher
 
     from .context_state import Owner, ZenohContextState
+    from .token import Token
 
 __all__ = ["ZenohClient", "ZenohService"]
 
@@ -187,15 +188,26 @@ class ZenohService(_QueuedEndpoint, Service):
         finally:
             query.drop()  # type: ignore[no-untyped-call]
 
+    def part(self, partner: Token) -> None:
+        super().part(partner)
+        client_id = int.from_bytes(partner.gid, "little")
+        unanswered = [request for request in self._queries if request.client_id == client_id]
+        if unanswered:  # on the reader thread, because the lock is held, and it calls Zenoh
+            self._core.reader.submit(lambda: self._forget(unanswered))
+
     def close(self) -> None:
         super().close()
-        with suppress(WireError), self._core.calls:
-            self._drop_queries()
+        self._forget(list(self._queries))
 
-    def _drop_queries(self) -> None:
+    def _forget(self, requests: list[RequestId]) -> None:
+        """Answer no more: the server closes, or the client has left."""
+        with suppress(WireError), self._core.calls:
+            self._drop_queries(requests)
+
+    def _drop_queries(self, requests: list[RequestId]) -> None:
         with self._lock:
-            queries, self._queries = self._queries, {}
-        for query in queries.values():
+            queries = [self._queries.pop(request, None) for request in requests]
+        for query in filter(None, queries):
             query.drop()  # type: ignore[no-untyped-call]
 
 
