@@ -198,6 +198,39 @@ def test_a_forked_child_is_told_so_and_ends_quietly(context: Context):
     assert done.stderr == ""
 
 
+def test_a_forked_child_may_close_what_it_inherits(context: Context):
+    code = (
+        "import os, signal\n"
+        "from turtlewire.wire import open_context\n"
+        "from turtlewire.wire.base import ServiceTypes, TypeId\n"
+        "from turtlewire.wire.qos import QoS\n"
+        "context, kind = open_context(), TypeId('std_msgs/msg/String', 'RIHS01_' + '0' * 64)\n"
+        "types = ServiceTypes('std_srvs/srv/Empty', kind, kind, lambda _: kind.type_hash)\n"
+        "node, wait_set = context.create_node('parent'), context.create_wait_set()\n"
+        "ends = [node.create_publisher('/a', kind, QoS()), node.create_client('/b', types, QoS())]\n"
+        "ends.append(node.create_service('/b', types, QoS()))\n"
+        "ends.append(node.create_subscription('/a', kind, QoS()))\n"
+        "wait_set.attach(ends[-1])\n"
+        "if os.fork() == 0:\n"
+        "    signal.alarm(50)\n"
+        "    for entity in (*ends, wait_set, node, context):\n"
+        "        entity.close()\n"
+        "    print('closed', flush=True)\n"
+        "else:\n"
+        "    os.wait()\n"
+        "    print(len(context.graph.nodes()))\n"
+    )
+    done = subprocess.run(
+        [sys.executable, *QUIET_FORK, "-c", code],
+        env=os.environ | {"ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF"},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=True,
+    )
+    assert (done.stdout, done.stderr) == ("closed\n1\n", "")
+
+
 def forked(before: str) -> str:
     """Return the output of a child that is forked after ``before`` and opens its own context."""
     code = (

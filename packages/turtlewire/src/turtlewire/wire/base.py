@@ -68,7 +68,11 @@ class Entity(ABC):
 
     @abstractmethod
     def close(self) -> None:
-        """Leave the wire. Idempotent; returns without waiting for other parties."""
+        """Leave the wire. Idempotent; returns without waiting for other parties.
+
+        In a forked child it does nothing: the middleware would wait for threads that only the
+        parent has.
+        """
 
 
 class Event(Entity):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 from abc import abstractmethod
 from contextlib import contextmanager
@@ -30,6 +31,7 @@ class CheckedNode(Node):
         # finalizer of the thread that makes one may close the node.
         self._making = threading.RLock()
         self._closed = False
+        self._process = os.getpid()
 
     def create_publisher(self, topic: str, type_id: TypeId, qos: QoS) -> Publisher:
         with self._checked("publisher", topic, bare=qos.avoid_ros_namespace_conventions):
@@ -72,6 +74,8 @@ class CheckedNode(Node):
             yield
 
     def close(self) -> None:
+        if self._process != os.getpid():  # see `Entity.close`
+            return
         with self._making:
             if self._closed:
                 return

@@ -6,6 +6,7 @@ It has an identity in the graph, and statuses that change.
 from __future__ import annotations
 
 import ctypes
+import os
 import threading
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
@@ -105,6 +106,7 @@ class Endpoint(Entity):
         self.ends_with_participant = False
         self._lock = threading.Lock()
         self._closed = False
+        self._process = os.getpid()
         self._events: dict[EventKind, StatusEvent] = {}
 
     def _created(self, handle: int) -> None:
@@ -153,6 +155,8 @@ class Endpoint(Entity):
             self._event(kind).add(translated)
 
     def close(self) -> None:
+        if self._process != os.getpid():  # see `Entity.close`
+            return
         with self._lock:
             if self._closed:
                 return

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import os
 import threading
 from typing import TYPE_CHECKING, Generic, TypeVar
 
@@ -41,6 +42,7 @@ class ConditionSet(Generic[T]):
         self._triggered = (ctypes.c_int64 * 16)()
         self._lock = threading.Lock()
         self._closed = False
+        self._process = os.getpid()
 
     def attach(self, condition: int, returned: T) -> None:
         """Include a condition, or an entity whose enabled statuses count."""
@@ -92,6 +94,8 @@ class ConditionSet(Generic[T]):
         Returns:
             What was attached.
         """
+        if self._process != os.getpid():  # see `Entity.close`
+            return []
         with self._lock:
             if self._closed:
                 return []

@@ -69,7 +69,6 @@ class ZenohContext(Context):
         session = _open(configuration)
         reader = ReaderThread()
         self._graph = ZenohGraph(domain_id, reader)
-        self._process = os.getpid()
         self._nodes: dict[ZenohNode, None] = {}
         self._wait_sets: set[QueueWaitSet] = set()
         with ExitStack() as if_it_fails:
@@ -127,13 +126,13 @@ class ZenohContext(Context):
 
     def _require_open(self, what: str) -> None:
         self._core.require_open(what)
-        if self._process != os.getpid():
+        if self._core.process != os.getpid():
             error = WireError(f"{what}: the context was opened before this process was forked")
             raise error.with_hint(_FORK_FIRST)
 
     def close(self) -> None:
         with self._core.lock:
-            if self._core.closing or self._process != os.getpid():
+            if self._core.closing or self._core.process != os.getpid():
                 return
             self._core.closing = True
             nodes = list(self._nodes)
@@ -157,7 +156,7 @@ class ZenohContext(Context):
         Python ends a daemon thread that comes back from Zenoh's library after the end of the
         interpreter. Within Rust code, that aborts the process.
         """
-        if self._process == os.getpid():
+        if self._core.process == os.getpid():
             self.close()
             self._closed.wait(_LONGEST_CLOSE_S)
 

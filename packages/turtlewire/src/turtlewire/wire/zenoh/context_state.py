@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import os
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Protocol
 
@@ -59,6 +60,7 @@ class ZenohContextState:
         calls: Who is in Zenoh's library.
         threads: Those on which Zenoh's callbacks run.
         closing: Whether the context is being closed, or is closed.
+        process: The process that opened it.
     """
 
     def __init__(
@@ -79,6 +81,7 @@ class ZenohContextState:
         self.calls = Calls()
         self.threads = CallbackThreads()
         self.closing = False
+        self.process = os.getpid()
         self._numbers = itertools.count()
 
     def next_number(self) -> str:

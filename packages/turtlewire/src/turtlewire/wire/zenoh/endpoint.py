@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 from contextlib import suppress
 from typing import TYPE_CHECKING
@@ -114,6 +115,8 @@ class ZenohEndpoint(Entity):
         self._event(EventKind.MATCHED).add(status)
 
     def close(self) -> None:
+        if self._core.process != os.getpid():  # see `Entity.close`
+            return
         with self._lock:
             if self._closed:
                 return
