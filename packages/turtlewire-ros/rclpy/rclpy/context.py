@@ -7,7 +7,8 @@ import sys
 import threading
 import time
 import weakref
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
+from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol
 
 from turtlewire.distro import KILTED, since
@@ -198,6 +199,7 @@ class Context:
         Raises:
             RuntimeError: The context was never initialized.
             RCLError: The context was already shut down by a call.
+            Exception: A shutdown callback raised it; the others were called, and it is shut down.
         """
         with self._lock:
             if self._wire is None:
@@ -214,10 +216,11 @@ class Context:
             end = self._invalidate(by_signal=False)
         # Without the lock, because shutdown callbacks use the context; before the middleware is
         # closed, because they may send messages.
-        if since(KILTED):
-            for node in list(self._nodes):
-                node.destroy_node()
-        end()
+        nodes = list(self._nodes) if since(KILTED) else []
+        _call_all([*(node.destroy_node for node in nodes), end, self._close])
+
+    def _close(self) -> None:
+        """Close logging and the middleware."""
         _open_contexts.discard(self)
         # After a signal, several threads may get here.
         with self._lock:
@@ -257,10 +260,7 @@ class Context:
         def tell() -> None:
             for wait in waits:
                 wait.set()
-            for reference in callbacks:
-                callback = reference()
-                if callback is not None:
-                    callback()
+            _call_all([partial(_call_referent, reference) for reference in callbacks])
 
         return tell
 
@@ -303,7 +303,8 @@ class Context:
 
         Methods are held weakly.
 
-        After a signal the callback runs on the thread that watches signals.
+        After a signal the callback runs on the thread that watches signals. What it raises there is
+        reported by :func:`threading.excepthook`; otherwise :meth:`shutdown` raises it at its end.
         """
         if not callable(callback):
             # ROS 2's error, with its forgotten `format`.
@@ -345,6 +346,20 @@ def _reference(callback: Callable[[], None]) -> Callable[[], Callable[[], None] 
     return lambda: callback
 
 
+def _call_referent(reference: Callable[[], Callable[[], None] | None]) -> None:
+    """Call the method or function if it still exists."""
+    callback = reference()
+    if callback is not None:
+        callback()
+
+
+def _call_all(calls: list[Callable[[], object]]) -> None:
+    """Call each in order, also after one that raises; the last exception propagates."""
+    with ExitStack() as stack:
+        for call in reversed(calls):
+            stack.callback(call)
+
+
 _open_contexts: set[Any] = set()
 _logging_lock = threading.Lock()
 
@@ -358,6 +373,7 @@ def _count_logging(change: int) -> int:
 
 def _close_open_contexts() -> None:
     """Leave the domain at the end of the process, so that peers need not wait for our lease."""
-    for context in list(_open_contexts):
+    contexts = list(_open_contexts)
+    for context in contexts:
         context.ended_at_exit = True
-        context.try_shutdown()
+    _call_all([context.try_shutdown for context in contexts])

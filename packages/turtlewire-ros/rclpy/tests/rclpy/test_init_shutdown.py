@@ -17,6 +17,7 @@ from rclpy.node import Node
 from rclpy.utilities import get_default_context, remove_ros_args, timeout_sec_to_nsec
 from std_msgs.msg import Int32
 from std_srvs.srv import Empty
+from turtlewire.errors import WireError
 
 
 @pytest.fixture(autouse=True)
@@ -147,6 +148,28 @@ def test_shutdown_callbacks():
     assert told.times == 2
     with pytest.raises(TypeError):
         context.on_shutdown(3)
+
+
+def test_a_shutdown_callback_that_raises_does_not_stop_the_shutdown():
+    def fail():
+        raise ValueError("no goodbye")
+
+    calls = []
+    logging_before = rclpy.context.g_logging_ref_count
+    context = Context()
+    context.init(args=[])
+    publisher = Node("n", context=context).create_publisher(Int32, "words", 1)
+    context.on_shutdown(fail)
+    context.on_shutdown(lambda: calls.append(context.ok()))
+    with pytest.raises(ValueError, match="no goodbye"):
+        context.shutdown()
+    assert calls == [False]
+    assert rclpy.context.g_logging_ref_count == logging_before
+    with pytest.raises(RCLError, match="already called"):
+        context.shutdown()
+    with pytest.raises(WireError, match="closed"):
+        context.wire.create_node("late")
+    del publisher
 
 
 def test_shutdown_ends_a_wait_for_the_graph():

@@ -147,6 +147,30 @@ def test_one_shutdown_after_a_signal_is_tolerated_and_a_second_raises(start):
     assert program.finish() == (0, "told\nRuntimeError\nRCLError\nTrue\n", "")
 
 
+@MODES
+def test_ctrl_c_ends_spin_although_a_shutdown_callback_raises(start, middleware):
+    program = start(
+        """
+        import rclpy
+        rclpy.init()
+        def fail():
+            raise ValueError("no goodbye")
+        rclpy.get_default_context().on_shutdown(fail)  # before the executor's own callback
+        node = rclpy.create_node("tested")
+        node.create_guard_condition(lambda: print("up")).trigger()
+        try:
+            rclpy.spin(node)
+        except KeyboardInterrupt:
+            print("interrupted")
+        """,
+        middleware,
+    )
+    program.send_signal(signal.SIGINT)
+    status, printed, errors = program.finish()
+    assert (status, printed) == (0, "interrupted\n")
+    assert errors.count("ValueError: no goodbye\n") == 1
+
+
 def test_ctrl_c_reaches_executors_of_other_threads(start):
     program = start("""
         import threading, rclpy
