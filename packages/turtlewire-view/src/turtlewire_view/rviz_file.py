@@ -8,7 +8,9 @@ maps RViz's options to the page's.
 from __future__ import annotations
 
 import hashlib
+import math
 from dataclasses import dataclass, field
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.terminal.printable import printable
@@ -165,7 +167,9 @@ def _parsed(text: str) -> dict[str, Any]:
     if len(text) > _LONGEST_FILE:
         raise RvizFileError(f"{len(text)} characters are too many for a .rviz file")
     try:
-        content = yaml.safe_load(text)
+        content = yaml.load(text, _loader())
+    except RvizFileError:
+        raise
     except RecursionError:
         raise RvizFileError("the file is not YAML: nested too deeply") from None
     except (yaml.YAMLError, ValueError) as error:
@@ -174,6 +178,30 @@ def _parsed(text: str) -> dict[str, Any]:
     if not isinstance(content, dict):
         raise RvizFileError("the file holds no properties, as RViz's files do")
     return content
+
+
+@cache
+def _loader() -> type[Any]:
+    """Return PyYAML's safe loader, without the values that a short text makes too large."""
+    import yaml
+
+    class Loader(yaml.SafeLoader):
+        def compose_node(self, parent: Any, index: Any) -> Any:
+            # A few lines of aliases can stand for a billion values.
+            if self.check_event(yaml.AliasEvent):
+                raise RvizFileError("it has YAML aliases, such as *name, which RViz does not write")
+            return super().compose_node(parent, index)
+
+        def construct_yaml_int(self, node: Any) -> float:
+            number: int = super().construct_yaml_int(node)
+            try:
+                float(number)
+            except OverflowError:  # as YAML reads 1e999
+                return math.inf if number > 0 else -math.inf
+            return number
+
+    Loader.add_constructor("tag:yaml.org,2002:int", Loader.construct_yaml_int)
+    return Loader
 
 
 def numbered_displays(manager: dict[str, Any]) -> Iterator[tuple[int, dict[str, Any]]]:

@@ -117,16 +117,22 @@ def test_texts_that_are_no_view(text, why):
         read_rviz(text)
 
 
-def test_groups_in_groups_by_references_end():
-    groups = "\n".join(
-        f"x{k}: &x{k} {{Class: rviz_common/Group, Displays: [*x{k - 1}, *x{k - 1}, *x{k - 1}]}}"
-        for k in range(1, 30)
-    )
-    text = (
-        f"x0: &x0 {{Class: rviz_default_plugins/Path}}\n{groups}\n"
-        "Visualization Manager: {Displays: [*x29]}"
-    )
-    assert len(read_rviz(text).displays) <= 100
+PATHS = "Visualization Manager: {Displays: [{Class: rviz/Path, Alpha: &a 1, Line Width: *a}]}"
+
+
+def bomb(first, rest):
+    """Return nine lines that stand for a billion values."""
+    lines = [f"a0: &a0 {first}"]
+    for k in range(1, 10):
+        references = ", ".join([f"*a{k - 1}"] * 10)
+        lines.append(f"a{k}: &a{k} {rest.format(references)}")
+    return "\n".join([*lines, "Visualization Manager: {Displays: [{Class: rviz/Path, Alpha: *a9}]}"])
+
+
+@pytest.mark.parametrize("text", [PATHS, bomb("[]", "[{}]"), bomb("{x: 1}", "{{<<: [{}]}}")])
+def test_aliases_are_refused(text):
+    with pytest.raises(RvizFileError, match=r"^it has YAML aliases, such as \*name, which RViz"):
+        read_rviz(text)
 
 
 NONSENSE = st.recursive(
@@ -201,6 +207,8 @@ def test_unsupported_parts_are_written_back():
         ("Color: red", "'Color' must be a colour as '255; 255; 255', got 'red'"),
         ("Use rainbow: 1", "'Use rainbow' must be true or false, got 1"),
         ("Decay Time: -1", "'Decay Time' must be a number from 0 to 3600, got -1"),
+        (f"Decay Time: 1{400 * '0'}", "'Decay Time' must be a number from 0 to 3600, got inf"),
+        (f"Decay Time: -0x{4000 * 'f'}", "'Decay Time' must be a number from 0 to 3600, got -inf"),
     ],
 )
 def test_wrong_values_of_a_file_are_named(given, why):
@@ -325,6 +333,12 @@ def test_the_camera_of_a_file():
     camera = read_rviz(file_with(top)).camera
     assert (camera["kind"], camera["frame"], camera["focus"]) == ("top", "", [3.0, -1.0, 0.0])
     assert camera["scale"] == 50
+
+
+def test_the_camera_of_a_file_with_numbers_that_are_too_large():
+    orbit = {"Class": "rviz_default_plugins/Orbit", "Distance": 10**400, "Yaw": 1}
+    camera = read_rviz(file_with(orbit)).camera
+    assert (camera["distance"], camera["yaw"]) == (10.0, 1.0)
 
 
 @pytest.mark.parametrize(
