@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from turtlewire import msg
 from turtlewire.geometry.conversions import matrix_from_pose, pose_from_matrix
-from turtlewire.web.commands import CommandError
+from turtlewire.web.commands import CommandError, is_finite_number
 from turtlewire_view.tools import ToolMessage
 
 if TYPE_CHECKING:
@@ -82,11 +81,7 @@ def _in_fixed_frame(
 
 
 def _numbers(name: str, values: list[Any], count: int) -> list[float]:
-    usable = [
-        isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
-        for value in values
-    ]
-    if len(values) != count or not all(usable):
+    if len(values) != count or not all(map(is_finite_number, values)):
         raise CommandError(f"{name} must be a list of {count} finite numbers")
     return [float(value) for value in values]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.web.commands import CommandError
+from turtlewire.web.commands import CommandError, is_finite_number
 from turtlewire_view.rviz_camera import is_camera
 from turtlewire_view.rviz_file import SavedDisplay, SavedView
 from turtlewire_view.rviz_writing import write_rviz
@@ -38,8 +38,8 @@ def message_of_tool(
         CommandError: The command makes no sense.
     """
     tool, position, yaw, topic = command
-    if not all(map(_is_number, position)):
-        raise CommandError("position must be a list of three numbers")
+    if not all(map(is_finite_number, position)):
+        raise CommandError("position must be a list of three finite numbers")
     place = [value + shift for value, shift in zip(position, origin, strict=False)]
     try:
         return tool_message(tool, place, yaw, fixed, now_ns, topic)
@@ -77,7 +77,3 @@ def _display_of(entry: object) -> SavedDisplay:
             place = place if isinstance(place, int) else None
             return SavedDisplay(kind, topic, options, entry.get("visible") is not False, place)
     raise CommandError("a display must have strings 'kind' and 'topic', and an object 'options'")
-
-
-def _is_number(value: object) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool)

@@ -12,6 +12,7 @@ import numpy as np
 from turtlewire import msg
 from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire.urdf.mimic import followers_of
+from turtlewire.web.commands import is_finite_number
 from turtlewire_view.buffer_source import BufferSource
 
 if TYPE_CHECKING:
@@ -82,8 +83,7 @@ class RobotJoints:
             if name not in self._positions:
                 near = did_you_mean(name, self._positions)
                 raise ValueError(f"the robot has no free joint {name!r:.100}. {near}".rstrip())
-            is_number = isinstance(position, (int, float)) and not isinstance(position, bool)
-            if not is_number or not math.isfinite(position):
+            if not is_finite_number(position):
                 raise ValueError(
                     f"the position of {name!r} must be a number, got {position!r:.100}"
                 )

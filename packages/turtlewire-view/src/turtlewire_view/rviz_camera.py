@@ -6,6 +6,8 @@ import math
 from collections.abc import Mapping
 from typing import Any, TypedDict
 
+from turtlewire.web.commands import is_finite_number
+
 __all__ = ["Camera", "camera_from", "camera_properties", "is_camera"]
 
 _FIXED_FRAME = "<Fixed Frame>"
@@ -93,23 +95,19 @@ def is_camera(value: object) -> bool:
         isinstance(value.get("frame"), str)
         and isinstance(focus, list)
         and len(focus) == 3
-        and all(_is_finite(each) for each in focus)
-        and all(_is_finite(value.get(word)) for word in ("distance", "yaw", "pitch"))
-        and (scale is None or _is_finite(scale))
+        and all(map(is_finite_number, focus))
+        and all(is_finite_number(value.get(word)) for word in ("distance", "yaw", "pitch"))
+        and (scale is None or is_finite_number(scale))
     )
 
 
 def _number(properties: Mapping[str, Any], word: str, default: float) -> float:
     value = properties.get(word, default)
-    return float(value) if _is_finite(value) and abs(value) < _FARTHEST_M else default
+    return float(value) if is_finite_number(value) and abs(value) < _FARTHEST_M else default
 
 
 def _bounded(distance: float) -> float:
     return min(max(distance, _NEAREST_M), _FARTHEST_M)
-
-
-def _is_finite(value: object) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
 def _mapping(value: object) -> Mapping[str, Any]:

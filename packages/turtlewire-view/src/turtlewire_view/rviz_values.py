@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import math
 import re
 from typing import TYPE_CHECKING, Any, NamedTuple
+
+from turtlewire.web.commands import is_finite_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -91,9 +92,7 @@ def _among(names: dict[str, str], value: object) -> object:
 
 
 def _read_number(value: object) -> object:
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        return None
-    return value if abs(value) < 1e12 and math.isfinite(value) else None
+    return value if is_finite_number(value) and abs(value) < 1e12 else None
 
 
 def _read_color(value: object) -> str | None:

@@ -329,6 +329,7 @@ def test_feedback_is_in_the_fixed_frame_for_a_marker_with_a_stamp(display):
     [
         ({"pose": [1, 2]}, "pose must be a list of 7 finite numbers"),
         ({"pose": [math.nan] * 7}, "pose must be a list of 7 finite numbers"),
+        ({"pose": [10**400] * 7}, "pose must be a list of 7 finite numbers"),
         ({"pose": ["1"] * 7}, "pose must be a list of 7 finite numbers"),
         ({"mouse_point": [1]}, "mouse_point must be a list of 3 finite numbers"),
         ({"menu_entry": -1}, "event must be from 0 to 5"),

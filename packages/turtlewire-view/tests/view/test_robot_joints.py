@@ -77,6 +77,7 @@ def test_a_moved_joint_moves_its_links_and_those_that_follow(source):
         ({"lift": "1"}, "the position of 'lift' must be a number, got '1'"),
         ({"lift": True}, "the position of 'lift' must be a number, got True"),
         ({"lift": math.nan}, "the position of 'lift' must be a number, got nan"),
+        ({"lift": 10**400}, "the position of 'lift' must be a number, got 1000"),
     ],
 )
 def test_moves_that_are_refused(source, positions, why):

@@ -366,6 +366,10 @@ def test_cameras_that_are_written_are_read_again(kind, frame, numbers, distance)
     assert {word: again[word] for word in words} == {word: camera[word] for word in words}
 
 
-@pytest.mark.parametrize("camera", [None, 5, {}, {"kind": "orbit", "frame": 3}, {"kind": "x"}])
+@pytest.mark.parametrize(
+    "camera",
+    [None, 5, {}, {"kind": "orbit", "frame": 3}, {"kind": "x"},
+     {"kind": "orbit", "frame": "", "focus": [10**400, 0, 0], "distance": 1, "yaw": 1, "pitch": 1}],
+)  # fmt: skip
 def test_a_camera_that_makes_no_sense_is_not_saved(camera):
     assert read_rviz(text_of_view(SaveView("map", [], {}, camera), {})).camera is None

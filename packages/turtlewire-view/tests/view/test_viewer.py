@@ -126,6 +126,10 @@ def test_the_time_that_can_be_shown_does_not_begin_with_a_link_that_ended(robot,
         ),
         ('{"type": "options", "id": "1", "options": {}}', "no display '1'"),
         ('{"type": "budget", "points": true}', "points must be a number"),
+        (
+            json.dumps({"type": "publish", "tool": "point", "position": [10**400, 0, 0]}),
+            "position must be a list of three finite numbers",
+        ),
     ],
 )
 def test_wrong_commands_are_answered_and_the_page_lives(page, message, answer):

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from turtlewire.web import CommandSession
 from turtlewire.web.commands import Between, CommandError, CommandReader
 
 
@@ -117,3 +118,20 @@ def test_invalid_commands(text, part):
 def test_anything_else_is_one_error(text):
     with pytest.raises(CommandError):
         READER.read(text)
+
+
+class Fragile(CommandSession):
+    def news(self):
+        return []
+
+    def obey(self, command):
+        raise ZeroDivisionError
+
+
+def test_a_command_that_fails_is_answered_and_logged(caplog):
+    session = Fragile(CommandReader({"clear": Clear}))
+    session.receive('{"type": "clear"}')
+    (answer,) = session.outgoing()
+    expected = {"type": "error", "text": "This command failed; the log says why."}
+    assert json.loads(answer) == expected
+    assert "ZeroDivisionError" in caplog.text

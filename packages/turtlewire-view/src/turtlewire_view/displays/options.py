@@ -7,15 +7,15 @@ display a list of options, or of the names of further lists.
 from __future__ import annotations
 
 import json
-import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias, TypeGuard
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from turtlewire.terminal.suggestion import did_you_mean
+from turtlewire.web.commands import is_finite_number
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -57,7 +57,7 @@ class Option:
     def accepts(self, value: object) -> bool:
         """Return True if this is a value of the option."""
         if self.type == "number":
-            return _is_number(value) and self.low <= value <= self.high
+            return is_finite_number(value) and self.low <= value <= self.high
         if self.type == "bool":
             return isinstance(value, bool)
         if self.type == "choice":
@@ -117,7 +117,7 @@ class DisplayOptions(Mapping[str, object]):
     def number(self, name: str) -> float:
         """Return a finite number."""
         value = self[name]
-        assert _is_number(value)
+        assert is_finite_number(value)
         return value
 
     def flag(self, name: str) -> bool:
@@ -176,17 +176,11 @@ def _option(entry: Mapping[str, Any]) -> Option:
     )
 
 
-def _is_number(value: object) -> TypeGuard[float]:
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        return False
-    return isinstance(value, int) or math.isfinite(value)
-
-
 def _is_item(value: object) -> bool:
     if not isinstance(value, dict) or not value.keys() <= {"shown", "alpha", "max"}:
         return False
     alpha, greatest = value.get("alpha", 1), value.get("max", 0)
-    if not (_is_number(alpha) and _is_number(greatest)):
+    if not (is_finite_number(alpha) and is_finite_number(greatest)):
         return False
     return isinstance(value.get("shown", True), bool) and 0 <= alpha <= 1 and greatest >= 0
 
@@ -196,7 +190,7 @@ def _color_of(value: object) -> _Color | None:
         return int(value[1:3], 16), int(value[3:5], 16), int(value[5:7], 16)
     if not isinstance(value, (list, tuple)) or len(value) != 3:
         return None
-    if not all(_is_number(part) and 0 <= part <= 255 for part in value):
+    if not all(is_finite_number(part) and 0 <= part <= 255 for part in value):
         return None
     red, green, blue = (int(part) for part in value)
     return red, green, blue

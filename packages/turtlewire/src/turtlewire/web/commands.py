@@ -9,14 +9,15 @@ with a default may be missing, and is null if the annotation is a union with Non
 from __future__ import annotations
 
 import json
+import sys
 import typing
 from types import NoneType, UnionType
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, NamedTuple, TypeGuard
 
 if typing.TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["Between", "CommandError", "CommandReader"]
+__all__ = ["Between", "CommandError", "CommandReader", "is_finite_number"]
 
 
 class CommandError(ValueError):
@@ -33,6 +34,13 @@ class Between(NamedTuple):
 _LENGTHS = Between(0, 1024)
 _NUMBERS = Between(-1_000_000, 1_000_000)
 _WORDS = {bool: "true or false", list: "a list", dict: "an object"}
+
+
+def is_finite_number(value: object) -> TypeGuard[float]:
+    """Return True if a value of JSON or YAML is a number, and not too large for a float."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return False
+    return -sys.float_info.max <= value <= sys.float_info.max  # also False for NaN
 
 
 class CommandReader:
@@ -97,9 +105,8 @@ def _checked(name: str, hint: Any, value: Any) -> Any:
 
 
 def _number(name: str, kind: type[int | float], limits: Between, value: Any) -> int | float:
-    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    # NaN is not between the limits, either.
-    if not is_number or not limits.least <= value <= limits.most or kind(value) != value:
+    is_within = is_finite_number(value) and limits.least <= value <= limits.most
+    if not is_within or kind(value) != value:
         word = "number" if kind is float else "whole number"
         raise CommandError(
             f"{name} must be a {word} from {limits.least:.15g} to {limits.most:.15g}"

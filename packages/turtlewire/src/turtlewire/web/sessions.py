@@ -9,6 +9,7 @@ All messages are objects with a ``type``. A page sends commands as JSON
 from __future__ import annotations
 
 import json
+import logging
 from typing import TYPE_CHECKING, Any, Protocol
 
 from turtlewire.terminal.printable import printable
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
     from turtlewire.web.commands import CommandReader
 
 __all__ = ["CommandSession", "PageSession"]
+
+
+_logger = logging.getLogger(__name__)
 
 
 class PageSession(Protocol):
@@ -63,6 +67,9 @@ class CommandSession:
             self.obey(self._reader.read(message))
         except CommandError as error:
             self.refuse(error)
+        except Exception:  # it would close the connection: the page would lose all that it shows
+            _logger.exception("A command of a page failed")
+            self.answer({"type": "error", "text": "This command failed; the log says why."})
 
     def refuse(self, error: Exception) -> None:
         """Answer that something went wrong."""
