@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import threading
+from contextlib import closing
 from typing import TYPE_CHECKING
 
 from turtlewire.bag import open_bag
@@ -228,7 +229,9 @@ class BagSource:
                 self._play_from(start_ns, sinks, wanted)
             except BagError as error:  # everything readable was delivered; the frames stay
                 self.problem = str(error)
-                self._play_from(start_ns, {}, wanted)
+            except OSError as error:  # the files are gone, for example
+                self.problem = f"The bag cannot be read: {error}"
+            self._play(None, sinks, wanted)
 
     def _deliver_last(self, sinks: dict[str, list[Callable[[bytes], None]]], at_ns: int) -> None:
         """The last message of each topic before the time."""
@@ -250,16 +253,23 @@ class BagSource:
         self, start_ns: int, sinks: dict[str, list[Callable[[bytes], None]]], wanted: int
     ) -> None:
         """Deliver what follows when it is due, until something else is wanted."""
-        with open_bag(self._path) as bag:
-            ahead = ReadAhead(bag.messages(set(sinks), start_ns=start_ns + 1)) if sinks else None
-            try:
-                while self._is_wanted(wanted):
-                    self._deliver_due(ahead, sinks)
-                    self._changed()
-                    self._wait(wanted)
-            finally:
-                if ahead is not None:
-                    ahead.close()
+        if sinks:
+            with open_bag(self._path) as bag:
+                ahead = ReadAhead(bag.messages(set(sinks), start_ns=start_ns + 1))
+                with closing(ahead):
+                    self._play(ahead, sinks, wanted)
+
+    def _play(
+        self,
+        ahead: ReadAhead | None,
+        sinks: dict[str, list[Callable[[bytes], None]]],
+        wanted: int,
+    ) -> None:
+        """Show the passing time until something else is wanted."""
+        while self._is_wanted(wanted):
+            self._deliver_due(ahead, sinks)
+            self._changed()
+            self._wait(wanted)
 
     def _deliver_due(
         self, ahead: ReadAhead | None, sinks: dict[str, list[Callable[[bytes], None]]]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import random
+import shutil
 import threading
 
 import pytest
@@ -143,6 +144,22 @@ def test_it_stops_at_its_end_and_plays_again(source):
     assert source.state().now == source.state().newest
     source.play()
     assert source.state().now < source.state().newest
+
+
+def test_files_that_vanish_are_a_problem_until_they_are_back(tmp_path):
+    path = write_bag(tmp_path / "made")
+    with contextlib.closing(BagSource(path)) as source:
+        found = threading.Event()
+        source.on_change(lambda: source.problem and found.set())
+        source.pause()
+        away = shutil.move(path, tmp_path / "away")
+        heard = Heard()
+        source.subscribe("/chatter", "std_msgs/msg/String", heard)
+        assert found.wait(LIMIT_S)
+        assert source.problem.startswith(f"The bag cannot be read: there is no bag at {path}")
+        shutil.move(away, path)
+        source.seek(START + SECOND // 4)
+        heard.wait_for(["number 19"])
 
 
 def test_it_takes_no_messages(source):
