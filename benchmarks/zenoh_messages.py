@@ -73,9 +73,7 @@ def figure(runs: list[dict[str, float]], name: str) -> Figure:
 
 
 def run(command: list[str], environment: dict[str, str]) -> dict[str, float]:
-    done = subprocess.run(
-        command, env=environment, stdout=subprocess.PIPE, check=True, timeout=60
-    )
+    done = subprocess.run(command, env=environment, stdout=subprocess.PIPE, check=True, timeout=60)
     return json.loads(done.stdout)
 
 
@@ -106,15 +104,16 @@ def measured(publish: Callable[[], object]) -> None:
 def receive() -> None:
     from std_msgs.msg import String
 
-    rclpy, node = make_node("receiver")
+    node = rclpy_programs.make_node("receiver")
     node.create_subscription(String, "/text", lambda _: None, rclpy_programs.LOSSLESS)
     rclpy_programs.spin_until_stdin_closes(node)
 
 
 def send() -> None:
+    import rclpy
     from std_msgs.msg import String
 
-    rclpy, node = make_node("sender")
+    node = rclpy_programs.make_node("sender")
     publisher = node.create_publisher(String, "/text", rclpy_programs.LOSSLESS)
     node.context.wait_for_graph(lambda: publisher.get_subscription_count() > 0, None)
     message = String(data=TEXT)
@@ -146,9 +145,10 @@ def floor_send() -> None:
 
 def graph() -> None:
     """Print what a query takes when nothing has changed since the last one [ns]."""
+    import rclpy
     from std_msgs.msg import String
 
-    rclpy, node = make_node("observer")
+    node = rclpy_programs.make_node("observer")
     others = [rclpy.create_node(f"other_{number}") for number in range(NODES - 1)]
     for number in range(TOKENS - 10 * NODES):
         others[number].create_publisher(String, f"/topic_{number}", 10)
@@ -174,13 +174,6 @@ def session() -> Any:
     import zenoh
 
     return zenoh.open(zenoh.Config.from_json5(json.dumps(SESSION)))
-
-
-def make_node(name: str) -> tuple[Any, Any]:
-    import rclpy
-
-    rclpy.init(args=[])
-    return rclpy, rclpy.create_node(name)
 
 
 if __name__ == "__main__":

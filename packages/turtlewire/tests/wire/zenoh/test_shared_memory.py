@@ -20,10 +20,9 @@ LARGE = b"\0\1\0\0" + bytes(range(256)) * 1000
 
 
 @pytest.fixture
-def enabled(monkeypatch: pytest.MonkeyPatch) -> pytest.MonkeyPatch:
+def enabled(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ZENOH_CONFIG_OVERRIDE", "transport/shared_memory/enabled=true")
     monkeypatch.setattr(report, "_said", set())
-    return monkeypatch
 
 
 def make(**sizes: int) -> SharedMemory:
@@ -34,7 +33,8 @@ def make(**sizes: int) -> SharedMemory:
     return SharedMemory(configuration)
 
 
-def test_a_large_message_is_placed_and_a_small_one_is_not(enabled: pytest.MonkeyPatch):
+@pytest.mark.usefixtures("enabled")
+def test_a_large_message_is_placed_and_a_small_one_is_not():
     memory = make()
     placed = memory.placed(LARGE)
     assert isinstance(placed, shm.ZShmMut)
@@ -45,7 +45,8 @@ def test_a_large_message_is_placed_and_a_small_one_is_not(enabled: pytest.Monkey
     assert memory.placed(LARGE) is LARGE
 
 
-def test_the_threshold_of_the_configuration_counts(enabled: pytest.MonkeyPatch):
+@pytest.mark.usefixtures("enabled")
+def test_the_threshold_of_the_configuration_counts():
     memory = make(message_size_threshold=1 << 20)
     assert memory.placed(LARGE) is LARGE
     memory.close()
@@ -55,7 +56,8 @@ def test_nothing_is_placed_unless_it_is_enabled():
     assert make().placed(LARGE) is LARGE
 
 
-def test_a_full_pool_lends_again_what_has_been_freed(enabled: pytest.MonkeyPatch):
+@pytest.mark.usefixtures("enabled")
+def test_a_full_pool_lends_again_what_has_been_freed():
     memory = make(pool_size=len(LARGE) * 3)
     held = [memory.placed(LARGE) for _ in range(4)]
     assert held[-1] is LARGE
@@ -64,7 +66,8 @@ def test_a_full_pool_lends_again_what_has_been_freed(enabled: pytest.MonkeyPatch
     memory.close()
 
 
-def test_a_pool_that_cannot_be_made_is_told_once(enabled: pytest.MonkeyPatch, capfd):
+@pytest.mark.usefixtures("enabled")
+def test_a_pool_that_cannot_be_made_is_told_once(capfd):
     memory = make(pool_size=1 << 60)
     assert memory.placed(LARGE) is LARGE
     assert memory.placed(LARGE) is LARGE
@@ -72,10 +75,9 @@ def test_a_pool_that_cannot_be_made_is_told_once(enabled: pytest.MonkeyPatch, ca
     assert "messages are copied: Unable to create SHM" in line
 
 
+@pytest.mark.usefixtures("enabled")
 @pytest.mark.parametrize("durability", [Durability.VOLATILE, Durability.TRANSIENT_LOCAL])
-def test_a_message_arrives_with_all_its_bytes(
-    enabled: pytest.MonkeyPatch, durability: Durability
-):
+def test_a_message_arrives_with_all_its_bytes(durability: Durability):
     qos = QoS(durability=durability)
     with (
         contextlib.closing(open_context(middleware="rmw_zenoh_cpp")) as sender,
