@@ -18,6 +18,7 @@ from launch.actions import (
 )
 from launch.conditions import IfCondition
 from launch.event_handlers import OnProcessExit
+from launch.frontend import Parser
 from launch.launch_description_sources import (
     AnyLaunchDescriptionSource,
     FrontendLaunchDescriptionSource,
@@ -57,6 +58,20 @@ def test_python(launch, file, tmp_path, source):
     source = source([str(tmp_path), "/", LaunchConfiguration("name", default="x.launch.py")])
     assert source.try_get_launch_description_without_context() is None
     assert source.location == f"'{tmp_path}' + '/' + LaunchConfig('name')"
+
+
+def test_python_needs_no_parser_of_another_language(launch, file, tmp_path, monkeypatch):
+    """A package whose parser cannot be imported fails only files that it might read."""
+    (tmp_path / "others-1.0.dist-info").mkdir()
+    entry = "[launch.frontend.parser]\ntoml = no_such_module:Parser\n"
+    (tmp_path / "others-1.0.dist-info" / "entry_points.txt").write_text(entry)
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setattr(Parser, "frontend_parsers", None)
+    path = file("x.launch.py", GOOD)
+    outcome = launch(IncludeLaunchDescription(AnyLaunchDescriptionSource(path)))
+    assert outcome.messages == ["from the file"]
+    outcome = launch(IncludeLaunchDescription(AnyLaunchDescriptionSource(file("x.toml", ""))))
+    assert "No module named 'no_such_module'" in outcome.text
 
 
 def test_python_without_the_function(file):
