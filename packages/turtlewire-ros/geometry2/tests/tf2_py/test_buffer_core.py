@@ -1,4 +1,4 @@
-"""The API of tf2_py: arguments and results. test_golden.py checks the answers."""
+"""The API of tf2_py: arguments and results; at the end, the answers of the real one."""
 
 from __future__ import annotations
 
@@ -236,7 +236,6 @@ def test_classes_without_slots_are_refused() -> None:
 
 
 # Every answer of the real tf2_py of Jazzy and Lyrical, on both cores.
-
 
 GOLDEN = places.GOLDEN / "tf2"
 #: Jazzy's first core and its newest, and Lyrical's: the distribution, answers, and texts. Of the
