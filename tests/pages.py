@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
+import base64
+import os
+from typing import TYPE_CHECKING
+
 import pytest
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 LIMIT_MS = 120_000
 #: Two PNG files, both scaled to a width of 200, in cells of 10 x 10 pixels: mean difference of all
@@ -26,6 +33,14 @@ DIFFERENCE_OF_PICTURES = """async (pictures) => {
         cells.set(cell, (cells.get(cell) ?? 0) + Math.abs(value - b[k]) / (4 * CELL * CELL));
     });
     return Math.max(...cells.values());
+}"""
+#: Where a place [x, y, z] of the 3D view is on its page [CSS pixels].
+PROJECT = """async (place) => {
+    const { stage } = await import("./js/main.js");
+    const { Vector3 } = await import("three");
+    const { x, y } = stage.view.project(new Vector3(...place));
+    const { left, top } = stage.view.canvas.getBoundingClientRect();
+    return [left + x, top + y];
 }"""
 #: Width of a text in the page's font, plain and bold [pixels], and what it is with DejaVu Sans,
 #: which the golden pictures show.
@@ -57,6 +72,17 @@ def wait_until(page, check, arg=None):
         }}""",
         arg,
     )
+
+
+def difference(page, golden: Path, picture: bytes) -> float:
+    """How far a picture is from the golden one in the worst place, of 255.
+
+    With TURTLEWIRE_WRITE_GOLDEN in the environment, it becomes the golden one.
+    """
+    if "TURTLEWIRE_WRITE_GOLDEN" in os.environ:
+        golden.write_bytes(picture)
+    both = (picture, golden.read_bytes())
+    return page.evaluate(DIFFERENCE_OF_PICTURES, [base64.b64encode(png).decode() for png in both])
 
 
 def skip_with_other_fonts(page) -> None:

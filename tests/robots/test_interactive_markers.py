@@ -6,7 +6,7 @@ import contextlib
 import threading
 
 import pytest
-from tests.pages import wait_until
+from tests.pages import PROJECT, wait_until
 
 import rclpy
 from interactive_markers import InteractiveMarkerServer, MenuHandler
@@ -39,13 +39,6 @@ IS_AT = """async ([name, x]) => {
         if (each.userData.control?.name === name) found = each.getWorldPosition(new Vector3());
     });
     return found !== null && Math.abs(found.x - x) < 0.05;
-}"""
-PROJECT = """async (place) => {
-    const { stage } = await import("./js/main.js");
-    const { Vector3 } = await import("three");
-    const { x, y } = stage.view.project(new Vector3(...place));
-    const { left, top } = stage.view.canvas.getBoundingClientRect();
-    return [left + x, top + y];
 }"""
 
 

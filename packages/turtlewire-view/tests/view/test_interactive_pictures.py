@@ -6,27 +6,14 @@ from __future__ import annotations
 import math
 
 import pytest
+from tests.pages import PROJECT
 
 from turtlewire import msg
 
 from .looking_down import ADD, LIMIT_MS, get, scene, shown_page, stamped  # noqa: F401 - fixtures
+from .test_interactive_markers import Control, Entry, Feedback, Marker, Pose, Service, Shape, Update
 
-NAMES = ("InteractiveMarker", "InteractiveMarkerControl", "InteractiveMarkerUpdate")
-Marker, Control, Update = (get(f"visualization_msgs/msg/{name}") for name in NAMES)
-Shape = get("visualization_msgs/msg/Marker")
-Pose = get("visualization_msgs/msg/InteractiveMarkerPose")
-Entry = get("visualization_msgs/msg/MenuEntry")
-Feedback = get("visualization_msgs/msg/InteractiveMarkerFeedback")
-Service = msg.get_service("visualization_msgs/srv/GetInteractiveMarkers")
 KEEP_ALIVE, POSE, MENU, CLICK, DOWN, UP = range(6)
-#: Where a place [x, y, z] is on the page [CSS pixels].
-PROJECT = """async (place) => {
-    const { stage } = await import("./js/main.js");
-    const { Vector3 } = await import("three");
-    const { x, y } = stage.view.project(new Vector3(...place));
-    const { left, top } = stage.view.canvas.getBoundingClientRect();
-    return [left + x, top + y];
-}"""
 #: Whether the last display has something, which is drawn then.
 IS_DRAWN = """async () => {
     const { displays, stage } = await import("./js/main.js");

@@ -5,11 +5,8 @@
 
 from __future__ import annotations
 
-import base64
-import os
-
 import pytest
-from tests.pages import DIFFERENCE_OF_PICTURES, after_two_frames, skip_with_other_fonts
+from tests.pages import after_two_frames, difference, skip_with_other_fonts
 
 from tests import places
 
@@ -17,7 +14,6 @@ from .fake_view import IDENTITY, pose
 from .test_page import in_page
 
 GOLDEN = places.GOLDEN / "view"
-WRITES = "TURTLEWIRE_WRITE_GOLDEN" in os.environ
 WORST_CELL = 6
 SIZES = {"desktop": (1200, 800), "phone": (360, 740), "landscape": (740, 360)}
 PARENTS = {
@@ -68,16 +64,6 @@ def told(fake):
     return fake
 
 
-def difference(page, name: str, picture: bytes) -> float:
-    """How far a picture is from the golden one of that name in the worst place, of 255."""
-    if WRITES:
-        (GOLDEN / name).write_bytes(picture)
-    return page.evaluate(
-        DIFFERENCE_OF_PICTURES,
-        [base64.b64encode(png).decode() for png in (picture, (GOLDEN / name).read_bytes())],
-    )
-
-
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("size", SIZES)
 def test_every_size_and_scheme(told, open_view, size, scheme):
@@ -96,4 +82,4 @@ def test_every_size_and_scheme(told, open_view, size, scheme):
     assert box["width"] > 300
     assert box["height"] > 200
     skip_with_other_fonts(page)
-    assert difference(page, f"{size}-{scheme}.png", page.screenshot()) < WORST_CELL
+    assert difference(page, GOLDEN / f"{size}-{scheme}.png", page.screenshot()) < WORST_CELL

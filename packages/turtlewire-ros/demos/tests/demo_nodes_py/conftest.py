@@ -1,10 +1,11 @@
-"""A node that subscribes to topics."""
+"""Executables, and a node that subscribes to topics."""
 
 from __future__ import annotations
 
 import threading
 
 import pytest
+from tests.places import ROS2
 
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
@@ -27,6 +28,16 @@ class Heard:
         """Wait until the messages satisfy a condition; return False after the timeout."""
         with self._more:
             return self._more.wait_for(lambda: is_done(self.got), timeout)
+
+
+@pytest.fixture
+def start(run):
+    """Starts executables, each in its own process."""
+
+    def start(package: str, executable: str, *arguments: str, **options):
+        return run(ROS2, "run", package, executable, *arguments, **options)
+
+    return start
 
 
 @pytest.fixture

@@ -7,21 +7,10 @@ import sys
 from itertools import groupby
 
 import pytest
-from tests.places import ROS2
 
 from geometry_msgs.msg import Twist, TwistStamped
 
 FIBONACCI = r"array\('i', \[0, 1, 1, 2, 3, 5, 8, 13, 21, 34, 55\]\)"
-
-
-@pytest.fixture
-def start(run):
-    """Starts executables, each in its own process."""
-
-    def start(package: str, executable: str, *arguments: str, **options):
-        return run(ROS2, "run", package, executable, *arguments, **options)
-
-    return start
 
 
 def end(program) -> None:

@@ -42,16 +42,6 @@ rclpy.spin(node)
 """
 
 
-@pytest.fixture
-def start(run):
-    """Starts executables, each in its own process."""
-
-    def start(package: str, executable: str, *arguments: str, **options):
-        return run(ROS2, "run", package, executable, *arguments, **options)
-
-    return start
-
-
 def wait_for_parameters_of(name):
     with rclpy.init():
         client = rclpy.create_node("waiting").create_client(SetParameters, f"{name}/set_parameters")

@@ -1,6 +1,6 @@
 """A context on the in-process middleware, a node and an executor.
 
-Modules that need others make their own.
+Modules that need other middlewares have a `middleware` of their own.
 """
 
 from __future__ import annotations
@@ -19,8 +19,13 @@ from rclpy.node import Node
 
 
 @pytest.fixture
-def context(monkeypatch):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+def middleware():
+    return "local"
+
+
+@pytest.fixture
+def context(middleware, monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", middleware)
     with Context() as context:
         yield context
 

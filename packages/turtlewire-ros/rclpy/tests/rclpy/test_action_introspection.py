@@ -7,7 +7,6 @@ import pytest
 from example_interfaces.action import Fibonacci
 from rclpy._rclpy_pybind11 import InvalidHandle
 from rclpy.action import ActionClient, ActionServer, CancelResponse
-from rclpy.context import Context
 from rclpy.qos import qos_profile_system_default
 from rclpy.service_introspection import ServiceIntrospectionState
 
@@ -22,10 +21,8 @@ OFF = ServiceIntrospectionState.OFF
 
 
 @pytest.fixture(params=["local", "rmw_cyclonedds_cpp"])
-def context(request, monkeypatch):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
-    with Context() as context:
-        yield context
+def middleware(request):
+    return request.param
 
 
 @pytest.fixture

@@ -23,7 +23,6 @@ from rclpy.action import (
 )
 from rclpy.action.client import ClientGoalHandle
 from rclpy.action.server import ServerGoalHandle
-from rclpy.context import Context
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import qos_profile_action_status_default
@@ -33,10 +32,8 @@ from unique_identifier_msgs.msg import UUID
 
 
 @pytest.fixture(params=["local", "rmw_cyclonedds_cpp"])
-def context(request, monkeypatch):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
-    with Context() as context:
-        yield context
+def middleware(request):
+    return request.param
 
 
 @pytest.fixture

@@ -8,7 +8,6 @@ import pytest
 
 import rclpy
 from geometry_msgs.msg import TransformStamped
-from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from tf2_ros import Buffer, StaticTransformBroadcaster, TransformBroadcaster, TransformListener
@@ -17,10 +16,8 @@ LIMIT_S = 60
 
 
 @pytest.fixture(params=["rmw_cyclonedds_cpp", "local"])
-def context(request, monkeypatch):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
-    with Context() as context:
-        yield context
+def middleware(request):
+    return request.param
 
 
 @pytest.fixture

@@ -13,7 +13,6 @@ from example_interfaces.srv import AddTwoInts
 from rclpy._execution.self_waits import SelfWaits
 from rclpy.action import ActionClient, ActionServer, CancelResponse, GoalResponse
 from rclpy.callback_groups import ReentrantCallbackGroup
-from rclpy.context import Context
 from rclpy.exceptions import InvalidHandle
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.node import Node
@@ -25,10 +24,8 @@ ROUNDS = 60
 
 
 @pytest.fixture(params=["rmw_cyclonedds_cpp", "local"])
-def context(request, monkeypatch):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
-    with Context() as context:
-        yield context
+def middleware(request):
+    return request.param
 
 
 class Spinning:

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from rclpy import _rclpy_pybind11, exceptions
+from rclpy import exceptions
 from rclpy.parameter import Parameter
 
 
@@ -41,15 +41,3 @@ def test_hints_are_notes():
     error = exceptions.ParameterNotDeclaredException("a").with_hint("declared are ['b'].")
     assert error.hint == "declared are ['b']."
     assert getattr(error, "__notes__", [error.hint]) == [error.hint]
-
-
-def test_the_tree_of_errors():
-    assert exceptions.InvalidHandle is _rclpy_pybind11.InvalidHandle
-    for name in ("NotDeclared", "AlreadyDeclared", "Uninitialized"):
-        assert issubclass(
-            getattr(exceptions, f"Parameter{name}Exception"), exceptions.ParameterException
-        )
-    for name in ("Node", "Topic", "Service"):
-        assert issubclass(
-            getattr(exceptions, f"Invalid{name}NameException"), exceptions.NameValidationException
-        )

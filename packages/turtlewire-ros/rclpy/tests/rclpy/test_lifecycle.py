@@ -7,7 +7,6 @@ import pytest
 from lifecycle_msgs.msg import Transition, TransitionEvent
 from lifecycle_msgs.srv import ChangeState, GetAvailableStates, GetAvailableTransitions, GetState
 from rclpy._rclpy_pybind11 import RCLError
-from rclpy.context import Context
 from rclpy.lifecycle import LifecycleNode, SimpleManagedEntity, State, TransitionCallbackReturn
 from std_msgs.msg import Int32
 
@@ -43,10 +42,8 @@ class Managed(LifecycleNode):
 
 
 @pytest.fixture(params=["local", "rmw_cyclonedds_cpp"])
-def context(request, monkeypatch):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
-    with Context() as context:
-        yield context
+def middleware(request):
+    return request.param
 
 
 @pytest.fixture

@@ -20,12 +20,7 @@ from std_srvs.srv import Trigger
 @pytest.fixture(params=["local", "rmw_cyclonedds_cpp"])
 def middleware(request, monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
-
-
-@pytest.fixture
-def context(middleware):
-    with Context() as context:
-        yield context
+    return request.param
 
 
 @pytest.fixture

@@ -21,10 +21,8 @@ from turtlewire.wire.base import RequestId
 
 
 @pytest.fixture(params=["local", "rmw_cyclonedds_cpp"])
-def context(request, monkeypatch):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
-    with Context() as context:
-        yield context
+def middleware(request):
+    return request.param
 
 
 def add(request, response):

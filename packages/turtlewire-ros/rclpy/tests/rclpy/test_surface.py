@@ -94,6 +94,7 @@ rclpy.lifecycle.NodeMixin = rclpy.lifecycle.LifecycleNodeMixin
 rclpy.lifecycle.Publisher = rclpy.lifecycle.LifecyclePublisher
 rclpy.lifecycle.State = rclpy.lifecycle.LifecycleState
 rclpy.clock.ClockType = rclpy.clock_type.ClockType
+rclpy.exceptions.InvalidHandle = rclpy._rclpy_pybind11.InvalidHandle
 rclpy.node.MsgType = rclpy.publisher.MsgType
 rclpy.node.MsgType = rclpy.subscription.MsgType
 rclpy.node.SrvType = rclpy.client.SrvType

@@ -31,31 +31,21 @@ def test_adding_and_subtracting_a_duration_are_inverse(stamp, span):
         assert (time + duration) - time == duration
 
 
+def order(a, b):
+    return a < b, a <= b, a == b, a != b, a >= b, a > b
+
+
 @given(stamps, stamps)
 def test_times_compare_and_differ_as_their_nanoseconds(one, other):
     first, second = Time(nanoseconds=one), Time(nanoseconds=other)
-    assert (
-        first < second,
-        first <= second,
-        first == second,
-        first != second,
-        first >= second,
-        first > second,
-    ) == (one < other, one <= other, one == other, one != other, one >= other, one > other)
+    assert order(first, second) == order(one, other)
     assert (first - second).nanoseconds == one - other
 
 
 @given(spans, spans)
 def test_durations_compare_as_their_nanoseconds(one, other):
     first, second = Duration(nanoseconds=one), Duration(nanoseconds=other)
-    assert (
-        first < second,
-        first <= second,
-        first == second,
-        first != second,
-        first >= second,
-        first > second,
-    ) == (one < other, one <= other, one == other, one != other, one >= other, one > other)
+    assert order(first, second) == order(one, other)
 
 
 @given(message_stamps)

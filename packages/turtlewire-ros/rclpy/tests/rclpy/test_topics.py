@@ -30,10 +30,8 @@ from turtlewire.errors import CdrError
 
 
 @pytest.fixture(params=["local", "rmw_cyclonedds_cpp"])
-def context(request, monkeypatch):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
-    with Context() as context:
-        yield context
+def middleware(request):
+    return request.param
 
 
 def matched(context, publisher):

@@ -8,13 +8,12 @@ font than in the golden pictures, only what must be so with any font is looked a
 
 from __future__ import annotations
 
-import base64
 import json
 import os
 from pathlib import Path
 
 import pytest
-from tests.pages import DIFFERENCE_OF_PICTURES, after_two_frames, skip_with_other_fonts
+from tests.pages import after_two_frames, difference, skip_with_other_fonts
 
 from tests import places
 
@@ -42,16 +41,6 @@ BOXES = """(parts) => Object.fromEntries(parts.map((part) => {
 SIZES = {"desktop": (1200, 800), "phone": (360, 740)}
 
 
-def difference(page, name: str, picture: bytes) -> float:
-    """How far a picture is from the golden one of that name in the worst place, of 255."""
-    if WRITES:
-        (GOLDEN / name).write_bytes(picture)
-    return page.evaluate(
-        DIFFERENCE_OF_PICTURES,
-        [base64.b64encode(png).decode() for png in (picture, (GOLDEN / name).read_bytes())],
-    )
-
-
 def pose_is_shown(page, text: str) -> None:
     page.wait_for_function(
         "(text) => document.querySelector('#roster').textContent.includes(text)", arg=text
@@ -77,7 +66,10 @@ def test_the_picture_is_what_is_seen(scene, open_page):
         page.click("#picture")
     assert download.value.suggested_filename.startswith("turtlesim-20")
     skip_with_other_fonts(page)
-    assert difference(page, "field.png", Path(download.value.path()).read_bytes()) < WORST_CELL
+    assert (
+        difference(page, GOLDEN / "field.png", Path(download.value.path()).read_bytes())
+        < WORST_CELL
+    )
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
@@ -96,7 +88,7 @@ def test_every_size_and_scheme(scene, open_page, size, scheme):
     assert right - left >= 300
     skip_with_other_fonts(page)
     check_boxes(size, boxes)
-    assert difference(page, f"{size}-{scheme}.png", page.screenshot()) < WORST_CELL
+    assert difference(page, GOLDEN / f"{size}-{scheme}.png", page.screenshot()) < WORST_CELL
 
 
 @pytest.mark.parametrize("width", [360, 1200])
