@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gzip
 import json
 import re
 import time
@@ -19,7 +18,7 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
-from tests import places
+from tests import archive, places
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -29,15 +28,14 @@ SCENARIOS = {
     scenario["name"]: scenario
     for scenario in json.loads((GOLDEN / "jsp" / "scenarios.json").read_text())
 }
+ANSWERS = archive.read(GOLDEN / "jsp" / "answers.txt")
 #: Mended on purpose: the cases that differ.
 MENDED = set(re.findall(r"^\| jsp (\w+) ", (GOLDEN / "DEVIATIONS.md").read_text(), re.MULTILINE))
 WRONG = {"dependent_wrong"}
 
 
 def golden(name: str) -> list[dict]:
-    return json.loads(gzip.decompress((GOLDEN / "jsp" / f"{name}.json.gz").read_bytes()))[
-        "messages"
-    ]
+    return json.loads(ANSWERS[name].content)["messages"]
 
 
 def without_repeats(messages: list[dict]) -> list[dict]:

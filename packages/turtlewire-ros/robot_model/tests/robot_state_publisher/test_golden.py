@@ -6,7 +6,6 @@ ours adds some (see `docs/compatibility.md`), and the tests check that they are 
 
 from __future__ import annotations
 
-import gzip
 import hashlib
 import json
 import math
@@ -17,11 +16,13 @@ from pathlib import Path
 import pytest
 
 from sensor_msgs.msg import JointState
-from tests import places
+from tests import archive, places
 
 GOLDEN = places.GOLDEN / "robots"
 SCENARIOS = {each["name"]: each for each in json.loads((GOLDEN / "rsp/scenarios.json").read_text())}
-INVALID = json.loads((GOLDEN / "invalid/expected.json").read_text())
+ANSWERS = archive.read(GOLDEN / "rsp/answers.txt")
+INVALID = archive.read(GOLDEN / "invalid.txt")
+REFUSED = json.loads(INVALID["expected.json"].content)
 STARTUPS = {each["name"]: each for each in json.loads((GOLDEN / "rsp/startups.json").read_text())}
 STARTED = json.loads((GOLDEN / "rsp/startups.expected.json").read_text())
 
@@ -41,8 +42,7 @@ def text_of(name):
 
 
 def golden(name):
-    with gzip.open(GOLDEN / "rsp" / f"{name}.json.gz", "rt", encoding="utf-8") as file:
-        return json.load(file)
+    return json.loads(ANSWERS[name].content)
 
 
 def row(transform, *, static):
@@ -152,12 +152,12 @@ def started(run, tmp_path, parameters, *arguments):
     return run(*words, cwd=tmp_path)
 
 
-@pytest.mark.parametrize("name", sorted(INVALID))
+@pytest.mark.parametrize("name", sorted(REFUSED))
 def test_a_description_that_urdfdom_refuses(name, run, tmp_path):
-    text = (GOLDEN / "invalid" / f"{name}.urdf").read_text()
+    text = INVALID[f"{name}.urdf"].content.decode()
     program = started(run, tmp_path, {"robot_description": text})
     assert program.wait() != 0
-    assert log_lines(program.text) == INVALID[name]["log"]
+    assert log_lines(program.text) == REFUSED[name]["log"]
     assert re.search(r"^         at line \d+ in <", program.text, re.MULTILINE)
     assert "Traceback" not in program.text
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from tests.places import BIN
 
-from tests import places
+from tests import archive, places
 from urdfdom import check_urdf, urdf_to_graphviz
 
 GOLDEN = places.GOLDEN / "robots"
@@ -52,9 +52,11 @@ def test_from_stdin(capsys, monkeypatch):
 @pytest.mark.parametrize("program", [check_urdf, urdf_to_graphviz])
 def test_invalid_urdf(program, capsys, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
-    assert program.main(["program", str(GOLDEN / "invalid" / "bad_number.urdf")]) == 1
+    urdf = archive.read(GOLDEN / "invalid.txt")["bad_number.urdf"].content
+    (tmp_path / "bad.urdf").write_bytes(urdf)
+    assert program.main(["program", "bad.urdf"]) == 1
     assert capsys.readouterr().err == REFUSED
-    assert list(tmp_path.iterdir()) == []
+    assert [path.name for path in tmp_path.iterdir()] == ["bad.urdf"]
 
 
 @pytest.mark.parametrize("program", [check_urdf, urdf_to_graphviz])
