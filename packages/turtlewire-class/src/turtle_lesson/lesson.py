@@ -8,7 +8,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from turtle_lesson.solution import solved
+from turtle_lesson.files import solved
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

@@ -8,18 +8,19 @@ from typing import TYPE_CHECKING, Any
 
 from rclpy.node import Node
 from turtle_lesson.exercise import exercise_of
-from turtle_lesson.faults import FAULTS
 from turtle_lesson.mistakes import mistake_of
-from turtle_lesson.screen import LessonScreen
 from turtle_lesson.watch import Doctor, TopicEcho, TransformEcho, topics_of
 from turtlesim.model import TICK_NS
+from turtlesim.picture import FieldPicture, Scene
+from turtlesim.testing import faults
 from turtlesim.transform_view import TransformView, field_frames
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from turtle_lesson.lesson import Lesson
     from turtlesim.testing import Simulation
+    from turtlesim.testing.faults import Fault
 
 __all__ = ["LessonSession"]
 
@@ -43,7 +44,7 @@ class LessonSession:
     ) -> None:
         self._files = files
         self._faults = faults
-        self._screen = LessonScreen()
+        self._screen = _LessonScreen()
         self._stack = contextlib.ExitStack()
         self._mistake: str | None = None
         self._ticks = self._next_watch = 0
@@ -68,7 +69,7 @@ class LessonSession:
     def _prepare(self, simulation: Simulation) -> None:
         simulation.node.show_on(self._screen)
         for name in self._faults:
-            simulation.inject(FAULTS[name]())
+            simulation.inject(_FAULTS[name]())
 
     def _note(self, error: BaseException) -> None:
         self._mistake = json.dumps(mistake_of(error, self._files)._asdict())
@@ -147,3 +148,41 @@ class LessonSession:
             "transform": self._transform_echo.text(target, source) if target and source else "",
         }
         return [json.dumps({**tf, "relation": relation}), json.dumps(echo)]
+
+
+_FAULTS: dict[str, Callable[[], Fault]] = {
+    "delay": lambda: faults.Delay(3.0, "turtle1"),
+    "loss": lambda: faults.Loss(0.9),
+    "wrong_frame": lambda: faults.WrongFrame("turtle1", "wolrd"),
+    "wrong_time": lambda: faults.WrongTime(5.0, "turtle1"),
+    "missing_static": lambda: faults.MissingStatic("tower"),
+    "two_publishers": lambda: faults.TwoPublishers("turtle1", x=9.0, y=9.0),
+}
+"""What each name stands for."""
+
+
+class _LessonScreen(FieldPicture):
+    """Takes what the simulator draws; the page fetches it after each step."""
+
+    def __init__(self) -> None:
+        super().__init__(Scene("", (), (0, 0, 0), ()))
+        self._seen_version = 0
+        self._position = -1
+
+    def close(self) -> None:
+        """Nothing is open."""
+
+    @property
+    def turtles(self) -> tuple[str, ...]:
+        """Names of all turtles."""
+        return self.scene.turtles
+
+    def take_scene(self) -> str | None:
+        """Return the scene as JSON if it has changed since the last call."""
+        self._seen_version, scene = self.scene_since(self._seen_version)
+        return scene
+
+    def take_frame(self) -> bytes:
+        """Return the newest poses, and the strokes since the last call."""
+        self._position, frame = self.frame_since(self._position)
+        return frame

@@ -9,9 +9,9 @@ import re
 import pytest
 from tests.places import LESSONS, ROOT
 
+from turtle_lesson.files import solved
 from turtle_lesson.grading import grade
 from turtle_lesson.lesson import load_lesson
-from turtle_lesson.solution import solved
 
 from .wrong_answers import WRONG_ANSWERS
 

@@ -13,7 +13,6 @@ module                        contents
 `registration`                registers the transforms of all types
 `vectors`, `poses`, `twists`  the transforms, by kind of message
 `motion`                      a transform applied to plain floats
-`headers`                     headers of results
 `numpy_bridge`                ``X_from_Y``: messages as arrays, and back
 `tf2_geometry_msgs`           ROS 2's module of this name
 ============================  ==========================================

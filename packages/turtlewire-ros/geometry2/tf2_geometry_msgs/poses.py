@@ -18,8 +18,8 @@ from geometry_msgs.msg import (
     Vector3,
 )
 from nav_msgs.msg import Odometry, Path
-from tf2_geometry_msgs.headers import copy_of, header_of
 from tf2_geometry_msgs.motion import Motion
+from tf2_geometry_msgs.vectors import copy_of, header_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

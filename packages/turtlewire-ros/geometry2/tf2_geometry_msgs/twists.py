@@ -25,8 +25,8 @@ from geometry_msgs.msg import (
     Wrench,
     WrenchStamped,
 )
-from tf2_geometry_msgs.headers import header_of
 from tf2_geometry_msgs.motion import Motion
+from tf2_geometry_msgs.vectors import header_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from builtin_interfaces.msg import Time
 from geometry_msgs.msg import (
     Point,
     Point32,
@@ -17,13 +18,14 @@ from geometry_msgs.msg import (
     Vector3,
     Vector3Stamped,
 )
-from tf2_geometry_msgs.headers import header_of
+from std_msgs.msg import Header
 from tf2_geometry_msgs.motion import Motion
 
 if TYPE_CHECKING:
     from geometry_msgs.msg import TransformStamped
 
 __all__ = [
+    "copy_of",
     "do_transform_point",
     "do_transform_point32",
     "do_transform_polygon",
@@ -33,6 +35,7 @@ __all__ = [
     "do_transform_quaternion",
     "do_transform_quaternion_stamped",
     "do_transform_vector3",
+    "header_of",
 ]
 
 _P = TypeVar("_P", Point, PointStamped)
@@ -127,3 +130,24 @@ def do_transform_polygon_instance_stamped(
         header=header_of(transform),
         polygon=do_transform_polygon_instance(polygon.polygon, transform),
     )
+
+
+def header_of(transform: Any) -> Header:
+    """Return a new header with frame and stamp of a ``TransformStamped``.
+
+    The data is now in that frame, and of that time.
+    """
+    try:
+        header = transform.header
+    except AttributeError:
+        raise TypeError(
+            "stamped data needs a geometry_msgs.msg.TransformStamped, whose header says in which "
+            "frame the result is; "
+            f"got {type(transform).__name__}"
+        ) from None
+    return copy_of(header.stamp, header.frame_id)
+
+
+def copy_of(stamp: Any, frame_id: str) -> Header:
+    """Return a header with the values of a stamp."""
+    return Header(stamp=Time(sec=stamp.sec, nanosec=stamp.nanosec), frame_id=frame_id)

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sensor_msgs.msg import PointCloud2, PointField
-from tf2_geometry_msgs.headers import copy_of
 from tf2_geometry_msgs.motion import Motion
+from tf2_geometry_msgs.vectors import copy_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -39,7 +39,7 @@ def unittestResultToXml(  # noqa: N802  ROS 2's name
 
     Args:
         name: Its name.
-        test_result: A :class:`launch_testing.test_result.TestResult`.
+        test_result: A :class:`launch_testing.test_runner.TestResult`.
     """
     cases = list(test_result.testCases)
     # What failed outside of tests, for example in setUpClass.

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import inspect
+import io
 import threading
+import time
 import unittest
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +15,6 @@ from launch.event_handlers import OnProcessExit, OnProcessIO, OnProcessStart
 from launch_testing.io_handler import ActiveIoHandler
 from launch_testing.parse_arguments import parse_launch_arguments
 from launch_testing.proc_info_handler import ActiveProcInfoHandler
-from launch_testing.test_result import FailResult, SkipResult, TestResult
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from launch.launch_description_entity import LaunchDescriptionEntity
     from launch_testing.loader import TestRun
 
-__all__ = ["LaunchTestRunner"]
+__all__ = ["LaunchTestRunner", "TestResult"]
 
 # Seconds; `ready_to_test_action_timeout` sets another.
 _READY_TIMEOUT = 15.0
@@ -85,9 +86,9 @@ class LaunchTestRunner:
                 results[run] = worker.run()
             except unittest.SkipTest as skipped:
                 # The function that makes the description is decorated with a skip.
-                results[run] = SkipResult(run, str(skipped))
+                results[run] = _SkipResult(run, str(skipped))
             except _LaunchEndedError as error:
-                results[run] = FailResult(run, str(error))
+                results[run] = _FailResult(run, str(error))
         return results
 
 
@@ -230,3 +231,77 @@ def _merged(before: TestResult, after: TestResult) -> TestResult:
     for name in ("failures", "errors", "skipped", "expectedFailures", "unexpectedSuccesses"):
         getattr(before, name).extend(getattr(after, name))
     return before
+
+
+class TestResult(unittest.TextTestResult):
+    """A result of unittest that also knows which tests ran and how long they took."""
+
+    __test__ = False  # pytest does not collect it
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self._times: dict[unittest.TestCase, float] = {}
+        self._started = 0.0
+
+    @property
+    def testCases(self) -> list[unittest.TestCase]:  # noqa: N802  ROS 2's name
+        """The tests that ran, in order."""
+        return list(self._times)
+
+    @property
+    def testTimes(self) -> dict[unittest.TestCase, float]:  # noqa: N802  ROS 2's name
+        """Seconds that each test took."""
+        return self._times
+
+    def startTest(self, test: unittest.TestCase) -> None:  # noqa: N802  unittest's name
+        self._times[test] = 0.0
+        self._started = time.monotonic()
+        super().startTest(test)
+
+    def stopTest(self, test: unittest.TestCase) -> None:  # noqa: N802  unittest's name
+        super().stopTest(test)
+        self._times[test] = time.monotonic() - self._started
+
+
+class _Placeholder(TestResult):
+    """A result of a launch whose tests did not run."""
+
+    def __init__(self, test_run: TestRun | None) -> None:
+        super().__init__(stream=io.StringIO(), descriptions=False, verbosity=0)
+        self.test_run = test_run
+
+
+class _FailResult(_Placeholder):
+    """The tests of a launch could not run.
+
+    Args:
+        test_run: The launch.
+        message: Why.
+    """
+
+    def __init__(self, test_run: TestRun | None = None, message: str = "") -> None:
+        super().__init__(test_run)
+        self.message = message
+        # So that reports show each test that did not run.
+        for case in () if test_run is None else test_run.all_cases():
+            self._times[case] = 0.0
+            self.failures.append((case, message))
+
+    def wasSuccessful(self) -> bool:  # noqa: N802  unittest's name
+        return False
+
+
+class _SkipResult(_Placeholder):
+    """The tests of a launch are skipped.
+
+    Args:
+        test_run: The launch.
+        skip_reason: Why.
+    """
+
+    def __init__(self, test_run: TestRun | None = None, skip_reason: str = "") -> None:
+        super().__init__(test_run)
+        self.skip_reason = skip_reason
+        for case in () if test_run is None else test_run.all_cases():
+            self._times[case] = 0.0
+            self.skipped.append((case, skip_reason))

@@ -3,8 +3,7 @@
 ====================  =================================================
 module                contents
 ====================  =================================================
-`simple_filter`       `SimpleFilter`: callbacks of a filter
-`one_message_filter`  the type of callbacks that take one message
+`simple_filter`       `SimpleFilter`: callbacks of a filter, also typed
 `subscriber`          `Subscriber`: the messages of a topic
 `cache`               `Cache`: the newest messages, found by time
 `chain`               `Chain`: a sequence of filters

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, overload
 from rclpy._typing import MsgT
 from turtlewire.distro import KILTED, LYRICAL, since
 
-from .one_message_filter import OneMessageFilter
+from .simple_filter import OneMessageFilter
 from .stamps import stamp_of
 
 if TYPE_CHECKING:

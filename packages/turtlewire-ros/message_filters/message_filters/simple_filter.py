@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic, overload
+
+from rclpy._typing import MsgT
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["SimpleFilter"]
+__all__ = ["OneMessageFilter", "SimpleFilter"]
 
 
 class SimpleFilter:
@@ -51,3 +53,22 @@ class SimpleFilter:
         """Pass messages on, in the order of registration."""
         for callback, arguments in self.callbacks.values():
             callback(*msg, *arguments)
+
+
+class OneMessageFilter(SimpleFilter, Generic[MsgT]):
+    """Passes messages of one class on, as ``Subscriber[PointStamped]`` does."""
+
+    if TYPE_CHECKING:
+
+        @overload
+        def registerCallback(self, callback: Callable[[MsgT], Any]) -> int: ...
+
+        @overload
+        def registerCallback(
+            self, callback: Callable[..., Any], arg: Any, /, *args: Any
+        ) -> int: ...
+
+        # Narrower than that of the base, which passes on any number of messages.
+        def registerCallback(  # noqa: N802 -- as in the base
+            self, callback: Callable[..., Any], *args: Any
+        ) -> int: ...

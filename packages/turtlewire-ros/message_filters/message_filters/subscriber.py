@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from rclpy._typing import MsgT
 
-from .one_message_filter import OneMessageFilter
+from .simple_filter import OneMessageFilter
 
 if TYPE_CHECKING:
     from rclpy.callback_groups import CallbackGroup

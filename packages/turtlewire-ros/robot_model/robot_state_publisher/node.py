@@ -32,7 +32,7 @@ from turtlewire.errors import CdrError
 from turtlewire.terminal.printable import printable
 from turtlewire.urdf import UrdfError
 from turtlewire.urdf.joint_messages import JointMessages, stamp_of
-from turtlewire.urdf.mimic import followers_of
+from turtlewire.urdf.joints import followers_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -5,6 +5,5 @@ module                            contents
 ================================  ==========================================
 `check_urdf`, `urdf_to_graphviz`  the executables
 `reading`                         reads the file of a command line
-`dot`, `drawing`                  the tree as Graphviz text and as a picture
 ================================  ==========================================
 """

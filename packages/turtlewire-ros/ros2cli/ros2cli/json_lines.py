@@ -26,11 +26,11 @@ def print_json(data: Any) -> None:
 
     Args:
         data: The values may be messages or fields of messages; see
-            `turtlewire.msg.json_values.json_value`.
+            `turtlewire.msg.json_messages.json_value`.
     """
     import json
 
-    from turtlewire.msg.json_values import json_value
+    from turtlewire.msg.json_messages import json_value
 
     line = json.dumps(json_value(data), allow_nan=False)
     # The output escapes this control character in Python's way, which is not JSON.

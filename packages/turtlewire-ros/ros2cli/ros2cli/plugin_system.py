@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.entry_points import load_entry_points
-from turtlewire.plugin_versions import (
+from turtlewire.plugins import (
     PluginException,
     get_upper_bound_caret_version,
     satisfies_version,

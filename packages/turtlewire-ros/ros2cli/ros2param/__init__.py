@@ -8,6 +8,5 @@ module        contents
 `verb`        its verbs
 `options`     options that its verbs share
 `parameters`  calls to parameter services
-`all_nodes`   the same call to many nodes
 ============  ======================================
 """

@@ -17,9 +17,7 @@ module                 contents
 `static_topics`        topics that are recorded from the start
 `player`               `Player`: time, order, and what pauses, seeks or ends it
 `played_bags`          the bags, as if they were one
-`player_outputs`       its publishers
-`player_requests`      recorded requests, sent to services again
-`player_qos`           QoS of a player's publishers
+`player_outputs`       its publishers, their QoS, and recorded requests
 `player_clock`         ``/clock``
 `player_services`      services and topic of a player
 `play_filter`          which topics are played

@@ -1,4 +1,4 @@
-"""The publishers of a player: one for each topic, whose messages stay bytes."""
+"""The outputs of a player: a publisher for each topic, whose messages stay bytes, and requests."""
 
 from __future__ import annotations
 
@@ -6,24 +6,24 @@ import time
 from typing import TYPE_CHECKING
 
 from rosbag2_transport.action_topics import action_topic
-from rosbag2_transport.player_qos import publisher_qos
-from rosbag2_transport.player_requests import ServiceRequests
+from rosbag2_transport.options import ServiceRequestsSource
 from rosbag2_transport.topic_filter import is_service_event
-from turtlewire.errors import InterfaceError, WireError
-from turtlewire.msg import type_hash
-from turtlewire.wire.base import TypeId
-from turtlewire.wire.qos import Durability
+from turtlewire.errors import InterfaceError, UncallableServiceError, WireError
+from turtlewire.msg import deserialize, get_message, serialize, type_hash
+from turtlewire.wire.base import ServiceTypes, TypeId
+from turtlewire.wire.qos import Durability, History, Liveliness, QoS, Reliability
+from turtlewire.wire.services import require_callable
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Container, Iterable
 
     from rclpy.node import Node
     from rosbag2_transport.options import PlayOptions
     from rosbag2_transport.played_bags import PlayedBags
     from turtlewire.bag import BagMessage, TopicInfo
-    from turtlewire.wire.base import Publisher
+    from turtlewire.wire.base import Client, Publisher
 
-__all__ = ["PlayerOutputs"]
+__all__ = ["PlayerOutputs", "publisher_qos"]
 
 #: How long a playback waits at its start for existing subscriptions.
 _MATCHING_NS = 2_000_000_000
@@ -50,7 +50,7 @@ class PlayerOutputs:
         self._logger = node.get_logger()
         self._publishers: dict[str, Publisher] = {}
         self._send: dict[str, Callable[[bytes], None]] = {}
-        self._requests = ServiceRequests(node, options.service_requests_source)
+        self._requests = _ServiceRequests(node, options.service_requests_source)
         self._refused: set[str] = set()
         self.latched: dict[str, int] = {}
         for name in topics:
@@ -139,3 +139,127 @@ def _known_hash(type_name: str) -> str:
         return type_hash(type_name)
     except InterfaceError:
         return ""
+
+
+_DEFAULT_DEPTH = 10
+_DIFFERENT = (
+    "Not all original publishers on topic {topic} offered the same QoS profiles. Rosbag2 cannot "
+    "yet choose an adapted profile to offer for this mixed case. "
+    "Falling back to the rosbag2_transport default publisher offer."
+)
+_CHOSEN = (Reliability.RELIABLE, Reliability.BEST_EFFORT)
+
+
+def publisher_qos(topic: TopicInfo) -> tuple[QoS, str | None]:
+    """Return the QoS that the publishers of a recorded topic offered.
+
+    A latched topic is as deep as it needs to be for one that joins late to get what all recorded
+    publishers kept; rosbag2 gives the last ten messages, and loses parts of larger static trees.
+    It is not deeper: what each round of a loop repeats would pile up.
+
+    Returns:
+        The QoS, and a warning if the recorded publishers differed.
+    """
+    offered = topic.qos
+    if not offered:
+        return QoS(), None
+    alike = {(qos.reliability, qos.durability, qos.deadline_ns, qos.liveliness) for qos in offered}
+    if len(alike) > 1:
+        return QoS(), _DIFFERENT.format(topic=topic.name)
+    first = offered[0]
+    qos = QoS(
+        reliability=first.reliability if first.reliability in _CHOSEN else Reliability.RELIABLE,
+        deadline_ns=first.deadline_ns,
+        liveliness=(
+            Liveliness.SYSTEM_DEFAULT
+            if first.liveliness == Liveliness.UNKNOWN
+            else first.liveliness
+        ),
+        liveliness_lease_ns=first.liveliness_lease_ns,
+    )
+    if first.durability == Durability.TRANSIENT_LOCAL:
+        qos = qos._replace(durability=first.durability, depth=_latched_depth(topic))
+    return qos, None
+
+
+def _latched_depth(topic: TopicInfo) -> int:
+    """Return the number of latched messages for listeners that join late."""
+    depths = [qos.depth if qos.history == History.KEEP_LAST else 0 for qos in topic.qos]
+    kept = sum(depths) if all(depths) else topic.message_count
+    if topic.type == "tf2_msgs/msg/TFMessage":  # each message may bring other frames
+        kept = topic.message_count
+    return min(max(_DEFAULT_DEPTH, kept), topic.message_count) or _DEFAULT_DEPTH
+
+
+_REQUEST_SENT, _REQUEST_RECEIVED = 0, 1
+
+
+class _ServiceRequests:
+    """Clients of recorded services.
+
+    Args:
+        node: The node whose clients they are.
+        source: Whose record of a request counts.
+    """
+
+    def __init__(self, node: Node, source: ServiceRequestsSource) -> None:
+        self._node = node
+        by_client = source is ServiceRequestsSource.CLIENT_INTROSPECTION
+        self._kind = _REQUEST_SENT if by_client else _REQUEST_RECEIVED
+        self._clients: list[Client] = []
+        self._told: set[str] = set()
+
+    def sender(self, topic: TopicInfo) -> Callable[[bytes], None]:
+        """Return a function that sends the requests among a service's events."""
+        service = self._node.resolve_service_name(topic.name.removesuffix("/_service_event"))
+        type_name = topic.type.removesuffix("_Event")
+        try:
+            request, response = (
+                TypeId(f"{type_name}_{part}", type_hash(f"{type_name}_{part}"))
+                for part in ("Request", "Response")
+            )
+            types = ServiceTypes(type_name, request, response, type_hash)
+        except InterfaceError as error:
+            self._tell(service, f"no requests are sent to {service}: {error}")
+            return lambda _event: None
+        client = self._node._rclpy_wire.create_client(service, types, QoS())
+        self._clients.append(client)
+        return lambda event: self._send(client, topic.type, event)
+
+    def are_matched(self, services: Container[str]) -> bool:
+        """Return True if the clients of all services that exist can send."""
+        return all(client.service not in services or client.is_ready() for client in self._clients)
+
+    def _send(self, client: Client, event_type: str, data: bytes) -> None:
+        client.take(1000)  # answers are discarded, because they must not accumulate
+        if data[4] != self._kind:  # the event's kind is its first byte
+            return
+        event = deserialize(get_message(event_type), data)
+        requests = event.request  # type: ignore[attr-defined]  # each event type has it
+        if not requests:
+            self._tell(
+                client.service,
+                f"the events of {client.service} do not contain the requests: record with the "
+                "introspection state 'contents'",
+            )
+        elif not client.is_ready():
+            self._tell(client.service, f"no request is sent: {self._why_not_ready(client)}")
+        else:
+            client.send_request(serialize(requests[0]))
+
+    def _why_not_ready(self, client: Client) -> str:
+        try:
+            require_callable(self._node.context.wire.graph, client.service)
+        except UncallableServiceError as error:
+            return error.in_one_line()
+        return f"{client.service} has no server"
+
+    def _tell(self, service: str, text: str) -> None:
+        if service not in self._told:
+            self._told.add(service)
+            self._node.get_logger().warning(text)
+
+    def close(self) -> None:
+        """Leave the graph."""
+        for client in self._clients:
+            client.close()

@@ -14,7 +14,6 @@ module                               contents
 `drawing`, `looks`                   the pens' lines, also for browsers that connect later; their
                                      colours
 `page_commands`, `page_actions`      the commands of the page; their execution
-`page_rotations`                     rotations that a page asks for
 `transform_view`                     frames and transforms on the page
 `turtle_teleop_key`                  drives a turtle from a terminal
 `draw_square`, `mimic`               ROS 2's two example nodes

@@ -6,9 +6,10 @@ from collections import deque
 from typing import TYPE_CHECKING, Any, Protocol
 
 from geometry_msgs.msg import Twist
+from rclpy.action import ActionClient
 from turtlesim import page_commands
+from turtlesim.action import RotateAbsolute
 from turtlesim.model import Pen
-from turtlesim.page_rotations import PageRotations
 from turtlesim.turtle_endpoints import QUEUE_DEPTH
 
 if TYPE_CHECKING:
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 
     from rclpy.node import Node
     from rclpy.publisher import Publisher
+    from rclpy.task import Future
     from turtlesim.model import World
 
 __all__ = ["PageActions", "Simulator"]
@@ -72,7 +74,7 @@ class PageActions:
         # `append` and `popleft` of a deque need no lock.
         self._commands: deque[page_commands.Command] = deque()
         self._publishers: dict[str, Publisher] = {}
-        self._rotations = PageRotations(node)
+        self._rotations = _PageRotations(node)
         self._actions: dict[type, Callable[[Any], object]] = {
             page_commands.Drive: self._drive,
             page_commands.Rotate: self._rotate,
@@ -134,3 +136,43 @@ class PageActions:
         turtle = self._simulator.world.turtles.get(command.turtle)
         if turtle is not None:
             turtle.teleport_absolute(command.x, command.y, command.theta)
+
+
+class _PageRotations:
+    """Clients of the action ``rotate_absolute``, one for each turtle that the page has turned.
+
+    Not thread-safe: for the executor's thread.
+
+    Args:
+        node: The simulator's node, whose clients they are.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._clients: dict[str, ActionClient] = {}
+        self._goals: dict[str, Future] = {}
+
+    def rotate(self, turtle: str, theta: float) -> bool:
+        """Send a goal; False if the client has not found the action yet: try again later."""
+        client = self._clients.get(turtle)
+        if client is None:
+            client = self._clients[turtle] = ActionClient(
+                self._node, RotateAbsolute, f"{turtle}/rotate_absolute"
+            )
+        if not client.server_is_ready():
+            return False
+        self._goals[turtle] = client.send_goal_async(RotateAbsolute.Goal(theta=theta))
+        return True
+
+    def cancel(self, turtle: str) -> None:
+        """Cancel the last goal, if it was accepted; one that has ended stays as it is."""
+        goal = self._goals.get(turtle)
+        if goal is not None and goal.done() and goal.result().accepted:
+            goal.result().cancel_goal_async()
+
+    def forget(self, turtle: str) -> None:
+        """Close the client of a turtle that is gone."""
+        self._goals.pop(turtle, None)
+        client = self._clients.pop(turtle, None)
+        if client is not None:
+            client.destroy()

@@ -18,7 +18,6 @@ module              contents
 `buffer_source`     `BufferSource`: a buffer of the program
 `robot_source`      `RobotSource`: a robot with joints that pages move
 `named_robots`      the robot of a path, or of a name of ``robot_descriptions``
-`bag_stamps`        maps times of a bag to stamps of another clock
 `parameter_watch`   reads a parameter of a node
 `service_watch`     calls a service when its server appears
 `base`              the reference of poses: fixed frame, origin, buffer
@@ -37,7 +36,6 @@ module              contents
 `rviz_camera`       the camera of such files
 `rviz_options`      options of RViz's displays and of the page's
 `rviz_values`       their values in both
-`tools`             what Publish Point, 2D Pose Estimate and 2D Goal Pose publish
 `showing`           ``turtlewire.show``
 `notebook`          the view in the output of a cell of Jupyter
 `view_command`      ``turtlewire view``

@@ -9,7 +9,7 @@ import numpy as np
 from turtlewire import msg
 from turtlewire.geometry.conversions import matrix_from_pose, pose_from_matrix
 from turtlewire.web.commands import CommandError, is_finite_number
-from turtlewire_view.tools import ToolMessage
+from turtlewire_view.page_requests import ToolMessage
 
 if TYPE_CHECKING:
     from turtlewire_view.base import Base

@@ -91,7 +91,7 @@ class PublishWithTool(NamedTuple):
     """Publish with a tool.
 
     Attributes:
-        tool: See :mod:`turtlewire_view.tools`.
+        tool: See :mod:`turtlewire_view.page_requests`.
         position: Three numbers in the page's coordinates: the fixed frame's less the origin.
         yaw: Direction about z [rad].
         topic: Empty for RViz's topic of the tool.

@@ -11,7 +11,7 @@ import numpy as np
 
 from turtlewire import msg
 from turtlewire.terminal.suggestion import did_you_mean
-from turtlewire.urdf.mimic import followers_of
+from turtlewire.urdf.joints import followers_of
 from turtlewire.web.commands import is_finite_number
 from turtlewire_view.buffer_source import BufferSource
 

@@ -17,7 +17,7 @@ from turtlewire import msg
 from turtlewire.bag import BagWriter
 from turtlewire.errors import BagError
 from turtlewire_view import BagSource, Viewer
-from turtlewire_view.bag_stamps import StampsOfLog
+from turtlewire_view.bag_source import StampsOfLog
 from turtlewire_view.frames import FrameScene
 from turtlewire_view.source import Topic
 

@@ -11,10 +11,14 @@ from hypothesis import strategies as st
 
 from turtlewire import msg
 from turtlewire_view.displays.content import Removal
-from turtlewire_view.displays.covariance import covariance_shape
 from turtlewire_view.displays.occupancy_grid import OccupancyGridDisplay
-from turtlewire_view.displays.path import PathDisplay
-from turtlewire_view.displays.poses import OdometryDisplay, PoseArrayDisplay, PoseDisplay
+from turtlewire_view.displays.poses import (
+    OdometryDisplay,
+    PathDisplay,
+    PoseArrayDisplay,
+    PoseDisplay,
+    covariance_shape,
+)
 from turtlewire_view.displays.shapes import PointDisplay, PolygonDisplay, RangeDisplay
 
 Pose = msg.get_message("geometry_msgs/msg/Pose")

@@ -14,7 +14,7 @@ from turtlewire.urdf import Robot
 from turtlewire_view.displays.robot_model import RobotModelDisplay
 from turtlewire_view.meshes import MeshFile, MeshLibrary, mesh_address
 from turtlewire_view.package_folders import PackageFolders
-from turtlewire_view.tools import TOOLS, tool_message
+from turtlewire_view.page_requests import TOOLS, tool_message
 
 ROBOTS = sorted((GOLDEN / "robots" / "urdf").glob("*.urdf"))
 URDF = """<robot name="arm">

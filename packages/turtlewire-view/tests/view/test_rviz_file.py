@@ -126,7 +126,9 @@ def bomb(first, rest):
     for k in range(1, 10):
         references = ", ".join([f"*a{k - 1}"] * 10)
         lines.append(f"a{k}: &a{k} {rest.format(references)}")
-    return "\n".join([*lines, "Visualization Manager: {Displays: [{Class: rviz/Path, Alpha: *a9}]}"])
+    return "\n".join(
+        [*lines, "Visualization Manager: {Displays: [{Class: rviz/Path, Alpha: *a9}]}"]
+    )
 
 
 @pytest.mark.parametrize("text", [PATHS, bomb("[]", "[{}]"), bomb("{x: 1}", "{{<<: [{}]}}")])

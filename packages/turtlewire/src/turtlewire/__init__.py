@@ -19,7 +19,6 @@ module               contents
 `path_arguments`     paths that callers pass, and suggestions for missing ones
 `platforms`          capabilities of this platform, and the requested core
 `plugins`            entry points that installed packages declare
-`plugin_versions`    versions of the interfaces of extensions
 `program`            ends a command whose output cannot be written
 `relay`              topics and services carried between two networks
 `terminal`           command lines, keys and text of terminals

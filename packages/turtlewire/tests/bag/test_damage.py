@@ -22,8 +22,7 @@ from tests.bags import START, contents, write_bag
 
 from turtlewire import Buffer
 from turtlewire.bag import BagWriter, open_bag, reindex
-from turtlewire.bag.compression import compress, decompress, most_bytes
-from turtlewire.bag.unpacking import unpack_file
+from turtlewire.bag.compression import compress, decompress, most_bytes, unpack_file
 from turtlewire.errors import BagError
 
 from .conftest import GOLDEN

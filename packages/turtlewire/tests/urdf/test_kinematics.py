@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from turtlewire.urdf import Robot, UrdfError
-from turtlewire.urdf.mimic import Follower, followers_of
+from turtlewire.urdf.joints import Follower, followers_of
 
 NAMES = ("arm", "differential_drive", "gripper", "hexapod", "quadruped", "tree")
 STATES = 1000

@@ -387,9 +387,7 @@ def test_a_call_that_raises_does_not_end_the_reader_thread(
     else:
         node.context.graph.add_listener(fail)
         node.context.graph.add_listener(called.set)
-    subscription = node.create_subscription(
-        "/chatter", STRING, QoS(), lambda *_: received.set()
-    )
+    subscription = node.create_subscription("/chatter", STRING, QoS(), lambda *_: received.set())
     publisher = other.create_publisher("/chatter", STRING, QoS())
     connect(other, publisher, node, subscription)
     assert called.wait(60)

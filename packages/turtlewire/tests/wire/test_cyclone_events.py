@@ -62,7 +62,7 @@ def test_a_call_that_raises_at_a_match_keeps_nothing_from_the_others(
     monkeypatch.setattr(guarded, "_reported", set())
     monkeypatch.setattr(threading, "excepthook", lambda report: reported.append(report.exc_type))
     publisher = contexts[0].create_node("talker").create_publisher("/chatter", STRING, QoS())
-    publisher.on_matched += [lambda: [].pop(), matched.set]
+    publisher.on_matched += [[].pop, matched.set]
     event = publisher.create_event(EventKind.MATCHED)
     contexts[1].create_node("listener").create_subscription("/chatter", STRING, QoS())
     assert matched.wait(60)

@@ -6,13 +6,11 @@ and test is collected in a `plan.Plan`.
 ==============  =======================================================================
 module          contents
 ==============  =======================================================================
-`syntax`        commands and arguments of a file, with their lines
-`blocks`        the commands as a tree of ``if``, ``foreach``, ``function`` …
+`syntax`        commands of a file with their lines, blocks and keywords
 `conditions`    the conditions of ``if`` and ``while``
 `interpreter`   variables, and the order in which commands run
 `basics`        ``set``, ``list``, ``string``, ``message``, ``option`` …
 `files`         ``file``, ``configure_file``, ``get_filename_component``, ``include``
-`arguments`     keywords of commands, as ``cmake_parse_arguments`` parses them
 `installing`    ``install``
 `ament`         ``find_package``, ``ament_…``, ``rosidl_generate_interfaces``
 `xacro`         ``xacro_add_files``, for PyPI's xacro has no CMake extras

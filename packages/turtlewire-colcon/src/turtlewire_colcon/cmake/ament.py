@@ -6,7 +6,6 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from turtlewire_colcon.cmake.arguments import Parsed, parse_keywords
 from turtlewire_colcon.cmake.installing import destination
 from turtlewire_colcon.cmake.plan import (
     Install,
@@ -16,7 +15,7 @@ from turtlewire_colcon.cmake.plan import (
     PythonPackage,
     Resource,
 )
-from turtlewire_colcon.cmake.syntax import CMakeError
+from turtlewire_colcon.cmake.syntax import CMakeError, Parsed, parse_keywords
 
 if TYPE_CHECKING:
     from turtlewire_colcon.cmake.interpreter import ExpandedCommand, Handler, Interpreter

@@ -8,9 +8,8 @@ import re
 import shlex
 from typing import TYPE_CHECKING
 
-from turtlewire_colcon.cmake.arguments import parse_keywords
 from turtlewire_colcon.cmake.conditions import CMakeCondition, note_match
-from turtlewire_colcon.cmake.syntax import CMakeArgument, CMakeError
+from turtlewire_colcon.cmake.syntax import CMakeArgument, CMakeError, parse_keywords
 
 if TYPE_CHECKING:
     from collections.abc import Callable

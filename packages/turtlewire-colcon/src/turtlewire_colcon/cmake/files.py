@@ -7,9 +7,8 @@ from pathlib import Path
 from shutil import copyfile, copytree
 from typing import TYPE_CHECKING
 
-from turtlewire_colcon.cmake.arguments import parse_keywords
 from turtlewire_colcon.cmake.basics import configured
-from turtlewire_colcon.cmake.syntax import CMakeError
+from turtlewire_colcon.cmake.syntax import CMakeError, parse_keywords
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -9,9 +9,8 @@ from itertools import pairwise
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 
-from turtlewire_colcon.cmake.arguments import parse_keywords
 from turtlewire_colcon.cmake.plan import FileRule, Install
-from turtlewire_colcon.cmake.syntax import CMakeError
+from turtlewire_colcon.cmake.syntax import CMakeError, parse_keywords
 
 if TYPE_CHECKING:
     from turtlewire_colcon.cmake.interpreter import ExpandedCommand, Handler, Interpreter

@@ -8,21 +8,23 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from turtlewire_colcon.cmake.blocks import Block, Branch, build_tree
 from turtlewire_colcon.cmake.conditions import CMakeCondition
 from turtlewire_colcon.cmake.syntax import (
+    Block,
+    Branch,
     CMakeArgument,
     CMakeCommand,
     CMakeError,
     SourcePosition,
+    build_tree,
     parse_commands,
 )
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
-    from turtlewire_colcon.cmake.blocks import Node
     from turtlewire_colcon.cmake.plan import Plan
+    from turtlewire_colcon.cmake.syntax import Node
     from turtlewire_colcon.package_lookup import PackageLookup
 
     Handler = Callable[["Interpreter", "ExpandedCommand"], None]

@@ -6,9 +6,8 @@ import shlex
 import subprocess
 from typing import TYPE_CHECKING
 
-from turtlewire_colcon.cmake.arguments import parse_keywords
 from turtlewire_colcon.cmake.plan import Step
-from turtlewire_colcon.cmake.syntax import CMakeError
+from turtlewire_colcon.cmake.syntax import CMakeError, parse_keywords
 from turtlewire_colcon.cmake.tool import tool_command
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-"""The commands of a CMake file: names and arguments, not yet evaluated."""
+"""The commands of a CMake file: blocks, names and arguments, not yet evaluated."""
 
 from __future__ import annotations
 
@@ -6,9 +6,21 @@ import re
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
-__all__ = ["CMakeArgument", "CMakeCommand", "CMakeError", "SourcePosition", "parse_commands"]
+__all__ = [
+    "Block",
+    "Branch",
+    "CMakeArgument",
+    "CMakeCommand",
+    "CMakeError",
+    "Node",
+    "Parsed",
+    "SourcePosition",
+    "build_tree",
+    "parse_commands",
+    "parse_keywords",
+]
 
 _SPACE = re.compile(r"(?:[ \t\r\n]+|#\[(?P<level>=*)\[.*?\](?P=level)\]|#[^\n]*)+", re.DOTALL)
 _NAME = re.compile(r"[A-Za-z_]\w*")
@@ -160,3 +172,125 @@ class _Reader:
 
     def _next_word(self) -> str:
         return self._text[self._at :].split(None, 1)[0][:30]
+
+
+_BLOCKS = {
+    "if": "endif",
+    "foreach": "endforeach",
+    "while": "endwhile",
+    "function": "endfunction",
+    "macro": "endmacro",
+}
+_ENDS = frozenset(_BLOCKS.values())
+_BRANCHES = ("elseif", "else")
+
+
+class Branch(NamedTuple):
+    """A command that opens a block (or ``elseif``, ``else``), and what follows it."""
+
+    head: CMakeCommand
+    body: tuple[Node, ...]
+
+
+class Block(NamedTuple):
+    """A block: one branch, more of them only in an ``if``."""
+
+    branches: tuple[Branch, ...]
+
+
+Node = CMakeCommand | Block
+
+
+def build_tree(commands: Sequence[CMakeCommand]) -> tuple[Node, ...]:
+    """Return the tree of the commands of a file.
+
+    Raises:
+        CMakeError: A block is not closed, or closed without having been opened.
+    """
+    nodes, at = _nodes(commands, 0)
+    if at < len(commands):
+        stray = commands[at]
+        raise CMakeError(stray.place, f"{stray.name}() closes nothing")
+    return nodes
+
+
+def _nodes(commands: Sequence[CMakeCommand], at: int) -> tuple[tuple[Node, ...], int]:
+    """Nodes up to the end of the commands, or up to a command that belongs to the outer block."""
+    nodes: list[Node] = []
+    while at < len(commands):
+        command = commands[at]
+        if command.name in _ENDS or command.name in _BRANCHES:
+            break
+        if command.name in _BLOCKS:
+            block, at = _block(commands, at)
+            nodes.append(block)
+        else:
+            nodes.append(command)
+            at += 1
+    return tuple(nodes), at
+
+
+def _block(commands: Sequence[CMakeCommand], at: int) -> tuple[Block, int]:
+    opening = commands[at]
+    branches: list[Branch] = []
+    while True:
+        head = commands[at]
+        body, at = _nodes(commands, at + 1)
+        branches.append(Branch(head, body))
+        name = commands[at].name if at < len(commands) else ""
+        if name == _BLOCKS[opening.name]:
+            return Block(tuple(branches)), at + 1
+        if name not in _BRANCHES or opening.name != "if":
+            raise CMakeError(opening.place, f"{opening.name}() has no {_BLOCKS[opening.name]}()")
+
+
+class Parsed(NamedTuple):
+    """The words of a command.
+
+    Attributes:
+        options: Which options were given.
+        values: The value of each keyword with one value.
+        lists: The values of each keyword with several.
+        rest: What belongs to no keyword.
+    """
+
+    options: frozenset[str]
+    values: dict[str, str]
+    lists: dict[str, list[str]]
+    rest: list[str]
+
+
+def parse_keywords(
+    words: Iterable[str],
+    options: Iterable[str] = (),
+    values: Iterable[str] = (),
+    lists: Iterable[str] = (),
+) -> Parsed:
+    """Take words apart by keywords.
+
+    Args:
+        words: The words of the command.
+        options: Keywords without a value.
+        values: Keywords with one value.
+        lists: Keywords with any number of values.
+    """
+    options, values, lists = frozenset(options), frozenset(values), frozenset(lists)
+    found = Parsed(frozenset(), {}, {}, [])
+    given: set[str] = set()
+    keyword = ""
+    for word in words:
+        if word in options:
+            given.add(word)
+            keyword = ""
+        elif word in values or word in lists:
+            keyword = word
+            if word in lists:
+                found.lists.setdefault(word, [])
+        elif keyword in values:
+            found.values[keyword] = word
+            keyword = ""
+        elif keyword:
+            found.lists[keyword].append(word)
+        else:
+            found.rest.append(word)
+    return found._replace(options=frozenset(given))

@@ -10,9 +10,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from turtlewire_colcon.cmake.arguments import parse_keywords
 from turtlewire_colcon.cmake.plan import Install, Step
-from turtlewire_colcon.cmake.syntax import CMakeError
+from turtlewire_colcon.cmake.syntax import CMakeError, parse_keywords
 
 if TYPE_CHECKING:
     from turtlewire_colcon.cmake.interpreter import ExpandedCommand, Handler, Interpreter

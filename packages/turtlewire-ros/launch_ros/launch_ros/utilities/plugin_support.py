@@ -10,7 +10,7 @@ An extension whose check fails is left out with a warning, and the nodes start w
 
 from __future__ import annotations
 
-from turtlewire.plugin_versions import (
+from turtlewire.plugins import (
     PluginException,
     get_upper_bound_caret_version,
     satisfies_version,

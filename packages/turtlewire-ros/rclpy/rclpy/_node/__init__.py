@@ -11,10 +11,9 @@ module                        contents
 `checks`                      checks of callbacks and of the quality of service
 `names`                       full names of topics and services
 `graph`                       other nodes, topics and services
-`declared`, `parameters`      parameters of a node: read and listed; set, with events
+`declared`, `parameters`      parameters of a node: read and listed; set, with callbacks and
+                              events
 `declarations`                what a declaration of a parameter means
-`callbacks`                   callbacks that see, change and decide about parameters
-`prefixes`                    prefixes of parameters' names
 `descriptors`                 checks a value against its descriptor: ranges, steps, types
 `rosout`                      the publisher of ``/rosout``
 `views`                       views of a node for the time source and built-in services

@@ -6,12 +6,11 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from rclpy._node.declarations import new_descriptor
-from rclpy._node.prefixes import is_listed, prefixes_of
 from rclpy.exceptions import ParameterNotDeclaredException, ParameterUninitializedException
 from rclpy.parameter import PARAMETER_SEPARATOR_STRING, Parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from rcl_interfaces.msg import ListParametersResult, ParameterDescriptor
 
@@ -126,8 +125,8 @@ class DeclaredParameters(Mapping[str, Parameter]):
             raise TypeError("The depth must be instance of type int")
         if depth < 0:
             raise ValueError("The depth must be greater than or equal to zero")
-        names = [name for name in list(self._parameters) if is_listed(name, prefixes, depth)]
-        return ListParametersResult(names=names, prefixes=prefixes_of(names))
+        names = [name for name in list(self._parameters) if _is_listed(name, prefixes, depth)]
+        return ListParametersResult(names=names, prefixes=_prefixes_of(names))
 
     def describe_parameter(self, name: str) -> ParameterDescriptor:
         """Return a parameter's descriptor with its present type, empty if it is undeclared.
@@ -161,3 +160,33 @@ class DeclaredParameters(Mapping[str, Parameter]):
             else f"declared are {sorted(self._parameters)}."
         )
         return f"Parameter {name!r} of {self._node_fqn} is not declared: {known}"
+
+
+def _is_listed(name: str, prefixes: list[str], depth: int) -> bool:
+    """Return True if a list of the names below ``prefixes`` has ``name``.
+
+    Args:
+        name: Of a parameter.
+        prefixes: Names, or beginnings of names up to a dot; all names if empty.
+        depth: How many levels below a prefix; 0 means all.
+    """
+
+    def is_near(rest: str) -> bool:
+        return depth == 0 or rest.count(PARAMETER_SEPARATOR_STRING) < depth
+
+    if not prefixes:
+        return is_near(name)
+    return any(
+        name == prefix
+        or (
+            name.startswith(f"{prefix}{PARAMETER_SEPARATOR_STRING}")
+            and is_near(name[len(prefix) + 1 :])
+        )
+        for prefix in prefixes
+    )
+
+
+def _prefixes_of(names: Iterable[str]) -> list[str]:
+    """Return the longest prefix of each name that has one, each once, in their order."""
+    parents = (name.rpartition(PARAMETER_SEPARATOR_STRING)[0] for name in names)
+    return list(dict.fromkeys(parent for parent in parents if parent))

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 from rclpy._typing import RequestT, ResponseT, SrvT_co
 from rclpy.client import BaseClient
+from turtlewire.wake_up import LoopWakeUp
 
 from ._async_entity import AsyncEndpoint
-from ._graph_wait import wait_for_graph
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from ._async_entity import TaskGroup
 
-__all__ = ["AsyncClient"]
+__all__ = ["AsyncClient", "wait_for_graph"]
 
 
 class AsyncClient(AsyncEndpoint, BaseClient[SrvT_co]):
@@ -103,3 +103,14 @@ class AsyncClient(AsyncEndpoint, BaseClient[SrvT_co]):
         for future in pending:
             future.cancel()
         self._context.wake_waits()  # for wait_for_service()
+
+
+async def wait_for_graph(context: Context, predicate: Callable[[], bool]) -> None:
+    """Wait until ``predicate()`` is true, looking again after each change of the graph.
+
+    It also looks after a shutdown: the predicate raises then.
+    """
+    changed = LoopWakeUp(asyncio.get_running_loop())
+    with context.waking_at_changes(changed):
+        while not predicate():
+            await changed.wait()

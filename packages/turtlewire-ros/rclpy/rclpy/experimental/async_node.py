@@ -19,8 +19,7 @@ from rclpy.impl.hints import with_hint
 from rclpy.qos import qos_profile_rosout_default, qos_profile_services_default
 
 from ._async_entity import AsyncEntity, TaskGroup
-from ._graph_wait import wait_for_graph
-from .async_client import AsyncClient
+from .async_client import AsyncClient, wait_for_graph
 from .async_clock import AsyncClock
 from .async_publisher import AsyncPublisher
 from .async_service import AsyncService

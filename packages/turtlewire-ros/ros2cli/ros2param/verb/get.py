@@ -10,9 +10,8 @@ from ros2cli.helpers import interactive_select
 from ros2cli.json_lines import JSON_ARGUMENT, print_json
 from ros2cli.node.direct import DirectNode
 from ros2cli.selection import OPTIONAL, select_node
-from ros2param.all_nodes import ask_all
 from ros2param.options import node_arguments, parameter_names
-from ros2param.parameters import TYPE_NAMES, RemoteParameters
+from ros2param.parameters import TYPE_NAMES, RemoteParameters, ask_all
 from ros2param.verb import VerbExtension
 
 if TYPE_CHECKING:

@@ -10,9 +10,8 @@ from ros2cli.builtin import verb_of_module
 from ros2cli.json_lines import JSON_ARGUMENT, print_json, remark_printer
 from ros2cli.node.direct import DirectNode
 from ros2cli.values import regular_expression
-from ros2param.all_nodes import ask_all
 from ros2param.options import node_arguments
-from ros2param.parameters import TYPE_NAMES
+from ros2param.parameters import TYPE_NAMES, ask_all
 from ros2param.verb import VerbExtension
 
 if TYPE_CHECKING:

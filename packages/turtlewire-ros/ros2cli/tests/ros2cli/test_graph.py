@@ -13,7 +13,7 @@ from ros2cli import graph as ask
 from ros2cli.discovery import wait_until_discovered
 from ros2cli.main import main
 from ros2cli.node.direct import DirectNode
-from ros2param.all_nodes import _serving
+from ros2param.parameters import _serving
 from turtlewire import msg
 from turtlewire.wire import open_context
 from turtlewire.wire.base import ServiceTypes, TypeId

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rosbag2_transport.player_qos import publisher_qos
+from rosbag2_transport.player_outputs import publisher_qos
 from rosbag2_transport.recorder_qos import misses, subscription_qos
 from turtlewire.bag import TopicInfo
 from turtlewire.wire.qos import Durability, QoS, Reliability

@@ -6,21 +6,17 @@ module             contents
 `content`          `Display` and the results that it computes from messages
 `options`          the options of displays, and the user's choices
 `numeric`          poses, points and colours of messages as arrays
-`path`             Path
-`poses`            PoseStamped, PoseWithCovarianceStamped, PoseArray, Odometry
-`covariance`       the ellipsoid of a covariance
+`poses`            PoseStamped, PoseWithCovarianceStamped, PoseArray, Odometry, Path
 `shapes`           PolygonStamped, PointStamped, GridCells, Range, CameraInfo
-`twist_or_wrench`  TwistStamped, AccelStamped, WrenchStamped
-`measurement`      Temperature, RelativeHumidity, FluidPressure, Illuminance
+`measurement`      Temperature, RelativeHumidity, FluidPressure, Illuminance;
+                   TwistStamped, AccelStamped, WrenchStamped
 `points`           the common base of point clouds and scans
 `point_cloud`      PointCloud2 and PointCloud
-`cloud_layout`     the bytes of a point cloud as records
 `coloring`         colours from values
 `laser_scan`       LaserScan
 `occupancy_grid`   OccupancyGrid and OccupancyGridUpdate
 `marker`           Marker and MarkerArray
 `marker_shapes`    one marker
-`marker_packing`   the arrays of several markers as one
 `interactive_markers`  InteractiveMarkerUpdate
 `interactive_marker`  one interactive marker, its controls and menu
 `marker_texture`   the image on the triangles of a marker
@@ -28,7 +24,6 @@ module             contents
 `camera`           images with the scene drawn over them
 `camera_model`     the intrinsics of a CameraInfo
 `depth_cloud`      depth images as points, with colours of another image
-`depth_image`      the points of one depth image
 `encodings`        pixels as RGBA
 `robot_model`      the links of a URDF
 `effort`           the efforts of a JointState at the joints of a URDF
@@ -54,11 +49,15 @@ def display_types() -> dict[str, type[Display]]:
     from turtlewire_view.displays.interactive_markers import InteractiveMarkersDisplay
     from turtlewire_view.displays.laser_scan import LaserScanDisplay
     from turtlewire_view.displays.marker import MarkerDisplay
-    from turtlewire_view.displays.measurement import MeasurementDisplay
+    from turtlewire_view.displays.measurement import MeasurementDisplay, TwistOrWrenchDisplay
     from turtlewire_view.displays.occupancy_grid import OccupancyGridDisplay
-    from turtlewire_view.displays.path import PathDisplay
     from turtlewire_view.displays.point_cloud import OldPointCloudDisplay, PointCloudDisplay
-    from turtlewire_view.displays.poses import OdometryDisplay, PoseArrayDisplay, PoseDisplay
+    from turtlewire_view.displays.poses import (
+        OdometryDisplay,
+        PathDisplay,
+        PoseArrayDisplay,
+        PoseDisplay,
+    )
     from turtlewire_view.displays.robot_model import RobotModelDisplay
     from turtlewire_view.displays.shapes import (
         CameraInfoDisplay,
@@ -67,7 +66,6 @@ def display_types() -> dict[str, type[Display]]:
         PolygonDisplay,
         RangeDisplay,
     )
-    from turtlewire_view.displays.twist_or_wrench import TwistOrWrenchDisplay
 
     return {
         "geometry_msgs/msg/AccelStamped": TwistOrWrenchDisplay,

@@ -11,7 +11,7 @@ from turtlewire_view.displays.content import (
     frame_of,
     stamp_ns_of,
 )
-from turtlewire_view.displays.marker_packing import packed_shapes
+from turtlewire_view.displays.marker import packed_shapes
 from turtlewire_view.displays.marker_shapes import marker_shape
 from turtlewire_view.displays.numeric import LARGEST, finite_pose, pose_rows
 

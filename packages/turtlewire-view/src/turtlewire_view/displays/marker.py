@@ -5,6 +5,8 @@ from __future__ import annotations
 from itertools import count
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
+import numpy as np
+
 from turtlewire_view.displays.content import (
     Content,
     Display,
@@ -14,15 +16,16 @@ from turtlewire_view.displays.content import (
     frame_of,
     stamp_ns_of,
 )
-from turtlewire_view.displays.marker_packing import packed_shapes
 from turtlewire_view.displays.marker_shapes import marker_shape
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
+
+    from numpy.typing import NDArray
 
     from turtlewire_view.displays.marker_shapes import MarkerShape
 
-__all__ = ["MarkerDisplay"]
+__all__ = ["MarkerDisplay", "packed_shapes"]
 
 _Key: TypeAlias = tuple[str, int]
 _Place: TypeAlias = tuple[str, int, bool]
@@ -174,3 +177,32 @@ def _lifetime(marker: Any) -> float:
     """Seconds; 0 or a negative number sets no limit."""
     seconds = int(marker.lifetime.sec) + int(marker.lifetime.nanosec) * 1e-9
     return min(max(0.0, seconds), _LONGEST_LIFETIME)
+
+
+_NAMES = ("points", "colors", "file", "uv")
+
+
+def packed_shapes(
+    shapes: Sequence[MarkerShape],
+) -> tuple[list[dict[str, Any]], dict[str, NDArray[Any]], tuple[tuple[str, str], ...]]:
+    """Return headers with ``[first, count]`` of the rows of each array, the arrays, and packages.
+
+    Args:
+        shapes: The markers.
+    """
+    offsets = dict.fromkeys(_NAMES, 0)
+    headers = []
+    for shape in shapes:
+        ranges = {name: [offsets[name], len(getattr(shape, name))] for name in _NAMES}
+        headers.append({**shape.header, **ranges})
+        offsets = {name: sum(ranges[name]) for name in _NAMES}
+    if not shapes:
+        return [], {}, ()
+    arrays = {
+        "points": np.concatenate([shape.points for shape in shapes]),
+        "colors": np.concatenate([shape.colors for shape in shapes]),
+        "files": np.concatenate([shape.file for shape in shapes]),
+        "uv": np.concatenate([shape.uv for shape in shapes]),
+    }
+    packages = tuple(sorted({each for shape in shapes for each in shape.packages}))
+    return headers, arrays, packages

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from turtlewire.geometry import arrays
 from turtlewire_view.displays.content import (
     Content,
     Display,
@@ -17,7 +18,6 @@ from turtlewire_view.displays.content import (
     frame_of,
     stamp_ns_of,
 )
-from turtlewire_view.displays.covariance import covariance_shape
 from turtlewire_view.displays.numeric import (
     anchored,
     finite_pose,
@@ -27,9 +27,9 @@ from turtlewire_view.displays.numeric import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
-__all__ = ["OdometryDisplay", "PoseArrayDisplay", "PoseDisplay"]
+__all__ = ["OdometryDisplay", "PathDisplay", "PoseArrayDisplay", "PoseDisplay", "covariance_shape"]
 
 
 class PoseDisplay(Display):
@@ -110,3 +110,85 @@ class PoseArrayDisplay(Display):
         arrays = {"points": points, "rotations": poses[:, 3:].astype(np.float32)}
         header = {"count": len(points)}
         return [Content(header, arrays, frame_of(message), stamp_ns_of(message), anchor=anchor)]
+
+
+_LARGEST = 1e9
+
+
+def covariance_shape(covariance: Any, warn: Callable[[str], None]) -> dict[str, Any] | None:
+    """Return the shape of a 6x6 covariance: x, y, z, roll, pitch, yaw.
+
+    Args:
+        covariance: 36 numbers, row by row.
+        warn: Gets a message if they are not a covariance.
+
+    Returns:
+        ``radii`` of one standard deviation along the axes of ``rotation`` (xyzw), for the position;
+        ``yaw``, the standard deviation of the heading in radians. None if it is all zeros, which
+        means that the sender does not know, or no covariance.
+    """
+    matrix = np.asarray(covariance, dtype=np.float64).reshape(6, 6)
+    if not matrix.any():
+        return None
+    if not (np.abs(np.nan_to_num(matrix, nan=math.inf)) < _LARGEST).all():
+        warn("the covariance holds a number that is not finite or too large")
+        return None
+    position = (matrix[:3, :3] + matrix[:3, :3].T) / 2
+    values, vectors = np.linalg.eigh(position)
+    tolerance = 1e-9 * max(1.0, float(np.abs(values).max()))
+    if values[0] < -tolerance or matrix[5, 5] < 0:
+        warn("the covariance has negative variances")
+        return None
+    radii = np.sqrt(np.maximum(values, 0.0))
+    if np.linalg.det(vectors) < 0:
+        vectors[:, 0] = -vectors[:, 0]
+    return {
+        "radii": [float(radius) for radius in radii],
+        "rotation": arrays.from_matrices(vectors).tolist(),
+        "yaw": min(math.pi, math.sqrt(float(matrix[5, 5]))),
+    }
+
+
+class PathDisplay(Display):
+    """The line of a ``nav_msgs/msg/Path``, and its poses as axes or arrows.
+
+    As in RViz all poses are taken in the frame of the path's own header.
+
+    Options: ``buffer_length`` is how many paths stay (1), ``pose_style`` (``none``, ``axes``,
+    ``arrows``) sends the orientations. Colours and widths are the page's.
+    """
+
+    kind = "path"
+    replays = True
+
+    def __init__(self, options: Mapping[str, object] | None = None, **keywords: Any) -> None:
+        super().__init__(options, **keywords)
+        self._numbers = count()
+        self._parts: list[str] = []
+
+    def _outputs(self, message: Any) -> list[Output]:
+        frame_id = frame_of(message)
+        kept = [message.poses[at].pose for at in spread(len(message.poses), self.budget)]
+        rows = [
+            (p.x, p.y, p.z, q.x, q.y, q.z, q.w)
+            for p, q in ((pose.position, pose.orientation) for pose in kept)
+        ]
+        poses, finite = pose_rows(rows)
+        if not finite.all():
+            self.warn(f"{np.count_nonzero(~finite)} of {len(message.poses)} poses are not finite")
+        if len(kept) < len(message.poses):
+            self.warn(f"{len(kept)} of {len(message.poses)} poses are drawn")
+        points, anchor = anchored(poses[:, :3])
+        arrays = {"points": points}
+        if self.options.text("pose_style") != "none":
+            warn_of_quaternions(rows, self.warn)
+            arrays["rotations"] = poses[:, 3:].astype(np.float32)
+        part = str(next(self._numbers))
+        header = {"count": len(points)}
+        self._parts.append(part)
+        outputs: list[Output] = [
+            Content(header, arrays, frame_id, stamp_ns_of(message), part, anchor)
+        ]
+        while len(self._parts) > self.options.number("buffer_length"):
+            outputs.append(Removal(self._parts.pop(0)))
+        return outputs

@@ -15,14 +15,11 @@ module              contents
 `bridge`            the state that all clients share; notifies them of changes
 `offers`            the topics and services that clients may use, as the graph has them
 `channel`           one topic: its subscriptions, and the clients that receive it
-`services`          services that clients may call
 `caller`            calls of services on the wire, for asyncio
 `parameters`        the parameters of all nodes: read, set, followed
 `parameter_values`  a parameter's value, as ROS 2 sends it and as JSON
-`connections`       which node publishes, subscribes and serves what
+`connections`       which node publishes, subscribes and serves what; changes of the graph
 `assets`            files of packages
-`simulated_time`    the time of a simulation, from ``/clock``
-`graph_watch`       changes of the graph, for asyncio
 `origins`           which web pages may connect
 `protocol`          the frames of the protocol
 `fields`            fields of clients' requests, checked

@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
+from struct import Struct
 from typing import TYPE_CHECKING, Any, Protocol
 
+from turtlewire.msg import type_hash
+from turtlewire.wire.base import TypeId
+from turtlewire.wire.qos import QoS, Reliability
 from turtlewire_view.foxglove import protocol
 from turtlewire_view.foxglove.caller import Caller
-from turtlewire_view.foxglove.connections import GraphConnections, connections_of, difference
-from turtlewire_view.foxglove.graph_watch import GraphWatch
+from turtlewire_view.foxglove.connections import (
+    GraphConnections,
+    GraphWatch,
+    connections_of,
+    difference,
+)
 from turtlewire_view.foxglove.offers import Offers
 from turtlewire_view.foxglove.parameters import ParameterEvents, Parameters
-from turtlewire_view.foxglove.simulated_time import SimulatedTime
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from turtlewire.web.loop_calls import LoopCalls
-    from turtlewire.wire.base import Context, Node
+    from turtlewire.wire.base import Context, MessageInfo, Node
     from turtlewire_view.foxglove.options import BridgeOptions
     from turtlewire_view.foxglove.outbox import Outbox
 
@@ -91,7 +98,7 @@ class Bridge:
         self.clients: set[ConnectedClient] = set()
         self._everybody: tuple[ConnectedClient, ...] = ()  # the same, for threads of the wire
         self._connections = GraphConnections({}, {}, {})
-        self._time = SimulatedTime(node, self._tell_time) if options.use_sim_time else None
+        self._time = _SimulatedTime(node, self._tell_time) if options.use_sim_time else None
         self.offers = Offers(node, options, self.now_ns, log.warning)
         self.watch = GraphWatch(self.graph, calls, self._refresh)
         self.caller = Caller(context, node, calls, self.watch)
@@ -194,3 +201,39 @@ class Bridge:
             frame = protocol.time_data(time_ns)
             for client in self._everybody:
                 client.outbox.set_time(frame)
+
+
+_TYPE = "rosgraph_msgs/msg/Clock"
+_CLOCK = Struct("<4xiI")  # encapsulation, seconds, nanoseconds
+
+
+class _SimulatedTime:
+    """Follows ``/clock``.
+
+    Args:
+        node: Whose subscription it is.
+        on_time: Called with each new time [ns] on a thread of the wire.
+
+    Attributes:
+        now_ns: The newest time; 0 until one has come.
+    """
+
+    def __init__(self, node: Node, on_time: Callable[[int], None]) -> None:
+        self.now_ns = 0
+        self._on_time = on_time
+        self._subscription = node.create_subscription(
+            "/clock",
+            TypeId(_TYPE, type_hash(_TYPE)),
+            QoS(depth=1, reliability=Reliability.BEST_EFFORT),
+            self._receive,
+        )
+
+    def close(self) -> None:
+        """Stop following the clock."""
+        self._subscription.close()
+
+    def _receive(self, cdr: bytes, _info: MessageInfo) -> None:
+        if len(cdr) >= _CLOCK.size:
+            seconds, nanoseconds = _CLOCK.unpack_from(cdr)
+            self.now_ns = max(0, seconds * 1_000_000_000 + nanoseconds)
+            self._on_time(self.now_ns)

@@ -15,7 +15,7 @@ from turtlewire.wire.services import require_callable
 if TYPE_CHECKING:
     from turtlewire.web.loop_calls import LoopCalls
     from turtlewire.wire.base import Context, Node
-    from turtlewire_view.foxglove.graph_watch import GraphWatch
+    from turtlewire_view.foxglove.connections import GraphWatch
 
 __all__ = ["Caller", "ServiceCallError"]
 

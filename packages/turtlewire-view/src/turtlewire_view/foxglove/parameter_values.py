@@ -8,7 +8,7 @@ import math
 from typing import Any
 
 from turtlewire.msg import get_message
-from turtlewire.msg.json_values import json_value
+from turtlewire.msg.json_messages import json_value
 
 __all__ = ["DOUBLE_TYPES", "from_json", "to_json"]
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtlewire import msg
 from turtlewire.errors import TurtlewireError
-from turtlewire.msg.json_values import json_value
+from turtlewire.msg.json_messages import json_value
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import Durability, QoS, Reliability
 

@@ -20,9 +20,8 @@ module              contents
 `trajectories`      odometry and poses of a topic, for `Trajectory.from_bag`
 `progress`          a line that shows the progress of an operation
 `columns`           `Columns`: fields of all messages of a topic as NumPy arrays
-`column_fields`     fields that can be columns, and their offsets
+`column_fields`     fields that can be columns, their offsets, and lists of texts
 `sensor_arrays`     images and point clouds as arrays
-`text_lists`        lists of texts in CDR
 `overview`          `describe_bag`: the contents of a bag, topic by topic
 `notebook`          the display of bags in Jupyter
 `extents`           counts, sizes and times of the messages of a file
@@ -34,12 +33,10 @@ module              contents
 `output_channels`   the channels of a new bag
 `pieces`            the new bags, one after another
 `latched`           latched messages before a given time
-`frame_renaming`    renames frames in messages
-`frame_fields`      the fields of messages that name frames
+`frame_renaming`    finds the fields that name frames, and renames the frames
 `new_folder`        a folder that appears when it is complete
-`message`           `BagMessage`
-`channels`          a topic with one definition of its type
-`written_types`     types as a bag defines them; converts their messages to ours
+`message`           `BagMessage` and its channel, a topic with one definition of its type
+`written_types`     types as a bag defines them, ROS 1 too; converts their messages to ours
 `encodings`         topics whose messages are not in CDR
 `files`             the files of a bag: kinds, names, order and common metadata
 `playback`          `PlayClock`, `ReadAhead`: the time of a playback, and due messages
@@ -52,7 +49,6 @@ module              contents
 `mcap_reader`       the MCAP format: summary, chunks, files without a summary
 `chunk_walk`        prepares the next chunk of an MCAP file in advance
 `record_messages`   the messages among the records of a chunk
-`time_order`        messages of chunks in order of time
 `mcap_records`      the records of MCAP as bytes and objects
 `mcap_writer`       writes MCAP files
 `sqlite_reader`     rosbag2's sqlite3 schema, versions 1 to 4
@@ -61,14 +57,12 @@ module              contents
 `ros1_file`         the format of ROS 1's bags: connections, chunks, bags without an end
 `ros1_messages`     converts messages of ROS 1 to CDR
 `ros1_steps`        the steps of that conversion, for the compiled core
-`ros1_definitions`  converts definitions of ROS 1 to ROS 2
 `repair`            repairs a damaged file
 `sqlite_writer`     writes sqlite3 files
 `metadata`          ``metadata.yaml``, versions 1 to 9
 `qos_yaml`          the QoS of recorded topics as YAML
-`unpacking`         files and messages that were compressed as a whole
 `definitions`       message definitions in the format of bags
-`compression`       zstd and lz4, with limits
+`compression`       zstd and lz4, with limits; files and messages compressed as a whole
 ==================  ========================================================================
 """
 

@@ -6,6 +6,7 @@ The compiled core runs the steps; the kinds are numbered as in ``native/feeds/co
 from __future__ import annotations
 
 from enum import IntEnum
+from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.errors import BagError
@@ -27,7 +28,15 @@ if TYPE_CHECKING:
 
     from turtlewire.msg.types import AbstractType
 
-__all__ = ["ColumnField", "ColumnKind", "Step", "StepKind", "column_steps", "find_field"]
+__all__ = [
+    "ColumnField",
+    "ColumnKind",
+    "Step",
+    "StepKind",
+    "column_steps",
+    "find_field",
+    "read_texts",
+]
 
 #: Kind, size, alignment, the number of steps in a loop, and the column.
 Step = tuple[int, int, int, int, int]
@@ -228,3 +237,14 @@ class _Steps:
         if is_number:
             return [(StepKind.SEQUENCE, size, align, 0, _NO_COLUMN)]
         return [(StepKind.LOOP, 0, 1, len(element), _NO_COLUMN), *element]
+
+
+@lru_cache(maxsize=64)  # a publisher sends the same names in each message
+def read_texts(data: bytes) -> tuple[str, ...]:
+    """Return the elements of a sequence of strings in little endian CDR, without its count."""
+    texts, at = [], 0
+    while at < len(data):
+        begin = -(-at // 4) * 4 + 4
+        at = begin + int.from_bytes(data[begin - 4 : begin], "little")
+        texts.append(data[begin : max(begin, at - 1)].decode())
+    return tuple(texts)

@@ -8,10 +8,15 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from turtlewire.bag.column_fields import ColumnField, ColumnKind, column_steps, find_field
+from turtlewire.bag.column_fields import (
+    ColumnField,
+    ColumnKind,
+    column_steps,
+    find_field,
+    read_texts,
+)
 from turtlewire.bag.message import UndecodableType
 from turtlewire.bag.sensor_arrays import cloud_array, cloud_dtype, image_array, read_point_fields
-from turtlewire.bag.text_lists import read_texts
 from turtlewire.bag.written_types import written_type
 from turtlewire.errors import BagError
 from turtlewire.msg.evolution import older_evolution
@@ -25,8 +30,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from turtlewire.bag.channels import BagChannel
-    from turtlewire.bag.message import BagMessage
+    from turtlewire.bag.message import BagChannel, BagMessage
     from turtlewire.bag.metadata import BagMetadata, TopicInfo
     from turtlewire.bag.record_messages import LoggedBytes, RawMessage
     from turtlewire.bag.storage import StorageFile

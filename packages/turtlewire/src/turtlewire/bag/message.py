@@ -1,17 +1,28 @@
-"""One message of a bag."""
+"""One message of a bag, and its channel: a topic with one definition of its type."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from turtlewire.attribute_hints import hint_at
+from turtlewire.bag.mcap_records import Schema
 from turtlewire.errors import InterfaceError
 
 if TYPE_CHECKING:
-    from turtlewire.bag.channels import BagChannel
+    from turtlewire.bag.mcap_records import Channel
+    from turtlewire.bag.metadata import TopicInfo
     from turtlewire.msg import Message
 
-__all__ = ["BagMessage", "MessageType", "UndecodableType", "channel_of", "message_class"]
+__all__ = [
+    "BagChannel",
+    "BagMessage",
+    "MessageType",
+    "UndecodableType",
+    "channel_of",
+    "channel_of_text",
+    "message_class",
+]
 
 
 @hint_at(
@@ -132,3 +143,27 @@ class UndecodableType:
         )
         error.with_hint("`data` has the bytes, which a library for that encoding decodes.")
         return error
+
+
+@dataclass(frozen=True, eq=False)
+class BagChannel:
+    """A topic with one definition of its type, as a file of a bag has it.
+
+    A topic whose messages follow two definitions has two channels.
+
+    Attributes:
+        topic: The topic.
+        schema: The definition of the type; its number is 0 outside of MCAP, and its name is empty
+            if there is no definition.
+        record: The channel of an MCAP file; None in other storages.
+    """
+
+    topic: TopicInfo
+    schema: Schema
+    record: Channel | None = None
+
+
+def channel_of_text(topic: TopicInfo, definition: tuple[str, str]) -> BagChannel:
+    """Return the channel of a topic with the encoding and text of its definition."""
+    encoding, text = definition
+    return BagChannel(topic, Schema(0, topic.type, encoding, text.encode()))

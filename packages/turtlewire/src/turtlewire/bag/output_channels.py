@@ -13,8 +13,7 @@ from turtlewire.errors import BagError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from turtlewire.bag.channels import BagChannel
-    from turtlewire.bag.message import BagMessage
+    from turtlewire.bag.message import BagChannel, BagMessage
     from turtlewire.bag.reader import Bag
     from turtlewire.bag.selection import Selection
 

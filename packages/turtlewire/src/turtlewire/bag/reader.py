@@ -10,6 +10,7 @@ import weakref
 from typing import TYPE_CHECKING
 
 from turtlewire.attribute_hints import hint_at
+from turtlewire.bag.compression import unpack_file, unpacked
 from turtlewire.bag.definitions import has_interface, learn_types
 from turtlewire.bag.files import joined, open_storage, overlapping, storage_files
 from turtlewire.bag.message_choice import (
@@ -21,7 +22,6 @@ from turtlewire.bag.message_choice import (
 )
 from turtlewire.bag.metadata import BagMetadata, TopicInfo, read_metadata
 from turtlewire.bag.storage import messages_of_blocks
-from turtlewire.bag.unpacking import unpack_file, unpacked
 from turtlewire.call_errors import explain_call, explain_calls
 from turtlewire.errors import BagError, InterfaceError
 from turtlewire.path_arguments import near_path, path_text

@@ -6,12 +6,11 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.bag.definitions import ENCODING, definition_text, parse_definition
-from turtlewire.bag.frame_fields import frame_fields, rename_frames
+from turtlewire.bag.frame_renaming import frame_fields, rename_frames
 from turtlewire.bag.message import UndecodableType, message_class
 from turtlewire.bag.metadata import full_type_name
-from turtlewire.bag.ros1_definitions import ros2_definition
 from turtlewire.bag.ros1_steps import conversion_steps
-from turtlewire.bag.written_types import written_type
+from turtlewire.bag.written_types import ros2_definition, written_type
 from turtlewire.errors import BagError, CdrError, InterfaceError
 from turtlewire.msg.cdr import serialize
 from turtlewire.msg.registry import load_message
@@ -21,8 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping
 
     from turtlewire._native import Ros1ToCdr
-    from turtlewire.bag.channels import BagChannel
-    from turtlewire.bag.message import BagMessage
+    from turtlewire.bag.message import BagChannel, BagMessage
     from turtlewire.bag.record_messages import RawMessage
     from turtlewire.msg.evolution import Evolution
     from turtlewire.msg.message import Message

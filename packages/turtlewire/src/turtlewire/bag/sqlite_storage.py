@@ -6,9 +6,9 @@ from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from turtlewire.bag.channels import channel_of_text
 from turtlewire.bag.compression import ZSTD_MAGIC
 from turtlewire.bag.extents import extents_of_messages
+from turtlewire.bag.message import channel_of_text
 from turtlewire.bag.metadata import BagMetadata, TopicInfo
 from turtlewire.bag.sqlite_reader import SqliteFile
 from turtlewire.bag.storage import class_of_channel
@@ -17,9 +17,8 @@ from turtlewire.errors import BagError
 if TYPE_CHECKING:
     from collections.abc import Callable, Container, Iterator
 
-    from turtlewire.bag.channels import BagChannel
     from turtlewire.bag.extents import Extent
-    from turtlewire.bag.message import BagMessage
+    from turtlewire.bag.message import BagChannel, BagMessage
     from turtlewire.bag.record_messages import LoggedBytes, RawMessage
     from turtlewire.bag.storage import TransformTarget
 

@@ -1,7 +1,9 @@
-"""The interface of a file of a bag, common to all storages."""
+"""The interface of a file of a bag, common to all storages, and the order of its messages."""
 
 from __future__ import annotations
 
+from bisect import bisect_left
+from operator import itemgetter
 from typing import TYPE_CHECKING, Protocol
 
 from turtlewire.bag.message import UndecodableType, channel_of, message_class
@@ -10,14 +12,18 @@ from turtlewire.bag.written_types import written_type
 if TYPE_CHECKING:
     from collections.abc import Callable, Container, Iterable, Iterator
 
-    from turtlewire.bag.channels import BagChannel
     from turtlewire.bag.extents import Extent
-    from turtlewire.bag.message import BagMessage
+    from turtlewire.bag.mcap_records import ChunkIndex
+    from turtlewire.bag.message import BagChannel, BagMessage
     from turtlewire.bag.metadata import BagMetadata, TopicInfo
     from turtlewire.bag.record_messages import LoggedBytes, RawMessage
     from turtlewire.errors import BagError
 
-__all__ = ["StorageFile", "TransformTarget", "class_of_channel", "messages_of_blocks"]
+__all__ = ["StorageFile", "TransformTarget", "class_of_channel", "in_order", "messages_of_blocks"]
+
+_FOREVER = 1 << 64
+
+_log_time = itemgetter(0)
 
 
 class TransformTarget(Protocol):
@@ -153,3 +159,44 @@ def class_of_channel(channel: BagChannel) -> type[BagMessage]:
         return message_class(undecodable, channel)
     text = schema.data.decode("utf-8", "replace")
     return message_class(written_type(topic.type, schema.encoding, text), channel)
+
+
+def in_order(
+    chunks: Iterable[ChunkIndex], load: Callable[[ChunkIndex], list[RawMessage]]
+) -> Iterator[list[RawMessage]]:
+    """Yield messages in order of time, at equal times in the order of the file.
+
+    Only chunks whose times overlap are in memory together.
+
+    Args:
+        chunks: In order of their first log time.
+        load: Returns the messages of a chunk.
+    """
+    waiting: dict[int, list[RawMessage]] = {}
+    for chunk in chunks:
+        yield _taken_before(chunk.start_ns, waiting)
+        found = load(chunk)
+        found.sort(key=_log_time)
+        waiting[chunk.offset] = found
+    yield _taken_before(_FOREVER, waiting)
+
+
+def _taken_before(time_ns: int, waiting: dict[int, list[RawMessage]]) -> list[RawMessage]:
+    """Remove messages of earlier log times from the waiting ones, and return them in order.
+
+    Args:
+        time_ns: The log time that is not taken any more.
+        waiting: The messages of each chunk, in order of time, by the chunk's offset.
+    """
+    taken: list[RawMessage] = []
+    for offset in sorted(waiting):
+        messages = waiting[offset]
+        count = bisect_left(messages, time_ns, key=_log_time)
+        if count < len(messages):
+            taken += messages[:count]
+            del messages[:count]
+        else:
+            taken = taken + messages if taken else messages
+            del waiting[offset]
+    taken.sort(key=_log_time)
+    return taken

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 from weakref import WeakSet
 
 from turtlewire.attribute_hints import hint_at
-from turtlewire.bag.channels import channel_of_text
 from turtlewire.bag.compression import write_zstd_file
 from turtlewire.bag.files import file_name
 from turtlewire.bag.mcap_writer import CHUNK_BYTES, McapWriter
+from turtlewire.bag.message import channel_of_text
 from turtlewire.bag.metadata import (
     NEWEST_VERSION,
     BagMetadata,
@@ -46,8 +46,8 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-    from turtlewire.bag.channels import BagChannel
     from turtlewire.bag.mcap_records import RawChunk, Schema
+    from turtlewire.bag.message import BagChannel
     from turtlewire.msg import Message
     from turtlewire.tf.datetimes import Stamp
     from turtlewire.wire.qos import QoS

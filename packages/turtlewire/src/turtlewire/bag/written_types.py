@@ -2,22 +2,30 @@
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from turtlewire.bag.definitions import has_interface, learn_types, parse_definition
-from turtlewire.bag.ros1_definitions import ros2_definition
 from turtlewire.errors import CdrError, InterfaceError
 from turtlewire.msg.cdr import deserialize, serialize
 from turtlewire.msg.classes import get_message
 from turtlewire.msg.evolution import Evolution, differs, older_evolution
 from turtlewire.msg.message import missing_fields
+from turtlewire.msg.parser import without_comment
 from turtlewire.msg.registry import load_message
 
 if TYPE_CHECKING:
     from turtlewire.msg.message import Message
 
-__all__ = ["WrittenType", "written_type"]
+__all__ = ["WrittenType", "ros2_definition", "written_type"]
+
+_STATEMENT = re.compile(r"\s*([\w/]+)(\[\d*\])?\s+(\w+)\s*(=?)(.*)")
+_TYPES = {
+    "time": "builtin_interfaces/Time",
+    "duration": "builtin_interfaces/Duration",
+    "Header": "std_msgs/Header",
+}
 
 
 class WrittenType:
@@ -105,3 +113,29 @@ class WrittenType:
 def written_type(name: str, encoding: str, text: str, *, is_ros1: bool = False) -> WrittenType:
     """Return the same `WrittenType` for the same arguments: comparing definitions takes a while."""
     return WrittenType(name, encoding, text, is_ros1=is_ros1)
+
+
+def ros2_definition(text: str) -> str:
+    """Return a definition of ROS 1, with the types that it uses, in the words of ROS 2.
+
+    ``time``, ``duration`` and ``Header`` become ROS 2's types, and strings get quotes. Names stay
+    as they are, except the names of constants, which ROS 2 demands in capitals.
+    """
+    return "\n".join(_line(line) for line in text.splitlines())
+
+
+def _line(line: str) -> str:
+    found = _STATEMENT.fullmatch(line)
+    if found is None or line.lstrip().startswith("#"):
+        return line
+    type_, array, name, equals, value = found.groups()
+    type_ = _TYPES.get(type_, type_)
+    if not equals:
+        return f"{type_}{array or ''} {name}"
+    if type_ == "string":  # the value is the rest of the line, including '#'
+        quoted = value.strip().replace("\\", "\\\\").replace('"', '\\"')
+        return f'string {name.upper()}="{quoted}"'
+    value = without_comment(value).strip()
+    if type_ in ("byte", "char") and re.fullmatch(r"-\d+", value):  # bytes have signs in ROS 1
+        value = f"{256 + int(value)}"
+    return f"{type_} {name.upper()}={value}"

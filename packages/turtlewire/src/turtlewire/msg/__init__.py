@@ -27,18 +27,15 @@ module                contents
 `checks`              ROS 2's checks at every assignment (``check_fields``)
 `cdr`                 `serialize` and `deserialize`
 `encoder`, `decoder`  generated code from messages to CDR bytes and back
-`ros1_decoder`        generated code from the bytes of ROS 1 to messages
 `evolution`           messages with another definition than ours, such as an older one
 `written_records`     messages decoded by the definitions of their writer
 `wide_text`           ``wstring`` on the wire
-`json_values`         messages as values for JSON
 `json_messages`       messages as JSON, and from JSON
 `diagnosis`           finds the wrong field of a message or of its bytes
 `type_hash`           type hashes (RIHS01)
 `shell`               lazy classes of modules such as ``geometry_msgs.msg``
 `idl`                 ``.idl`` files as the text of ``.msg``, ``.srv`` and ``.action`` files
 `idl_reader`          parses ``.idl`` files, for `idl` and ``rosidl_parser``
-`idl_tokens`          the tokens of ``.idl`` files
 `generate`, `stubs`   Python packages for a folder of definitions; their ``.pyi``
 `__main__`            ``python -m turtlewire.msg DIR``
 ====================  =================================================================

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, Any
 from turtlewire.errors import CdrError
 from turtlewire.msg.cdr import serialize
 from turtlewire.msg.classes import get_message
-from turtlewire.msg.json_values import json_value
 from turtlewire.msg.types import (
     FLOATING_POINT_TYPES,
     AbstractGenericString,
@@ -28,7 +27,7 @@ from turtlewire.msg.types import (
 if TYPE_CHECKING:
     from turtlewire.msg.message import Message
 
-__all__ = ["cdr_from_json", "json_from_message", "message_from_values"]
+__all__ = ["cdr_from_json", "json_from_message", "json_value", "message_from_values"]
 
 _SPECIAL = {"NaN": math.nan, "Infinity": math.inf, "-Infinity": -math.inf}
 _BYTES = {"octet", "uint8"}
@@ -134,3 +133,33 @@ def _integer(typename: str, value: Any, path: str) -> Any:
 def _shown(value: Any) -> str:
     text = json.dumps(value)
     return text if len(text) < 60 else f"{text[:57]}..."
+
+
+def json_value(value: Any) -> Any:
+    """Return a value for ``json.dumps``.
+
+    A message becomes a dictionary of its fields, and an array a list. A ``byte`` becomes a number,
+    and bytes become a list of numbers. Numbers that JSON does not have become the strings ``NaN``,
+    ``Infinity`` and ``-Infinity``.
+
+    Args:
+        value: A message, a field of one, or a dictionary, list or tuple of such values.
+    """
+    if hasattr(value, "_DEFINITION"):
+        value = {field.name: getattr(value, field.name) for field in value._DEFINITION.fields}
+    elif hasattr(value, "tolist"):  # array.array, and NumPy's
+        value = value.tolist()
+    if isinstance(value, dict):
+        return {key: json_value(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        # Images have millions of numbers, all integers.
+        return value if set(map(type, value)) <= {int} else [json_value(item) for item in value]
+    if isinstance(value, bytes):
+        return value[0] if len(value) == 1 else list(value)
+    if isinstance(value, float):
+        return value if math.isfinite(value) else _name_of(value)
+    return value
+
+
+def _name_of(number: float) -> str:
+    return "NaN" if math.isnan(number) else "Infinity" if number > 0 else "-Infinity"

@@ -4,10 +4,8 @@
 module          contents
 ==============  ===================================================================
 `connection`    `connect` and `Connection`, which make the rest
-`publisher`     `Publisher`: messages out
+`publisher`     `Publisher`: messages out; the transforms that a connection sends
 `subscription`  `Subscription`: messages in, with ``for`` and ``async for``
-`arguments`     checks of their arguments
-`broadcaster`   the transforms that a connection sends
 ==============  ===================================================================
 """
 

@@ -10,9 +10,7 @@ from turtlewire import msg, wire
 from turtlewire.attribute_hints import hint_at
 from turtlewire.call_errors import explain_call, explain_calls
 from turtlewire.errors import WireError
-from turtlewire.net.arguments import check_type, message_type
-from turtlewire.net.broadcaster import Broadcaster
-from turtlewire.net.publisher import Publisher
+from turtlewire.net.publisher import Broadcaster, Publisher
 from turtlewire.net.subscription import Subscription
 from turtlewire.tf.buffer import Buffer
 from turtlewire.tf.datetimes import as_nanoseconds
@@ -66,10 +64,10 @@ def connect(
         ValueError: A name is not valid.
         WireError: The domain cannot be joined, or the middleware is not available.
     """
-    check_type("name", name, str)
-    check_type("namespace", namespace, str)
+    _check_type("name", name, str)
+    _check_type("namespace", namespace, str)
     if domain_id is not None:
-        check_type("domain_id", domain_id, int)
+        _check_type("domain_id", domain_id, int)
     for given, fault in (
         (name, names.validate_node_name(name)),
         (namespace, names.validate_namespace(namespace)),
@@ -198,11 +196,11 @@ class Connection:
                 and the type is not ``TFMessage``.
             ValueError: The name of the topic is not valid.
         """
-        kind = message_type(topic, type, "publisher")
+        kind = _message_type(topic, type, "publisher")
         name = msg.type_name(kind)
         refuse_other_types(topic, name)
         if qos is not None:
-            check_type("qos", qos, QoS)
+            _check_type("qos", qos, QoS)
         publisher = self._node.create_publisher(
             self._full_name(topic), TypeId(name, msg.type_hash(name)), qos or QoS()
         )
@@ -229,11 +227,11 @@ class Connection:
                 and the type is not ``TFMessage``.
             ValueError: The name of the topic is not valid.
         """
-        kind = None if type is None else message_type(topic, type, "subscribe")
+        kind = None if type is None else _message_type(topic, type, "subscribe")
         if kind is not None:
             refuse_other_types(topic, msg.type_name(kind))
         if qos is not None:
-            check_type("qos", qos, QoS)
+            _check_type("qos", qos, QoS)
         return self._keep(
             Subscription(
                 self._context,
@@ -283,7 +281,7 @@ class Connection:
 
     def _full_name(self, topic: str) -> str:
         self._check_open()
-        check_type("topic", topic, str)
+        _check_type("topic", topic, str)
         fault = names.validate_topic_name(topic)
         if fault is not None:
             raise ValueError(f"{topic!r}: {fault.message}")
@@ -320,3 +318,49 @@ class Connection:
 
 def _span_or_none(value: Span | None, name: str) -> int | None:
     return None if value is None else as_nanoseconds(value, name)
+
+
+def _message_type(topic: object, given: object, caller: str) -> type[msg.Message]:
+    """Return the class of the messages of a topic, by itself or by its name.
+
+    Args:
+        topic: The topic; only to find out whether it was swapped with the type.
+        given: The class or its name.
+        caller: The method of the connection that was called.
+
+    Raises:
+        InterfaceError: The type does not exist.
+        TypeError: ``given`` is something else, topic and type are swapped, or the topic is not a
+            str.
+    """
+    if _looks_like_a_type(topic) and isinstance(given, str) and not _looks_like_a_type(given):
+        shown = topic.__name__ if isinstance(topic, type) else repr(topic)
+        raise TypeError(f"topic and type are swapped: write {caller}({given!r}, {shown})")
+    _check_type("topic", topic, str)
+    if isinstance(given, str):
+        return msg.get_message(given)
+    if isinstance(given, type) and issubclass(given, msg.Message):
+        return given
+    if caller == "subscribe" and callable(given) and not isinstance(given, type):
+        raise TypeError("subscribe() takes no callback; write `for message in subscription`")
+    shown = f"the class {given.__name__}" if isinstance(given, type) else type(given).__name__
+    raise TypeError(
+        "type must be a class of messages or its name, for example 'std_msgs/msg/String', not "
+        f"{shown}"
+    )
+
+
+def _looks_like_a_type(value: object) -> bool:
+    if isinstance(value, str):
+        parts = value.split("/")
+        return len(parts) == 3 and all(parts) and parts[1] == "msg"
+    return isinstance(value, type) and issubclass(value, msg.Message)
+
+
+def _check_type(argument: str, value: object, wanted: type) -> None:
+    """Raise TypeError if an argument is of another type."""
+    if not isinstance(value, wanted):
+        home = "" if wanted.__module__ == "builtins" else f"{wanted.__module__}."
+        advice = "; write QoS(depth=...)" if argument == "qos" and isinstance(value, int) else ""
+        given = type(value).__name__
+        raise TypeError(f"{argument} must be {home}{wanted.__name__}, not {given}{advice}")

@@ -4,8 +4,7 @@
 module            contents
 ================  =================================================================
 `ends`            parses the networks that the command line names
-`renaming`        converts names between the two ends
-`frame_prefix`    adds a prefix to frames, and removes it
+`renaming`        converts names and frames between the two ends
 `marks`           marks the nodes of relays, so that nothing is carried twice
 `side`            one end: its context, its nodes and the thread that takes messages
 `direction`       opens and closes routes from one end to the other

@@ -9,9 +9,8 @@ from turtlewire.errors import WireError
 from turtlewire.wake_up import WakeUp
 
 from .direction import Direction, Ways
-from .frame_prefix import FramePrefix
 from .marks import Mark
-from .renaming import Renaming
+from .renaming import FramePrefix, Renaming
 from .side import Side
 
 if TYPE_CHECKING:

@@ -12,15 +12,13 @@ module              contents
 ==================  ==============================================================
 `robot`             `Robot`: a description with forward kinematics
 `model`             links, joints and their properties: metres, radians, kilograms
-`parser`            urdfdom's rules and error texts
+`parser`            urdfdom's rules and error texts; the tree of links and joints
 `elements`          XML as a tree of elements with their lines
-`bodies`, `joints`  ``link`` and ``material`` elements; ``joint`` elements
+`bodies`, `joints`  ``link``, ``material`` and ``joint`` elements; joints that follow
 `values`            numbers and vectors in attributes
 `versions`          the additions of versions 1.1 and 1.2
-`tree`              checks that links and joints form a tree
 `faults`            log lines about errors and warnings of a URDF
 `joint_model`       transforms of joints at given positions, as arrays
-`mimic`             joints that follow other joints
 `kinematics`        forward kinematics for many joint states at once
 `robot_buffer`      the transforms of all links in a buffer
 `notebook`          the display of robots in Jupyter

@@ -10,7 +10,7 @@ from turtlewire.geometry import arrays
 from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire.tf.array_arguments import number_array
 from turtlewire.urdf.joint_model import NUMBER_OF_CONSTANTS, joint_constants
-from turtlewire.urdf.mimic import followers_of
+from turtlewire.urdf.joints import followers_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

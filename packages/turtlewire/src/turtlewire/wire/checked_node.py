@@ -16,8 +16,16 @@ from .names import NameFault, validate_full_topic_name
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from .base import Client, MessageInfo, Publisher, Service, ServiceTypes, Sink, Subscription
-    from .base import TypeId
+    from .base import (
+        Client,
+        MessageInfo,
+        Publisher,
+        Service,
+        ServiceTypes,
+        Sink,
+        Subscription,
+        TypeId,
+    )
     from .qos import QoS
 
 __all__ = ["CheckedNode"]

@@ -105,7 +105,8 @@ class _Refusing:
 
 @pytest.mark.parametrize("refused", ["liveliness", "declare_subscriber"])
 @pytest.mark.parametrize(
-    "has_sink", [False, pytest.param(True, marks=pytest.mark.skipif(CORE != "native", reason=COMPILED_CORE))]
+    "has_sink",
+    [False, pytest.param(True, marks=pytest.mark.skipif(CORE != "native", reason=COMPILED_CORE))],
 )
 def test_an_endpoint_that_zenoh_refuses_leaves_nothing(refused: str, has_sink: bool):
     context = open_context(middleware="rmw_zenoh_cpp")

@@ -13,7 +13,6 @@ module           contents
 `permissions`    the names that ``--allow`` gave; the errors that an assistant reads
 `limits`         how often tools are called, and how long answers are
 `network`        the connection: waits for the graph, types of topics, names that are near
-`service_call`   a request to a service, and its response
 `plots`          a numeric field of a topic, and its picture
 ===============  ==========================================================================
 """

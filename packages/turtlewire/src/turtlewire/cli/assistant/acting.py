@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import math
 import time
 from contextlib import contextmanager
@@ -13,20 +14,20 @@ import anyio.to_thread
 from turtlewire import msg
 from turtlewire.cli.assistant.limits import bounded_json, seconds_within
 from turtlewire.cli.assistant.permissions import RefusedCallError, full_name
-from turtlewire.cli.assistant.service_call import call
-from turtlewire.msg.json_messages import message_from_values
-from turtlewire.msg.json_values import json_value
+from turtlewire.msg.json_messages import json_value, message_from_values
 from turtlewire.tf.tf_topics import refuse_other_types
-from turtlewire.wire.base import TypeId
+from turtlewire.wake_up import LoopWakeUp
+from turtlewire.wire.base import ServiceTypes, TypeId
 from turtlewire.wire.names import validate_full_topic_name
 from turtlewire.wire.qos import QoS
+from turtlewire.wire.services import require_callable
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from turtlewire.cli.assistant.network import Network
     from turtlewire.cli.assistant.permissions import Permissions
-    from turtlewire.wire.base import Publisher
+    from turtlewire.wire.base import Client, Publisher
 
 __all__ = ["Acting"]
 
@@ -122,7 +123,7 @@ class Acting:
         name, type_name = await self._network.type_of_service(service)
         self._permissions.require(name, "call")
         filled = message_from_values(f"{type_name}_Request", request or {})
-        response = await call(self._network, name, type_name, filled, limit_s)
+        response = await _call(self._network, name, type_name, filled, limit_s)
         return bounded_json({"service": name, "response": json_value(response)})
 
     def _type_of_new_topic(self, name: str, type_name: str) -> str:
@@ -188,3 +189,53 @@ async def _delivered(publisher: Publisher) -> None:
     """Wait until the reliable subscriptions have what was published; not for long."""
     limit_ns = round(_DELIVERY_S * 1e9)
     await anyio.to_thread.run_sync(publisher.wait_for_acknowledgments, limit_ns)
+
+
+async def _call(
+    network: Network, service: str, type_name: str, request: msg.Message, limit_s: float
+) -> msg.Message:
+    """Return the response of a service.
+
+    Args:
+        network: Where the service is.
+        service: Its full name.
+        type_name: Its type.
+        request: What it is asked.
+        limit_s: How long to wait, for the service and for its response.
+
+    Raises:
+        RefusedCallError: The service did not answer in time.
+        UncallableServiceError: Its server would misread the request.
+    """
+    require_callable(network.graph, service)
+    request_type, response_type = (
+        TypeId(name, msg.type_hash(name))
+        for name in (f"{type_name}_Request", f"{type_name}_Response")
+    )
+    types = ServiceTypes(type_name, request_type, response_type, msg.type_hash)
+    client = network.node.create_client(service, types, QoS())
+    try:
+        with anyio.move_on_after(limit_s):
+            await network.until(client.is_ready, limit_s)
+            number = client.send_request(msg.serialize(request))
+            data = await _response(network, client, number)
+            return msg.deserialize(msg.get_message(f"{type_name}_Response"), data)
+    finally:
+        client.close()
+    raise RefusedCallError(
+        f"{service} did not answer within {limit_s:g} s. It may still do what it was asked; "
+        "timeout_s sets how long to wait."
+    )
+
+
+async def _response(network: Network, client: Client, number: int) -> bytes:
+    ready = LoopWakeUp(asyncio.get_running_loop())
+    while True:
+        for found, data in client.take():
+            if found == number:
+                return data
+        stop = network.context.call_when_ready(client, ready.set)
+        try:
+            await ready.wait()
+        finally:
+            stop()

@@ -16,7 +16,7 @@ from turtlewire.cli.assistant.permissions import RefusedCallError
 from turtlewire.cli.assistant.plots import Series
 from turtlewire.cli.frame_picture import take_picture
 from turtlewire.errors import TransformException
-from turtlewire.msg.json_values import json_value
+from turtlewire.msg.json_messages import json_value
 from turtlewire.tf.buffer import Buffer, Transform
 from turtlewire.tf.listener import NOTHING_RECEIVED, TransformListener
 from turtlewire.wake_up import LoopWakeUp

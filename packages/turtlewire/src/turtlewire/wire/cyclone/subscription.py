@@ -252,7 +252,6 @@ def deliver_to(
     subscription: CycloneSubscription, on_message: Callable[[bytes, MessageInfo], None]
 ) -> Callable[[], None]:
     """Return the function that the reader thread calls when messages wait."""
-
     return lambda: deliver(subscription.take(), on_message, lambda: subscription.closed)
 
 

@@ -8,8 +8,7 @@ module                       contents
 ===========================  ==========================================================
 `bus`                        nodes and endpoints of a domain, and which endpoints match
 `context`                    a participant and its graph
-`node`, `node_state`         a node; the state that it shares with its endpoints
-`endpoint`                   the common base of publishers and subscriptions
-`publisher`, `subscription`  the two kinds of endpoints
+`node`                       a node, and the state that it shares with its endpoints
+`endpoint`                   publishers, subscriptions, and their common base
 ===========================  ==========================================================
 """

@@ -13,8 +13,7 @@ from turtlewire.wire.reader_thread import LoopReader, Reader, ReaderThread
 
 from .bus import Bus, bus_of
 from .endpoint import EVENTS, new_gid
-from .node import LocalNode
-from .node_state import LocalNodeState
+from .node import LocalNode, LocalNodeState
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""Nodes of the in-process middleware."""
+"""Nodes of the in-process middleware, and the state that they share with their endpoints."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from turtlewire.wire.checked_node import CheckedNode
 from turtlewire.wire.graph import with_best_available
 from turtlewire.wire.services import TopicClient, TopicService
 
-from .endpoint import LocalEndpointSpec
-from .publisher import LocalPublisher
-from .subscription import LocalSubscription
+from .endpoint import LocalEndpointSpec, LocalPublisher, LocalSubscription
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from turtlewire.wire.base import Context, ServiceTypes, Sink, TypeId
+    from turtlewire.wire.base import Context, NodeInfo, ServiceTypes, Sink, TypeId
     from turtlewire.wire.qos import QoS
+    from turtlewire.wire.reader_thread import Reader
 
-    from .node_state import LocalNodeState
+    from .bus import Bus
+    from .endpoint import LocalEndpoint
 
-__all__ = ["LocalNode"]
+__all__ = ["LocalNode", "LocalNodeState"]
 
 
 class LocalNode(CheckedNode):
@@ -96,3 +96,17 @@ def _specs(
         LocalEndpointSpec(service, topic, type_id, qos, service_hash) for topic, type_id in topics
     )
     return requests, replies
+
+
+class LocalNodeState:
+    """The bus that a node's endpoints are on and the thread that calls their callbacks.
+
+    Attributes:
+        endpoints: The node's open endpoints, guarded by the bus's lock.
+    """
+
+    def __init__(self, info: NodeInfo, bus: Bus, reader: Reader) -> None:
+        self.info = info
+        self.bus = bus
+        self.reader = reader
+        self.endpoints: set[LocalEndpoint] = set()
