@@ -11,8 +11,8 @@ import base64
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.wire.base import MessageInfo, NodeInfo, TypeId
-from turtlewire.wire.local.endpoint import LocalEndpointSpec, LocalPublisher, LocalSubscription
-from turtlewire.wire.local.node import LocalNodeState
+from turtlewire.wire.local.endpoint import LocalEndpointSpec
+from turtlewire.wire.local.node import LocalNodeState, LocalPublisher, LocalSubscription
 from turtlewire.wire.qos import Durability, History, Liveliness, QoS, Reliability
 from turtlewire.wire.reader_thread import ReaderThread
 

@@ -167,7 +167,7 @@ def _parsed(text: str) -> dict[str, Any]:
     if len(text) > _LONGEST_FILE:
         raise RvizFileError(f"{len(text)} characters are too many for a .rviz file")
     try:
-        content = yaml.load(text, _loader())
+        content = yaml.load(text, _loader())  # noqa: S506 - it derives from the safe one
     except RvizFileError:
         raise
     except RecursionError:
@@ -192,7 +192,7 @@ def _loader() -> type[Any]:
                 raise RvizFileError("it has YAML aliases, such as *name, which RViz does not write")
             return super().compose_node(parent, index)
 
-        def construct_yaml_int(self, node: Any) -> float:
+        def construct_yaml_int(self, node: Any) -> float:  # type: ignore[override]
             number: int = super().construct_yaml_int(node)
             try:
                 float(number)

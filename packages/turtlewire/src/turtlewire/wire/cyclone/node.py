@@ -6,7 +6,6 @@ import threading
 from typing import TYPE_CHECKING
 
 from turtlewire.wire import names
-from turtlewire.wire.base import Client, MessageInfo, Publisher, Service, Subscription
 from turtlewire.wire.checked_node import CheckedNode
 from turtlewire.wire.graph import with_best_available
 
@@ -20,7 +19,17 @@ from .subscription import CycloneSubscription, deliver_rest_to, deliver_to
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from turtlewire.wire.base import Context, ServiceTypes, Sink, TypeId
+    from turtlewire.wire.base import (
+        Client,
+        Context,
+        MessageInfo,
+        Publisher,
+        Service,
+        ServiceTypes,
+        Sink,
+        Subscription,
+        TypeId,
+    )
     from turtlewire.wire.qos import QoS
 
     from .context_state import CycloneContextState

@@ -1,28 +1,164 @@
-"""Nodes of the in-process middleware, and the state that they share with their endpoints."""
+"""Nodes of the in-process middleware, their publishers and subscriptions."""
 
 from __future__ import annotations
 
+import time
 from typing import TYPE_CHECKING
 
+from turtlewire.errors import WireError
 from turtlewire.wire import names
-from turtlewire.wire.base import Client, MessageInfo, Publisher, Service, Subscription
+from turtlewire.wire.base import MessageInfo, Publisher, Subscription
 from turtlewire.wire.checked_node import CheckedNode
+from turtlewire.wire.delivery import deliver
+from turtlewire.wire.encapsulation import joined, require_message
 from turtlewire.wire.graph import with_best_available
+from turtlewire.wire.qos import Durability
+from turtlewire.wire.queue_wait_set import Queued
 from turtlewire.wire.services import TopicClient, TopicService
 
-from .endpoint import LocalEndpointSpec, LocalPublisher, LocalSubscription
+from .endpoint import LocalEndpoint, LocalEndpointSpec, Message
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from turtlewire.wire.base import Context, NodeInfo, ServiceTypes, Sink, TypeId
+    from turtlewire.wire.base import Client, Context, NodeInfo, Service, ServiceTypes, Sink, TypeId
+    from turtlewire.wire.encapsulation import Cdr
     from turtlewire.wire.qos import QoS
+    from turtlewire.wire.queue_wait_set import Watcher
     from turtlewire.wire.reader_thread import Reader
 
     from .bus import Bus
-    from .endpoint import LocalEndpoint
 
-__all__ = ["LocalNode", "LocalNodeState"]
+__all__ = ["LocalNode", "LocalNodeState", "LocalPublisher", "LocalSubscription"]
+
+
+class LocalNodeState:
+    """The bus that a node's endpoints are on and the thread that calls their callbacks.
+
+    Attributes:
+        endpoints: The node's open endpoints, guarded by the bus's lock.
+    """
+
+    def __init__(self, info: NodeInfo, bus: Bus, reader: Reader) -> None:
+        self.info = info
+        self.bus = bus
+        self.reader = reader
+        self.endpoints: set[LocalEndpoint] = set()
+
+
+class LocalPublisher(LocalEndpoint, Publisher):
+    """Hands its messages to the queues of the matching subscriptions."""
+
+    def __init__(self, node: LocalNodeState, spec: LocalEndpointSpec) -> None:
+        super().__init__(spec, node.info, node.bus.lock)
+        self._core = node
+        self._published = 0
+        with self._lock:
+            node.bus.add_publisher(self)
+            node.endpoints.add(self)
+        node.bus.changed()
+
+    def publish(self, cdr: Cdr) -> None:
+        cdr = joined(cdr)
+        require_message(cdr, self.topic)
+        now = time.time_ns()
+        with self._lock:
+            if self._closed:
+                raise WireError(f"publish on {self.topic}: the publisher is closed")
+            self._published += 1
+            message = (cdr, MessageInfo(now, now, self.gid, self._published))
+            if self._core.bus.tamper is None:
+                self.deliver(message)
+            else:
+                self._core.bus.tamper(self, message)
+
+    def deliver(self, message: Message) -> None:
+        """Hand a message to the matching subscriptions; nothing happens after the end."""
+        with self._lock:
+            if self._closed:
+                return
+            if self.qos.durability == Durability.TRANSIENT_LOCAL:
+                self._queue.append(message)
+            for subscription in self.matched:
+                subscription.receive(message)
+
+    def kept(self) -> list[Message]:
+        oldest = time.time_ns() - self.qos.lifespan_ns if self.qos.lifespan_ns else 0
+        return [message for message in self._queue if message[1].source_timestamp_ns >= oldest]
+
+    def subscription_count(self) -> int:
+        return len(self.matched)
+
+    def assert_liveliness(self) -> None:
+        """Do nothing: publishers of one process end together."""
+
+    def wait_for_acknowledgments(self, timeout_ns: int) -> bool:  # noqa: ARG002 - see below
+        """Return True: messages arrive as they are published."""
+        return True
+
+    def _leave(self) -> None:
+        self._core.endpoints.discard(self)
+        self._core.bus.remove_publisher(self)
+        self._core.bus.changed()
+
+
+class LocalSubscription(LocalEndpoint, Queued, Subscription):
+    """Keeps messages until they are taken.
+
+    Attributes:
+        watchers: What waits for it, and what to call when a message arrives.
+    """
+
+    def __init__(
+        self,
+        node: LocalNodeState,
+        spec: LocalEndpointSpec,
+        on_message: Callable[[bytes, MessageInfo], None] | None = None,
+    ) -> None:
+        super().__init__(spec, node.info, node.bus.lock)
+        self._core = node
+        self._on_message = on_message
+        self.watchers: dict[Watcher, Callable[[], None]] = {}
+        with self._lock:
+            node.bus.add_subscription(self)
+            node.endpoints.add(self)
+        node.bus.changed()
+
+    def meet(self, other: LocalEndpoint) -> None:
+        super().meet(other)
+        if self.qos.durability == Durability.TRANSIENT_LOCAL:
+            for message in other.kept():
+                self.receive(message)
+
+    def receive(self, message: Message) -> None:
+        self._queue.append(message)
+        if self._on_message is not None:
+            self._core.reader.submit(self._deliver)
+        self.tell_watchers()
+
+    def _deliver(self) -> None:
+        """Hand over all waiting messages; on the reader thread."""
+        assert self._on_message is not None
+        deliver(self.take(limit=len(self._queue)), self._on_message, lambda: self._closed)
+
+    @property
+    def is_waiting(self) -> bool:
+        """True if messages are waiting."""
+        return bool(self._queue)
+
+    def take(self, limit: int = 32) -> list[Message]:
+        with self._lock:
+            return [self._queue.popleft() for _ in range(min(limit, len(self._queue)))]
+
+    def publisher_count(self) -> int:
+        return len(self.matched)
+
+    def _leave(self) -> None:
+        self._core.endpoints.discard(self)
+        self._core.bus.remove_subscription(self)
+        self._core.bus.changed()
+        for watcher in list(self.watchers):
+            watcher.detach(self)
 
 
 class LocalNode(CheckedNode):
@@ -96,17 +232,3 @@ def _specs(
         LocalEndpointSpec(service, topic, type_id, qos, service_hash) for topic, type_id in topics
     )
     return requests, replies
-
-
-class LocalNodeState:
-    """The bus that a node's endpoints are on and the thread that calls their callbacks.
-
-    Attributes:
-        endpoints: The node's open endpoints, guarded by the bus's lock.
-    """
-
-    def __init__(self, info: NodeInfo, bus: Bus, reader: Reader) -> None:
-        self.info = info
-        self.bus = bus
-        self.reader = reader
-        self.endpoints: set[LocalEndpoint] = set()

@@ -6,7 +6,6 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from turtlewire.errors import WireError
-from turtlewire.wire.base import NodeInfo
 from turtlewire.wire.checked_node import CheckedNode
 
 from .inlet import ZenohSinkSubscription
@@ -23,6 +22,7 @@ if TYPE_CHECKING:
         Context,
         Entity,
         MessageInfo,
+        NodeInfo,
         Publisher,
         Service,
         ServiceTypes,
