@@ -10,7 +10,7 @@ from turtlewire.errors import CdrError, UncallableServiceError, WireError
 from turtlewire.msg import deserialize, serialize
 from turtlewire.wire.services import require_callable
 
-from ._execution.blocking import BlockingCall, wait_for_response
+from ._execution.blocking import BlockingCall, limit_ns, wait_for_response
 from ._execution.futures import call_when_done, run_callbacks_on
 from ._node.checks import check_valid
 from ._rclpy_pybind11 import RCLError
@@ -314,7 +314,7 @@ class Client(BaseClient[SrvT_co]):
         says so.
 
         Args:
-            timeout_sec: None or negative waits without a limit.
+            timeout_sec: None or infinite waits without a limit, 0 or negative does not wait.
 
         Returns:
             True if a server is available, False after the timeout.
@@ -323,8 +323,7 @@ class Client(BaseClient[SrvT_co]):
             InvalidHandle: The client was destroyed, before or during the wait.
             RCLError: The context was shut down, before or during the wait.
         """
-        timeout_ns = None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1e9)
-        return self._context.wait_for_graph(self._look_for_server, timeout_ns)
+        return self._context.wait_for_graph(self._look_for_server, limit_ns(timeout_sec))
 
     def _close(self) -> None:
         super()._close()

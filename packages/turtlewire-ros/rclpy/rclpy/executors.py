@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import threading
 import time
 from functools import cache
 from types import CoroutineType
@@ -424,7 +425,9 @@ def _processors() -> int:
 
 def _nanoseconds(timeout_sec: float | None) -> int | None:
     """Convert a timeout; None for a wait without limit."""
-    return None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1_000_000_000)
+    if timeout_sec is None or timeout_sec < 0 or timeout_sec >= threading.TIMEOUT_MAX:
+        return None
+    return int(timeout_sec * 1_000_000_000)
 
 
 async def await_or_execute(

@@ -518,7 +518,7 @@ class Node(BaseNode):
         self._rclpy_core.close()
 
     def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
-        """Block until a node exists, at most ``timeout`` seconds (negative: no limit).
+        """Block until a node exists, at most ``timeout`` seconds (infinite: no limit).
 
         Return True if it exists.
         """

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
     from .entity import EntityHost
 
-__all__ = ["BlockingCall", "wait_for_response"]
+__all__ = ["BlockingCall", "limit_ns", "wait_for_response"]
 
 #: Time after which a wait that probably never ends is logged.
 _PATIENCE_S = 1.0
@@ -44,6 +45,16 @@ class BlockingCall(NamedTuple):
     host: EntityHost | None
 
 
+def limit_ns(timeout_sec: float | None) -> int | None:
+    """Convert the timeout of a call that blocks; None for no limit.
+
+    As in ROS 2, the time of a negative timeout is over.
+    """
+    if timeout_sec is None or timeout_sec >= threading.TIMEOUT_MAX:
+        return None
+    return max(0, int(timeout_sec * 1_000_000_000))
+
+
 def wait_for_response(future: Future[Any], call: BlockingCall, timeout_sec: float | None) -> None:
     """Block until ``future`` is done, or the timeout has passed.
 
@@ -54,7 +65,8 @@ def wait_for_response(future: Future[Any], call: BlockingCall, timeout_sec: floa
         RuntimeError: The service is in the executor that is blocked.
         ExternalShutdownException, ShutdownException: The context or the executor was shut down.
     """
-    deadline = None if timeout_sec is None or timeout_sec < 0 else time.monotonic() + timeout_sec
+    timeout_ns = limit_ns(timeout_sec)
+    deadline = None if timeout_ns is None else time.monotonic() + timeout_ns / 1e9
     host = call.host
     if host is not None and host.is_spun_by_this_thread():
         _serve_responses(host, future, call, deadline)

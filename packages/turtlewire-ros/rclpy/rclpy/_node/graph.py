@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
+from rclpy._execution.blocking import limit_ns
 from rclpy._node.checks import check_valid
 from rclpy._rclpy_pybind11 import NodeNameNonExistentError, RCLError
 from rclpy.expand_topic_name import expand_topic_name
@@ -205,5 +206,4 @@ class NodeGraph:
 
     def wait_for_node(self, fully_qualified_node_name: str, timeout_sec: float) -> bool:
         is_there = partial(self.has_node, fully_qualified_node_name)
-        timeout_ns = None if timeout_sec < 0 else int(timeout_sec * 1_000_000_000)
-        return self._core.context.wait_for_graph(is_there, timeout_ns)
+        return self._core.context.wait_for_graph(is_there, limit_ns(timeout_sec))

@@ -7,6 +7,7 @@ import time
 import weakref
 from typing import TYPE_CHECKING, Any, Generic
 
+from rclpy._execution.blocking import limit_ns
 from rclpy._execution.futures import call_when_done
 from rclpy._node.checks import check_valid
 from rclpy._node.endpoints import endpoints_of
@@ -234,7 +235,7 @@ class ActionClient(IntrospectedAction, Waitable, Generic[ActionT_co]):
         """Block until an action server is available (no polling).
 
         Args:
-            timeout_sec: None or negative waits without a limit.
+            timeout_sec: None or infinite waits without a limit, 0 or negative does not wait.
 
         Returns:
             True if a server is available, False after the timeout.
@@ -242,10 +243,7 @@ class ActionClient(IntrospectedAction, Waitable, Generic[ActionT_co]):
         Raises:
             RCLError: The context was shut down, before or during the wait.
         """
-        timeout_ns = (
-            None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1_000_000_000)
-        )
-        return self._node.context.wait_for_graph(self._look_for_server, timeout_ns)
+        return self._node.context.wait_for_graph(self._look_for_server, limit_ns(timeout_sec))
 
     def _look_for_server(self) -> bool:
         """Return True if a server is available; logs once why an existing one is not called."""

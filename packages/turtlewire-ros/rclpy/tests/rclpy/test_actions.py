@@ -99,6 +99,10 @@ def test_a_goal_with_feedback_and_result(serve, client, finish, spin_until):
     assert repr(handle).startswith("ClientGoalHandle <id=")
 
 
+def test_wait_for_server_without_a_server(client):
+    assert not client.wait_for_server(timeout_sec=-0.5)
+
+
 def test_wait_for_server_raises_on_an_invalid_context(client, context):
     context.shutdown()
     text = "^Failed to check if action server is available: rcl node's context is invalid$"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import math
 import os
 import threading
 import time
@@ -118,6 +119,8 @@ def test_spin_once_runs_one_callback(node, executor):
         guard.trigger()
     executor.spin_once(timeout_sec=60)
     assert calls == [0]
+    executor.spin_once(timeout_sec=math.inf)
+    assert calls == [0, 1]
 
 
 def test_spin_once_returns_when_the_time_is_over(executor):
@@ -341,11 +344,12 @@ def test_call_to_a_service_of_the_blocked_executor_raises(node, executor):
         executor.spin_once(timeout_sec=60)
 
 
-def test_call_in_a_callback_respects_its_timeout(node, executor):
+@pytest.mark.parametrize("timeout_sec", [0.05, -0.5])
+def test_call_in_a_callback_respects_its_timeout(node, executor, timeout_sec):
     client = node.create_client(AddTwoInts, "nobody")
     responses = []
     node.create_guard_condition(
-        lambda: responses.append(client.call(AddTwoInts.Request(), timeout_sec=0.05))
+        lambda: responses.append(client.call(AddTwoInts.Request(), timeout_sec))
     ).trigger()
     executor.spin_once(timeout_sec=60)
     assert responses == [None]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 
 import pytest
@@ -178,7 +179,7 @@ def test_shutdown_ends_a_wait_for_the_graph():
     ending = threading.Timer(0.05, rclpy.shutdown)
     ending.start()
     with pytest.raises(RCLError, match="rcl node's context is invalid"):
-        node.wait_for_node("/nobody", -1)
+        node.wait_for_node("/nobody", math.inf)
     ending.join()
     assert not rclpy.ok()
 

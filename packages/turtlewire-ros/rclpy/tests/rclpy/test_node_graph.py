@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 from functools import partial
 
@@ -57,10 +58,11 @@ def test_nodes(node, other):
 def test_wait_for_node_ends_when_it_comes_goes_or_the_time_is_over(context, node, middleware):
     assert not node.wait_for_node("/late", 0)
     assert not node.wait_for_node("/late", 0.05)
+    assert not node.wait_for_node("/late", -0.5)
     made = []
     coming = threading.Timer(0.05, lambda: made.append(Node("late", context=context)))
     coming.start()
-    assert node.wait_for_node("late", 60)
+    assert node.wait_for_node("late", math.inf)
     coming.join()
     made[0].destroy_node()
     assert not node.wait_for_node("/late", 0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 
 import pytest
@@ -72,9 +73,11 @@ def test_wait_for_service_ends_when_the_service_comes_or_the_time_is_over(node, 
     assert not client.service_is_ready()
     assert not client.wait_for_service(timeout_sec=0)
     assert not client.wait_for_service(timeout_sec=0.05)
+    assert not client.wait_for_service(timeout_sec=-0.5)  # what is left after a deadline
     offering = threading.Timer(0.1, node.create_service, args=(AddTwoInts, "add", add))
     offering.start()
-    assert client.wait_for_service(timeout_sec=60)
+    assert client.wait_for_service(timeout_sec=math.inf)
+    assert client.wait_for_service(timeout_sec=-0.5)
     offering.join()
     assert ask(executor, client, 1, 1) == 2
 

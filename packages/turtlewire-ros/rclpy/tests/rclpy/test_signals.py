@@ -217,7 +217,7 @@ def test_ctrl_c_in_the_middle_of_a_callback(start):
     ("waiting", "after_sigterm"),
     [
         ("client.wait_for_service()", "RCLError"),
-        ("node.wait_for_node('/nobody', -1)", "RCLError"),
+        ("node.wait_for_node('/nobody', float('inf'))", "RCLError"),
         ("client.call(Trigger.Request())", "ExternalShutdownException"),
     ],
 )
