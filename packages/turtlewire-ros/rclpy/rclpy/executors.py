@@ -20,6 +20,7 @@ from ._execution.pool import PoolScheduler
 from ._execution.scheduler import Scheduler
 from .impl.hints import described, with_hint
 from .impl.reexports import reexports
+from .signals import rearm
 from .task import Future, Task
 
 if TYPE_CHECKING:
@@ -191,6 +192,7 @@ class Executor:
             KeyboardInterrupt: Ctrl-C, in the main thread.
             Exception: A callback raised it.
         """
+        rearm()
         scheduler = self._rclpy_scheduler
         outer, scheduler.serves_endlessly = scheduler.serves_endlessly, True
         self._spins.append(None)
@@ -231,6 +233,7 @@ class Executor:
 
         It also ends when the executor or its context is shut down.
         """
+        rearm()
         # Before the first look: another thread may finish the future at any moment.
         self._wake_when_done(future)
         deadline = (

@@ -17,6 +17,7 @@ import sys
 import threading
 import time
 import weakref
+from contextlib import suppress
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -37,6 +38,7 @@ __all__ = [
     "get_current_signal_handlers_options",
     "install_signal_handlers",
     "listeners",
+    "rearm",
     "uninstall_signal_handlers",
 ]
 
@@ -96,7 +98,10 @@ class _Watcher:
             if signal.getsignal(signum) == self._handle and not self._is_needed_for(signum):
                 # None means a handler that was not installed from Python.
                 signal.signal(signum, previous if previous is not None else signal.SIG_DFL)
-        signal.set_wakeup_fd(self._previous_wakeup_fd)
+        current_fd = signal.set_wakeup_fd(-1)
+        owner_fd = self._previous_wakeup_fd if current_fd == self._write_fd else current_fd
+        with suppress(OSError, ValueError):  # the owner closed it, or it is another file now
+            signal.set_wakeup_fd(owner_fd)
         write_fd, self._write_fd = self._write_fd, -1
         os.write(write_fd, bytes([_STOP]))
         self._thread.join()
@@ -119,7 +124,22 @@ class _Watcher:
     def _forward(self, signum: int) -> None:
         """Pass a signal on to the descriptor's previous owner, for example asyncio."""
         if self._previous_wakeup_fd >= 0:
-            os.write(self._previous_wakeup_fd, bytes([signum]))
+            with suppress(OSError):  # the owner closed it
+                os.write(self._previous_wakeup_fd, bytes([signum]))
+
+    def rearm(self) -> None:
+        """Take the descriptor again if another owner has it; its bytes are passed on.
+
+        An asyncio loop with signal handlers takes it. At its end the loop sets none, and resets the
+        handlers; one that the program has set stays.
+        """
+        former_fd = signal.set_wakeup_fd(self._write_fd, warn_on_full_buffer=False)
+        if former_fd == self._write_fd:
+            return
+        self._previous_wakeup_fd = former_fd
+        for signum in self._previous:
+            if signal.getsignal(signum) in {signal.SIG_DFL, signal.default_int_handler}:
+                signal.signal(signum, self._handle)
 
     def _is_needed_for(self, signum: int) -> bool:
         """Return True if a signal after the shutdown belongs to the request that caused it.
@@ -133,7 +153,7 @@ class _Watcher:
     def _handle(self, signum: int, frame: FrameType | None) -> None:
         """Runs in the main thread, after the C handler has written to the pipe."""
         excepthooks.note_signal()  # because the thread may be slower
-        if self._write_fd >= 0:  # in case another library replaced the wake-up descriptor
+        if self._write_fd >= 0:  # the descriptor of the C handler may be another library's
             os.write(self._write_fd, bytes([signum | _FROM_HANDLER]))
         if signum == signal.SIGINT:
             is_shut_down = self._write_fd < 0
@@ -221,6 +241,15 @@ def install_signal_handlers(options: SignalHandlerOptions = SignalHandlerOptions
         excepthooks.install()
         _watcher = _Watcher(signals)
         _options = SignalHandlerOptions(options)
+
+
+def rearm() -> None:
+    """Have signals end the waits of the main thread, although asyncio has handled them since.
+
+    Nothing happens in other threads, and without installed handlers.
+    """
+    if _watcher is not None and threading.current_thread() is threading.main_thread():
+        _watcher.rearm()
 
 
 def uninstall_signal_handlers() -> None:

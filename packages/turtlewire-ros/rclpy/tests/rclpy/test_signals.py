@@ -171,6 +171,72 @@ def test_ctrl_c_ends_spin_although_a_shutdown_callback_raises(start, middleware)
     assert errors.count("ValueError: no goodbye\n") == 1
 
 
+AFTER_ASYNCIO = """
+import asyncio, signal, rclpy
+rclpy.init()
+async def handle_signals():
+    for signum in (signal.SIGINT, signal.SIGTERM):
+        asyncio.get_running_loop().add_signal_handler(signum, print, "never")
+asyncio.run(handle_signals())
+node = rclpy.create_node("tested")
+node.create_guard_condition(lambda: print("up")).trigger()
+try:
+    rclpy.spin(node)
+except (KeyboardInterrupt, rclpy.executors.ExternalShutdownException) as error:
+    print(type(error).__name__)
+"""
+
+
+@MODES
+@pytest.mark.parametrize(
+    ("signum", "ending"),
+    [(signal.SIGINT, "KeyboardInterrupt"), (signal.SIGTERM, "ExternalShutdownException")],
+)
+def test_signals_end_spin_after_asyncio_handled_them(start, middleware, signum, ending):
+    program = start(AFTER_ASYNCIO, middleware)
+    program.send_signal(signum)
+    assert program.finish() == (0, f"{ending}\n", "")
+
+
+def test_signals_within_a_loop_that_handles_them_reach_both(start):
+    program = start(
+        """
+        import asyncio, signal, rclpy
+        rclpy.init()
+        node = rclpy.create_node("tested")
+        node.create_guard_condition(lambda: print("up")).trigger()
+        async def main():
+            handled = asyncio.Event()
+            asyncio.get_running_loop().add_signal_handler(signal.SIGINT, handled.set)
+            try:
+                rclpy.spin(node)
+            except rclpy.executors.ExternalShutdownException:
+                print("shut down")
+            await handled.wait()
+            print("handled")
+        asyncio.run(main())
+        """
+    )
+    program.send_signal(signal.SIGINT)
+    assert program.finish() == (0, "shut down\nhandled\n", "")
+
+
+def test_the_descriptor_of_a_loop_that_has_ended_is_not_restored(start):
+    program = start(
+        """
+        import asyncio, signal, rclpy
+        async def main():
+            asyncio.get_running_loop().add_signal_handler(signal.SIGINT, print)
+            rclpy.init()
+        asyncio.run(main())
+        rclpy.shutdown()
+        print("up")
+        print(signal.set_wakeup_fd(-1))
+        """
+    )
+    assert program.finish() == (0, "-1\n", "")
+
+
 def test_ctrl_c_reaches_executors_of_other_threads(start):
     program = start("""
         import threading, rclpy
