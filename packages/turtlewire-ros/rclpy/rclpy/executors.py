@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import threading
 import time
+from contextlib import nullcontext
 from functools import cache
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any
@@ -15,7 +16,7 @@ from ._execution.exceptions import (
     ShutdownException,
     TimeoutException,
 )
-from ._execution.futures import call_when_done
+from ._execution.futures import calling_when_done
 from ._execution.pool import PoolScheduler
 from ._execution.scheduler import Scheduler
 from .impl.hints import described, with_hint
@@ -25,6 +26,7 @@ from .task import Future, Task
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from contextlib import AbstractContextManager
     from types import TracebackType
 
     from typing_extensions import Self
@@ -234,8 +236,6 @@ class Executor:
         It also ends when the executor or its context is shut down.
         """
         rearm()
-        # Before the first look: another thread may finish the future at any moment.
-        self._wake_when_done(future)
         deadline = (
             None if timeout_sec is None or timeout_sec < 0 else time.monotonic() + timeout_sec
         )
@@ -243,12 +243,14 @@ class Executor:
         scheduler = self._rclpy_scheduler
         self._spins.append(None)
         try:
-            while self._context.ok() and not future.done() and not scheduler.is_shutdown:
-                self._spin_once(remaining, future.done)
-                if deadline is not None:
-                    remaining = deadline - time.monotonic()
-                    if remaining <= 0:
-                        return
+            # Before the first look: another thread may finish the future at any moment.
+            with self._waking_when_done(future):
+                while self._context.ok() and not future.done() and not scheduler.is_shutdown:
+                    self._spin_once(remaining, future.done)
+                    if deadline is not None:
+                        remaining = deadline - time.monotonic()
+                        if remaining <= 0:
+                            return
         finally:
             self._spins.pop()
 
@@ -256,18 +258,16 @@ class Executor:
         self, future: Future[Any], timeout_sec: float | None = None
     ) -> None:
         """Wait for one callback and run it, unless ``future`` is done before."""
-        self._wake_when_done(future)
-        self._spin_once(timeout_sec, future.done)
+        with self._waking_when_done(future):
+            self._spin_once(timeout_sec, future.done)
 
-    def _wake_when_done(self, future: Future[Any]) -> None:
+    def _waking_when_done(self, future: Future[Any]) -> AbstractContextManager[None]:
         if isinstance(future, Future):
-            call_when_done(future, self.wake)
-        elif hasattr(future, "add_done_callback"):  # of concurrent.futures, for example
+            return calling_when_done(future, self.wake)
+        if hasattr(future, "add_done_callback"):  # of concurrent.futures, which keeps it
             future.add_done_callback(lambda _: self.wake())
-        else:
-            raise TypeError(
-                f"Expected a Future, such as call_async() returns, not {described(future)}"
-            )
+            return nullcontext()
+        raise TypeError(f"Expected a Future, such as call_async() returns, not {described(future)}")
 
     def _spin_once(
         self, timeout_sec: float | None, condition: Callable[[], bool] | None = None

@@ -94,7 +94,10 @@ class Future(Generic[T]):
                 loop.call_soon_threadsafe(finish)
 
         self._add_waiter(wake)
-        yield from finished.__await__()
+        try:
+            yield from finished.__await__()
+        finally:  # also when the awaiting task is cancelled
+            self._remove_waiter(wake)
 
     def _pending(self) -> bool:
         return not self._done and not self._cancelled
@@ -204,11 +207,19 @@ class Future(Generic[T]):
                 return
         waiter()
 
+    def _remove_waiter(self, waiter: Callable[[], object]) -> None:
+        """Undo one :meth:`_add_waiter`; nothing happens when the future is done."""
+        with self._lock, contextlib.suppress(ValueError):
+            self._waiters.remove(waiter)
+
     def _wait(self, timeout_sec: float | None) -> bool:
         """Block this thread until it is done; False when the time was over before."""
         done = WakeUp()
         self._add_waiter(done.set)
-        return done.wait(timeout_sec)
+        try:
+            return done.wait(timeout_sec)
+        finally:
+            self._remove_waiter(done.set)
 
     def _get_executor(self) -> _TaskRunner | None:
         return None if self._executor is None else self._executor()

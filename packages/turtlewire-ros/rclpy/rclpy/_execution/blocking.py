@@ -14,7 +14,7 @@ from .exceptions import (
     ShutdownException,
     TimeoutException,
 )
-from .futures import call_when_done
+from .futures import calling_when_done
 
 if TYPE_CHECKING:
     from rclpy.context import Context
@@ -81,10 +81,9 @@ def _serve_responses(
 
     For a callback of the executor's own thread.
     """
-    # Another thread may finish the future, for example by cancelling it.
-    call_when_done(future, host.wake)
     patience: float | None = time.monotonic() + _PATIENCE_S
-    with host.serving_responses(future):
+    # Another thread may finish the future, for example by cancelling it.
+    with calling_when_done(future, host.wake), host.serving_responses(future):
         while not future.done() and (deadline is None or time.monotonic() < deadline):
             if patience is not None and time.monotonic() >= patience:
                 patience = None
@@ -114,7 +113,6 @@ def _remaining_ns(*moments: float | None) -> int | None:
 
 def _wait_for_other_thread(future: Future[Any], call: BlockingCall, deadline: float | None) -> None:
     done = WakeUp()
-    call_when_done(future, done.set)
     # A shutdown of the context or of the executor sets `done` as well.
     waits = [call.context.waits] + ([] if call.host is None else [call.host.blocked])
     for wait in waits:
@@ -126,12 +124,13 @@ def _wait_for_other_thread(future: Future[Any], call: BlockingCall, deadline: fl
 
     try:
         patience: float | None = _PATIENCE_S
-        while not is_over():
-            if not _wait(done, deadline, patience) and patience is not None:
-                patience = None
-                # The wait may have ended at its deadline, or for a shutdown.
-                if not is_over():
-                    _warn_of_long_wait(call)
+        with calling_when_done(future, done.set):
+            while not is_over():
+                if not _wait(done, deadline, patience) and patience is not None:
+                    patience = None
+                    # The wait may have ended at its deadline, or for a shutdown.
+                    if not is_over():
+                        _warn_of_long_wait(call)
     finally:
         for wait in waits:
             wait.discard(done)

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from rclpy.task import Future
 
     from .entity import EntityHost
 
-__all__ = ["call_when_done", "run_callbacks_on"]
+__all__ = ["call_when_done", "calling_when_done", "run_callbacks_on"]
 
 
 def call_when_done(future: Future[Any], call: Callable[[], object]) -> None:
@@ -20,6 +21,16 @@ def call_when_done(future: Future[Any], call: Callable[[], object]) -> None:
     Unlike a done-callback, it never goes through an executor: it must be short and not raise.
     """
     future._add_waiter(call)
+
+
+@contextmanager
+def calling_when_done(future: Future[Any], call: Callable[[], object]) -> Iterator[None]:
+    """Within the block, have :func:`call_when_done` call ``call()``."""
+    future._add_waiter(call)
+    try:
+        yield
+    finally:
+        future._remove_waiter(call)
 
 
 def run_callbacks_on(host: EntityHost | None, future: Future[Any]) -> None:

@@ -356,6 +356,20 @@ def test_call_in_a_callback_respects_its_timeout(node, executor, timeout_sec):
     assert client._pending == {}
 
 
+@pytest.mark.parametrize("spin", ["spin_until_future_complete", "spin_once_until_future_complete"])
+def test_a_pending_future_keeps_no_executor_that_waited_for_it(context, spin):
+    pending = Future()
+    executor = SingleThreadedExecutor(context=context)
+    for _ in range(3):
+        getattr(executor, spin)(pending, timeout_sec=0)
+    executor.shutdown()
+    gone = weakref.ref(executor)
+    del executor
+    gc.collect()
+    assert gone() is None
+    assert not pending.done()
+
+
 def test_call_in_a_pool_thread_while_all_threads_are_busy(node, pool, spinning):
     node.create_service(AddTwoInts, "add", add_two_ints, callback_group=ReentrantCallbackGroup())
     client = node.create_client(AddTwoInts, "add")

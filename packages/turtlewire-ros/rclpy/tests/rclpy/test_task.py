@@ -247,6 +247,24 @@ async def _await(future):
     return await future
 
 
+def test_a_future_forgets_what_no_longer_awaits_it_in_asyncio():
+    future = Future()
+
+    async def forward():
+        await future
+
+    async def main():
+        awaiting = asyncio.ensure_future(forward())
+        await asyncio.sleep(0)
+        assert len(future._waiters) == 1
+        awaiting.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await awaiting
+        assert future._waiters == []
+
+    asyncio.run(main())
+
+
 def test_a_future_whose_construction_was_interrupted_is_forgotten_silently(capsys):
     Future.__new__(Future).__del__()
     assert capsys.readouterr() == ("", "")
