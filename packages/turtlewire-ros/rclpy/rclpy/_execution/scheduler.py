@@ -350,16 +350,18 @@ class Scheduler:
 
     def _advance(self, task: Task[Any]) -> None:
         """Run one step of a task; schedule the next step for when the awaited future is done."""
-        task()
-        if not task.done():
+        is_over = True
+        try:
+            task()
+            is_over = task.done()
+        finally:  # KeyboardInterrupt, for example, is no outcome of a task
+            # Before an error ends the spin: the group must be free again.
+            holder = self._holders.pop(task, None) if is_over else None
+            if holder is not None:
+                self._release_group(holder)
+        if not is_over:
             task._when_runnable(lambda: self._schedule(task))
-            return
-        # Before the error is raised, which may end the spin: the group must be free again.
-        holder = self._holders.pop(task, None)
-        if holder is not None:
-            self._release_group(holder)
-        error = task.exception()
-        if error is not None:
+        elif (error := task.exception()) is not None:
             raise error
 
     # Blocking for a response

@@ -231,6 +231,27 @@ def test_an_exception_of_an_async_callback_leaves_spin(node, executor):
         executor.spin_once(timeout_sec=60)
 
 
+@pytest.mark.parametrize("waits", [False, True])
+def test_an_interrupted_async_callback_releases_its_group(node, executor, waits):
+    gate = Future()
+
+    async def interrupt():
+        if waits:
+            await gate
+        raise KeyboardInterrupt
+
+    node.create_guard_condition(interrupt).trigger()
+    if waits:
+        executor.spin_once(timeout_sec=60)
+        gate.set_result(None)
+    with pytest.raises(KeyboardInterrupt):
+        executor.spin_once(timeout_sec=60)
+    called = Future()
+    node.create_guard_condition(lambda: called.set_result(None)).trigger()
+    executor.spin_until_future_complete(called, timeout_sec=60)
+    assert called.done()
+
+
 def test_an_exception_in_a_pool_thread_leaves_spin_in_the_spinning_one(node, pool):
     node.create_guard_condition(lambda: 1 / 0).trigger()
     with pytest.raises(ZeroDivisionError):
