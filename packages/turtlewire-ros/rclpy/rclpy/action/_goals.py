@@ -6,6 +6,7 @@ import threading
 from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any
 
+from rclpy._rclpy_pybind11 import RCLError
 from rclpy.task import Future
 
 from ._goal_ids import goal_key
@@ -72,9 +73,15 @@ class Goals:
         return len(self._goals)
 
     def add(self, goal: Goal, handle: Any) -> None:
-        """Keep a goal, and what the callbacks of the server are given for it."""
+        """Keep a goal, and what the callbacks of the server are given for it.
+
+        Raises:
+            RCLError: There is a goal with its id.
+        """
         stamp = goal.info.stamp
         with self._lock:
+            if goal.key in self._goals:
+                raise RCLError("Failed to accept new goal: goal ID already exists")
             self._goals[goal.key] = goal
             self._handles[goal.key] = handle
             self._statuses.add(goal.key, stamp.sec, stamp.nanosec, goal.status)

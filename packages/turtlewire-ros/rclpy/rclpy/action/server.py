@@ -167,6 +167,7 @@ class ActionServer(IntrospectedAction, Waitable):
             handle_accepted_callback = _leave_waiting
         self.register_handle_accepted_callback(handle_accepted_callback)
         self.register_cancel_callback(cancel_callback)
+        self._execute_callback: Callable[[ServerGoalHandle], Any] | None = None
         if execute_callback is not None:
             self.register_execute_callback(execute_callback)
         self._make_endpoints(
@@ -264,19 +265,28 @@ class ActionServer(IntrospectedAction, Waitable):
         # A goal with an id that is in use is rejected without asking the program.
         is_new = self._goals.find(goal_key(request.goal_id)) is None
         accepted = is_new and await self._is_accepted(request.goal)
-        response = self._action_type.Impl.SendGoalService.Response(accepted=accepted)
-        if not accepted:
+        # Before the response: the client may ask for the result at once.
+        goal_handle = self._add_goal(request) if accepted else None
+        response = self._action_type.Impl.SendGoalService.Response(accepted=goal_handle is not None)
+        if goal_handle is None:
             self._goal_service._send_unless_destroyed(response, header)
             return
-        response.stamp = self._node.get_clock().now().to_msg()
-        info = get_message("action_msgs/msg/GoalInfo")(
-            goal_id=request.goal_id, stamp=response.stamp
-        )
-        # Before the response: the client may ask for the result at once.
-        goal_handle = ServerGoalHandle(self, info, request.goal)
+        response.stamp = goal_handle._goal.info.stamp
         self._goal_service._send_unless_destroyed(response, header)
         self._goals.publish_statuses()
         await await_or_execute(self._handle_accepted_callback, goal_handle)
+
+    def _add_goal(self, request: Any) -> ServerGoalHandle | None:
+        """Add a goal; None if another with its id was added while the goal callback decided."""
+        info = get_message("action_msgs/msg/GoalInfo")(
+            goal_id=request.goal_id, stamp=self._node.get_clock().now().to_msg()
+        )
+        try:
+            return ServerGoalHandle(self, info, request.goal)
+        except RCLError as error:
+            uuid = request.goal_id.uuid
+            self._logger.error(f"Failed to accept new goal with ID {uuid}: {error}")
+            return None
 
     async def _is_accepted(self, goal: Any) -> bool:
         decision = await await_or_execute(self._goal_callback, goal)
@@ -294,9 +304,17 @@ class ActionServer(IntrospectedAction, Waitable):
         """Execute a goal on the executor; None uses the execute callback of the server.
 
         Between two spins of the node, the goal waits for the next one.
+
+        Raises:
+            AttributeError: The server has no execute callback.
         """
         goal = self._goals.find(goal_key(goal_handle.goal_id))
         callback = execute_callback or self._execute_callback
+        if callback is None:
+            error = AttributeError("'ActionServer' object has no attribute '_execute_callback'")
+            raise with_hint(
+                error, "Pass execute_callback to ActionServer, or a callback to execute()"
+            )
         execution = partial(self._execute_goal, callback, goal_handle, goal)
         # Otherwise `_attach` could empty the list just before the execution is added to it.
         with self._lock:

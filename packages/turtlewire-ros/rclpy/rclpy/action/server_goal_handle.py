@@ -30,6 +30,9 @@ class ServerGoalHandle:
         action_server: The server of the goal.
         goal_info: Its id and the time of its acceptance (``action_msgs/msg/GoalInfo``).
         goal_request: The goal, as the client sent it.
+
+    Raises:
+        RCLError: The server has a goal with this id.
     """
 
     def __init__(self, action_server: ActionServer, goal_info: Any, goal_request: Any) -> None:

@@ -23,6 +23,7 @@ from rclpy.action import (
 )
 from rclpy.action.client import ClientGoalHandle
 from rclpy.action.server import ServerGoalHandle
+from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import qos_profile_action_status_default
@@ -147,6 +148,25 @@ def test_a_rejected_goal(serve, client, finish):
     assert not send(client, finish, order=6, feedback_callback=print).accepted
     assert send(client, finish, order=5).accepted
     assert client._feedback_callbacks == {}
+
+
+def test_of_two_goals_with_one_id_only_one_is_accepted(serve, client, finish, spin_until, capfd):
+    gate, asked = Future(), []
+
+    async def decide(goal):
+        asked.append(goal)
+        await gate
+        return GoalResponse.ACCEPT
+
+    server = serve(count, goal_callback=decide, callback_group=ReentrantCallbackGroup())
+    goal_id = UUID(uuid=[5] * 16)
+    assert client.wait_for_server(timeout_sec=60)
+    sent = [client.send_goal_async(Fibonacci.Goal(), goal_uuid=goal_id) for _ in range(2)]
+    spin_until(lambda: len(asked) == 2)
+    gate.set_result(None)
+    assert sorted(finish(future).accepted for future in sent) == [False, True]
+    assert len(server._goals) == 1
+    assert "]: Failed to accept new goal: goal ID already exists" in capfd.readouterr().err
 
 
 def test_a_goal_callback_that_decides_nothing_rejects(serve, client, finish, capfd):
@@ -387,6 +407,15 @@ def test_a_server_that_would_do_nothing_says_so(node, capfd):
         "Not handling nor executing the goal, this server will do nothing" in capfd.readouterr().err
     )
     server.destroy()
+
+
+def test_execute_needs_an_execute_callback(serve, client, finish):
+    serve(None, handle_accepted_callback=lambda goal_handle: goal_handle.execute())
+    sent = client.send_goal_async(Fibonacci.Goal())
+    text = r"^'ActionServer' object has no attribute '_execute_callback'"
+    with pytest.raises(AttributeError, match=text) as raised:
+        finish(sent)
+    assert raised.value.hint.startswith("Pass execute_callback to ActionServer")
 
 
 def test_wrong_types(serve, client, node):
