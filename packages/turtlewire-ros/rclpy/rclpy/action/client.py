@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 import weakref
@@ -164,7 +165,8 @@ class ActionClient(IntrospectedAction, Waitable, Generic[ActionT_co]):
             weakref.WeakValueDictionary()
         )
         self._feedback_callbacks: dict[bytes, Callable[[Any], Any]] = {}
-        self._finished_ns: dict[bytes, int] = {}
+        #: Feedback that was sent later is ignored.
+        self._finished_ns: dict[bytes, float] = {}
         self._make_endpoints(
             goal_service_qos_profile,
             result_service_qos_profile,
@@ -368,11 +370,16 @@ class ActionClient(IntrospectedAction, Waitable, Generic[ActionT_co]):
         # Not `exception()`, which would mark an error as retrieved by the program.
         if response.done() and not response.cancelled() and response._exception is None:
             goal_handle._status = response.result().status
-            self._finished_ns[goal_key(goal_handle.goal_id)] = time.time_ns()
-            if len(self._finished_ns) > _FINISHED_GOALS:
-                oldest = next(iter(self._finished_ns))
-                del self._finished_ns[oldest]
-                self._feedback_callbacks.pop(oldest, None)
+            with self._lock:
+                self._finished_ns[goal_key(goal_handle.goal_id)] = time.time_ns()
+                self._forget_old_goals()
+
+    def _forget_old_goals(self) -> None:
+        """Forget the callbacks of all but the last finished goals. The caller holds the lock."""
+        while len(self._finished_ns) > _FINISHED_GOALS:
+            oldest = next(iter(self._finished_ns))
+            del self._finished_ns[oldest]
+            self._feedback_callbacks.pop(oldest, None)
 
     def _on_feedback(self, message: Any, info: MessageInfo) -> Any:
         key = goal_key(message.goal_id)
@@ -385,7 +392,8 @@ class ActionClient(IntrospectedAction, Waitable, Generic[ActionT_co]):
 
     def _on_status(self, cdr: bytes) -> None:
         with self._lock:
-            goals = list(self._goal_handles)
+            unfinished = self._feedback_callbacks.keys() - self._finished_ns.keys()
+            goals = unfinished | set(self._goal_handles)
         try:
             states = read_statuses(cdr, goals)
         except CdrError as error:
@@ -401,3 +409,7 @@ class ActionClient(IntrospectedAction, Waitable, Generic[ActionT_co]):
             if status not in ACTIVE_STATES:
                 with self._lock:
                     self._goal_handles.pop(key, None)
+                    # The program may never ask for the result.
+                    if key in self._feedback_callbacks:
+                        self._finished_ns.setdefault(key, math.inf)
+                    self._forget_old_goals()

@@ -553,6 +553,17 @@ def test_no_feedback_that_was_sent_after_the_result(serve, client, finish, spin_
     assert [list(each.feedback.sequence) for each in feedback] == [[0], [0, 1]]
 
 
+def test_the_callback_of_a_goal_whose_result_is_not_wanted_is_forgotten(
+    serve, client, finish, spin_until, monkeypatch
+):
+    monkeypatch.setattr("rclpy.action.client._FINISHED_GOALS", 0)
+    serve(count)
+    feedback = []
+    send(client, finish, order=3, feedback_callback=feedback.append)
+    spin_until(lambda: client._feedback_callbacks == {})
+    assert client._finished_ns == {}
+
+
 def test_callbacks_of_the_last_finished_goals_are_kept_for_late_feedback(
     serve, client, finish, monkeypatch
 ):
