@@ -5,6 +5,7 @@ The reasons for a rejection are ROS 2's texts.
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from rclpy.parameter import Parameter
@@ -72,15 +73,19 @@ def _double_refusal(parameter: Parameter, limits: rcl_interfaces.msg.FloatingPoi
         return ""
     if not low < value < high:
         return _out_of_range(parameter, low, high)
-    # Not `%`: in floating point, 0.3 % 0.1 is nearly 0.1.
-    if limits.step and not _is_close(low + round((value - low) / limits.step) * limits.step, value):
+    if limits.step and not _is_on_step(value, low, limits.step):
         return _off_step(parameter, low, high, limits.step)
     return ""
 
 
-def _is_close(one: float, other: float) -> bool:
-    import math
+def _is_on_step(value: float, low: float, step: float) -> bool:
+    # Not `%`: in floating point, 0.3 % 0.1 is nearly 0.1.
+    steps = (value - low) / step
+    # A step of 1e-300 is below the precision of the value: all are on one.
+    return not math.isfinite(steps) or _is_close(low + round(steps) * step, value)
 
+
+def _is_close(one: float, other: float) -> bool:
     return math.isclose(one, other, rel_tol=PARAMETER_REL_TOL)
 
 

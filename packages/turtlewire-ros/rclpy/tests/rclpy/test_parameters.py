@@ -391,6 +391,14 @@ def test_ranges_of_doubles(parameters, value, text):
     assert reason(parameters, "a", value) == text
 
 
+@pytest.mark.parametrize("step", [5e-324, 1e-300])
+def test_a_step_below_the_precision_of_a_double(parameters, step):
+    limits = FloatingPointRange(from_value=0.0, to_value=1e300, step=step)
+    parameters.declare_parameter("a", 0.0, ParameterDescriptor(floating_point_range=[limits]))
+    assert reason(parameters, "a", 0.3) == ""
+    assert reason(parameters, "a", 1e299) == ""
+
+
 def test_events(recorder):
     parameters = recorder.parameters
     parameters.declare_parameter("a", 1)
