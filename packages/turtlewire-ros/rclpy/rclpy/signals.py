@@ -21,6 +21,7 @@ from contextlib import suppress
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any, Protocol
 
+from turtlewire.guarded import call_guarded
 from turtlewire.platforms import in_browser
 
 from ._execution.asyncio_loop import interrupted_loop
@@ -119,7 +120,7 @@ class _Watcher:
                 if byte & ~_FROM_HANDLER in self._previous:
                     excepthooks.note_signal()
                     for listener in list(listeners):
-                        _tell(listener, byte & ~_FROM_HANDLER)
+                        call_guarded(listener.on_signal, byte & ~_FROM_HANDLER)
 
     def _forward(self, signum: int) -> None:
         """Pass a signal on to the descriptor's previous owner, for example asyncio."""
@@ -187,15 +188,6 @@ class _Watcher:
         self._write_fd = -1
         for signum, previous in self._previous.items():
             signal.signal(signum, previous if previous is not None else signal.SIG_DFL)
-
-
-def _tell(listener: SignalListener, signum: int) -> None:
-    """Pass a signal on; an exception is reported, because it must not end the thread."""
-    try:
-        listener.on_signal(signum)
-    except BaseException:  # noqa: BLE001 - without the thread, Ctrl-C would do nothing
-        exception = (*sys.exc_info(), threading.current_thread())
-        threading.excepthook(threading.ExceptHookArgs(exception))
 
 
 def _is_fresh(moment: float) -> bool:

@@ -10,6 +10,7 @@ from collections import Counter
 from typing import TYPE_CHECKING, Protocol, cast
 
 from turtlewire import msg, wire
+from turtlewire.errors import WireError
 from turtlewire.tf.buffer import Buffer
 from turtlewire.tf.listener import NOTHING_RECEIVED, TransformListener
 from turtlewire.tf.restarts import RestartWatch
@@ -98,8 +99,10 @@ class LiveSource:
 
     @property
     def problem(self) -> str:
-        """Says that there are more frames than are shown; empty if all are."""
-        return frames_left_out(self.buffer)
+        """Says that more frames or topics are there than are shown; empty if all are shown."""
+        with self._lock:
+            faults = [each.problem for each in self._subscriptions]
+        return " ".join(filter(None, (frames_left_out(self.buffer), *faults)))
 
     def now_ns(self) -> int:
         """System time; of a simulation, the newest stamp."""
@@ -293,7 +296,11 @@ class LiveTimeline:
 
 
 class _FittedSubscription:
-    """A subscription whose QoS follows the publishers."""
+    """A subscription whose QoS follows the publishers.
+
+    Attributes:
+        problem: Why it does not; empty if it does.
+    """
 
     def __init__(
         self,
@@ -308,8 +315,9 @@ class _FittedSubscription:
         self._on_message = on_message
         self._lock = threading.Lock()
         self._closed = False
+        self.problem = ""
         self._qos = self._fitting()
-        self._subscription = self._subscribe()
+        self._subscription = self._subscribe(self._qos)
 
     def fit(self) -> None:
         """Subscribe again if the publishers offer something else now."""
@@ -317,18 +325,22 @@ class _FittedSubscription:
             qos = self._fitting()
             if self._closed or qos == self._qos:
                 return
-            self._qos = qos
+            try:
+                fitted = self._subscribe(qos)
+            except WireError as error:  # the next change of the graph is another attempt
+                self.problem = f"{self._topic} may not be shown: {error.in_one_line()}"
+                return
             self._subscription.close()
-            self._subscription = self._subscribe()
+            self._subscription, self._qos, self.problem = fitted, qos, ""
 
     def close(self) -> None:
         with self._lock:
             self._closed = True
             self._subscription.close()
 
-    def _subscribe(self) -> base.Subscription:
+    def _subscribe(self, qos: QoS) -> base.Subscription:
         return self._node.create_subscription(
-            self._topic, self._type, self._qos, lambda cdr, _: self._on_message(cdr)
+            self._topic, self._type, qos, lambda cdr, _: self._on_message(cdr)
         )
 
     def _fitting(self) -> QoS:

@@ -7,7 +7,7 @@ from collections import deque
 from typing import TYPE_CHECKING
 
 from turtlewire import msg
-from turtlewire.errors import UncallableServiceError, WireError
+from turtlewire.errors import WireError
 from turtlewire.wire.base import Client, ServiceTypes, TypeId
 from turtlewire.wire.names import request_topic
 from turtlewire.wire.qos import QoS
@@ -111,7 +111,7 @@ class ServiceWatch:
     def _ask(self) -> None:
         try:
             self._asked = self._client.send_request(self._request)
-        except UncallableServiceError as error:  # this server has just appeared
+        except WireError as error:  # a server that would misread it has just appeared, for example
             self._answers.append(ServiceAnswer(problem=error.in_one_line()))
 
     def _take(self) -> None:

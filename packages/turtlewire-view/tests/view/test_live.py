@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import contextlib
+import queue
 
 import pytest
 
-from turtlewire import Buffer
+from turtlewire import Buffer, msg
+from turtlewire.errors import WireError
+from turtlewire.wire.base import TypeId
+from turtlewire.wire.qos import Durability, QoS
 from turtlewire_view import LiveSource
 from turtlewire_view.live import LiveTimeline
 
+LATCHED = Durability.TRANSIENT_LOCAL
 SECOND = 10**9
 #: Stamps from here on are system time, earlier ones are of a simulation.
 WALL_NS = 10**18
@@ -47,6 +52,27 @@ def test_the_publisher_used_longest_ago_ends_for_the_seventeenth(source):
     assert published() == {*topics}
     source.publish("/another", "std_msgs/msg/Empty", b"\0\1\0\0\0")
     assert published() == {*topics, "/another"} - {"/topic1"}
+
+
+def test_a_subscription_that_cannot_be_replaced_is_named_and_tried_again(source, monkeypatch):
+    def fail(*_):
+        raise WireError("out of resources")
+
+    heard, changed = queue.SimpleQueue(), queue.SimpleQueue()
+    source.subscribe("/chatter", "std_msgs/msg/Empty", heard.put)
+    source.on_change(lambda: changed.put(source.problem))
+    empty = TypeId("std_msgs/msg/Empty", msg.type_hash("std_msgs/msg/Empty"))
+    with monkeypatch.context() as full:
+        full.setattr(source._node, "create_subscription", fail)
+        publisher = source._node.create_publisher("/chatter", empty, QoS(durability=LATCHED))
+        while changed.get(timeout=60) != "/chatter may not be shown: out of resources":
+            pass
+    publisher.publish(b"\0\1\0\0\0")
+    assert heard.get(timeout=60) == b"\0\1\0\0\0"  # by the former subscription
+    source._node.create_publisher("/other", empty, QoS())
+    while changed.get(timeout=60):
+        pass
+    assert heard.get(timeout=60) == b"\0\1\0\0\0"  # again, because it was latched
 
 
 def test_a_page_goes_back_as_far_as_the_history():

@@ -11,7 +11,9 @@ import pytest
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
+from std_srvs.srv import Empty
 from turtlewire import msg
+from turtlewire.errors import WireError
 from turtlewire.wire.qos import QoS
 from turtlewire_view import LiveSource
 from turtlewire_view.source import ParameterAnswer
@@ -98,6 +100,21 @@ def test_why_there_is_no_text(source, describer, name, why):
     with contextlib.closing(contextlib.ExitStack()) as stack:
         stack.callback(end)
         assert wait_for(answers, lambda answer: answer.problem == why)
+
+
+def test_a_request_that_cannot_be_sent_is_a_problem(source, describer, monkeypatch):
+    def fail(_):
+        raise WireError("out of resources")
+
+    answers = queue.SimpleQueue()
+    calls = source.ask_service("/reset", "std_srvs/srv/Empty", answers.put)
+    monkeypatch.setattr(calls._client, "send_request", fail)
+    describer().create_service(Empty, "/reset", lambda _, response: response)
+    wait_for(answers, lambda answer: answer.problem == "out of resources")
+    monkeypatch.undo()
+    calls.again()
+    wait_for(answers, lambda answer: answer.cdr)
+    calls.close()
 
 
 def test_no_lock_is_held_while_an_answer_is_given(source, describer):
