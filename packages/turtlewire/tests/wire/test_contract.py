@@ -393,6 +393,7 @@ def test_a_call_that_raises_does_not_end_the_reader_thread(
     assert called.wait(60)
     publisher.publish(cdr("x"))
     assert received.wait(60)
+    node.context.close()
     assert [str(error) for error in reported] == ["no thanks"]
 
 
@@ -407,19 +408,21 @@ def test_wake_ends_the_current_and_the_next_wait(node: Node):
     assert time.monotonic() - started < 15
 
 
-@pytest.mark.parametrize("timeout_ns", [INFINITE_NS, 10**19, 10**400])
+@pytest.mark.parametrize(
+    "timeout_ns", [INFINITE_NS, 10**19, 10**400], ids=["infinite", "longer", "no float"]
+)
 def test_long_timeouts_are_without_limit(node: Node, timeout_ns: int):
-    context, wait_set, ended = node.context, node.context.create_wait_set(), threading.Event()
+    graph, wait_set, ended = node.context.graph, node.context.create_wait_set(), threading.Event()
 
     def wait() -> None:
         assert wait_set.wait(timeout_ns) == []
-        assert not context.graph.wait_for(lambda: False, timeout_ns)
+        assert not graph.wait_for(lambda: False, timeout_ns)
         ended.set()
 
     waiting = threading.Thread(target=wait, daemon=True)
     waiting.start()
     wait_set.wake()
-    context.close()
+    node.context.close()
     assert ended.wait(60)
 
 
