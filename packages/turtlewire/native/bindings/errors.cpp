@@ -151,7 +151,8 @@ bool describe(PyObject* error, const Failure& f, Question question, PyObject* bu
              set_if(f.requested != kLatest, error, requested_ns, f.requested) &&
              set_if(!f.emptied, error, oldest_ns, f.oldest) &&
              set_if(!f.emptied, error, newest_ns, f.newest) &&
-             set_new(error, reason, PyUnicode_InternFromString(reason_of(f.status)));
+             set_new(error, reason, PyUnicode_InternFromString(reason_of(f.status))) &&
+             set(error, buffer_asked, buffer);
     default:
       return true;
   }

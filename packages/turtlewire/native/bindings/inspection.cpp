@@ -203,6 +203,12 @@ nb::dict describe_refusals(BufferObject& self) {
   return all;
 }
 
+// How many pairs of a frame and a reason were refused, without the lack of room.
+std::size_t refusal_kinds(BufferObject& self) {
+  const SharedBuffer::Access access(self.shared);
+  return access->refusals().kinds();
+}
+
 // How many messages could not be decoded, what was wrong with the last one, and who sent it.
 nb::tuple describe_malformed(BufferObject& self) {
   MalformedMessages malformed;
@@ -266,6 +272,7 @@ std::array<PyMethodDef, 4> inspection_methods() {
 void add_inspection_methods(nb::class_<BufferObject>& cls) {
   cls.def("_describe_links", &describe_links, "most"_a)
       .def("_describe_refusals", &describe_refusals)
+      .def("_refusal_kinds", &refusal_kinds)
       .def("_describe_malformed", &describe_malformed)
       .def("_rename_sender", &rename_sender, "name"_a, "shown"_a,
            "Shows another name for a sender, in what it has sent already as well.")

@@ -13,7 +13,8 @@ void Refusals::add(const Refusal& refusal) {
   std::string child = shown(refusal.child);
   if (records_.size() >= kMostFrames && !records_.contains(child)) child = "(others)";
   RefusalRecord& record = records_[child];
-  ++record.counts[static_cast<std::size_t>(refusal.verdict)];
+  const bool is_new = ++record.counts[static_cast<std::size_t>(refusal.verdict)] == 1;
+  if (is_new && refusal.verdict != Verdict::too_many_frames) ++kinds_;
   record.last = refusal.verdict;
   record.parent = shown(refusal.parent);
   record.authority = refusal.authority;

@@ -35,10 +35,13 @@ class Refusals {
   void add(const Refusal& refusal);
   void add_malformed(std::string_view fault, SourceId source);
   const std::map<std::string, RefusalRecord, std::less<>>& by_child() const { return records_; }
+  // How many pairs of a frame and a reason there are, without the lack of room.
+  std::size_t kinds() const { return kinds_; }
   const MalformedMessages& malformed() const { return malformed_; }
 
  private:
   std::map<std::string, RefusalRecord, std::less<>> records_;
+  std::size_t kinds_ = 0;
   MalformedMessages malformed_;
 };
 

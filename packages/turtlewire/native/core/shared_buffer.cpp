@@ -8,12 +8,15 @@ Added SharedBuffer::add(std::span<const ReceivedTransform> transforms, std::stri
                         bool is_static) {
   const std::scoped_lock lock(mutex_);
   const SourceId sender = tree_.sender(authority);
-  Added added{0, listeners_ > 0, false};
+  const std::size_t refused_before = tree_.refusals().kinds();
+  Added added;
+  added.listened_to = listeners_ > 0;
   for (const ReceivedTransform& r : transforms) {
     const Verdict verdict = tree_.set(r.parent, r.child, r.stamp, r.pose(), sender, is_static);
     added.accepted += verdict == Verdict::accepted;
     added.lacks_room = added.lacks_room || verdict == Verdict::too_many_frames;
   }
+  added.new_refusal = tree_.refusals().kinds() != refused_before;
   if (added.accepted > 0) wake_waiters();
   return added;
 }

@@ -52,6 +52,7 @@ struct Added {
   long accepted = 0;         // transforms that were stored
   bool listened_to = false;  // a listener must be called
   bool lacks_room = false;   // a frame was refused because of max_frames
+  bool new_refusal = false;  // a frame was refused for another reason, for the first time
 };
 
 // Each method takes the lock for itself; Access is for several steps at once.

@@ -39,6 +39,7 @@ bool Intake::store(std::uint64_t publisher, std::span<const unsigned char> bytes
     const Added added = buffer->add(message_.transforms(), *name, is_static_);
     news_ = news_ || (added.accepted > 0 && added.listened_to);
     if (added.lacks_room) expected_came_ = may_tell_of_room() || expected_came_;
+    expected_came_ = added.new_refusal || expected_came_;
   }
   ++stored_;
   expected_came_ = std::exchange(expecting_, false) || expected_came_;

@@ -65,8 +65,8 @@ class Intake final : public ForkAware {
   void expect();
   // The next message that is stored wakes another thread, once, and not the reader thread.
   void expect(Waker waker);
-  // Whether an expected message came since the last time, or one with a frame for which a buffer
-  // had no room; of the latter it is told once in kRoomPeriod.
+  // Whether an expected message came since the last time, or one of which a buffer refused a frame:
+  // each frame is told of once for each reason, and a lack of room once in kRoomPeriod.
   bool take_expected();
 
  private:

@@ -6,7 +6,9 @@ Data arrive without anybody spinning, and no message object is ever made.
 from __future__ import annotations
 
 import gc
+import math
 import os
+import queue
 import threading
 import weakref
 
@@ -14,10 +16,11 @@ import pytest
 
 from turtlewire import Buffer, errors, msg, wire
 from turtlewire.errors import InvalidTransformError
-from turtlewire.tf import faults, full_buffers
+from turtlewire.tf import faults, refusal_warnings
 from turtlewire.tf.links import links
 from turtlewire.tf.listener import QOS, STATIC_QOS, TYPE_NAME, TransformListener
 from turtlewire.tf.restarts import RestartWatch
+from turtlewire.wire import report
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import QoS
 
@@ -233,6 +236,46 @@ def test_malformed_bytes_are_reported_once_and_the_rest_goes_on(domain, capfd):
     assert faults.malformed(buffer).last.startswith("4294967295 transforms are announced")
 
 
+def test_each_refused_frame_is_logged_once_for_each_reason(domain, monkeypatch):
+    kind = type(domain.sender).__name__
+    arm, hand = f"arm_{kind}", f"hand_{kind}"
+    logged = queue.Queue()
+    monkeypatch.setattr(report, "warn", logged.put)
+    buffer = Buffer()
+    with TransformListener(buffer, domain.node, context=domain.receiver):
+        domain.wait_for_subscriptions(domain.tf)
+        domain.tf.publish(tf_bytes("world", "robot", stamp_s=1))  # introduces the publisher
+        buffer.lookup_transform("world", "robot", None, timeout_ns=LONG_NS)
+        for stamp_s in range(3):
+            domain.tf.publish(tf_bytes("world", arm, x=math.nan, stamp_s=stamp_s))
+        domain.tf.publish(tf_bytes(hand, hand))
+        first, second = (logged.get(timeout=60) for _ in range(2))
+        domain.tf.publish(tf_bytes(arm, arm))
+        third = logged.get(timeout=60)
+    assert first == (
+        f'TF_NAN_INPUT: Ignoring transform for child_frame_id "{arm}" from authority "/talker" '
+        "because of a nan value in the transform (nan 0.000000 0.000000) "
+        "(0.000000 0.000000 0.000000 1.000000)"
+    )
+    for text, frame in ((second, hand), (third, arm)):
+        assert text == (
+            'TF_SELF_TRANSFORM: Ignoring transform from authority "/talker" with frame_id and  '
+            f'child_frame_id "{frame}" because they are the same'
+        )
+    assert logged.empty()
+
+
+def test_a_refused_latched_transform_is_logged(domain, monkeypatch):
+    frame = f"fixed_{type(domain.sender).__name__}"
+    logged = queue.Queue()
+    monkeypatch.setattr(report, "warn", logged.put)
+    domain.tf_static.publish(tf_bytes("", frame))
+    with TransformListener(Buffer(), domain.node, context=domain.receiver):
+        assert logged.get(timeout=60).startswith(
+            f'TF_NO_FRAME_ID: Ignoring transform with child_frame_id "{frame}"'
+        )
+
+
 class Warnings:
     """Waits for warnings that name a topic."""
 
@@ -240,7 +283,7 @@ class Warnings:
         self._topic = topic
         self._news = threading.Condition()
         self.count = 0
-        monkeypatch.setattr(full_buffers, "warn", self._warn)
+        monkeypatch.setattr(refusal_warnings, "warn", self._warn)
 
     def _warn(self, text):
         assert text.startswith(f"a buffer that {self._topic} fills has max_frames=2 frames")
@@ -294,7 +337,7 @@ def test_a_full_buffer_is_warned_of_once_in_a_while(filled):
 
 @pytest.mark.parametrize("filled", ["tf", "static"], indirect=True)
 def test_a_full_buffer_is_warned_of_again_if_it_refuses_more(filled, monkeypatch):
-    monkeypatch.setattr(full_buffers, "_PERIOD_S", 0.0)
+    monkeypatch.setattr(refusal_warnings, "_PERIOD_S", 0.0)
     buffer, publishers, warnings = filled
     for number in range(4):  # each publisher, a second time as well
         publisher = publishers[number % 2]

@@ -32,7 +32,7 @@ module                     contents
 `number_errors`            errors for values that are not vectors or quaternions
 `text_tree`                the tree as text
 `listener`                 `TransformListener`: puts the bytes of TF messages into buffers
-`full_buffers`             warnings about full buffers
+`refusal_warnings`         warnings about refused transforms and full buffers
 `tf_topics`                the topics of transforms, and their type
 `publisher_names`          the node that published a message
 `links`                    the links of a buffer with rates and ages

@@ -21,8 +21,8 @@ from turtlewire.errors import CdrError, WireError
 from turtlewire.guarded import call_guarded
 from turtlewire.tf.buffer import CORE, Buffer
 from turtlewire.tf.departures import DepartureWatch, departed_frames
-from turtlewire.tf.full_buffers import FullBuffers
 from turtlewire.tf.publisher_names import PublisherNames
+from turtlewire.tf.refusal_warnings import RefusalWarnings
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import Durability, History, QoS
 from turtlewire.wire.report import warn_once
@@ -144,9 +144,9 @@ class _Feed:
         *,
         static: bool,
         arrivals: _Arrivals,
-        full_buffers: FullBuffers,
+        refusal_warnings: RefusalWarnings,
     ) -> None:
-        self._full_buffers = full_buffers
+        self._refusal_warnings = refusal_warnings
         self._topic = topic
         self._static = static
         self._arrivals = arrivals
@@ -178,9 +178,9 @@ class _Feed:
         return Intake(self._static, _most_kept(qos), self._identify, self._tell)
 
     def _tell(self) -> None:
-        """Log an expected message, or one that did not fit into a buffer."""
+        """Tell of an expected message, or warn of one that a buffer refused."""
         for member in self._members:
-            self._full_buffers.look(member.store)
+            self._refusal_warnings.look(member.store)
         self._arrivals.tell()
 
     def _identify(self, publisher: int, gid_of: Callable[[int], bytes]) -> tuple[bytes, str]:
@@ -191,7 +191,7 @@ class _Feed:
     def _store(self, store: Store, cdr: bytes, publisher: str) -> None:
         try:
             store.add_tf_message(cdr, static=self._static, sender=publisher)
-            self._full_buffers.look(store)
+            self._refusal_warnings.look(store)
         except CdrError as error:  # the store has counted it
             warn_once(
                 f"malformed {self._topic}",
@@ -227,7 +227,7 @@ class _Channel:
         self._latched = qos.durability == Durability.TRANSIENT_LOCAL
         self._lock = threading.Lock()
         self._arrivals = _Arrivals()
-        self._full_buffers = FullBuffers(topic)
+        self._refusal_warnings = RefusalWarnings(topic)
         self._feed: _Feed | None = None
         self._subscription: base.Subscription | None = None
 
@@ -285,7 +285,7 @@ class _Channel:
             self._qos,
             static=self._static,
             arrivals=self._arrivals,
-            full_buffers=self._full_buffers,
+            refusal_warnings=self._refusal_warnings,
         )
         type_id = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
         self._subscription = members[0].node.create_subscription(

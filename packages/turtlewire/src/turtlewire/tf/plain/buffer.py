@@ -89,6 +89,7 @@ class Buffer(SharedTree):
     set_transforms = inspection.set_transforms
     _describe_links = inspection.describe_links
     _describe_refusals = inspection.describe_refusals
+    _refusal_kinds = inspection.refusal_kinds
     _describe_malformed = inspection.describe_malformed
     _rename_sender = inspection.rename_sender
     _fault = inspection.fault

@@ -214,6 +214,12 @@ def describe_refusals(self: SharedTree) -> dict[str, tuple[dict[str, int], str]]
         }
 
 
+def refusal_kinds(self: SharedTree) -> int:
+    """Return how many pairs of a frame and a reason were refused, without the lack of room."""
+    with self._lock:
+        return self._tree.refusals.kinds
+
+
 def describe_malformed(self: SharedTree) -> tuple[int, str, str]:
     """For `turtlewire.tf.links` and `turtlewire.tf.faults`."""
     with self._lock:

@@ -29,9 +29,14 @@ class RefusalRecord:
 
 
 class Refusals:
-    """All refusals of a tree."""
+    """All refusals of a tree.
+
+    Attributes:
+        kinds: The number of pairs of a frame and a reason, without the lack of room.
+    """
 
     def __init__(self) -> None:
+        self.kinds = 0
         self.by_child: dict[str, RefusalRecord] = {}
         self.malformed = MalformedMessages()
 
@@ -42,6 +47,8 @@ class Refusals:
             child = "(others)"
         record = self.by_child.setdefault(child, RefusalRecord(refusal))
         record.counts[refusal.verdict] += 1
+        if record.counts[refusal.verdict] == 1 and refusal.verdict.value != "too_many_frames":
+            self.kinds += 1
         record.last = refusal
 
     def add_malformed(self, fault: str, sender: str) -> None:
