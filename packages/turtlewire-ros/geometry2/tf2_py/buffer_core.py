@@ -8,6 +8,7 @@ import turtlewire
 from tf2_py.messages import message_lookup
 from tf2_py.times import to_moment, to_nanoseconds
 from turtlewire.distro import LYRICAL, current_distro, since
+from turtlewire.errors import Wording
 from turtlewire.tf.links import links
 
 if TYPE_CHECKING:
@@ -24,6 +25,7 @@ _HINT_IF_EMPTY = (
     "No transform has arrived yet. Is a broadcaster running, and does a TransformListener fill "
     "this buffer?"
 )
+_WORDING = Wording("pass rclpy.time.Time()", "buffer.engine.problems()")
 
 
 class BufferCore:
@@ -50,6 +52,7 @@ class BufferCore:
         )
         self.engine._follow_tf2(current_distro())
         self.engine._hint_if_empty = _HINT_IF_EMPTY
+        self.engine._wording = _WORDING
         self._messages = message_lookup(self.engine)
 
     # -- data in

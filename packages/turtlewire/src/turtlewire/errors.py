@@ -24,7 +24,7 @@ later.
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 __all__ = [
     "BagError",
@@ -223,6 +223,24 @@ class TransformException(TurtlewireError):
         return (type(self), self.args, {**kept, "_hint": self.hint})
 
 
+class Wording(NamedTuple):
+    """What the interface through which a program uses a buffer offers, for hints.
+
+    Attributes:
+        latest: What to do to get the latest transform.
+        problems: The call that lists contradictions and refused transforms.
+    """
+
+    latest: str = "leave out the time"
+    problems: str = "turtlewire.Buffer.problems()"
+
+
+def wording(buffer: Any) -> Wording:
+    """Return the wording of a buffer's interface."""
+    words: Wording = getattr(buffer, "_wording", Wording())
+    return words
+
+
 class ConnectivityException(TransformException):
     """No chain of transforms connects the two frames.
 
@@ -274,12 +292,16 @@ class LookupException(TransformException):
         if not self.frame:
             return (
                 "A frame is below itself. Swap parent and child of the transform that closes the "
-                "loop; turtlewire.Buffer.problems() names the frames."
+                f"loop; {wording(self._buffer).problems} names the frames."
             )
         frame, names = self.frame, self._buffer.frames()
         if not names:
             why_empty = getattr(self._buffer, "_why_empty", None)  # a core alone has none
             return str(why_empty()) if why_empty else "No transform was set yet."
+        if frame in (refused := self._buffer._describe_refusals()):
+            counts, last = refused[frame]
+            text = " ".join(last.split())
+            return f"Refused transforms of '{frame}': {sum(counts.values()):,}; the last: {text}"
         # 'turtle1' and 'turtle2' are different turtles; one may not have been spawned yet.
         others = [name for name in names if name.strip(digits) != frame.strip(digits)]
         near = difflib.get_close_matches(frame, others, 3, 0.5)
@@ -322,6 +344,10 @@ def _wrong_unit(requested: int, oldest: int, newest: int) -> str:
     return ""
 
 
+def _rounded(duration_s: float) -> str:
+    return f"{duration_s:.3g}" if duration_s < 1000 else f"{duration_s:.0f}"
+
+
 class ExtrapolationException(TransformException):
     """The requested time lies outside the data of at least one transform in the chain.
 
@@ -350,6 +376,7 @@ class ExtrapolationException(TransformException):
     requested_ns: int | None = None
     oldest_ns: int | None = None
     newest_ns: int | None = None
+    _buffer: Any = None
     _in_batch: bool = False  # one of many stamps, in a call that has the argument `errors`
 
     def _make_hint(self) -> str:
@@ -361,24 +388,23 @@ class ExtrapolationException(TransformException):
         if not advice and self._in_batch:
             advice = "Pass errors='nan' to get NaN where the data does not reach."
         elif not advice and self.reason == "future":
-            advice = (
-                "Give the lookup a timeout to wait for it, or leave out the time to get the latest."
-            )
+            latest = wording(self._buffer).latest
+            advice = f"Give the lookup a timeout to wait for it, or {latest} to get the latest."
         return f"{self._gap(self.requested_ns, self.oldest_ns, self.newest_ns)} {advice}".rstrip()
 
     def _gap(self, requested: int, oldest: int, newest: int) -> str:
         link = f"the transform from '{self.child_frame}' to '{self.parent_frame}'"
         late, early = (requested - newest) / 1e9, (oldest - requested) / 1e9
         if self.reason == "future":
-            return f"The newest sample of {link} is {late:.6g} s older than the requested time."
+            return f"The newest sample of {link} is {_rounded(late)} s older than the requested time."
         if self.reason == "past":
             return (
-                f"The oldest sample of {link} is {early:.6g} s newer than the requested time; "
-                f"the buffer holds {(newest - oldest) / 1e9:.6g} s."
+                f"The oldest sample of {link} is {_rounded(early)} s newer than the requested time; "
+                f"the buffer holds {_rounded((newest - oldest) / 1e9)} s."
             )
         side = "older" if late > 0 else "newer"
         return (
-            f"The buffer holds one sample of {link}, {abs(late):.6g} s {side} than the requested "
+            f"The buffer holds one sample of {link}, {_rounded(abs(late))} s {side} than the requested "
             "time; interpolation needs two."
         )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import math
 import pickle
 from typing import Any
 
@@ -213,6 +214,19 @@ def test_a_loop_of_frames(buffer: turtlewire.Buffer) -> None:
         "A frame is below itself. Swap parent and child of the transform that closes the loop; "
         "turtlewire.Buffer.problems() names the frames."
     )
+
+
+def test_a_frame_whose_transforms_were_refused() -> None:
+    buffer = turtlewire.Buffer()
+    buffer.set_transform("map", "base", 1, NO_MOVE, NO_TURN)
+    for time in (1, 2):
+        with pytest.raises(errors.InvalidTransformError):
+            buffer.set_transform("map", "arm", time, (math.nan, 0, 0), NO_TURN)
+    hint = hint_of(buffer.lookup_transform, "map", "arm")
+    assert hint.startswith(
+        "Refused transforms of 'arm': 2; the last: TF_NAN_INPUT: Ignoring transform for"
+    )
+    assert hint_of(buffer.lookup_transform, "map", "leg") == "The frames are 'base', 'map'."
 
 
 def test_an_empty_buffer() -> None:

@@ -218,6 +218,32 @@ def test_refusal_is_logged(buffer: tf2_py.BufferCore, capfd: pytest.CaptureFixtu
     )
 
 
+def test_hints_say_what_to_do_in_ros_terms(buffer: tf2_py.BufferCore) -> None:
+    for second in (1, 2):
+        buffer.set_transform(stamped("map", "arm", second * SECOND), "me")
+    late = Time(nanoseconds=2_065_094_400)
+    with pytest.raises(errors.ExtrapolationException) as extrapolated:
+        buffer.lookup_transform_core("map", "arm", late)
+    assert extrapolated.value.hint == (
+        "The newest sample of the transform from 'arm' to 'map' is 0.0651 s older than the "
+        "requested time. Give the lookup a timeout to wait for it, or pass rclpy.time.Time() to "
+        "get the latest."
+    )
+    buffer.set_transform(stamped("arm", "map", 2 * SECOND), "me")
+    buffer.set_transform(stamped("elsewhere", "hand", 2 * SECOND), "me")
+    with pytest.raises(errors.LookupException, match="contains a loop") as looped:
+        buffer.lookup_transform_core("map", "hand", Time(seconds=2))
+    assert looped.value.hint.endswith("buffer.engine.problems() names the frames.")
+
+
+def test_the_hint_of_a_buffer_that_refused_all() -> None:
+    buffer = tf2_py.BufferCore()
+    buffer.set_transform(stamped("map", "map", SECOND), "me")
+    with pytest.raises(errors.LookupException) as caught:
+        buffer.lookup_transform_core("map", "base", Time())
+    assert caught.value.hint.endswith(" buffer.engine.problems() lists them.")
+
+
 def test_classes_without_slots_are_refused() -> None:
     if messages.CORE != "native":
         pytest.skip(COMPILED_CORE)

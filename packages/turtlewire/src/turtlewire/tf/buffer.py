@@ -9,6 +9,7 @@ import warnings
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.attribute_hints import hint_at
+from turtlewire.errors import Wording, wording
 from turtlewire.terminal.printable import printable
 from turtlewire.tf.implementation import CORE, BaseBuffer, RecordWalk, Transform
 
@@ -82,10 +83,11 @@ class Buffer(BaseBuffer):
     """
 
     __module__ = "turtlewire"
-    __slots__ = ("_bag_report", "_hint_if_empty")
+    __slots__ = ("_bag_report", "_hint_if_empty", "_wording")
 
     _bag_report: TransformReport
     _hint_if_empty: str  # set by what fills the buffer, else missing
+    _wording: Wording  # set by the interface of programs, else missing
 
     # Bags and trajectories belong to higher layers: their code is imported when it is called.
 
@@ -243,7 +245,7 @@ class Buffer(BaseBuffer):
         count = sum(each.count for each in found)
         return (
             f"Refused transforms and malformed messages: {count:,}; for example, "
-            f"{printable(found[0].text).rstrip('.')}. turtlewire.Buffer.problems() lists them."
+            f"{printable(found[0].text).rstrip('.')}. {wording(self).problems} lists them."
         )
 
     def __contains__(self, frame: object) -> bool:

@@ -23,6 +23,14 @@ if TYPE_CHECKING:
     from turtlewire.errors import TransformException
 
 _Answer = TypeVar("_Answer")
+#: Their hints depend on the buffer.
+_WITH_BUFFER = {
+    LookupStatus.UNKNOWN_FRAME,
+    LookupStatus.LOOP,
+    LookupStatus.NO_DATA,
+    LookupStatus.FUTURE,
+    LookupStatus.PAST,
+}
 
 
 @explain_calls
@@ -93,8 +101,8 @@ class SharedTree:
         error = ERRORS[failure.status](str(failure))
         for name, value in failure.details.items():
             setattr(error, name, value)
-        if failure.status in {LookupStatus.UNKNOWN_FRAME, LookupStatus.LOOP}:
-            error._buffer = self  # type: ignore[attr-defined] # ERRORS says that it is one
+        if failure.status in _WITH_BUFFER:
+            error._buffer = self  # type: ignore[attr-defined] # ERRORS says that it has one
         return error
 
     def _reason(self, ask: Callable[[], object], timeout_ns: int) -> str:
