@@ -80,13 +80,16 @@ class BasePublisher(Generic[MsgT]):
             or qos_profile.liveliness == LivelinessPolicy.MANUAL_BY_TOPIC
             or 0 < qos_profile.deadline.nanoseconds < BEST_AVAILABLE_NS
         )
+        # The first message is encoded even if nobody listens: a field that its type cannot hold is
+        # an error at the line that publishes it, and not later, when somebody looks at the topic.
+        self._checked = False
         self._destroyed = False
         self._on_destroy = on_destroy
 
     def publish(self, msg: MsgT | bytes) -> None:
         """Send a message, or bytes that are one in CDR already.
 
-        It is not encoded while the topic has no subscription.
+        While the topic has no subscription, only the first message is encoded, to check it.
 
         Raises:
             TypeError: ``msg`` is neither a ``msg_type`` nor ``bytes``.
@@ -100,6 +103,9 @@ class BasePublisher(Generic[MsgT]):
             if not (self._sends_always or self._wire.is_heard()):
                 # After a shutdown, publishing is an error even if nothing would be sent.
                 self._check_context()
+                if not self._checked:
+                    encode(msg)
+                    self._checked = True
                 return
             cdr = encode(msg)
         elif isinstance(msg, bytes):

@@ -198,19 +198,29 @@ def test_depth_keeps_the_newest(context, node, executor):
     assert got == [5, 6, 7]
 
 
-def test_messages_without_subscriptions_are_not_encoded(context, node, monkeypatch):
+def test_without_subscriptions_only_the_first_message_is_encoded(context, node, monkeypatch):
     encoded = []
     monkeypatch.setattr(
         "rclpy.publisher.encode",
         lambda message: encoded.append(message) or b"\x00\x01\x00\x00\x01\x00\x00\x00",
     )
     volatile = node.create_publisher(Int32, "volatile", 10)
-    volatile.publish(Int32(data=1))
-    assert encoded == []
+    for number in range(3):
+        volatile.publish(Int32(data=number))
+    assert [message.data for message in encoded] == [0]
     node.create_subscription(Int32, "volatile", lambda _: None, 10)
     matched(context, volatile)
-    volatile.publish(Int32(data=1))
-    assert len(encoded) == 1
+    volatile.publish(Int32(data=3))
+    assert [message.data for message in encoded] == [0, 3]
+
+
+def test_an_invalid_message_is_an_error_although_nobody_listens(node):
+    publisher = node.create_publisher(Int32, "number", 10)
+    wrong = Int32()
+    wrong.data = "1"
+    for _ in range(2):
+        with pytest.raises(CdrError, match="data"):
+            publisher.publish(wrong)
 
 
 @pytest.mark.parametrize(
