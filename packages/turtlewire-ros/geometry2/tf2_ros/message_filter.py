@@ -8,7 +8,7 @@ from enum import IntEnum
 from typing import TYPE_CHECKING, Any
 
 from message_filters import SimpleFilter
-from tf2_py.times import to_nanoseconds
+from tf2_py.times import to_moment
 from turtlewire.errors import TransformException
 
 from .buffer import JUMP_BACK
@@ -41,14 +41,17 @@ class FilterFailureReason(IntEnum):
 
 
 class _Waiting:
-    """A waiting message; compared by identity, because two messages may be equal."""
+    """A waiting message; compared by identity, because two messages may be equal.
+
+    As in every question of tf2, stamp 0 means the latest transform: here None.
+    """
 
     __slots__ = ("deadline_ns", "message", "source", "stamp_ns")
 
     def __init__(self, message: Any, source: str, deadline_ns: int | None) -> None:
         self.message = message
         self.source = source
-        self.stamp_ns = to_nanoseconds(message.header.stamp)
+        self.stamp_ns = to_moment(message.header.stamp)
         self.deadline_ns = deadline_ns
 
 
@@ -218,7 +221,8 @@ class MessageFilter(SimpleFilter):
             self._fail(each.message, FilterFailureReason.OutTheBack)
 
     def _is_ready(self, waiting: _Waiting) -> bool:
-        stamps = {waiting.stamp_ns, waiting.stamp_ns + self._tolerance_ns}
+        stamp = waiting.stamp_ns
+        stamps = {stamp} if stamp is None else {stamp, stamp + self._tolerance_ns}
         return all(
             self._engine.can_transform(target, waiting.source, stamp)
             for target in self._targets
@@ -226,7 +230,7 @@ class MessageFilter(SimpleFilter):
         )
 
     def _is_too_old(self, waiting: _Waiting) -> bool:
-        if self._engine.cache_time_ns is None:
+        if waiting.stamp_ns is None or self._engine.cache_time_ns is None:
             return False
         oldest = waiting.stamp_ns + self._engine.cache_time_ns
         try:

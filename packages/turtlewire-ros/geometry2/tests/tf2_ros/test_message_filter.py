@@ -147,6 +147,18 @@ def test_a_message_as_old_as_the_cache_is_long_still_waits(setup, stamped):
     assert len(s.failed) == 1
 
 
+@pytest.mark.parametrize("newest_s", [3, 100])
+def test_stamp_0_asks_for_the_latest_transform(setup, stamped, newest_s):
+    s = setup(tolerance=Duration(seconds=1))
+    s.filter.add(point(0))
+    assert s.passed == []
+    s.buffer.set_transform(stamped(stamp_s=newest_s), "me")
+    s.spin_until(lambda: s.passed == [0])
+    s.filter.add(point(0))
+    assert s.passed == [0, 0]
+    assert s.failed == []
+
+
 def test_a_message_without_a_frame_is_dropped(setup):
     s = setup()
     s.filter.add(point(1, frame=""))
