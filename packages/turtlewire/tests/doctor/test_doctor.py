@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import math
 import os
 import subprocess
 import sys
@@ -410,6 +411,35 @@ def test_listening_takes_both_topics_and_drops_nonsense(context):
     assert traffic.parents == {"fixed": {"world"}, "moving": {"world"}}
     assert set(traffic.newest_ns) == {"moving"}
     assert abs(traffic.ended_ns - time.time_ns()) < 60 * 10**9
+
+
+def hear(context, topic, *messages):
+    """Publish messages on a latched topic, and return the traffic."""
+    latched = QoS(durability=Durability.TRANSIENT_LOCAL)
+    publisher = context.create_node("one").create_publisher(topic, TF, latched)
+    for message in messages:
+        publisher.publish(msg.serialize(message))
+    listener = TfListener(context)
+    listener.wait(60.0, {publisher.gid: len(messages)})
+    return listener.close()
+
+
+def test_refused_transforms_are_a_problem(context):
+    broken = transform("world", "arm")
+    broken.transforms[0].transform.translation.x = math.nan
+    traffic = hear(context, "/tf_static", transform("world", "base"), broken)
+    (finding,) = tf_findings(context.graph, traffic)
+    assert finding.is_problem
+    assert finding.text.startswith(
+        "Transforms of 'arm' are refused: TF_NAN_INPUT: Ignoring transform for child_frame_id "
+        '"arm" from authority "/one" because of a nan value in the transform (nan 0.000000'
+    )
+
+
+def test_an_empty_message_is_one_that_was_received(context):
+    empty = msg.get_message("tf2_msgs/msg/TFMessage")()
+    traffic = hear(context, "/tf_static", empty)
+    assert tf_findings(context.graph, traffic) == []
 
 
 class Waits(TfListener):

@@ -47,6 +47,10 @@ _JUMPS = (
     "Two sources publish it, a bag restarted, or a clock was set: listeners drop such "
     "transforms, or clear their buffers."
 )
+_REFUSED = (
+    "No listener takes them, and lookups with the frame fail or use older poses. Fix the node that "
+    "publishes it."
+)
 _MISSING = (
     "They are lost in transit, or the publisher misses its period. Run `ros2 topic hz /tf` here "
     "and "
@@ -75,6 +79,7 @@ def tf_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:
         return [note("No node publishes transforms.", _START_BROADCASTER)]
     return [
         *_publisher_findings(graph, traffic),
+        *_refusal_findings(traffic),
         *_tree_findings(traffic),
         *_slash_findings(traffic, graph),
         *_clock_findings(traffic),
@@ -100,12 +105,18 @@ def _publisher_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:
         if len(gids) > 1:
             nodes = " and ".join(_nodes(graph, gids))
             found.append(problem(f"The frame '{child}' is published by {nodes}.", _ONE_PUBLISHER))
-    received = {gid for gids in traffic.publishers.values() for gid in gids}
     for publisher in tf_publishers(graph):
-        if publisher.topic == "/tf_static" and publisher.gid not in received:
+        if publisher.topic == "/tf_static" and publisher.gid not in traffic.heard:
             text = f"No static transforms received from {owner_of(publisher)}."
             found.append(note(text, _SILENT))
     return found
+
+
+def _refusal_findings(traffic: TfTraffic) -> list[Finding]:
+    return [
+        problem(f"Transforms of '{frame}' are refused: {' '.join(reason.split())}.", _REFUSED)
+        for frame, reason in traffic.refused.items()
+    ]
 
 
 def _nodes(graph: Graph, gids: set[bytes]) -> list[str]:

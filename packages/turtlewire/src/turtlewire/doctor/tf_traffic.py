@@ -9,8 +9,12 @@ from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 from turtlewire import msg
+from turtlewire.distro import current_distro
 from turtlewire.errors import CdrError
+from turtlewire.tf.buffer import Buffer
+from turtlewire.tf.faults import refusals
 from turtlewire.wire.base import TypeId
+from turtlewire.wire.names import fully_qualified_node_name
 from turtlewire.wire.qos import Durability, QoS, Reliability
 
 if TYPE_CHECKING:
@@ -39,6 +43,10 @@ _ENOUGH = 50
 _STAMPS = 200
 #: Backward steps of stamps within a clock's jitter are not a problem.
 JITTER_NS = 1_000_000
+#: As long as tf2 keeps samples.
+_CACHE_NS = 10_000_000_000
+#: Reasons of refused transforms that have findings of their own.
+_FOUND_OTHERWISE = {"old_data", "self_transform"}
 #: A frame leaps if it moves by more than this, and faster than any robot.
 LEAP_M = 0.5
 FASTEST_M_S = 100.0
@@ -50,6 +58,7 @@ class TfTraffic:
     Frames have the names that tf2 stores: it removes one leading slash.
 
     Attributes:
+        heard: Gids of the publishers of the received messages, which may be empty.
         written: Name of a frame as it was sent to the gids of its publishers.
         parents: Frame to its parents.
         publishers: Frame to the gids of its publishers.
@@ -58,11 +67,14 @@ class TfTraffic:
         back_ns: Frame to the largest step back of its stamps; steps of less than a clock's jitter
             do not count.
         leaps_m: Frame to its largest step within its parent that was faster than any robot.
+        refused: Frame to tf2's words about the last transform of it that a buffer refuses.
+            Stamps that go back and frames in themselves are not among them.
         ended_ns: When the listening ended, system time.
         clock_ns: The newest time of ``/clock``; None if it is not published.
     """
 
     def __init__(self) -> None:
+        self.heard: set[bytes] = set()
         self.written: dict[str, set[bytes]] = {}
         self.parents: dict[str, set[str]] = {}
         self.publishers: dict[str, set[bytes]] = {}
@@ -70,12 +82,14 @@ class TfTraffic:
         self.stamps_ns: dict[tuple[str, bytes], list[int]] = {}
         self.back_ns: dict[str, int] = {}
         self.leaps_m: dict[str, float] = {}
+        self.refused: dict[str, str] = {}
         self.ended_ns = 0
         self.clock_ns: int | None = None
         self._last: dict[str, tuple[str, int, Any]] = {}
 
     def note(self, message: Any, publisher: bytes, *, static: bool) -> None:
         """Take over a TFMessage."""
+        self.heard.add(publisher)
         for transform in message.transforms:
             names = (transform.header.frame_id, transform.child_frame_id)
             for name in names:
@@ -114,6 +128,7 @@ class TfListener:
         self._messages: list[tuple[bytes, bytes, bool]] = []
         self._heard: Counter[bytes] = Counter()
         self._news = threading.Condition()
+        self._graph = context.graph
         self._node = context.create_node("_turtlewire_doctor_listener")
         self._clock: bytes | None = None
         self._subscribe_clock()
@@ -180,13 +195,31 @@ class TfListener:
         with self._news:
             messages, clock = list(self._messages), self._clock
         traffic.clock_ns = None if clock is None else _time_of(clock)
+        buffer = Buffer(_CACHE_NS)
+        buffer._follow_tf2(current_distro())
+        owners = _owners(self._graph)
         for cdr, publisher, static in messages:
             try:
                 message = msg.deserialize(msg.get_message(_TYPE), cdr)
             except CdrError:
                 continue  # a foreign publisher on the topic; the check of types names it
             traffic.note(message, publisher, static=static)
+            sender = owners.get(publisher, publisher.hex())
+            buffer.add_tf_message(cdr, static=static, sender=sender)
+        traffic.refused = {
+            frame: refused.last
+            for frame, refused in sorted(refusals(buffer).items())
+            if refused.counts.keys() - _FOUND_OTHERWISE
+        }
         return traffic
+
+
+def _owners(graph: Graph) -> dict[bytes, str]:
+    return {
+        end.gid: fully_qualified_node_name(end.node.name, end.node.namespace)
+        for end in graph.endpoints()
+        if end.node is not None
+    }
 
 
 def _time_of(cdr: bytes) -> int | None:
