@@ -16,7 +16,7 @@ class RestartWatch:
     """Clears a buffer of which a link gets only samples that are too old for it.
 
     Args:
-        buffer: What to look at. Clearing it forgets static transforms, too.
+        buffer: What to look at. Clearing it keeps static transforms.
     """
 
     def __init__(self, buffer: Buffer) -> None:
