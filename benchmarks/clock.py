@@ -6,6 +6,7 @@ Plain Python of any version, because rivals run on other interpreters.
 import json
 import statistics
 import sys
+import time
 import timeit
 
 
@@ -23,6 +24,17 @@ def per_call(statement, names, seconds=1.0):
         elapsed = timer.timeit(number)
     runs = [run / number * 1e9 for run in timer.repeat(max(5, int(seconds / elapsed)), number)]
     return min(runs), statistics.median(runs)
+
+
+def cpu_per_item(store, fresh, count, repeats=20):
+    """Nanoseconds of CPU in which `store` puts one of `count` items into what `fresh` returns."""
+    runs = []
+    for _ in range(repeats):
+        place = fresh()
+        begin = time.process_time_ns()
+        store(place)
+        runs.append((time.process_time_ns() - begin) / count)
+    return summary(runs)
 
 
 def summary(runs):

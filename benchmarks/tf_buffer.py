@@ -6,6 +6,7 @@ import os
 import sys
 from typing import TYPE_CHECKING
 
+from benchmarks import floors
 from benchmarks.figures import Figure, Row
 from benchmarks.rival import run_adapter
 
@@ -49,6 +50,8 @@ CASES = [
     ("ingest, 1 transform a message", "ingest 1 a message", "ingest 1 a message", "", ""),
     ("ingest, 100 a message, hot", "ingest hot", "ingest hot", "", "100x"),
     ("ingest, 100 a message, 1e6 samples stored", "ingest cold", "ingest cold", "", "30x"),
+    ("arrays in order, 1e5 samples, CPU per sample", "arrays of 100000", "", "", "20 ns"),
+    ("arrays in order, 1e6 samples, CPU per sample", "arrays of 1000000", "", "", "20 ns"),
     ("wake-up of a waiting lookup", "wake-up of a waiting lookup", "", "", "median <= 100 µs"),
 ]
 
@@ -67,7 +70,11 @@ def rows() -> Iterator[Row]:
         rivals |= {"Numba": numba.get(case), "pytransform3d": pytransform3d.get(case)}
         rivals["transform-tree"] = transform_tree.get(case)
         yield Row(
-            what, ours[case], {name: figure for name, figure in rivals.items() if figure}, budget
+            what,
+            ours[case],
+            {name: figure for name, figure in rivals.items() if figure},
+            budget,
+            floors.copying(int(case.rpartition(" ")[2])) if case.startswith("arrays") else None,
         )
     full = ours["memory"]
     yield Row(

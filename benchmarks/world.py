@@ -50,3 +50,12 @@ def message(i, links):
     return [
         ("base_link", f"robot_link_{k:03d}", FIRST + i * STEP, pose(k, i)) for k in range(links)
     ]
+
+
+def arrays(count):
+    """Stamps in order, and a row of x, y, z, qx, qy, qz, qw for each, turned at random."""
+    import numpy as np  # not in every interpreter
+
+    poses = np.random.default_rng(1).normal(size=(count, 7))
+    poses[:, 3:] /= np.linalg.norm(poses[:, 3:], axis=1)[:, None]
+    return np.arange(count, dtype=np.int64) * STEP + FIRST, poses

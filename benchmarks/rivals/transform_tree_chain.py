@@ -7,8 +7,8 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import numpy as np
 import tf_tree
-from clock import per_call, report
-from world import FIRST, FRAMES, RECENT, SAMPLES, STEP, pose, random_stamps
+from clock import cpu_per_item, per_call, report
+from world import FIRST, FRAMES, RECENT, SAMPLES, STEP, arrays, pose, random_stamps
 
 
 def filled():
@@ -21,6 +21,22 @@ def filled():
         with tree.publisher(child, parent) as publisher:
             publisher.push_many(stamps, poses)
     return tree
+
+
+def store(tree, stamps, poses):
+    with tree.publisher("odom", "map") as publisher:
+        publisher.push_many(stamps, poses)
+
+
+def array_ingest(figures):
+    for count in (100_000, 1_000_000):
+        stamps, poses = arrays(count)
+        poses = np.ascontiguousarray(poses[:, [6, 3, 4, 5, 0, 1, 2]])
+        figures[f"arrays of {count}"] = cpu_per_item(
+            lambda tree: store(tree, stamps, poses),
+            lambda: tf_tree.build([("map", "odom")], capacity=count, interp="lerpslerp"),
+            count,
+        )
 
 
 def main():
@@ -40,6 +56,7 @@ def main():
     for case, which in (("batch random", "stamps"), ("batch sorted", "sorted_stamps")):
         values = per_call(f'plan.at({which}, layout="quat")', names)
         figures[case] = [value / len(stamps) for value in values]
+    array_ingest(figures)
     report(figures)
 
 

@@ -7,8 +7,18 @@ import time
 from array import array
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from clock import per_call, report, summary
-from world import FIRST, LINKS_IN_MESSAGE, OLD, RECENT, STEP, chain, message, random_stamps
+from clock import cpu_per_item, per_call, report, summary
+from world import (
+    FIRST,
+    LINKS_IN_MESSAGE,
+    OLD,
+    RECENT,
+    STEP,
+    arrays,
+    chain,
+    message,
+    random_stamps,
+)
 
 import turtlewire
 from turtlewire import msg
@@ -121,6 +131,16 @@ def ingest(figures):
         figures["ingest " + case] = summary(runs)
 
 
+def array_ingest(figures):
+    for count in (100_000, 1_000_000):
+        stamps, poses = arrays(count)
+        figures[f"arrays of {count}"] = cpu_per_item(
+            lambda buffer: buffer.set_transforms("map", "odom", stamps, poses),
+            lambda: turtlewire.Buffer(None),
+            count,
+        )
+
+
 def wake_up(figures):
     """From the arrival of the data to the return of the lookup that waited for it, in another
     thread.
@@ -152,7 +172,7 @@ def wake_up(figures):
 
 def main():
     figures = {}
-    for part in (lookups, batches, memory, messages, ingest, wake_up):
+    for part in (lookups, batches, memory, messages, ingest, array_ingest, wake_up):
         part(figures)
     report(figures)
 

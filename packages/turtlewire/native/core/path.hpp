@@ -45,18 +45,20 @@ inline const Pose* pose_at(const Step& step, Stamp t, Pose& room) {
 }
 
 // top_from_start of one arm; false when a link has no data at `t`. A pose just computed is not
-// copied: copies are made in larger pieces than it was written in, for which processors wait.
+// copied in memory: copies are made in larger pieces than it was written in, for which processors
+// wait. The product of the steps stays in registers until the end.
 inline bool follow(const std::vector<Step>& arm, Stamp t, Pose& result) {
   if (arm.empty()) return true;
   const Pose* first = pose_at(arm.front(), t, result);
   if (first == nullptr) return false;
-  if (first != &result) result = *first;
+  Pose top = *first;
   Pose room;
   for (std::size_t i = 1; i < arm.size(); ++i) {
     const Pose* pose = pose_at(arm[i], t, room);
     if (pose == nullptr) return false;
-    result = *pose * result;
+    top = *pose * top;
   }
+  result = top;
   return true;
 }
 

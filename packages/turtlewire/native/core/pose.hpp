@@ -44,10 +44,11 @@ inline Quat operator*(const Quat& a, const Quat& b) {
       a.w * b.z + a.z * b.w + a.x * b.y - a.y * b.x, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }
 
-// The vector turned by the unit quaternion: v + 2w(u×v) + 2u×(u×v), with u the vector part.
+// The vector turned by the unit quaternion: v + 2w(u×v) + 2u×(u×v), with u the vector part. The
+// factor 2, which is exact, is applied to u: a chain of products waits for what comes after `v`.
 inline Vec3 rotate(const Quat& q, const Vec3& v) {
   const Vec3 axis{q.x, q.y, q.z};
-  const Vec3 twice = 2.0 * cross(axis, v);
+  const Vec3 twice = cross(2.0 * axis, v);
   return v + q.w * twice + cross(axis, twice);
 }
 
