@@ -1,12 +1,14 @@
 """`ros2 launch` of two nodes: wall time from the command until another process sees both.
 
-The floor starts the two interpreters by hand, side by side and without a launch.
+The floor starts the two interpreters by hand, side by side and without a launch. The CPU time of a
+launch without nodes depends less on the load of the machine.
 """
 
 from __future__ import annotations
 
 import contextlib
 import os
+import resource
 import signal
 import statistics
 import subprocess
@@ -36,6 +38,13 @@ def generate_launch_description():
         [Node(package="demo_nodes_py", executable=name) for name in {NODES}]
     )
 """
+EMPTY_FILE = """
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+def generate_launch_description():
+    return LaunchDescription([])
+"""
 #: Tells when all nodes are there, and when none is left; ends with its input.
 OBSERVER = f"""
 import sys
@@ -56,8 +65,9 @@ rclpy.shutdown()
 
 def rows() -> Iterator[Row]:
     with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder, "two_nodes.launch.py")
-        file.write_text(LAUNCH_FILE)
+        two_nodes, empty = Path(folder, "two_nodes.launch.py"), Path(folder, "empty.launch.py")
+        two_nodes.write_text(LAUNCH_FILE)
+        empty.write_text(EMPTY_FILE)
         environment = {
             **os.environ,
             "ROS_DOMAIN_ID": "104",
@@ -66,7 +76,7 @@ def rows() -> Iterator[Row]:
             "PYTHONPYCACHEPREFIX": folder,
             "PYTHONDONTWRITEBYTECODE": "",
         }
-        launch = [[sys.executable, *ROS2, "launch", str(file)]]
+        launch = [[sys.executable, *ROS2, "launch", str(two_nodes)]]
         by_hand = [argv_for(path) for path in executables()]
         with observer(environment) as watching:
             # The first round fills the cache of compiled modules.
@@ -74,8 +84,13 @@ def rows() -> Iterator[Row]:
                 [time_of(commands, watching, environment) for commands in (launch, by_hand)]
                 for _ in range(ROUNDS + 1)
             ][1:]
+        cpu = [
+            cpu_of([sys.executable, *ROS2, "launch", str(empty)], environment)
+            for _ in range(ROUNDS)
+        ]
     ours, floor = (figure(times) for times in zip(*rounds, strict=True))
     yield Row("until another process sees both nodes", ours, {}, "<= 200 ms", floor)
+    yield Row("CPU of a launch without nodes", figure(tuple(cpu)))
 
 
 def executables() -> list[str]:
@@ -120,6 +135,15 @@ def time_of(
         spent = time.perf_counter_ns() - begin
     expect(watching, "none")
     return spent
+
+
+def cpu_of(command: list[str], environment: dict[str, str]) -> int:
+    """CPU time [ns] of a command."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run(command, env=environment, stdout=subprocess.DEVNULL, check=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    spent = after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
+    return round(spent * 1e9)
 
 
 def expect(watching: subprocess.Popen[str], word: str) -> None:
