@@ -163,11 +163,13 @@ def graph() -> None:
 
 
 def time_of(query: Callable[[], object]) -> float:
-    query()
-    begin = time.perf_counter_ns()
+    """The median, because another process may interrupt some [ns]."""
+    spent = []
     for _ in range(QUERIES):
+        begin = time.perf_counter_ns()
         query()
-    return (time.perf_counter_ns() - begin) / QUERIES
+        spent.append(time.perf_counter_ns() - begin)
+    return statistics.median(spent)
 
 
 def session() -> Any:
