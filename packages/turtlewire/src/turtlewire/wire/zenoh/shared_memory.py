@@ -50,7 +50,7 @@ class SharedMemory:
         if provider is None:
             return cdr
         try:
-            # Does not wait: a subscriber that has stopped would hold up the publisher for ever.
+            # Does not wait: a subscriber that has stopped would hold up the publisher forever.
             buffer = provider.alloc(len(cdr), shm.GarbageCollect())
         except zenoh.ZError:
             return cdr
