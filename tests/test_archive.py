@@ -41,7 +41,7 @@ def test_a_folder_is_packed_and_unpacked(tmp_path):
     assert archive.pack(tmp_path / "part").startswith(b"==== run (executable)")
 
 
-def test_what_does_not_fit_is_refused(tmp_path):
+def test_entry_that_looks_like_two_is_refused(tmp_path):
     for entries in ({"a b": Entry(b"")}, {"a": Entry(b"c\n==== b ====")}):
         with pytest.raises(ValueError, match="does not fit"):
             archive.write(entries)

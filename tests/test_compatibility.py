@@ -108,7 +108,7 @@ robot_state_publisher, in Lyrical
 `ros2 doctor --report`
   ros2cli/test_doctor_command.py test_the_report_has_facts
 Python errors have a message
-  rclpy/test_exceptions.py test_hints_are_notes
+  rclpy/test_mistakes.py test_hints_are_notes
 a service with a server on Fast DDS is called, and nothing answers
   peers/test_services.py test_commands_call_services_parameters_and_actions test_each_command_says_why_and_does_no_harm test_not_even_a_request_sent_at_the_moment_of_discovery_is_read
 servers on Cyclone DDS and on Fast DDS have the same name: one misreads each request
@@ -242,7 +242,7 @@ clouds: only x, y, z are rotated, `row_step` is ignored
   tf2_tools/test_view_frames.py test_it_listens_and_writes_three_files test_a_loop_is_told_and_written
 a static transform has a rate of 10000 Hz
   tf/test_tree_drawing.py test_a_static_transform_has_no_rate_and_a_single_one_neither
-  tf2_tools/test_dot.py test_one_link_as_ros_2_writes_it
+  tf2_tools/test_view_frames.py test_one_link_as_ros_2_writes_it
 
 a static transform that is sent again from Python is ignored
   tf2_ros/test_broadcasters.py test_a_static_transform_can_be_sent_again test_the_last_sender_of_a_process_wins_for_late_joiners_too

@@ -205,26 +205,37 @@ def test_messages_keep_their_order_and_readiness_is_level_triggered(node: Node, 
     assert received == sent
 
 
-def test_keep_last_keeps_the_newest(node: Node, other: Node, middleware: str):
-    subscription = node.create_subscription("/numbers", STRING, QoS(depth=3))
+def sent_and_taken(
+    node: Node, other: Node, listening: QoS, publishing: QoS, count: int
+) -> tuple[list[bytes], list[list[bytes]]]:
+    """Return messages, and in which batches those that were kept came out.
+
+    A second topic tells when all were sent; its message may overtake the others.
+    """
+    subscription = node.create_subscription("/numbers", STRING, listening)
     marker = node.create_subscription("/marker", STRING, QoS())
-    publisher = other.create_publisher("/numbers", STRING, QoS(depth=3))
+    publisher = other.create_publisher("/numbers", STRING, publishing)
     marker_publisher = other.create_publisher("/marker", STRING, QoS())
     connect(other, publisher, node, subscription)
     connect(other, marker_publisher, node, marker)
-    sent = [cdr(str(number)) for number in range(10)]
+    sent = [cdr(str(number)) for number in range(count)]
     for message in sent:
         publisher.publish(message)
     marker_publisher.publish(cdr("end"))
     take_all(node, marker, 1)
     wait_set = node.context.create_wait_set()
     wait_set.attach(subscription)
-    received: list[bytes] = []
-    while sent[-1] not in received:
+    batches: list[list[bytes]] = []
+    while not batches or sent[-1] not in batches[-1]:
         assert wait_set.wait(LONG) == [subscription]
-        taken = [message for message, _ in subscription.take()]
-        assert len(taken) <= 3
-        received += taken
+        batches.append([message for message, _ in subscription.take(limit=100)])
+    return sent, batches
+
+
+def test_keep_last_keeps_the_newest(node: Node, other: Node, middleware: str):
+    sent, batches = sent_and_taken(node, other, QoS(depth=3), QoS(depth=3), 10)
+    assert all(len(batch) <= 3 for batch in batches)
+    received = [message for batch in batches for message in batch]
     assert received == [message for message in sent if message in received]
     if middleware != "rmw_zenoh_cpp":  # whose subscriptions have a thread each
         assert received == sent[-3:]
@@ -1002,25 +1013,8 @@ def test_an_event_that_nothing_reports_is_accepted(node: Node, create: str):
 
 
 def test_a_depth_of_zero_is_the_middlewares_own(node: Node, other: Node, middleware: str):
-    subscription = node.create_subscription("/numbers", STRING, QoS(depth=0))
-    marker = node.create_subscription("/marker", STRING, QoS())
-    publisher = other.create_publisher("/numbers", STRING, QoS(history=History.KEEP_ALL))
-    marker_publisher = other.create_publisher("/marker", STRING, QoS())
-    connect(other, publisher, node, subscription)
-    connect(other, marker_publisher, node, marker)
-    sent = [cdr(str(number)) for number in range(50)]
-    for message in sent:
-        publisher.publish(message)
-    marker_publisher.publish(cdr("end"))
-    take_all(node, marker, 1)
+    keep_all = QoS(history=History.KEEP_ALL)
+    sent, batches = sent_and_taken(node, other, QoS(depth=0), keep_all, 50)
     kept = 42 if middleware == "rmw_zenoh_cpp" else 1
-    wait_set = node.context.create_wait_set()
-    wait_set.attach(subscription)
-    taken: list[bytes] = []
-    while sent[-1] not in taken:
-        assert wait_set.wait(LONG) == [subscription]
-        batch = [message for message, _ in subscription.take(limit=100)]
-        assert len(batch) <= kept
-        taken += batch
-    # The marker may overtake the numbers: the rest is then taken in a second batch.
-    assert taken[-kept:] == sent[-kept:]
+    assert all(len(batch) <= kept for batch in batches)
+    assert [message for batch in batches for message in batch][-kept:] == sent[-kept:]

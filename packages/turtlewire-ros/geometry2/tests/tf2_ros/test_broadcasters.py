@@ -105,42 +105,66 @@ def test_it_may_replace_what_a_destroyed_node_sent(make_node, heard, stamped):
     assert x_of(heard(), "a") == 2.0
 
 
-def test_no_peer_is_lost_over_a_thousand_joins(make_node, stamped):
+def join_late(open_node, stamped, enough_joins, *, leaving, sending, child):
     """Any order of sending, joining and restarting.
 
     A late joiner sees exactly what the living broadcasters sent last.
+
+    Args:
+        open_node: Makes a node until the end of a block.
+        stamped: Makes a transform.
+        enough_joins: How often something joins.
+        leaving: Chance of a step in which a broadcaster leaves.
+        sending: The same, and that of one in which it sends.
+        child: Names a frame of a broadcaster.
     """
     chance = random.Random(20261121)
     broadcasters, expected, owner = {}, {}, {}
     joins = step = 0
-    while joins < 1000:
-        step += 1
-        name = f"broadcaster{chance.randrange(4)}"
-        action = chance.random()
-        if action < 0.1 and name in broadcasters:
-            broadcasters.pop(name)[0].destroy_node()
-            expected = {child: x for child, x in expected.items() if owner[child] != name}
-        elif action < 0.8:
-            if name not in broadcasters:
-                node = make_node(name)
-                broadcasters[name] = (node, StaticTransformBroadcaster(node))
-            children = [f"frame{chance.randrange(12)}" for _ in range(chance.randrange(1, 4))]
-            broadcasters[name][1].sendTransform(
-                [stamped(child=child, x=float(step)) for child in children]
-            )
-            expected |= dict.fromkeys(children, float(step))
-            owner |= dict.fromkeys(children, name)
-        else:
-            joins += 1
-            buffer, joined = Buffer(), make_node("joined")
-            TransformListener(buffer, joined)
-            assert {child: x_of(buffer, child) for child in expected} == expected
-            assert set(buffer._getFrameStrings()) == ({"world", *expected} if expected else set())
-            joined.destroy_node()
+    with contextlib.ExitStack() as opened:
+        while joins < enough_joins:
+            step += 1
+            name = f"broadcaster{chance.randrange(4)}"
+            action = chance.random()
+            if action < leaving and name in broadcasters:
+                broadcasters.pop(name)[0].close()
+                expected = {child: x for child, x in expected.items() if owner[child] != name}
+            elif action < sending:
+                if name not in broadcasters:
+                    life = opened.enter_context(contextlib.ExitStack())
+                    node = life.enter_context(open_node(name))
+                    broadcasters[name] = (life, StaticTransformBroadcaster(node))
+                children = [child(name, chance) for _ in range(chance.randrange(1, 4))]
+                broadcasters[name][1].sendTransform(
+                    [stamped(child=each, x=float(step)) for each in children]
+                )
+                expected |= dict.fromkeys(children, float(step))
+                owner |= dict.fromkeys(children, name)
+            else:
+                joins += 1
+                with open_node("joined") as node:
+                    buffer = Buffer()
+                    TransformListener(buffer, node)
+                    assert {each: x_of(buffer, each) for each in expected} == expected
+                    there = {"world", *expected} if expected else set()
+                    assert set(buffer._getFrameStrings()) == there
+
+
+def test_no_peer_is_lost_over_a_thousand_joins(make_node, stamped):
+    @contextlib.contextmanager
+    def open_node(name):
+        node = make_node(name)
+        yield node
+        node.destroy_node()
+
+    def child(_, chance):
+        return f"frame{chance.randrange(12)}"
+
+    join_late(open_node, stamped, 1000, leaving=0.1, sending=0.8, child=child)
 
 
 @contextlib.contextmanager
-def open_node(name):
+def open_participant(name):
     """A node on its own participant, as in another process."""
     context = Context()
     context.init(args=[])
@@ -156,40 +180,11 @@ def open_node(name):
 def test_no_static_transform_is_lost_over_dds(enough_joins, monkeypatch, stamped):
     """The same with participants of Cyclone DDS, each with its own frames."""
     monkeypatch.delenv("RMW_IMPLEMENTATION")
-    chance = random.Random(20261121)
-    broadcasters, expected, owner = {}, {}, {}
-    joins = step = 0
-    with contextlib.ExitStack() as opened:
-        while joins < enough_joins:
-            step += 1
-            name = f"broadcaster{chance.randrange(4)}"
-            action = chance.random()
-            if action < 0.02 and name in broadcasters:
-                broadcasters.pop(name)[0].close()
-                expected = {child: x for child, x in expected.items() if owner[child] != name}
-            elif action < 0.3:
-                if name not in broadcasters:
-                    node = opened.enter_context(life := contextlib.ExitStack()).enter_context(
-                        open_node(name)
-                    )
-                    broadcasters[name] = (life, StaticTransformBroadcaster(node))
-                children = [
-                    f"{name}_frame{chance.randrange(6)}" for _ in range(chance.randrange(1, 4))
-                ]
-                broadcasters[name][1].sendTransform(
-                    [stamped(child=child, x=float(step)) for child in children]
-                )
-                expected |= dict.fromkeys(children, float(step))
-                owner |= dict.fromkeys(children, name)
-            else:
-                joins += 1
-                with open_node("joined") as node:
-                    buffer = Buffer()
-                    TransformListener(buffer, node)
-                    assert {child: x_of(buffer, child) for child in expected} == expected
-                    assert set(buffer._getFrameStrings()) == (
-                        {"world", *expected} if expected else set()
-                    )
+
+    def child(name, chance):
+        return f"{name}_frame{chance.randrange(6)}"
+
+    join_late(open_participant, stamped, enough_joins, leaving=0.02, sending=0.3, child=child)
 
 
 def test_a_destroyed_broadcaster_says_so(node, stamped):

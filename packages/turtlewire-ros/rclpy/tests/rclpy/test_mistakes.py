@@ -10,6 +10,7 @@ import pytest
 
 from example_interfaces.action import Fibonacci
 from example_interfaces.srv import AddTwoInts
+from rclpy import exceptions
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.action import ActionClient, ActionServer
 from rclpy.callback_groups import ReentrantCallbackGroup
@@ -18,6 +19,7 @@ from rclpy.exceptions import NoTypeSupportImportedException
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.impl.arguments import Arguments
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from std_msgs.msg import Int32, String
 from std_srvs.srv import Trigger
 from turtlesim.action import RotateAbsolute
@@ -280,3 +282,43 @@ def test_a_message_class_of_another_installation(node):
     with pytest.raises(NoTypeSupportImportedException) as caught:
         node.create_publisher(String, "a", 1)
     assert "comes from another ROS 2 installation" in caught.value.hint
+
+
+# The texts of errors.
+
+
+@pytest.mark.parametrize(
+    ("error", "text"),
+    [
+        (exceptions.NotInitializedException(), "rclpy.init() has not been called"),
+        (
+            exceptions.NotInitializedException("cannot create node"),
+            "rclpy.init() has not been called. msg:cannot create node",
+        ),
+        (exceptions.NoTypeSupportImportedException(), "no type_support imported"),
+        (exceptions.ROSInterruptException(), "rclpy.shutdown() has been called"),
+        (
+            exceptions.ParameterNotDeclaredException(["a"]),
+            "Invalid access to undeclared parameter(s): ['a']",
+        ),
+        (
+            exceptions.ParameterAlreadyDeclaredException(["a"]),
+            "Parameter(s) already declared: ['a']",
+        ),
+        (exceptions.InvalidParameterException(""), "Invalid parameter name: "),
+        (exceptions.ParameterImmutableException("a"), "Attempted to modify read-only parameter: a"),
+        (exceptions.ParameterUninitializedException("a"), "The parameter is not initialized: a"),
+        (
+            exceptions.InvalidParameterTypeException(Parameter("a", value=2), "STRING"),
+            "Trying to set parameter 'a' to '2' of type 'INTEGER', expecting type 'STRING'",
+        ),
+    ],
+)
+def test_texts(error, text):
+    assert str(error) == text
+
+
+def test_hints_are_notes():
+    error = exceptions.ParameterNotDeclaredException("a").with_hint("declared are ['b'].")
+    assert error.hint == "declared are ['b']."
+    assert getattr(error, "__notes__", [error.hint]) == [error.hint]
