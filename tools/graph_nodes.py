@@ -18,7 +18,7 @@ SENSOR = QoS(depth=5, reliability=Reliability.BEST_EFFORT)
 LATCHED = QoS(depth=1, durability=Durability.TRANSIENT_LOCAL)
 SCAN, MAP = "sensor_msgs/msg/LaserScan", "nav_msgs/msg/OccupancyGrid"
 TWIST, STAMPED = "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"
-ODOM, PATH, JOY = "nav_msgs/msg/Odometry", "nav_msgs/msg/Path", "sensor_msgs/msg/Joy"
+ODOM, PATH = "nav_msgs/msg/Odometry", "nav_msgs/msg/Path"
 PERIOD_S = 0.1
 
 #: Of each node: what it publishes and what it subscribes to.

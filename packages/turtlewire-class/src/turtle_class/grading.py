@@ -71,10 +71,8 @@ def grade_all(
     exercises: Sequence[ExerciseFolder],
     limits: Limits | None = None,
     tell: Callable[[str], object] = lambda _: None,
-    *,
-    jobs: int | None = None,
 ) -> list[GradeReport]:
-    """Grade each exercise of each student in its own processes.
+    """Grade each exercise of each student in its own processes, one at a time for each core.
 
     On Linux, other processes of this user cannot read this one's memory meanwhile.
 
@@ -83,12 +81,11 @@ def grade_all(
         exercises: What is graded.
         limits: The limits of each exercise; None uses the defaults.
         tell: Called with the progress after each exercise.
-        jobs: How many run at a time; None uses one for each core.
 
     Raises:
         KeyboardInterrupt: Ctrl-C. All that ran has been stopped.
     """
-    jobs = jobs or os.cpu_count() or 1
+    jobs = os.cpu_count() or 1
     runner = Runner(limits)
     domains: queue.SimpleQueue[int] = queue.SimpleQueue()
     for number in range(jobs):

@@ -15,15 +15,7 @@ from turtlewire.bag.playback import PlayClock, ReadAhead
 from turtlewire.errors import BagError
 from turtlewire.tf.buffer import Buffer
 from turtlewire_view.live import MAX_FRAMES, frames_left_out, stamp_range_ns
-from turtlewire_view.source import (
-    Joints,
-    ParameterAnswer,
-    ServiceAnswer,
-    ServiceCalls,
-    TimelineState,
-    Topic,
-    no_service,
-)
+from turtlewire_view.source import Joints, OfflineSource, TimelineState, Topic
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -37,7 +29,7 @@ _WINDOWS_NS = (2 * 10**9, 30 * 10**9)
 _SLOWEST, _FASTEST = 0.01, 100.0
 
 
-class BagSource:
+class BagSource(OfflineSource):
     """The frames and messages of a bag. Plays once a page looks at it, and stops at its end.
 
     All pages share its time. A thread delivers the messages of the topics that are subscribed.
@@ -52,6 +44,7 @@ class BagSource:
     """
 
     kind = "bag"
+    _WHAT = "a bag"
     joints: Joints | None = None
 
     def __init__(
@@ -70,7 +63,7 @@ class BagSource:
         self.buffer = self._read_frames(max_frames)
         self.problem = " ".join(filter(None, (self.problem, frames_left_out(self.buffer))))
         self._stamps = StampsOfLog(path) if self._has_other_stamps() else None
-        self._changed: Callable[[], None] = _nothing
+        self._changed: Callable[[], None] = lambda: None
         self._news = threading.Condition()
         self._clock = PlayClock(self._start_ns, is_paused=True)
         self._sinks: dict[str, list[Callable[[bytes], None]]] = {}
@@ -85,10 +78,6 @@ class BagSource:
         """Return the time of the bag that is shown."""
         with self._news:
             return min(self._clock.now_ns(), self._end_ns)
-
-    def departed_frames(self) -> list[str]:
-        """Return no frame: a bag does not say when publishers left."""
-        return []
 
     def new_timeline(self) -> BagSource:
         """Return the bag itself: all pages share its time, which begins with the first of them."""
@@ -120,24 +109,6 @@ class BagSource:
 
         return end
 
-    def ask_parameter(
-        self, node: str, name: str, on_answer: Callable[[ParameterAnswer], None]
-    ) -> Callable[[], None]:
-        """Answer at once that a bag has no parameters."""
-        problem = f"a bag has no parameters, so '{name}' of {node} is not known; use the topic"
-        on_answer(ParameterAnswer(problem=problem))
-        return _nothing
-
-    def ask_service(
-        self, name: str, type_name: str, on_answer: Callable[[ServiceAnswer], None]
-    ) -> ServiceCalls:
-        """Answer at once that a bag has no services."""
-        del type_name
-        return no_service(f"a bag has no services, so {name} cannot be called", on_answer)
-
-    def advertise(self, topic: str, type_name: str) -> None:
-        """Do nothing: a bag accepts no messages."""
-
     def publish(self, topic: str, type_name: str, cdr: bytes) -> int:  # noqa: ARG002 - Source's
         """Refused.
 
@@ -149,9 +120,6 @@ class BagSource:
     def on_change(self, call: Callable[[], None]) -> None:
         """Call ``call()`` on the player's thread."""
         self._changed = call
-
-    def drop_old_timeline(self) -> None:
-        """Do nothing: the clock of a bag never restarts."""
 
     def stamp_ns(self) -> int:
         """Return the time of the bag, or what its transforms' stamps were then."""
@@ -302,10 +270,6 @@ class BagSource:
 def _give(sinks: list[Callable[[bytes], None]], data: bytes) -> None:
     for sink in sinks:
         sink(data)
-
-
-def _nothing() -> None:
-    pass
 
 
 _TF = "/tf"

@@ -8,14 +8,7 @@ from typing import TYPE_CHECKING
 from turtlewire import msg
 from turtlewire.errors import TurtlewireError
 from turtlewire_view.live import LiveTimeline, newest_stamp_ns
-from turtlewire_view.source import (
-    Joints,
-    ParameterAnswer,
-    ServiceAnswer,
-    ServiceCalls,
-    Topic,
-    no_service,
-)
+from turtlewire_view.source import Joints, OfflineSource, Topic
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -29,7 +22,7 @@ __all__ = ["BufferSource"]
 _ALL_NS = 1 << 62
 
 
-class BufferSource:
+class BufferSource(OfflineSource):
     """The frames of a buffer. Pages follow its changes, and can go back to all of its samples.
 
     Args:
@@ -39,6 +32,7 @@ class BufferSource:
     """
 
     kind = "live"
+    _WHAT = "a buffer"
     joints: Joints | None = None
     problem = ""
     history_ns = _ALL_NS
@@ -55,10 +49,6 @@ class BufferSource:
         """Return the newest stamp; the system time if all transforms are static."""
         newest = newest_stamp_ns(self.buffer)
         return time.time_ns() if newest is None else newest
-
-    def departed_frames(self) -> list[str]:
-        """Return no frame: a buffer does not know the graph."""
-        return []
 
     def new_timeline(self) -> LiveTimeline:
         """Return a page's own time, which follows the buffer until the page is paused."""
@@ -80,25 +70,7 @@ class BufferSource:
         """Deliver the topic's message at once."""
         if topic in self._messages:
             on_message(msg.serialize(self._messages[topic]))
-        return _nothing
-
-    def ask_parameter(
-        self, node: str, name: str, on_answer: Callable[[ParameterAnswer], None]
-    ) -> Callable[[], None]:
-        """Answer at once that a buffer has no parameters."""
-        problem = f"a buffer has no parameters, so '{name}' of {node} is not known; use the topic"
-        on_answer(ParameterAnswer(problem=problem))
-        return _nothing
-
-    def ask_service(
-        self, name: str, type_name: str, on_answer: Callable[[ServiceAnswer], None]
-    ) -> ServiceCalls:
-        """Answer at once that a buffer has no services."""
-        del type_name
-        return no_service(f"a buffer has no services, so {name} cannot be called", on_answer)
-
-    def advertise(self, topic: str, type_name: str) -> None:
-        """Do nothing: a buffer accepts no messages."""
+        return lambda: None
 
     def publish(self, topic: str, type_name: str, cdr: bytes) -> int:  # noqa: ARG002 - Source's
         """Refused.
@@ -114,14 +86,7 @@ class BufferSource:
         """Call ``call()`` on the threads that write to the buffer."""
         self._ends.append(self.buffer.on_change(call))
 
-    def drop_old_timeline(self) -> None:
-        """A buffer belongs to the program, which clears it itself."""
-
     def close(self) -> None:
         """Stop following the buffer."""
         while self._ends:
             self._ends.pop()()
-
-
-def _nothing() -> None:
-    pass

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Joints",
+    "OfflineSource",
     "ParameterAnswer",
     "ServiceAnswer",
     "ServiceCalls",
@@ -71,6 +72,37 @@ def no_service(problem: str, on_answer: Callable[[ServiceAnswer], None]) -> Serv
     """
     on_answer(ServiceAnswer(problem=problem))
     return _NoCalls()
+
+
+class OfflineSource:
+    """The part of `Source` that those without a network share; ``_WHAT`` says what they show."""
+
+    _WHAT: str
+
+    def departed_frames(self) -> list[str]:
+        """Return no frame: the graph is not known."""
+        return []
+
+    def ask_parameter(
+        self, node: str, name: str, on_answer: Callable[[ParameterAnswer], None]
+    ) -> Callable[[], None]:
+        """Answer at once that there are no parameters."""
+        problem = f"{self._WHAT} has no parameters, so '{name}' of {node} is not known"
+        on_answer(ParameterAnswer(problem=f"{problem}; use the topic"))
+        return lambda: None
+
+    def ask_service(
+        self, name: str, type_name: str, on_answer: Callable[[ServiceAnswer], None]
+    ) -> ServiceCalls:
+        """Answer at once that there are no services."""
+        del type_name
+        return no_service(f"{self._WHAT} has no services, so {name} cannot be called", on_answer)
+
+    def advertise(self, topic: str, type_name: str) -> None:
+        """Do nothing: no messages are accepted."""
+
+    def drop_old_timeline(self) -> None:
+        """Do nothing: the time does not restart."""
 
 
 class TimelineState(NamedTuple):

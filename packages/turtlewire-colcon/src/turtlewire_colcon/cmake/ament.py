@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 __all__ = ["AMENT", "OWN_PARTS"]
 
 _KINDS = ("msg", "srv", "action")
-_FIND_KEYWORDS = ("COMPONENTS", "OPTIONAL_COMPONENTS", "HINTS", "PATHS", "NAMES", "REQUIRED")
 #: Commands whose mistakes are errors even in packages with C++: they install Python or data.
 OWN_PARTS = (
     "ament_package", "ament_auto_package", "ament_python_install_package",

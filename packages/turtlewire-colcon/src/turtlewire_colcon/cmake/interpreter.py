@@ -112,7 +112,7 @@ class Interpreter:
 
     def run_text(self, text: str, place: SourcePosition) -> None:
         """Run the commands in a string."""
-        self._call_body(build_tree(parse_commands(text, place.file)), "return")
+        self._call_body(build_tree(parse_commands(text, place.file)))
 
     def knows(self, name: str) -> bool:
         """Return True if there is a command or a function of this name."""
@@ -203,11 +203,11 @@ class Interpreter:
             return False
         return True
 
-    def _call_body(self, nodes: Sequence[Node], ended_by: str) -> None:
+    def _call_body(self, nodes: Sequence[Node]) -> None:
         try:
             self._run(nodes)
         except _Leave as leave:
-            if leave.kind != ended_by:
+            if leave.kind != "return":
                 raise
 
     def _run_command(self, command: CMakeCommand) -> None:
@@ -327,7 +327,7 @@ class Interpreter:
             self._run(tuple(_with_arguments(node, given) for node in branch.body))
         else:
             with self.scope(**given):
-                self._call_body(branch.body, "return")
+                self._call_body(branch.body)
 
 
 def _closing_brace(text: str, at: int) -> int:

@@ -97,10 +97,10 @@ def pose_rows(
     return poses, kept
 
 
-def rows_within(rows: NDArray[np.float64], bound: float = LARGEST) -> NDArray[np.bool_]:
-    """Return for each row if all its numbers are finite and smaller than ``bound``."""
+def rows_within(rows: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Return for each row if all its numbers are finite and smaller than ``LARGEST``."""
     with np.errstate(invalid="ignore"):
-        within: NDArray[np.bool_] = np.all(np.abs(rows) < bound, axis=1)  # also false for NaN
+        within: NDArray[np.bool_] = np.all(np.abs(rows) < LARGEST, axis=1)  # also false for NaN
     return within
 
 

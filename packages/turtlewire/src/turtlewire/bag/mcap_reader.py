@@ -57,7 +57,6 @@ class McapFile:
         extra_positions: Where its Attachment and Metadata records begin, as far as its index lists
             them.
         closed_properly: Whether the file ends with its summary.
-        indexed: Whether its messages lie in chunks with a message index.
         problems: What is damaged, one sentence each with the position; filled while reading.
 
     Raises:
@@ -79,7 +78,6 @@ class McapFile:
         self._map, self._bytes = map_file(path, MAGIC, "an MCAP file")
         try:
             self.closed_properly = self._read_summary()
-            self.indexed = self.closed_properly and bool(self.chunks)
             if not self.closed_properly or not self._summary_is_complete():
                 self._walk_file()
         except BaseException:

@@ -58,12 +58,7 @@ def plot_errors(errors: PoseErrors, reference: Trajectory) -> Plot:
 
 
 def plot_error_path(
-    reference: Trajectory,
-    estimate: Trajectory,
-    errors: PoseErrors,
-    plane: str = "xy",
-    *,
-    percentile: float = 100.0,
+    reference: Trajectory, estimate: Trajectory, errors: PoseErrors, plane: str = "xy"
 ) -> Plot:
     """Return the path of the estimate, coloured by its error, on the dashed reference.
 
@@ -72,7 +67,6 @@ def plot_error_path(
         estimate: Likewise, aligned.
         errors: Of the two.
         plane: Two of the axes x, y and z, such as ``xy``.
-        percentile: PoseErrors above this percentile have the last colour.
     """
     across, up = columns_of(plane)
     panel = path_panel([reference, estimate], plane, WIDTH - _BAR)
@@ -80,7 +74,7 @@ def plot_error_path(
         at = reference.positions[rows]
         panel.line(at[:, across], at[:, up], GREY, dashed=True)
     values = np.interp(np.arange(len(estimate)), errors.rows, errors.values)
-    low, high = float(values.min()), float(np.percentile(values, percentile))
+    low, high = float(values.min()), float(values.max())
     shares = np.clip((values - low) / ((high - low) or 1.0), 0.0, 1.0)
     steps = np.round(shares * (_COLOUR_STEPS - 1)).astype(np.int64)
     for rows in runs_of(estimate):

@@ -1,9 +1,26 @@
-// Displays: each kind is a module below displays/, loaded when the first one is added.
+// Displays: modules below displays/, each loaded when the first of its displays is added.
 
 import * as three from "three";
 import { bytesOf } from "./colors.js";
 import { optionsOf } from "./display_options.js";
 import { DisplayParts } from "./display_parts.js";
+
+/** Module and class of kinds that share a module; others have a module of their own. */
+const SHARED = {
+  camera_info: ["shapes", "CameraInfo"],
+  depth_cloud: ["point_cloud", "DepthCloud"],
+  grid_cells: ["shapes", "GridCells"],
+  laser_scan: ["point_cloud", "PointCloud"],
+  measurement: ["shapes", "Measurement"],
+  odometry: ["poses", "Pose"],
+  path: ["poses", "Path"],
+  point: ["shapes", "Point"],
+  point_cloud: ["point_cloud", "PointCloud"],
+  polygon: ["shapes", "Polygon"],
+  pose: ["poses", "Pose"],
+  pose_array: ["poses", "PoseArray"],
+  range: ["shapes", "Range"],
+};
 
 export class Displays {
   /** Called when a display has its first content, or more to look at. */
@@ -39,13 +56,14 @@ export class Displays {
     this.#entries.set(id, entry);
     this.#onChange();
     try {
+      const [file, name] = SHARED[kind] ?? [kind, "default"];
       const [module, schema] = await Promise.all([
-        import(`./displays/${kind}.js`), optionsOf(kind),
+        import(`./displays/${file}.js`), optionsOf(kind),
       ]);
       if (!this.#entries.has(id)) return;
       entry.schema = schema;
       entry.options = { ...defaults(entry.schema), ...options };
-      if (this.#view) this.#draw(entry, module.default);
+      if (this.#view) this.#draw(entry, module[name]);
     } catch (error) {
       entry.level = "error";
       entry.text = `This page cannot draw "${kind}": ${error.message}`;

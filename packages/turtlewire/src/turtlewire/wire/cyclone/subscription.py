@@ -173,11 +173,6 @@ class CycloneSubscription(Endpoint, Subscription):
                 if publisher not in self._gids:
                     self._gid_of(publisher)
 
-    def publisher_gids(self) -> set[bytes]:
-        """Return the gids of the publishers that are known."""
-        with self._lock:
-            return set(self._gids.values())
-
     def _publishers_changed(self) -> None:
         self._forget = True
 

@@ -1,4 +1,4 @@
-// PointCloud2: points with colours that the server chose.
+// Clouds of points with colours that the server chose.
 
 import { clear } from "./parts/common.js";
 import { Display } from "./parts/display.js";
@@ -8,7 +8,8 @@ import { makeBodies } from "./parts/solids.js";
 /** Styles whose points are bodies: their shape, and their size as a multiple of the chosen one. */
 const BODIES = { boxes: ["box", [1, 1, 1]], tiles: ["box", [1, 1, 0]] };
 
-export default class PointCloud extends Display {
+/** PointCloud2, PointCloud and LaserScan. */
+export class PointCloud extends Display {
   #timers = new Map(); // part to what ends it after its decay time
 
   draw(group, header, { points, rgba }) {
@@ -54,5 +55,13 @@ export default class PointCloud extends Display {
   #stop(part) {
     clearTimeout(this.#timers.get(part));
     this.#timers.delete(part);
+  }
+}
+
+/** A depth image as points, each as wide as its pixel unless the user chooses a size. */
+export class DepthCloud extends PointCloud {
+  sizeOf({ pixel }) {
+    const { auto_size: isAutomatic, auto_size_factor: factor, size_metres: metres } = this.options;
+    return isAutomatic ? [pixel * factor, true] : [metres, false];
   }
 }

@@ -1,5 +1,0 @@
-// LaserScan: points, as those of clouds.
-
-import PointCloud from "./point_cloud.js";
-
-export default class LaserScan extends PointCloud {}
