@@ -2,7 +2,6 @@
 
 import * as three from "three";
 import { bytesOf } from "./colors.js";
-import { optionsOf } from "./display_options.js";
 import { DisplayParts } from "./display_parts.js";
 
 /** Module and class of kinds that share a module; others have a module of their own. */
@@ -21,6 +20,8 @@ const SHARED = {
   pose_array: ["poses", "PoseArray"],
   range: ["shapes", "Range"],
 };
+
+let table = null; // the options of all kinds; the server checks choices by the same table
 
 export class Displays {
   /** Called when a display has its first content, or more to look at. */
@@ -226,4 +227,21 @@ function forServer({ schema, options }) {
   return Object.fromEntries(Object.entries(options).map(([name, value]) => {
     return [name, colors.has(name) ? bytesOf(value) : value];
   }));
+}
+
+/** The options of a kind: { name, label, type, value, min, max, step, choices }. */
+async function optionsOf(kind) {
+  table ??= loadTable();
+  table.catch(() => { table = null; }); // it may be there the next time
+  const lists = await table;
+  const listed = (name) => lists[name].flatMap((each) => {
+    return typeof each === "string" ? listed(each) : [each];
+  });
+  return listed(kind);
+}
+
+async function loadTable() {
+  const answer = await fetch(new URL("./displays/options.json", import.meta.url));
+  if (!answer.ok) throw new Error(`the table of options cannot be loaded (${answer.status})`);
+  return answer.json();
 }

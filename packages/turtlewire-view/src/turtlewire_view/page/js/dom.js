@@ -25,3 +25,22 @@ export function offer(select, options, chosen = select.value) {
   }
   select.value = values.includes(chosen) ? chosen : (values[0] ?? "");
 }
+
+/**
+ * Let Escape, and a press elsewhere, close an open `details`, and do nothing else: the picture
+ * takes no such press.
+ */
+export function closeFirst(menu) {
+  const first = { capture: true };
+  addEventListener("keydown", (event) => {
+    if (event.key !== "Escape" || !menu.open) return;
+    event.stopPropagation();
+    menu.open = false;
+    menu.querySelector("summary").focus();
+  }, first);
+  addEventListener("pointerdown", (event) => {
+    if (!menu.open || menu.contains(event.target)) return;
+    menu.open = false;
+    if (event.target.matches("canvas")) event.stopPropagation();
+  }, first);
+}

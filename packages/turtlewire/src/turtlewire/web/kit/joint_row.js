@@ -1,8 +1,8 @@
 // One joint: its name, its value in figures, and a slider or a dial.
 
 import { makeDial } from "./dial.js";
-import { formula, shown, unitOf } from "./joint_units.js";
 
+const DEGREES = 180 / Math.PI;
 const SLIDER_STEPS = 10000;
 /** Part of the range that a press of + or − moves. */
 const NUDGE = 0.01;
@@ -176,4 +176,27 @@ export class JointRow {
 /** The same angle from −π to π. */
 function wrapped(angle) {
   return Math.atan2(Math.sin(angle), Math.cos(angle));
+}
+
+/** The unit of a joint: its name, how many of it make a radian or metre, and its decimals. */
+function unitOf(kind, degrees) {
+  if (kind === "prismatic") return { name: "m", scale: 1, digits: 3 };
+  return degrees ? { name: "°", scale: DEGREES, digits: 1 } : { name: "rad", scale: 1, digits: 3 };
+}
+
+/** A number with the unit's decimals; never "-0.000". */
+function shown(value, { scale, digits }) {
+  const text = (value * scale).toFixed(digits);
+  return Number(text) === 0 ? (0).toFixed(digits) : text;
+}
+
+/** "= -0.5 · elbow + 0.25", in the unit of the joint. */
+function formula({ parent, factor, offset }, unit) {
+  const product = factor === 1 ? parent : `${short(factor)} · ${parent}`;
+  if (offset === 0) return `= ${product}`;
+  return `= ${product} ${offset < 0 ? "−" : "+"} ${short(Math.abs(offset) * unit.scale)}`;
+}
+
+function short(number) {
+  return String(Number(number.toPrecision(6)));
 }
