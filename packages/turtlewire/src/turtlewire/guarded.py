@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-import traceback
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
@@ -32,8 +31,11 @@ def call_guarded(call: Callable[..., object], *arguments: object) -> None:
 
 
 def _report(error: BaseException) -> None:
-    *_, (frame, line) = traceback.walk_tb(error.__traceback__)
-    place = frame.f_code.co_filename, line, type(error)
+    raised = error.__traceback__
+    assert raised is not None
+    while raised.tb_next is not None:
+        raised = raised.tb_next
+    place = raised.tb_frame.f_code.co_filename, raised.tb_lineno, type(error)
     if place in _reported:
         return
     if len(_reported) >= _MOST_PLACES:
