@@ -105,9 +105,6 @@ class Context:
             UnicodeEncodeError: The command line is not UTF-8.
             WireError: The middleware is missing, or its settings are wrong.
         """
-        from turtlewire.errors import WireError
-        from turtlewire.wire import open_context
-
         from .impl.arguments import Arguments
 
         with self._lock:
@@ -116,23 +113,36 @@ class Context:
             if self._wire is not None:
                 raise RuntimeError("Context.init() must only be called once")
             self._arguments = Arguments.parse_global(sys.argv if args is None else args)
-            try:
-                self._wire = open_context(domain_id)
-            except WireError as error:
-                # The settings are at fault: the excepthook shows one line instead of a traceback.
-                error.is_of_environment = True
-                raise
-            # Discovery begins here, so that the first query of the graph finds other nodes.
-            _ = self._wire.graph
+            self._wire = self._joined(domain_id, self._arguments if initialize_logging else None)
             self._valid = True
             _open_contexts.add(self)
             atexit.unregister(_close_open_contexts)
             atexit.register(_close_open_contexts)  # again: must run before the middleware ends
             signals.listeners.add(self)
             self._initialized_logging = initialize_logging
-            # As in ROS 2, the first context's command line decides.
-            if initialize_logging and _count_logging(1) == 1:
-                self._arguments.configure_logging()
+
+    def _joined(self, domain_id: int | None, logging: Arguments | None) -> base.Context:
+        """Open the middleware, and initialize logging unless it is None; both or neither."""
+        from turtlewire.errors import WireError
+        from turtlewire.wire import open_context
+
+        with ExitStack() as if_it_fails:
+            try:
+                wire = open_context(domain_id)
+            except WireError as error:
+                # The settings are at fault: the excepthook shows one line instead of a traceback.
+                error.is_of_environment = True
+                raise
+            if_it_fails.callback(wire.close)
+            # Discovery begins here, so that the first query of the graph finds other nodes.
+            _ = wire.graph
+            if logging is not None:
+                is_first = _count_logging(1) == 1
+                if_it_fails.callback(_count_logging, -1)
+                if is_first:  # as in ROS 2, the first context's command line decides
+                    logging.configure_logging()
+            if_it_fails.pop_all()
+        return wire
 
     def note_scheduler(self, scheduler: _Scheduler) -> None:
         """Have :meth:`schedulers` name it while it exists."""

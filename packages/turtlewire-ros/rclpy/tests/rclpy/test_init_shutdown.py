@@ -19,6 +19,7 @@ from rclpy.utilities import get_default_context, remove_ros_args, timeout_sec_to
 from std_msgs.msg import Int32
 from std_srvs.srv import Empty
 from turtlewire.errors import WireError
+from turtlewire.wire.local.context import LocalContext
 
 
 @pytest.fixture(autouse=True)
@@ -123,6 +124,33 @@ def test_arguments_that_are_wrong_leave_the_context_uninitialized():
         rclpy.init(args=["program", "--ros-args", "-r", "nonsense"])
     assert not rclpy.ok()
     rclpy.init(args=[])
+
+
+@pytest.mark.parametrize(
+    "step",
+    [
+        "turtlewire.wire.local.context.LocalContext.graph",
+        "rclpy.impl.arguments.Arguments.configure_logging",
+    ],
+)
+def test_an_init_that_fails_half_way_can_be_repeated(monkeypatch, step):
+    def fail(_self):
+        raise RuntimeError("can't start new thread")
+
+    closed, close = [], LocalContext.close
+    monkeypatch.setattr(LocalContext, "close", lambda wire: closed.append(wire) or close(wire))
+    monkeypatch.setattr(rclpy.context, "g_logging_ref_count", 0)
+    context = Context()
+    with monkeypatch.context() as patched:
+        patched.setattr(step, property(fail) if step.endswith("graph") else fail)
+        with pytest.raises(RuntimeError, match="can't start"):
+            context.init(args=[])
+    assert len(closed) == 1
+    assert rclpy.context.g_logging_ref_count == 0
+    context.init(args=[])
+    assert context.ok()
+    context.shutdown()
+    assert len(closed) == 2
 
 
 class Told:
