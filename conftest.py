@@ -29,6 +29,8 @@ from tests.places import ROS2
 
 from turtlewire.testing import isolated_domain, reserved_domain
 
+pytest_plugins = ["tests.no_skips"]
+
 for_this_run = contextlib.ExitStack()
 for_this_run.enter_context(isolated_domain())
 
