@@ -50,21 +50,27 @@ class Launch:
         source, output = _output_pair() if self._output is None else (None, self._output)
         with _held_back():  # an interrupt in here would leave the processes running
             self._family.start()
-            # Without a terminal as its input, the launch sends its processes SIGINT itself.
-            self._process = subprocess.Popen(
-                [str(VENV / "bin" / COMMAND[0]), *COMMAND[1:]],
-                stdin=subprocess.DEVNULL,
-                stdout=output,
-                stderr=output,
-                env=self._family.marked(os.environ),
-                start_new_session=True,
-            )
             if source is not None:
-                os.close(output)
                 threading.Thread(
                     target=self._show, args=(source,), name="launch-output", daemon=True
                 ).start()
+            try:
+                self._process = self._launch(output)
+            finally:
+                if source is not None:
+                    os.close(output)  # ends that thread, too, if nothing was launched
             self._waiter.start()
+
+    def _launch(self, output: int) -> subprocess.Popen[bytes]:
+        # Without a terminal as its input, the launch sends its processes SIGINT itself.
+        return subprocess.Popen(
+            [str(VENV / "bin" / COMMAND[0]), *COMMAND[1:]],
+            stdin=subprocess.DEVNULL,
+            stdout=output,
+            stderr=output,
+            env=self._family.marked(os.environ),
+            start_new_session=True,
+        )
 
     def _show(self, source: int) -> None:
         """Pass on what the processes print, until the last one has closed its output."""
@@ -121,9 +127,11 @@ def _held_back() -> Iterator[None]:
         signum: signal.signal(signum, lambda number, _frame: came.append(number))
         for signum in ENDING
     }
-    yield
-    for signum, handler in handlers.items():
-        signal.signal(signum, handler)
+    try:
+        yield
+    finally:
+        for signum, handler in handlers.items():
+            signal.signal(signum, handler)
     if came:
         interrupt()
 

@@ -145,6 +145,34 @@ def test_ctrl_c_while_it_starts_is_one_line_and_leaves_nothing_behind(run, words
     assert demo.survivors() == []
 
 
+NOT_INSTALLED = """
+import signal, threading
+import demo_launch
+from demo_launch import ENDING, Launch, interrupt
+
+for signum in ENDING:
+    signal.signal(signum, interrupt)
+demo_launch.COMMAND = ("not_installed",)
+try:
+    Launch().start()
+except FileNotFoundError as error:
+    print(error.filename)
+for thread in threading.enumerate():
+    if thread.name == "launch-output":
+        thread.join()
+print(*(signal.getsignal(signum) is interrupt for signum in ENDING))
+"""
+
+
+def test_a_launch_that_cannot_be_started_leaves_signals_and_threads_as_they_were(run):
+    environment = {"PYTHONPATH": str(DEMO.parent)}
+    program = run(sys.executable, "-c", NOT_INSTALLED, environment=environment)
+    assert program.wait() == 0, program.text
+    command, handlers = program.text.splitlines()
+    assert command.endswith("not_installed")
+    assert handlers == "True True True"
+
+
 DROPPED = """
 import os, signal, threading, weakref
 from demo_launch import ENDING, interrupt
