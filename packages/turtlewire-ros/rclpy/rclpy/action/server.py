@@ -285,7 +285,7 @@ class ActionServer(IntrospectedAction, Waitable):
             return ServerGoalHandle(self, info, request.goal)
         except RCLError as error:
             uuid = request.goal_id.uuid
-            self._logger.error(f"Failed to accept new goal with ID {uuid}: {error}")
+            self._logger.error(f"Failed to accept new goal with ID {uuid}: {error}")  # noqa: TRY400
             return None
 
     async def _is_accepted(self, goal: Any) -> bool:
