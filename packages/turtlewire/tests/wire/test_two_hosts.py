@@ -97,14 +97,17 @@ def test_subnet_range_finds_the_other_host():
 @pytest.mark.usefixtures("hosts")
 @pytest.mark.parametrize("chosen", ["SUBNET", "LOCALHOST"])
 def test_static_peers_find_the_other_host_without_multicast(chosen: str):
-    for host in HOSTS:
-        ip("-n", namespace(host), "link", "set", f"tw-{host}", "multicast", "off")
-    with echo_there(ROS_AUTOMATIC_DISCOVERY_RANGE=chosen, ROS_STATIC_PEERS=HOSTS["here"]):
+    with ExitStack() as stack:
+        for host in HOSTS:
+            link = ("-n", namespace(host), "link", "set", f"tw-{host}", "multicast")
+            ip(*link, "off")
+            stack.callback(ip, *link, "on")
+        stack.enter_context(
+            echo_there(ROS_AUTOMATIC_DISCOVERY_RANGE=chosen, ROS_STATIC_PEERS=HOSTS["here"])
+        )
         assert (
             probe_here(ROS_AUTOMATIC_DISCOVERY_RANGE=chosen, ROS_STATIC_PEERS=HOSTS["there"]) == 1
         )
-    for host in HOSTS:
-        ip("-n", namespace(host), "link", "set", f"tw-{host}", "multicast", "on")
 
 
 @pytest.mark.usefixtures("hosts")
