@@ -4,7 +4,7 @@
 module                            contents
 ================================  ==============================================================
 `loader`                          finds the tests of a module, before and after the shutdown
-`test_runner`, `test_result`      runs a launch and its tests; their results
+`test_runner`                     runs a launch and its tests; their results
 `launch_test`                     the command ``launch_test``
 `junitxml`                        results as JUnit's XML
 `pytest`                          the same tests, collected by pytest

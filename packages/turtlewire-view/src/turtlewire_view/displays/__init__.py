@@ -26,6 +26,7 @@ module             contents
 `depth_cloud`      depth images as points, with colours of another image
 `encodings`        pixels as RGBA
 `robot_model`      the links of a URDF
+`inertia`          mass and inertia of a link as bodies
 `effort`           the efforts of a JointState at the joints of a URDF
 =================  =============================================================================
 """

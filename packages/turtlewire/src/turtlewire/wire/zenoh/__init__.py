@@ -29,6 +29,7 @@ module                       contents
 `inlet`                      subscriptions whose messages go to a native sink
 `services`                   clients and servers
 `router`, `router_log`       ``rmw_zenohd``, and its messages about rejected peers
+`router_check`               the wait for a router that a variable asks for
 `diagnosis`                  explains why a session cannot be opened
 ===========================  ==================================================================
 """
