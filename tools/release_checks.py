@@ -50,7 +50,7 @@ def make_tools(python: str) -> Path:
 
 
 def tagged(tools: Path, raw: Path, target: Target) -> Path:
-    """The wheel with the tag of the oldest system that it runs on, and checked against it."""
+    """Return the wheel, checked and tagged for the oldest system that it runs on."""
     before = set(WORK.glob("*.whl"))
     if sys.platform == "linux":
         path = f"{tools}{os.pathsep}{os.environ['PATH']}"
@@ -68,7 +68,7 @@ def tagged(tools: Path, raw: Path, target: Target) -> Path:
 
 
 def check_wheel(path: Path, package: str | None) -> None:
-    """A wheel holds its packages and its metadata, and one compiled module if it is to have one.
+    """Check that a wheel holds its packages, its metadata and, if wanted, one compiled module.
 
     Args:
         path: The wheel.

@@ -166,7 +166,7 @@ def make_wheel(python: Path, source: Path, target: Target | None, folder: Path) 
 
 
 def headers(python: Path) -> str:
-    """Python's headers, which say nothing of the processor where a long has 64 bits."""
+    """Return the folder of Python's headers, which fit all processors with longs of 64 bits."""
     command = [str(python), "-c", "import sysconfig; print(sysconfig.get_path('include'))"]
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
 

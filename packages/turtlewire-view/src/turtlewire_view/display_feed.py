@@ -106,7 +106,7 @@ class DisplayFeed:
         return self.display.topics(self.types.get(self.display.topic, "")) != self.types
 
     def take_message(self, topic: str, cdr: bytes) -> None:
-        """A message has come; for any thread."""
+        """Take a message of a topic; for any thread."""
         if not self.paused:
             self._inbox.append((topic, cdr))
             self._on_work(self)

@@ -34,11 +34,11 @@ class Log(Protocol):
     """A logger for the server's user: a ``logging.Logger``, or rclpy's."""
 
     def info(self, message: str, /) -> Any:
-        """Tell."""
+        """Log what happens."""
         ...
 
     def warning(self, message: str, /) -> Any:
-        """Warn."""
+        """Log what the user should know of."""
         ...
 
 

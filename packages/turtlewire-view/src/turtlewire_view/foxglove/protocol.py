@@ -30,7 +30,7 @@ __all__ = [
     "time_data",
 ]
 
-#: Names of the protocol, which are one and the same on the wire.
+#: Two names of one protocol.
 SUBPROTOCOLS = ("foxglove.sdk.v1", "foxglove.websocket.v1")
 #: What a server may offer; ``time`` only with simulated time.
 CAPABILITIES = (

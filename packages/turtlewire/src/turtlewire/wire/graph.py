@@ -228,17 +228,11 @@ class GraphView(Graph):
         return predicate()
 
     def is_complete(self) -> bool:
-        """Return True once all announced endpoints are known.
-
-        Always true here: without discovery there is nothing to wait for.
-        """
+        """Return True: without discovery there is nothing to wait for."""
         return True
 
     def hurry(self) -> None:
-        """Do nothing.
-
-        Does nothing here: without discovery there is nothing to ask for.
-        """
+        """Do nothing: without discovery there is nothing to ask for."""
 
     def add_listener(self, on_change: Callable[[], None]) -> Callable[[], None]:
         with self._lock_of_change:

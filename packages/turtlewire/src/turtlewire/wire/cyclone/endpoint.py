@@ -174,12 +174,12 @@ class Endpoint(Entity):
 
 
 def read_count(status: dds.CountStatus) -> EventStatus:
-    """Deadline missed, liveliness lost, message lost."""
+    """Convert the status of missed deadlines, lost liveliness or lost messages."""
     return EventStatus(status.total_count, status.total_count_change)
 
 
 def read_incompatible(status: dds.IncompatibleStatus) -> EventStatus:
-    """Incompatible QoS."""
+    """Convert the status of endpoints with an incompatible QoS."""
     return EventStatus(
         status.total_count,
         status.total_count_change,
@@ -188,7 +188,7 @@ def read_incompatible(status: dds.IncompatibleStatus) -> EventStatus:
 
 
 def read_matched(status: dds.MatchedStatus) -> EventStatus:
-    """Matched."""
+    """Convert the status of matched endpoints."""
     return EventStatus(
         status.total_count,
         status.total_count_change,

@@ -180,9 +180,7 @@ class Participant:
             if_it_fails.pop_all()
 
     def _check_types(self) -> None:
-        """Make sure that this build of Cyclone understands our opaque type.
-
-        Bytes that go in come out.
+        """Check that this build of Cyclone passes our opaque type through unchanged.
 
         Peers do not see this: Cyclone does not announce topics, only their readers and writers.
         """

@@ -72,7 +72,7 @@ class SilentPeers:
             self._renew_reader()
 
     def gone(self, gid: bytes) -> None:
-        """A participant has left: what it was asked need not be known any more."""
+        """Forget a participant that has left."""
         self._asked.endpoints.discard(gid)
         self._asked.nodes.discard(gid)
 

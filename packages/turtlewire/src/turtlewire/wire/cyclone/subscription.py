@@ -198,9 +198,9 @@ class CycloneSubscription(Endpoint, Subscription):
         return gid
 
     def _compare_types(self, theirs: str) -> None:
-        """DDS matches types by name.
+        """Warn of a publisher whose definition of the type has other fields.
 
-        A definition with other fields is seen in its hash only (foreign peers announce none).
+        DDS matches types by name, so only the hash shows it; foreign peers announce none.
         """
         ours = self.spec.type_id
         if theirs and theirs != ours.type_hash:

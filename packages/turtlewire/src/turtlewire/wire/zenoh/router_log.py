@@ -1,8 +1,7 @@
 """Rewords the messages of a router's library about rejected peers.
 
 Zenoh logs to standard output, which this module replaces by a pipe; the reworded sentences go to
-standard error. With
-``RUST_LOG``, the log is left as it is.
+standard error. With ``RUST_LOG``, the log is left as it is.
 """
 
 from __future__ import annotations
