@@ -55,9 +55,11 @@ def test_domain_id(monkeypatch: pytest.MonkeyPatch):
     assert environment.domain_id() == 42
     monkeypatch.setenv("ROS_DOMAIN_ID", "232")
     assert environment.domain_id() == 232
+    monkeypatch.setenv("ROS_DOMAIN_ID", "0042")
+    assert environment.domain_id() == 42
 
 
-@pytest.mark.parametrize("text", ["233", "-1", "seven", "1.5", "٣"])
+@pytest.mark.parametrize("text", ["233", "-1", "seven", "1.5", "٣", 5000 * "1"])
 def test_a_bad_domain_id_is_named(monkeypatch: pytest.MonkeyPatch, text: str):
     monkeypatch.setenv("ROS_DOMAIN_ID", text)
     with pytest.raises(
@@ -137,6 +139,13 @@ def test_missing_middleware_is_reported_and_replaced(asked, missing, taken, said
     assert (done.returncode, done.stdout.split()) == (0, [taken])
     assert len(done.stderr.splitlines()) == bool(said)
     assert said in done.stderr
+
+
+def test_a_folder_named_zenoh_is_no_middleware(tmp_path, monkeypatch: pytest.MonkeyPatch):
+    (tmp_path / "zenoh").mkdir()
+    monkeypatch.setattr(sys, "path", [str(tmp_path)])
+    monkeypatch.delitem(sys.modules, "zenoh", raising=False)
+    assert not environment.is_installed("rmw_zenoh_cpp")
 
 
 def test_a_middleware_that_a_program_asks_for_must_be_there():

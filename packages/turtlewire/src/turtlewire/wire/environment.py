@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 from enum import Enum
 from importlib.util import find_spec
@@ -70,14 +71,15 @@ def domain_id() -> int:
     text = os.environ.get("ROS_DOMAIN_ID", "").strip()
     if not text:
         return 0
-    if not text.isascii() or not text.isdigit() or int(text) > MAX_DOMAIN_ID:
+    number = re.fullmatch("0*([0-9]{1,3})", text)
+    if number is None or int(number[1]) > MAX_DOMAIN_ID:
         error = WireError(
             f"ROS_DOMAIN_ID is not an integral number from 0 to {MAX_DOMAIN_ID}: {text!r}"
         )
         raise error.with_hint(
             "Set it to a number that your robots share, for example: export ROS_DOMAIN_ID=7"
         )
-    return int(text)
+    return int(number[1])
 
 
 def middleware_name() -> str:
@@ -119,7 +121,11 @@ def is_installed(middleware: str) -> bool:
     if middleware == "rmw_cyclonedds_cpp":
         # What is loaded stays: it needs no file, of which a process may have no more left.
         return _CYCLONE in sys.modules or find_libddsc().library is not None
-    return middleware != "rmw_zenoh_cpp" or find_spec("zenoh") is not None
+    if middleware != "rmw_zenoh_cpp":
+        return True
+    spec = find_spec("zenoh")
+    # A folder of that name, such as a workspace in the current one, has no origin.
+    return spec is not None and spec.origin is not None
 
 
 def middleware_library(middleware: str) -> str:
