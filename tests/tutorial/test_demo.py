@@ -164,7 +164,7 @@ print(*(signal.getsignal(signum) is interrupt for signum in ENDING))
 """
 
 
-def test_a_launch_that_cannot_be_started_leaves_signals_and_threads_as_they_were(run):
+def test_a_launch_that_cannot_be_started_restores_the_signals(run):
     environment = {"PYTHONPATH": str(DEMO.parent)}
     program = run(sys.executable, "-c", NOT_INSTALLED, environment=environment)
     assert program.wait() == 0, program.text

@@ -354,7 +354,7 @@ class Scheduler:
         try:
             task()
             is_over = task.done()
-        finally:  # KeyboardInterrupt, for example, is no outcome of a task
+        finally:  # also after KeyboardInterrupt, which leaves the task pending
             # Before an error ends the spin: the group must be free again.
             holder = self._holders.pop(task, None) if is_over else None
             if holder is not None:

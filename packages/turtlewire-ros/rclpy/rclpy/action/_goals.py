@@ -76,7 +76,7 @@ class Goals:
         """Keep a goal, and what the callbacks of the server are given for it.
 
         Raises:
-            RCLError: There is a goal with its id.
+            RCLError: Another goal has its id.
         """
         stamp = goal.info.stamp
         with self._lock:
