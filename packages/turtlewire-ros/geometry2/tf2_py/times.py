@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from turtlewire.call_errors import ros_time_error
+
 __all__ = ["to_moment", "to_nanoseconds"]
 
 
@@ -26,4 +28,4 @@ def to_nanoseconds(value: Any, what: str = "time") -> int:
         return int(value.sec) * 1_000_000_000 + int(value.nanosec)
     if hasattr(value, "nanoseconds"):
         return int(value.nanoseconds)
-    raise TypeError(f"{what} must have sec and nanosec, or nanoseconds.")
+    raise ros_time_error(what, value)

@@ -66,10 +66,7 @@ bool time_of(PyObject* object, Stamp& t, const char* what) {
   if (PyErr_Occurred() != nullptr) return false;
   PyObject* total = optional_attribute(object, nanoseconds_name);
   if (total == nullptr) {
-    if (PyErr_Occurred() == nullptr) {
-      PyErr_Format(PyExc_TypeError, "%s must have sec and nanosec, or nanoseconds.", what);
-    }
-    return false;
+    return PyErr_Occurred() == nullptr && raise_no_ros_time(object, what);
   }
   if (!take_integer(total, nanoseconds)) return false;
   t = nanoseconds;

@@ -69,6 +69,11 @@ bool raise_no_text(PyObject* object, const char* what) {
   return false;
 }
 
+bool raise_no_ros_time(PyObject* object, const char* what) {
+  raise_made("ros_time_error", "sO", what, object);
+  return false;
+}
+
 bool nanoseconds_of_other(PyObject* object, Stamp& value, const char* what) {
   if (PyErr_ExceptionMatches(PyExc_OverflowError) != 0)
     PyErr_Format(PyExc_OverflowError, "%s does not fit into 64 bits of nanoseconds", what);

@@ -57,6 +57,9 @@ PyObject* tuple_of(std::span<PyObject* const> items);
 bool raise_misfit(const char* method, std::span<PyObject* const> names, std::size_t required,
                   std::size_t positional, Py_ssize_t given, PyObject* keywords);
 
+// False, with the TypeError of turtlewire.call_errors for an object that is no time of ROS.
+bool raise_no_ros_time(PyObject* object, const char* what);
+
 // The names of a method's parameters. The first `required` must be given, those after the first
 // `positional` by keyword.
 template <std::size_t N>

@@ -13,7 +13,14 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Sequence
 
-__all__ = ["call_error", "explain_call", "explain_calls", "frame_error", "near_name"]
+__all__ = [
+    "call_error",
+    "explain_call",
+    "explain_calls",
+    "frame_error",
+    "near_name",
+    "ros_time_error",
+]
 
 _Class = TypeVar("_Class", bound=type)
 _Function = TypeVar("_Function", bound="Callable[..., Any]")
@@ -138,3 +145,30 @@ def _explained(method: Callable[..., Any], name: str, first: int = 0) -> Callabl
         raise call_error(name, names, required, len(names) - by_name, given, keywords)
 
     return call
+
+
+def ros_time_error(what: str, value: object) -> TypeError:
+    """Return the error, in ROS 2's words, for a value that is no time or duration of ROS.
+
+    Args:
+        what: ``time`` or ``duration``.
+        value: What the caller passed.
+    """
+    error = TypeError(f"{what} must have sec and nanosec, or nanoseconds.")
+    hint = f"It is of type {type(value).__name__}{_ros_time_for(what, value)}."
+    if hasattr(error, "add_note"):  # Python 3.10 has no notes
+        error.add_note(hint)
+    return error
+
+
+def _ros_time_for(what: str, value: object) -> str:
+    """Return what to write instead, as the end of a sentence."""
+    number = f"(seconds={float(value)!r})" if isinstance(value, (int, float)) else ""
+    if what == "duration":
+        return f": write rclpy.duration.Duration{number or '(seconds=…)'}"
+    if hasattr(value, "header"):
+        return ": pass its header.stamp"
+    if hasattr(value, "stamp"):
+        return ": pass its stamp"
+    latest = ": write rclpy.time.Time() for the latest transform"
+    return f"{latest}, or rclpy.time.Time{number}" if number and value else latest

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import asyncio
 import gc
+import sys
 import threading
 import time
 import weakref
@@ -19,7 +20,7 @@ from hypothesis import strategies as st
 from tests.programs import run_python
 
 import tf2_ros
-from geometry_msgs.msg import TransformStamped
+from geometry_msgs.msg import PointStamped, TransformStamped
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.clock import ClockType, ROSClock
 from rclpy.context import Context
@@ -27,6 +28,7 @@ from rclpy.duration import Duration
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.time import Time
+from std_msgs.msg import Header
 from tf2_ros import Buffer, MessageFilter, TransformBroadcaster, TransformListener
 
 LONG = Duration(seconds=60)
@@ -106,6 +108,45 @@ def test_times_are_ros_times(buffer, wrong):
         buffer.lookup_transform("a", "b", wrong)
     with pytest.raises(TypeError, match=r"duration must have sec and nanosec, or nanoseconds\."):
         buffer.can_transform("a", "b", Time(), wrong)
+
+
+@pytest.mark.skipif(sys.version_info < (3, 11), reason="Python 3.10 has no notes")
+@pytest.mark.parametrize(
+    ("call", "hint"),
+    [
+        (
+            lambda buffer: buffer.lookup_transform("a", "b", 0),
+            "It is of type int: write rclpy.time.Time() for the latest transform.",
+        ),
+        (
+            lambda buffer: buffer.lookup_transform("a", "b", 1.5),
+            (
+                "It is of type float: write rclpy.time.Time() for the latest transform, or "
+                "rclpy.time.Time(seconds=1.5)."
+            ),
+        ),
+        (
+            lambda buffer: buffer.lookup_transform("a", "b", Header()),
+            "It is of type Header: pass its stamp.",
+        ),
+        (
+            lambda buffer: buffer.lookup_transform("a", "b", PointStamped()),
+            "It is of type PointStamped: pass its header.stamp.",
+        ),
+        (
+            lambda buffer: buffer.lookup_transform("a", "b", Time(), timeout=1),
+            "It is of type int: write rclpy.duration.Duration(seconds=1.0).",
+        ),
+        (
+            lambda _: tf2_ros.Buffer("10"),
+            "It is of type str: write rclpy.duration.Duration(seconds=…).",
+        ),
+    ],
+)
+def test_errors_of_times_say_what_to_write(buffer, call, hint):
+    with pytest.raises(TypeError, match="nanosec") as caught:
+        call(buffer)
+    assert caught.value.__notes__ == [hint]
 
 
 def test_full_lookups_travel_in_time(buffer, stamped):
