@@ -73,6 +73,10 @@ class TransformListener:
         tf_static_topic: str = DEFAULT_STATIC_TF_TOPIC,
         static_only: bool = False,
     ) -> None:
+        if not hasattr(buffer, "engine"):
+            raise TypeError(
+                f"TransformListener(buffer, node) takes the buffer first, not {type(buffer)}"
+            )
         self.buffer = buffer
         self.node: Node | AsyncNode = _make_node() if node is None else node
         self._own_node = self.node if node is None else None

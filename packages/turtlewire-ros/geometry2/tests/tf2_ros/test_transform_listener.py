@@ -68,6 +68,11 @@ def test_qos(node):
     assert static.qos_profile.depth == 4
 
 
+def test_swapped_arguments(node):
+    with pytest.raises(TypeError, match=r"takes the buffer first, not <class 'rclpy\.node\.Node'>"):
+        TransformListener(node, Buffer())
+
+
 def test_static_listeners(make_node, stamped):
     buffer, other = Buffer(), Buffer()
     node = make_node("static")
