@@ -16,7 +16,7 @@ from rclpy.node import Node
 from rclpy.qos import qos_profile_parameter_events
 from rclpy.utilities import remove_ros_args
 from tf_transformations import quaternion_from_euler
-from turtlewire.distro import LYRICAL, since
+from turtlewire.distro import KILTED, LYRICAL, since
 
 from .static_transform_broadcaster import StaticTransformBroadcaster
 
@@ -31,7 +31,7 @@ _USAGE = """usage: static_transform_publisher --frame-id FRAME_ID --child-frame-
 
 Publishes the pose of the child frame in the frame: a translation in metres, and a rotation either
 as a quaternion or as roll, pitch and yaw in radians about the fixed axes x, y and z. Numbers that
-are not given are zero.
+are not given are zero, except QW, which is 1. Give a quaternion of length 1.
 
 old style, deprecated, gone in Lyrical (mind the order of the angles):
        static_transform_publisher X Y Z QX QY QZ QW FRAME_ID CHILD_FRAME_ID
@@ -41,6 +41,7 @@ _NUMBERS = ("--x", "--y", "--z", "--qx", "--qy", "--qz", "--qw", "--roll", "--pi
 _TEXTS = ("--frame-id", "--child-frame-id")
 _QUATERNION = ("--qx", "--qy", "--qz", "--qw")
 _EULER = ("--roll", "--pitch", "--yaw")
+_TOLERANCE = 0.01
 
 
 class ArgumentsError(Exception):
@@ -103,7 +104,6 @@ def _new_style(flags: dict[str, str]) -> Placement:
             number["--qx"],
             number["--qy"],
             number["--qz"],
-            # Without `--qw`, the quaternion would not have unit length.
             number["--qw"] if "--qw" in flags else 1.0,
         )
     else:
@@ -152,6 +152,11 @@ def _checked(placement: Placement) -> Placement:
     if not any(placement.rotation):
         raise ArgumentsError(
             "A quaternion of zeros is not a rotation, and every listener rejects it"
+        )
+    # tf2's limit since Kilted; Jazzy's listeners normalise the quaternion.
+    if since(KILTED) and abs(sum(each * each for each in placement.rotation) - 1) >= _TOLERANCE:
+        raise ArgumentsError(
+            "The quaternion must have the length 1, and every listener rejects others"
         )
     return placement
 

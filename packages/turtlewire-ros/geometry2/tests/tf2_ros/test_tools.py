@@ -264,6 +264,15 @@ def test_wrong_arguments_are_named(words, text, capsys):
     assert f"error parsing command line arguments: {text}\nusage: " in capsys.readouterr().err
 
 
+def test_kilted_refuses_a_quaternion_that_its_listeners_reject(monkeypatch, capsys):
+    words = ["--frame-id", "a", "--child-frame-id", "b", "--qx", "1"]
+    assert publisher.parse(words).rotation == (1.0, 0.0, 0.0, 1.0)
+    monkeypatch.setenv("ROS_DISTRO", "kilted")
+    assert publisher.main(["static_transform_publisher", *words]) == 1
+    assert "The quaternion must have the length 1" in capsys.readouterr().err
+    assert publisher.parse([*words, "--qw", "0.01"]).rotation == (1.0, 0.0, 0.0, 0.01)
+
+
 @pytest.mark.parametrize(
     ("size", "text"),
     [
