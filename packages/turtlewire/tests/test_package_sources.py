@@ -42,6 +42,22 @@ def test_well_known_packages_have_a_source(package):
     assert f"--packages-up-to {package} " in source_hint(package)
 
 
+def test_packages_of_ours_that_are_not_installed():
+    hint = source_hint("cv_bridge")
+    assert hint.startswith("cv_bridge comes with turtlewire-extras. ")
+    assert hint.endswith(" -m pip install ./packages/turtlewire-extras")
+
+
+@pytest.mark.parametrize(
+    "package", ["laser_geometry", "tf2_kdl", "nav2_bringup", "moveit_ros", "ros_gz_sim"]
+)
+def test_packages_that_need_a_ros_2(package):
+    assert source_hint(package) == (
+        f"{package} does not come with turtlewire. Run the programs that need it on a computer "
+        "with ROS 2: its nodes and yours discover each other"
+    )
+
+
 @pytest.mark.parametrize("package", ["", "my_msgs", "nav2", "control_msgs", "vision_msgs"])
 def test_other_packages_have_no_source(package):
     assert source_hint(package) == ""

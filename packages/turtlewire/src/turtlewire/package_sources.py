@@ -1,7 +1,8 @@
 """The repositories of well-known packages that do not come with turtlewire.
 
 They contain only interfaces or Python code, so they build in seconds in a workspace. Errors about
-such a missing package name the repository to clone.
+such a missing package name the repository to clone. Other packages are in turtlewire-extras, or
+need a ROS 2.
 """
 
 from __future__ import annotations
@@ -96,16 +97,46 @@ _SOURCES = {
 }
 
 
+_NOT_HERE = (
+    "{} does not come with turtlewire. Run the programs that need it on a computer with ROS 2: its "
+    "nodes and yours discover each other"
+)
+_EXTRAS = {
+    "cv_bridge",
+    "demo_nodes_cpp",
+    "diagnostic_updater",
+    "interactive_markers",
+    "urdf_launch",
+}
+#: Packages that need C++ or a simulator, by name and by the beginning of their names.
+_ELSEWHERE = {
+    "angles",
+    "image_geometry",
+    "laser_geometry",
+    "tf2_kdl",
+    "tf2_eigen",
+    "turtlebot3_gazebo",
+    "urdf_parser_py",
+}
+_ELSEWHERE_FROM = ("gazebo_", "moveit_", "nav2_", "ros_gz")
+
+
 def source_hint(name: str) -> str:
-    """Say what to clone and build for a package that is missing; empty if unknown.
+    """Say how to get a package that is missing; empty if unknown.
 
     Args:
         name: Name of the package, or of something in it: ``nav2_msgs``, ``nav2_msgs.action``,
             ``nav2_msgs/action/Spin``.
     """
     package = name.partition("/")[0].partition(".")[0]
+    if package in _EXTRAS:
+        return (
+            f"{package} comes with turtlewire-extras. In the folder of turtlewire's sources, type: "
+            f"{sys.executable} -m pip install ./packages/turtlewire-extras"
+        )
     if package not in _SOURCES:
-        return ""
+        is_elsewhere = package in _ELSEWHERE or package.startswith(_ELSEWHERE_FROM)
+        return _NOT_HERE.format(package) if is_elsewhere else ""
     repository, branch = _SOURCES[package]
     return (
         f"{package} does not come with turtlewire. In the folder src of your workspace, type: "
