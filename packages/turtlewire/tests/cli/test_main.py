@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 import subprocess
-from importlib.metadata import version
+from importlib.metadata import entry_points, version
 from pathlib import Path
 
 import pytest
 from tests.places import TURTLEWIRE
+from tests.programs import run_python
 
 from tests import places
 from turtlewire import msg, wire
@@ -54,6 +55,31 @@ def test_command_lines(words, status, text, capsys):
     assert found == status
     assert text in (said.err if status else said.out)
     assert not (said.out if status else said.err)
+
+
+INTERRUPTED_IMPORT = """
+import os, signal, sys
+
+class Interrupting:
+    def find_spec(self, name, path=None, target=None):
+        if name == "turtlewire.cli.bag_commands":
+            os.kill(os.getpid(), signal.SIGINT)
+
+sys.meta_path.insert(0, Interrupting())
+from turtlewire.cli.start import main
+sys.exit(main())
+"""
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no signal for one process")
+def test_ctrl_c_during_the_imports_shows_no_traceback():
+    program = run_python(INTERRUPTED_IMPORT, check=False)
+    assert (program.returncode, program.stdout, program.stderr) == (130, "", "")
+
+
+def test_the_installed_command_starts_where_ctrl_c_is_handled():
+    (command,) = entry_points(group="console_scripts", name="turtlewire")
+    assert command.value == "turtlewire.cli.start:main"
 
 
 def offered(line, answers):

@@ -3,6 +3,7 @@
 ====================  ========================================================================
 module                contents
 ====================  ========================================================================
+`start`               starts the command; handles Ctrl-C during the imports
 `main`                the command and its verbs
 `frames`              the verb ``frames``: ages, rates and publishers
 `frame_picture`       a snapshot of that tree, as text and as JSON
