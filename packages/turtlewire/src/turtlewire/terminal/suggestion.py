@@ -9,6 +9,9 @@ if TYPE_CHECKING:
 
 __all__ = ["did_you_mean"]
 
+#: Names that are so much less similar than the nearest one are noise.
+_WORSE = 0.15
+
 
 def did_you_mean(name: str, known: Iterable[str], similarity: float = 0.6) -> str:
     """Return a line with the nearest known names; empty if none is near.
@@ -21,4 +24,8 @@ def did_you_mean(name: str, known: Iterable[str], similarity: float = 0.6) -> st
     import difflib
 
     near = difflib.get_close_matches(name, list(dict.fromkeys(known)), n=3, cutoff=similarity)
-    return f"Did you mean: {', '.join(near)}" if near else ""
+    if not near:
+        return ""
+    ratios = [difflib.SequenceMatcher(None, each, name).ratio() for each in near]
+    kept = [each for each, ratio in zip(near, ratios, strict=True) if ratio > ratios[0] - _WORSE]
+    return f"Did you mean: {', '.join(kept)}"
