@@ -50,7 +50,7 @@ def product(self: Transform, other: Transform) -> Transform:
     """Return ``a_from_c`` for ``a_from_b @ b_from_c``, with the older stamp.
 
     Raises:
-        ValueError: The frames do not meet.
+        ValueError: The inner frames differ.
     """
     if not isinstance(other, type(self)):
         if hasattr(other, "__array_ufunc__"):  # NumPy would take the transform for seven numbers
@@ -61,9 +61,9 @@ def product(self: Transform, other: Transform) -> Transform:
         return NotImplemented  # type: ignore[no-any-return] # Python then asks the other operand
     if self.source_frame != other.target_frame:
         raise ValueError(
-            f"'{self.target_frame}' from '{self.source_frame}' and '{other.target_frame}' from "
-            f"'{other.source_frame}' do not meet: '{self.source_frame}' is not "
-            f"'{other.target_frame}'; inverse() turns a transform round"
+            f"cannot multiply '{self.target_frame}' from '{self.source_frame}' by "
+            f"'{other.target_frame}' from '{other.source_frame}': the inner frames differ, "
+            f"'{self.source_frame}' and '{other.target_frame}'; inverse() inverts a transform"
         )
     stamps = [stamp for stamp in (self.stamp_ns, other.stamp_ns) if stamp is not None]
     pose = canonical(compose(_pose(self), _pose(other)))

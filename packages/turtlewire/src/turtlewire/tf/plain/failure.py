@@ -75,7 +75,7 @@ _REASONS = {
 
 
 def name_failure(status: LookupStatus, name: str, question: Question, argument: str) -> Failure:
-    """Return a frame id that cannot be asked for."""
+    """Return the failure of a question with an unknown or invalid frame id."""
     why = {
         LookupStatus.EMPTY_NAME: "cannot be empty",
         LookupStatus.SLASH_NAME: "cannot start with a '/'",
@@ -93,7 +93,7 @@ def name_failure(status: LookupStatus, name: str, question: Question, argument: 
 
 
 def connection_failure(target: str, source: str, target_root: str, source_root: str) -> Failure:
-    """Two frames of different trees."""
+    """Return the failure of a lookup between frames of different trees."""
     return Failure(
         f"Could not find a connection between '{target}' and '{source}' because they are not "
         "part of the same tree."
@@ -109,7 +109,7 @@ def connection_failure(target: str, source: str, target_root: str, source_root: 
 
 
 def loop_failure(frames: str) -> Failure:
-    """Return the failure of a walk in a loop."""
+    """Return the failure of a lookup in a tree with a loop."""
     return Failure(
         f"The tf tree is invalid because it contains a loop.\n{frames}\n", LookupStatus.LOOP
     )
@@ -126,7 +126,7 @@ def time_failure(
     *,
     tells_emptied: bool,
 ) -> Failure:
-    """Return a link whose data does not reach a time."""
+    """Return the failure of a lookup at a time that the data of a link does not reach."""
     looking = f", when looking up transform from frame [{source}] to frame [{target}]"
     if link.static:
         return Failure(f"{_STATIC_CACHE_IS_EMPTY}{looking}", LookupStatus.NO_STATIC_DATA)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from turtlewire.geometry.poses import Pose
 
 MOST_SENDERS = 16
-"""Beyond it the one that has been silent longest is forgotten."""
+"""A link with more senders forgets the one that has been silent longest."""
 
 MOST_PER_STAMP = 1000
 """Beyond this many values of one stamp only the first, the last and the count are kept."""

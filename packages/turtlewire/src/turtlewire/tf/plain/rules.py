@@ -41,7 +41,7 @@ class Rules(NamedTuple):
         return (poses.between_scaling if self.keeps_rotations else poses.between)(a, b)
 
     def interpolate(self, older: Pose, newer: Pose, ratio: float) -> Pose:
-        """Return the pose at the part ``ratio`` of the way."""
+        """Return the pose at a fraction of the way from ``older`` to ``newer``."""
         mix = poses.interpolate_scaling if self.keeps_rotations else poses.interpolate
         return mix(older, newer, ratio)
 
