@@ -85,7 +85,7 @@ def _check_known(kind: str, name: str, known: set[str], *, patterns: bool = True
     if name in known or (patterns and any(fnmatchcase(each, name) for each in known)):
         return
     hint = did_you_mean(name, known) or _listed(kind, known)
-    raise BagError(f"there is no {kind} '{name}' to select").with_hint(hint)
+    raise BagError(f"there is no {kind} '{name}' in the bag").with_hint(hint)
 
 
 def _listed(kind: str, known: set[str]) -> str:
