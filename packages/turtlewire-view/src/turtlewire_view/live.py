@@ -14,6 +14,7 @@ from turtlewire.errors import WireError
 from turtlewire.tf.buffer import Buffer
 from turtlewire.tf.listener import NOTHING_RECEIVED, TransformListener
 from turtlewire.tf.restarts import RestartWatch
+from turtlewire.tf.tf_topics import TfTopics
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.names import validate_namespace
 from turtlewire.wire.qos import Durability, QoS, Reliability, fit_subscription
@@ -51,6 +52,7 @@ _HISTORY_NS = 60 * 10**9
 MAX_FRAMES = 5_000
 #: Smaller stamps are simulated time, not system time [ns].
 _WALL_TIME_FROM_NS = 10**18
+_TOPICS = TfTopics()
 _NODE_NAME = "turtlewire_view_{}"
 _DEPTH = 100
 #: Publishers of the tools; the one that was used longest ago ends for another.
@@ -64,6 +66,7 @@ class LiveSource:
         context: The participant to use; None joins the domain of the environment.
         history_ns: How long samples of frames are kept.
         max_frames: How many frames are shown; the page says when there are more. None: no limit.
+        topics: Where the transforms are published.
 
     Raises:
         WireError: The network cannot be joined.
@@ -78,6 +81,7 @@ class LiveSource:
         *,
         history_ns: int = _HISTORY_NS,
         max_frames: int | None = MAX_FRAMES,
+        topics: TfTopics = _TOPICS,
     ) -> None:
         self._own_context = wire.open_context() if context is None else None
         self._context = context or cast("base.Context", self._own_context)
@@ -91,7 +95,13 @@ class LiveSource:
         self._subscriptions: set[_FittedSubscription] = set()
         self._publishers: dict[tuple[str, str], base.Publisher] = {}
         self._node = self._context.create_node(_NODE_NAME.format(os.getpid()))
-        self._listener = TransformListener(self.buffer, self._node, context=self._context)
+        self._listener = TransformListener(
+            self.buffer,
+            self._node,
+            context=self._context,
+            topic=topics.moving,
+            static_topic=topics.static,
+        )
         self._ends = [
             self.buffer.on_change(self._tell),
             self._context.graph.add_listener(self._take_graph),

@@ -20,6 +20,7 @@ __all__ = ["add_view_command"]
 def add_view_command(commands: Any) -> None:
     """Add ``view`` to the command's words."""
     from turtlewire.terminal.file_arguments import complete_bags, reporting_errors
+    from turtlewire.terminal.parser import add_robot_topics
     from turtlewire.web.options import add_page_options
     from turtlewire_view.package_folders import add_package_option
 
@@ -52,6 +53,7 @@ def add_view_command(commands: Any) -> None:
         metavar="N",
         help="Show at most this many frames (default: 5000)",
     )
+    add_robot_topics(parser)
     add_page_options(parser)
     parser.set_defaults(run=reporting_errors("view", _view), parser=parser)
 
@@ -96,16 +98,20 @@ def _view(args: argparse.Namespace) -> int:
 
 
 def _source(args: argparse.Namespace) -> tuple[Source, PackageFolders]:
+    from turtlewire.tf.tf_topics import TfTopics
     from turtlewire_view.named_robots import find_robot
     from turtlewire_view.package_folders import PackageFolders
 
     what: str | None = args.what
+    topics = TfTopics(args.topic, args.static_topic)
+    if what is not None and topics != TfTopics():
+        args.parser.error("--topic and --static-topic are for the network")
     named = dict(args.package)
     limit: dict[str, Any] = {} if args.max_frames is None else {"max_frames": args.max_frames}
     if what is None:
         from turtlewire_view.live import LiveSource
 
-        return LiveSource(**limit), PackageFolders(named)
+        return LiveSource(**limit, topics=topics), PackageFolders(named)
     if what.endswith(".rviz"):
         from turtlewire_view.rviz_file import RvizFileError
 

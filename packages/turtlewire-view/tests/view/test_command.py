@@ -120,6 +120,7 @@ def test_a_file_of_rviz_is_what_the_page_shows_first(view, tmp_path):
         (["a", "b"], "unrecognized arguments: b"),
         (["none.urdf"], "none.urdf: No such file or directory"),
         (["no_robot"], "pip install 'turtlewire-view[robots]'"),
+        (["a.urdf", "--topic", "/r/tf"], "--topic and --static-topic are for the network"),
         (["--package", "arm"], "argument --package: 'arm' is not NAME=FOLDER, such as arm=src/arm"),
     ],
 )

@@ -9,6 +9,7 @@ import pytest
 
 from turtlewire import Buffer, msg
 from turtlewire.errors import WireError
+from turtlewire.tf.tf_topics import TfTopics
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import Durability, QoS
 from turtlewire_view import LiveSource
@@ -73,6 +74,15 @@ def test_a_subscription_that_cannot_be_replaced_is_named_and_tried_again(source,
     while changed.get(timeout=60):
         pass
     assert heard.get(timeout=60) == b"\0\1\0\0\0"  # again, because it was latched
+
+
+def test_the_transforms_of_a_robot_in_a_namespace(monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+    topics = TfTopics("/robot1/tf", "/robot1/tf_static")
+    with contextlib.closing(LiveSource(topics=topics)) as source:
+        graph = source._context.graph
+        heard = {end.topic for end in graph.endpoints() if end.kind == "subscription"}
+    assert heard == {"/robot1/tf", "/robot1/tf_static"}
 
 
 def test_a_page_goes_back_as_far_as_the_history():

@@ -5,6 +5,7 @@ The tree of a buffer as text and JSON, and the command in pipes and terminals.
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import re
@@ -231,6 +232,24 @@ def test_frames_names_other_domains(capsys, monkeypatch):
     ]
     assert main(["frames", "--once", "--period", "0.05", "--json"]) == 1
     assert "domain" not in capsys.readouterr().out
+
+
+def test_a_robot_in_a_namespace(capsys, monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+    with contextlib.closing(wire.open_context()) as context:
+        node = context.create_node("robot")
+        node.create_publisher("/robot1/tf", TF, QOS)
+        static = node.create_publisher("/robot1/tf_static", TF, STATIC_QOS)
+        transform = TransformStamped(child_frame_id="camera")
+        transform.header.frame_id = "base"
+        static.publish(msg.serialize(TFMessage(transforms=[transform])))
+        assert main(["frames", "--once", "--period", "0.05"]) == 1
+        options = "--topic /robot1/tf --static-topic /robot1/tf_static"
+        assert capsys.readouterr().out.splitlines()[1:] == [
+            f"Published are /robot1/tf, /robot1/tf_static: turtlewire frames {options}"
+        ]
+        assert main(["frames", "--once", "--period", "0.05", *options.split()]) == 0
+    assert "└─ camera" in capsys.readouterr().out
 
 
 def test_the_missing_part_is_wrapped_in_a_narrow_terminal():

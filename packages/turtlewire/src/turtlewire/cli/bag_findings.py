@@ -16,6 +16,7 @@ from turtlewire.doctor.tf_findings import recorded_findings
 from turtlewire.doctor.tf_traffic import FASTEST_M_S, JITTER_NS, LEAP_M, TfTraffic
 from turtlewire.errors import BagError, CdrError
 from turtlewire.tf.buffer import Buffer
+from turtlewire.tf.tf_topics import as_options
 from turtlewire.wire.qos import Durability
 
 if TYPE_CHECKING:
@@ -110,9 +111,7 @@ def _other_transforms(bag: Bag, path: str, read: set[str]) -> list[Finding]:
     others = [name for name in _tf_topics(bag) if name not in read]
     if not others:
         return []
-    options = " ".join(
-        f"{'--static-topic' if name.endswith('_static') else '--topic'} {name}" for name in others
-    )
+    options = as_options(others)
     text = f"The bag has transforms on {', '.join(others)}, which are not examined."
     return [note(text, _OTHER_TF.format(path, options))]
 

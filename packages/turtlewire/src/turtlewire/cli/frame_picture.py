@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from turtlewire.terminal.printable import printable
 from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire.tf.frame_tree import read_frame_tree
+from turtlewire.tf.tf_topics import TfTopics
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator
@@ -29,7 +30,8 @@ _STALE_S = 1.0
 _STALE_PERIODS = 3.0
 _BOLD, _RED, _BLUE, _PLAIN = "\033[1m", "\033[31m", "\033[34m", "\033[0m"
 _NUMBER = re.compile(r"(\d+)")
-_NOTHING = "No transforms on /tf and /tf_static yet (ROS_DOMAIN_ID={domain})."
+_TOPICS = TfTopics()
+_NOTHING = "No transforms on {topics} yet (ROS_DOMAIN_ID={domain})."
 
 
 class Row(NamedTuple):
@@ -124,7 +126,11 @@ def _figures(row: Row) -> str:
 
 
 def take_picture(
-    buffer: Buffer, wall_ns: int, top: str | None = None, departed: Collection[str] = ()
+    buffer: Buffer,
+    wall_ns: int,
+    top: str | None = None,
+    departed: Collection[str] = (),
+    topics: TfTopics = _TOPICS,
 ) -> Picture:
     """Return the tree of a buffer at a system time.
 
@@ -133,6 +139,7 @@ def take_picture(
         wall_ns: System time.
         top: Take only this frame and those below it; None means all.
         departed: Moving frames whose publisher has left the graph.
+        topics: Where the transforms are published.
     """
     tree = read_frame_tree(buffer)
     links = {link.child_frame: link for link in buffer.links() if link.samples}
@@ -140,7 +147,7 @@ def take_picture(
     now_ns = wall_ns if newest_ns >= _WALL_TIME_FROM_NS else newest_ns
     if not tree.children:
         domain = os.environ.get("ROS_DOMAIN_ID") or 0
-        return Picture(now_ns, [], [], _NOTHING.format(domain=domain))
+        return Picture(now_ns, [], [], _NOTHING.format(topics=topics, domain=domain))
     if top is not None and top not in tree.children:
         text = f"No frame {top!r} yet. {did_you_mean(top, tree.children)}".rstrip()
         return Picture(now_ns, [], [], printable(text))

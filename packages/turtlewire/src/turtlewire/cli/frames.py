@@ -2,23 +2,28 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import shutil
 import sys
 import time
 from typing import TYPE_CHECKING
 
+from turtlewire import wire
 from turtlewire.cli.frame_picture import take_picture
 from turtlewire.cli.scroll_keys import open_scroll_keys
 from turtlewire.doctor.network import other_domains_hint
 from turtlewire.tf.buffer import Buffer
 from turtlewire.tf.listener import TransformListener
 from turtlewire.tf.restarts import RestartWatch
+from turtlewire.tf.tf_topics import as_options, of_first_robot, other_tf_topics
 from turtlewire.wire.environment import domain_id
 
 if TYPE_CHECKING:
     from turtlewire.cli.frame_picture import Picture
     from turtlewire.cli.scroll_keys import ScrollKeys
+    from turtlewire.tf.tf_topics import TfTopics
+    from turtlewire.wire.base import Graph
 
 __all__ = ["Window", "show_frames"]
 
@@ -27,13 +32,16 @@ _QUIT = "q"
 _ASCII = str.maketrans("├└─│", "|`-|")
 
 
-def show_frames(top: str | None, *, once: bool, as_json: bool, period_s: float) -> int:
+def show_frames(
+    top: str | None, topics: TfTopics, *, once: bool, as_json: bool, period_s: float
+) -> int:
     """Listen, and print the tree after every period until interrupted.
 
     In a terminal, each tree replaces the one before, and keys scroll a tree that is too long.
 
     Args:
         top: Show only this frame and those below it; None shows all.
+        topics: Where the transforms are published.
         once: Print it once.
         as_json: Print each tree as a JSON object in one line.
         period_s: Time between two trees, and before the first.
@@ -45,28 +53,36 @@ def show_frames(top: str | None, *, once: bool, as_json: bool, period_s: float) 
     buffer = Buffer()
     restarts = RestartWatch(buffer)
     window, hinted = Window(), False
-    with TransformListener(buffer) as listener, open_scroll_keys(wanted=live) as keys:
+    with (
+        contextlib.closing(wire.open_context()) as context,
+        TransformListener(
+            buffer, context=context, topic=topics.moving, static_topic=topics.static
+        ) as listener,
+        open_scroll_keys(wanted=live) as keys,
+    ):
         while True:
             if _browse(keys, window, period_s) == _QUIT:
                 return 0
             restarts.look()
-            picture = take_picture(buffer, time.time_ns(), top, listener.departed_frames())
+            picture = take_picture(buffer, time.time_ns(), top, listener.departed_frames(), topics)
+            if not (buffer.frames() or as_json or hinted):
+                picture = _with_hint(picture, context.graph, topics)
+                hinted = not live
             if live:
-                window.show(_with_hint(picture, buffer))
-            elif as_json:
-                _print(picture.as_json())
+                window.show(picture)
             else:
-                _print("\n".join(_lines(picture if hinted else _with_hint(picture, buffer))))
-                hinted = True
+                _print(picture.as_json() if as_json else "\n".join(_lines(picture)))
             if once:
                 return 0 if picture.rows else 1
 
 
-def _with_hint(picture: Picture, buffer: Buffer) -> Picture:
-    """Add the other domains with nodes if no transform has arrived."""
-    if buffer.frames():
-        return picture
-    hint = other_domains_hint(domain_id())
+def _with_hint(picture: Picture, graph: Graph, topics: TfTopics) -> Picture:
+    """Say where transforms are published, or else which other domains have nodes."""
+    if others := other_tf_topics(graph, topics):
+        options = as_options(of_first_robot(others))
+        hint = f"Published are {', '.join(others)}: turtlewire frames {options}"
+    else:
+        hint = other_domains_hint(domain_id())
     return picture._replace(missing=f"{picture.missing}\n{hint}".rstrip())
 
 

@@ -15,10 +15,19 @@ from turtlewire.cli.relay_command import add_relay
 from turtlewire.plugins import declared
 from turtlewire.program import program
 from turtlewire.terminal.file_arguments import complete_bags, reporting_errors
-from turtlewire.terminal.parser import SuggestingParser, add_tf_topics, seconds, tf_topics
+from turtlewire.terminal.parser import (
+    SuggestingParser,
+    add_robot_topics,
+    add_tf_topics,
+    full_topic_name,
+    seconds,
+    tf_topics,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from turtlewire.tf.tf_topics import TfTopics
 
 __all__ = ["main"]
 
@@ -134,6 +143,7 @@ def _add_frames(commands: Any) -> None:
         "frame", nargs="?", metavar="FRAME", help="Show only this frame and its descendants"
     )
     frame.completer = _frame_names
+    add_robot_topics(parser)
     parser.add_argument(
         "--once", action="store_true", help="Print one tree after the first period, then exit"
     )
@@ -181,9 +191,7 @@ def _doctor(args: argparse.Namespace) -> int:
 
     as_text = full_report if args.bag is None else report
     if args.bag is None:
-        if args.topic or args.static_topic:
-            args.parser.error("--topic and --static-topic need a BAG")
-        findings = examine(args.listen)
+        findings = examine(args.listen, _robot_topics(args))
     else:
         if args.listen is not None:
             args.parser.error("--listen cannot be combined with a BAG")
@@ -194,14 +202,30 @@ def _doctor(args: argparse.Namespace) -> int:
     return 1 if any(finding.is_problem for finding in findings) else 0
 
 
+def _robot_topics(args: argparse.Namespace) -> TfTopics:
+    from turtlewire.tf.tf_topics import TfTopics
+
+    moving, static = args.topic or ["/tf"], args.static_topic or ["/tf_static"]
+    if len(moving) > 1 or len(static) > 1:
+        args.parser.error("only for a BAG, --topic and --static-topic may be repeated")
+    return TfTopics(full_topic_name(moving[0]), full_topic_name(static[0]))
+
+
 def _frames(args: argparse.Namespace) -> int:
     from turtlewire.cli.frames import show_frames
     from turtlewire.errors import WireError
+    from turtlewire.tf.tf_topics import TfTopics
 
     if args.frame is not None and (bag := what_to_do_with_bag(args.frame)):
         args.parser.error(bag)
     try:
-        return show_frames(args.frame, once=args.once, as_json=args.json, period_s=args.period)
+        return show_frames(
+            args.frame,
+            TfTopics(args.topic, args.static_topic),
+            once=args.once,
+            as_json=args.json,
+            period_s=args.period,
+        )
     except WireError as error:
         print(f"turtlewire frames: {error.in_one_line()}", file=sys.stderr)
         return 2

@@ -20,6 +20,7 @@ from turtlewire.doctor.tf_findings import tf_findings
 from turtlewire.doctor.tf_traffic import TfListener, tf_publishers
 from turtlewire.errors import WireError
 from turtlewire.terminal.printable import printable
+from turtlewire.tf.tf_topics import TfTopics
 from turtlewire.wire.environment import Range, discovery, is_installed, middleware_name
 
 if TYPE_CHECKING:
@@ -32,12 +33,13 @@ __all__ = ["as_json", "examine", "full_report", "report"]
 _LISTEN_S = 2.0
 
 
-def examine(listen_s: float | None = None) -> list[Finding]:
+def examine(listen_s: float | None = None, topics: TfTopics | None = None) -> list[Finding]:
     """Examine the setup, the graph and the transforms.
 
     Args:
         listen_s: How long to listen to the transforms [s]. None listens until there is enough of
             each publisher, at most for two seconds, and for the full time if something looks wrong.
+        topics: Where the transforms are published; None: ``/tf`` and ``/tf_static``.
     """
     from turtlewire.wire import open_context
 
@@ -50,12 +52,13 @@ def examine(listen_s: float | None = None) -> list[Finding]:
     try:
         graph = context.graph
         context.create_node("_turtlewire_doctor")
-        listener = TfListener(context)
+        topics = topics or TfTopics()
+        listener = TfListener(context, topics)
         with _fast_dds_search(context.domain_id) as search:
             wait_for_graph(graph)
             if listen_s is None:
                 _listen(listener, graph)
-            elif tf_publishers(graph):
+            elif tf_publishers(graph, topics):
                 listener.wait(listen_s)
             silent = _silent_findings(graph, search, context.domain_id)
         traffic = listener.close()

@@ -9,11 +9,13 @@ from turtlewire.doctor.graph_findings import owner_of
 from turtlewire.doctor.tf_gaps import find_gaps
 from turtlewire.doctor.tf_traffic import tf_publishers
 from turtlewire.tf.frame_tree import find_loops
+from turtlewire.tf.tf_topics import as_options, of_first_robot, other_tf_topics
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from turtlewire.doctor.tf_traffic import TfTraffic
+    from turtlewire.tf.tf_topics import TfTopics
     from turtlewire.wire.base import Graph
 
 __all__ = ["recorded_findings", "tf_findings"]
@@ -22,6 +24,10 @@ _STALE_NS = 2_000_000_000
 _WALL_TIME_FROM_NS = 10**9 * 10**9  # the year 2001; simulated time begins at zero
 
 _START_BROADCASTER = "Start a node with a TransformBroadcaster or a StaticTransformBroadcaster."
+_EXAMINE_OTHERS = (
+    "To examine one robot's: turtlewire doctor {}. Nodes that should see them need "
+    "the same remappings, such as --ros-args -r /tf:=/robot1/tf."
+)
 _ONE_PUBLISHER = "A frame must have one publisher: stop the others."
 _ONE_PARENT = "A frame has one parent at a time; lookups fail or jump. Rename one of the frames."
 _JOIN_TREES = (
@@ -52,10 +58,9 @@ _REFUSED = (
     "publishes it."
 )
 _MISSING = (
-    "They are lost in transit, or the publisher misses its period. Run `ros2 topic hz /tf` here "
-    "and "
-    "on the publisher's host: if the rate is higher there, fix the network or the QoS; otherwise "
-    "the publisher is too slow."
+    "They are lost in transit, or the publisher misses its period. Run `ros2 topic hz {}` here "
+    "and on the publisher's host: if the rate is higher there, fix the network or the QoS; "
+    "otherwise the publisher is too slow."
 )
 _NAMED = 3
 _NO_SLASH = (
@@ -75,8 +80,8 @@ def tf_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:
         graph: The graph, which maps publishers to nodes.
         traffic: The received transforms.
     """
-    if not tf_publishers(graph):
-        return [note("No node publishes transforms.", _START_BROADCASTER)]
+    if not tf_publishers(graph, traffic.topics):
+        return [_nothing_published(graph, traffic.topics)]
     return [
         *_publisher_findings(graph, traffic),
         *_refusal_findings(traffic),
@@ -86,6 +91,13 @@ def tf_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:
         *_step_findings(traffic),
         *_gap_findings(traffic),
     ]
+
+
+def _nothing_published(graph: Graph, topics: TfTopics) -> Finding:
+    if others := other_tf_topics(graph, topics):
+        text = f"No node publishes transforms on {topics}, but on {' and '.join(others)}."
+        return note(text, _EXAMINE_OTHERS.format(as_options(of_first_robot(others))))
+    return note("No node publishes transforms.", _START_BROADCASTER)
 
 
 def recorded_findings(traffic: TfTraffic) -> list[Finding]:
@@ -105,8 +117,8 @@ def _publisher_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:
         if len(gids) > 1:
             nodes = " and ".join(_nodes(graph, gids))
             found.append(problem(f"The frame '{child}' is published by {nodes}.", _ONE_PUBLISHER))
-    for publisher in tf_publishers(graph):
-        if publisher.topic == "/tf_static" and publisher.gid not in traffic.heard:
+    for publisher in tf_publishers(graph, traffic.topics):
+        if publisher.topic == traffic.topics.static and publisher.gid not in traffic.heard:
             text = f"No static transforms received from {owner_of(publisher)}."
             found.append(note(text, _SILENT))
     return found
@@ -225,4 +237,4 @@ def _gap_findings(traffic: TfTraffic) -> list[Finding]:
         f"About {worst.share:.0%} of the transforms of {_quoted(found)} are missing: "
         f"expected every {worst.period_s * 1e3:.0f} ms, longest gap {worst.longest_s:.2f} s."
     )
-    return [note(text, _MISSING)]
+    return [note(text, _MISSING.format(traffic.topics.moving))]

@@ -13,6 +13,7 @@ from turtlewire.distro import current_distro
 from turtlewire.errors import CdrError
 from turtlewire.tf.buffer import Buffer
 from turtlewire.tf.faults import refusals
+from turtlewire.tf.tf_topics import TfTopics
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.names import fully_qualified_node_name
 from turtlewire.wire.qos import Durability, QoS, Reliability
@@ -32,6 +33,7 @@ __all__ = [
     "tf_publishers",
 ]
 
+_DEFAULT = TfTopics()
 _TYPE = "tf2_msgs/msg/TFMessage"
 _CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
 #: How long completion listens: transforms are published at 10 Hz and more, static ones are kept for
@@ -58,12 +60,13 @@ class TfTraffic:
     Frames have the names that tf2 stores: it removes one leading slash.
 
     Attributes:
+        topics: Where they were published.
         heard: Gids of the publishers of the received messages, which may be empty.
         written: Name of a frame as it was sent to the gids of its publishers.
         parents: Frame to its parents.
         publishers: Frame to the gids of its publishers.
-        newest_ns: Frame of /tf to its newest stamp.
-        stamps_ns: Frame of /tf and gid of a publisher to their first stamps.
+        newest_ns: Moving frame to its newest stamp.
+        stamps_ns: Moving frame and gid of a publisher to their first stamps.
         back_ns: Frame to the largest step back of its stamps; steps of less than a clock's jitter
             do not count.
         leaps_m: Frame to its largest step within its parent that was faster than any robot.
@@ -74,6 +77,7 @@ class TfTraffic:
     """
 
     def __init__(self) -> None:
+        self.topics = TfTopics()
         self.heard: set[bytes] = set()
         self.written: dict[str, set[bytes]] = {}
         self.parents: dict[str, set[str]] = {}
@@ -118,13 +122,15 @@ class TfTraffic:
 
 
 class TfListener:
-    """Keeps what is published on /tf and /tf_static from now on.
+    """Keeps the transforms that are published from now on.
 
     Args:
         context: The context to subscribe in, with a node that :meth:`close` removes.
+        topics: Where they are published.
     """
 
-    def __init__(self, context: Context) -> None:
+    def __init__(self, context: Context, topics: TfTopics = _DEFAULT) -> None:
+        self._topics = topics
         self._messages: list[tuple[bytes, bytes, bool]] = []
         self._heard: Counter[bytes] = Counter()
         self._news = threading.Condition()
@@ -132,8 +138,8 @@ class TfListener:
         self._node = context.create_node("_turtlewire_doctor_listener")
         self._clock: bytes | None = None
         self._subscribe_clock()
-        self._subscribe("/tf", Durability.VOLATILE, static=False)
-        self._subscribe("/tf_static", Durability.TRANSIENT_LOCAL, static=True)
+        self._subscribe(topics.moving, Durability.VOLATILE, static=False)
+        self._subscribe(topics.static, Durability.TRANSIENT_LOCAL, static=True)
 
     def _subscribe(self, topic: str, durability: Durability, *, static: bool) -> None:
         def keep(cdr: bytes, info: MessageInfo) -> None:
@@ -174,8 +180,8 @@ class TfListener:
         Returns:
             Whether enough messages have arrived from every publisher.
         """
-        publishers = tf_publishers(graph)
-        at_once = [_sends_at_once(publisher) for publisher in publishers]
+        publishers = tf_publishers(graph, self._topics)
+        at_once = [_sends_at_once(publisher, self._topics) for publisher in publishers]
         wanted = {
             publisher.gid: 1 if known else _ENOUGH
             for publisher, known in zip(publishers, at_once, strict=True)
@@ -191,6 +197,7 @@ class TfListener:
     def traffic(self) -> TfTraffic:
         """Return the traffic received so far."""
         traffic = TfTraffic()
+        traffic.topics = self._topics
         traffic.ended_ns = time.time_ns()
         with self._news:
             messages, clock = list(self._messages), self._clock
@@ -231,17 +238,15 @@ def _time_of(cdr: bytes) -> int | None:
     return int(clock.clock.sec * 1_000_000_000 + clock.clock.nanosec)
 
 
-def tf_publishers(graph: Graph) -> list[EndpointInfo]:
-    """Return the publishers of /tf and /tf_static."""
-    return [
-        end for topic in ("/tf", "/tf_static") for end in graph.endpoints_of(topic, "publisher")
-    ]
+def tf_publishers(graph: Graph, topics: TfTopics = _DEFAULT) -> list[EndpointInfo]:
+    """Return the publishers of moving and of static transforms."""
+    return [end for topic in topics for end in graph.endpoints_of(topic, "publisher")]
 
 
-def _sends_at_once(publisher: EndpointInfo) -> bool:
+def _sends_at_once(publisher: EndpointInfo, topics: TfTopics) -> bool:
     """Return True if a new subscription gets all transforms of the publisher."""
     return (
-        publisher.topic == "/tf_static"
+        publisher.topic == topics.static
         and publisher.type_name == _TYPE
         and publisher.qos.durability == Durability.TRANSIENT_LOCAL
     )

@@ -13,7 +13,15 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from typing import Any, NoReturn
 
-__all__ = ["INVALID_CHOICE", "SuggestingParser", "add_tf_topics", "seconds", "tf_topics"]
+__all__ = [
+    "INVALID_CHOICE",
+    "SuggestingParser",
+    "add_robot_topics",
+    "add_tf_topics",
+    "full_topic_name",
+    "seconds",
+    "tf_topics",
+]
 
 #: argparse's message about a word that is not one of the known ones.
 INVALID_CHOICE = re.compile(r"invalid choice: '([^']*)' \(choose from")
@@ -68,19 +76,45 @@ def seconds(text: str) -> float:
 
 
 def add_tf_topics(parser: argparse.ArgumentParser) -> None:
-    """Add the options for the topics of a bag's transforms; `tf_topics` reads them."""
+    """Add the options for topics of transforms, each of which may be repeated for a bag.
+
+    `tf_topics` reads them.
+    """
     parser.add_argument(
         "--topic",
         action="append",
         metavar="T",
-        help="Topic of the bag's transforms (default: /tf)",
+        help="Topic of the transforms (default: /tf)",
     )
     parser.add_argument(
         "--static-topic",
         action="append",
         metavar="T",
-        help="Topic of the bag's static transforms (default: /tf_static)",
+        help="Topic of the static transforms (default: /tf_static)",
     )
+
+
+def add_robot_topics(parser: argparse.ArgumentParser) -> None:
+    """Add the options for the topics of one robot's transforms in a network."""
+    parser.add_argument(
+        "--topic",
+        default="/tf",
+        type=full_topic_name,
+        metavar="T",
+        help="Topic of the transforms (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--static-topic",
+        default="/tf_static",
+        type=full_topic_name,
+        metavar="T",
+        help="Topic of the static transforms (default: %(default)s)",
+    )
+
+
+def full_topic_name(text: str) -> str:
+    """Return a topic on the command line, which has no namespace, with its leading slash."""
+    return f"/{text.removeprefix('/')}"
 
 
 def tf_topics(args: argparse.Namespace) -> tuple[str | list[str], str | list[str]]:
