@@ -396,16 +396,18 @@ class ExtrapolationException(TransformException):
         link = f"the transform from '{self.child_frame}' to '{self.parent_frame}'"
         late, early = (requested - newest) / 1e9, (oldest - requested) / 1e9
         if self.reason == "future":
-            return f"The newest sample of {link} is {_rounded(late)} s older than the requested time."
+            return (
+                f"The newest sample of {link} is {_rounded(late)} s older than the requested time."
+            )
         if self.reason == "past":
             return (
-                f"The oldest sample of {link} is {_rounded(early)} s newer than the requested time; "
-                f"the buffer holds {_rounded((newest - oldest) / 1e9)} s."
+                f"The oldest sample of {link} is {_rounded(early)} s newer than the requested "
+                f"time; the buffer holds {_rounded((newest - oldest) / 1e9)} s."
             )
         side = "older" if late > 0 else "newer"
         return (
-            f"The buffer holds one sample of {link}, {_rounded(abs(late))} s {side} than the requested "
-            "time; interpolation needs two."
+            f"The buffer holds one sample of {link}, {_rounded(abs(late))} s {side} than the "
+            "requested time; interpolation needs two."
         )
 
 

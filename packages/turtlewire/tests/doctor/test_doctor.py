@@ -27,6 +27,7 @@ from turtlewire.doctor.setup_findings import network_findings, setup_findings
 from turtlewire.doctor.tf_findings import tf_findings
 from turtlewire.doctor.tf_traffic import TfListener, TfTraffic, frame_names
 from turtlewire.errors import InvalidArgumentException, WireError
+from turtlewire.tf.tf_topics import TfTopics
 from turtlewire.wire import open_context
 from turtlewire.wire.base import EndpointInfo, TypeId
 from turtlewire.wire.libddsc import Libddsc, Search
@@ -63,6 +64,8 @@ def test_an_empty_domain_is_a_problem_where_others_are_looked_for(
     monkeypatch.setenv(variable, value)
     (finding,) = graph_findings(context.graph)
     assert finding.is_problem == is_problem
+    advised = "set ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET on both sides" in finding.remedy
+    assert advised != is_problem  # what is set already is no advice
 
 
 def test_an_empty_domain(context):
@@ -534,6 +537,36 @@ def test_listening_ends_once_all_static_transforms_have_arrived(context, monkeyp
     assert "The frame 'shared' is published by /one and /two." in texts(examination.examine())
 
 
+def test_the_transforms_of_a_robot_in_a_namespace(context, monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+    monkeypatch.setattr("turtlewire.wire.open_context", lambda: context)
+    latched = QoS(durability=Durability.TRANSIENT_LOCAL)
+    for name in ("one", "two"):
+        node = context.create_node(name, "/robot1")
+        node.create_publisher("/robot2/tf", TF, QoS())
+        publisher = node.create_publisher("/robot1/tf_static", TF, latched)
+        publisher.publish(msg.serialize(transform("world", "shared")))
+    (finding,) = tf_findings(context.graph, TfTraffic())
+    assert finding.text == (
+        "No node publishes transforms on /tf and /tf_static, but on /robot1/tf_static and "
+        "/robot2/tf."
+    )
+    assert "turtlewire doctor --static-topic /robot1/tf_static." in finding.remedy
+    found = examination.examine(None, TfTopics("/robot1/tf", "/robot1/tf_static"))
+    assert "The frame 'shared' is published by /robot1/one and /robot1/two." in texts(found)
+
+
+def test_the_options_of_topics(monkeypatch, capsys):
+    asked = []
+    monkeypatch.setattr(examination, "examine", lambda *given: asked.append(given) or [])
+    assert main(["doctor"]) == 0
+    assert main(["doctor", "--topic", "r/tf", "--static-topic", "/r/tf_static"]) == 0
+    assert asked == [(None, TfTopics()), (None, TfTopics("/r/tf", "/r/tf_static"))]
+    with pytest.raises(SystemExit):
+        main(["doctor", "--topic", "/a/tf", "--topic", "/b/tf"])
+    assert "only for a BAG, --topic and --static-topic may be repeated" in capsys.readouterr().err
+
+
 def test_completion_offers_frames_without_control_characters(context, monkeypatch):
     monkeypatch.setattr("turtlewire.wire.open_context", lambda: context)
     latched = QoS(durability=Durability.TRANSIENT_LOCAL)
@@ -566,7 +599,7 @@ def test_the_command_says_problems_first_and_fails(monkeypatch, capsys):
     monkeypatch.setenv("ROS_DOMAIN_ID", "7")
     network = "middleware local, discovery range LOCALHOST, domain 7."
     findings = [Finding(False, "small", "do a"), *[Finding(True, "big", "do b")] * 2]
-    monkeypatch.setattr(examination, "examine", lambda _seconds: findings)
+    monkeypatch.setattr(examination, "examine", lambda *_: findings)
     assert main(["doctor"]) == 1
     big = "PROBLEM: big\n    do b\n"
     small = "note: small\n    do a\n"
@@ -603,7 +636,7 @@ def test_without_a_middleware_none_is_named(monkeypatch):
 
 def test_findings_as_json(monkeypatch, capsys):
     findings = [Finding(False, "small", "do a"), Finding(True, "big", "do b")]
-    monkeypatch.setattr(examination, "examine", lambda _seconds: findings)
+    monkeypatch.setattr(examination, "examine", lambda *_: findings)
     assert main(["doctor", "--json"]) == 1
     assert json.loads(capsys.readouterr().out) == {
         "findings": [

@@ -55,7 +55,7 @@ def test_other_domains_are_named(look, context):
     first, second = sorted({3, 4, 5} - {domain})[:2]
     text = look([port_of(second), port_of(first), port_of(domain)])
     assert (
-        f"This computer has nodes on domain {first}, {second}: to reach them, end this program "
+        f"This computer has nodes on domains {first} and {second}: to reach them, end this program "
         f"and type: export ROS_DOMAIN_ID={first}"
     ) in text
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from turtlewire.doctor.fast_dds_findings import fast_dds_findings
 from turtlewire.doctor.finding import Finding, note, problem
-from turtlewire.doctor.network import other_domains
+from turtlewire.doctor.network import named_domains, other_domains
 from turtlewire.doctor.setup_findings import looks_for_others, only_this_host
 from turtlewire.wire.environment import discovery, domain_id
 from turtlewire.wire.matching import obstacles
@@ -96,17 +96,28 @@ def _no_nodes() -> Finding:
     others = other_domains(domain_id())
     if others:
         remedy.append(
-            f"This host has nodes in domain {', '.join(map(str, others))}: "
+            f"This host has nodes in {named_domains(others)}: "
             f"export ROS_DOMAIN_ID={others[0]} to see them."
         )
     remedy.append(
-        f"Nodes that talk to each other need the same ROS_DOMAIN_ID (here {domain}); for "
-        "nodes on other hosts, set ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET on both sides "
-        f"(here {discovery().range.value})."
+        f"Nodes that talk to each other need the same ROS_DOMAIN_ID (here {domain}); "
+        f"{_for_other_hosts()}."
     )
     text = f"No nodes found in domain {domain} on {reach}."
     # On this host alone, for example after the installation, nothing needs to run yet.
     return (problem if looks_for_others() else note)(text, " ".join(remedy))
+
+
+def _for_other_hosts() -> str:
+    if looks_for_others():
+        return (
+            "nodes on other hosts are found if their discovery range is SUBNET, too, or if one "
+            "side names the other in ROS_STATIC_PEERS"
+        )
+    return (
+        "for nodes on other hosts, set ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET on both sides "
+        f"(here {discovery().range.value})"
+    )
 
 
 def _topic_findings(topic: str, endpoints: list[EndpointInfo]) -> list[Finding]:

@@ -58,14 +58,19 @@ def other_domains(domain: int) -> list[int]:
     return sorted(domains_of(udp_ports()) - {domain})
 
 
+def named_domains(domains: list[int]) -> str:
+    """Return the domains in words, such as ``domain 0`` or ``domains 0 and 51``."""
+    return f"domain{'s' * (len(domains) > 1)} {' and '.join(map(str, domains))}"
+
+
 def other_domains_hint(domain: int) -> str:
     """Say how to reach this computer's nodes on other domains; empty if no other domains exist."""
     others = other_domains(domain)
     if not others:
         return ""
     return (
-        f"This computer has nodes on domain {', '.join(map(str, others))}: to reach them, end this "
-        f"program and type: export ROS_DOMAIN_ID={others[0]}"
+        f"This computer has nodes on {named_domains(others)}: to reach them, end this program and "
+        f"type: export ROS_DOMAIN_ID={others[0]}"
     )
 
 
