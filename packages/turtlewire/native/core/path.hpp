@@ -44,21 +44,34 @@ inline const Pose* pose_at(const Step& step, Stamp t, Pose& room) {
   return step.link != nullptr ? step.link->pose_at(t, room) : &step.fixed;
 }
 
-// top_from_start of one arm; false when a link has no data at `t`. A pose just computed is not
-// copied in memory: copies are made in larger pieces than it was written in, for which processors
-// wait. The product of the steps stays in registers until the end.
+// The pose of one step if it is stored; null if its link may have to interpolate.
+inline const Pose* stored_at(const Step& step, Stamp t) {
+  if (step.link == nullptr) return &step.fixed;
+  const Samples& samples = step.link->samples();
+  return !samples.empty() && samples.newest() == t ? &samples.back().pose : nullptr;
+}
+
+// top_from_start of one arm; false when a link has no data at `t`. The product of the first steps
+// whose poses are stored, often of all, stays in registers. A pose just computed is not copied:
+// copies are made in larger pieces than it was written in, for which processors wait.
 inline bool follow(const std::vector<Step>& arm, Stamp t, Pose& result) {
   if (arm.empty()) return true;
-  const Pose* first = pose_at(arm.front(), t, result);
-  if (first == nullptr) return false;
-  Pose top = *first;
+  std::size_t i = 1;
+  if (const Pose* pose = stored_at(arm.front(), t); pose != nullptr) {
+    Pose top = *pose;
+    for (; i < arm.size() && (pose = stored_at(arm[i], t)) != nullptr; ++i) top = *pose * top;
+    result = top;
+  } else {
+    pose = pose_at(arm.front(), t, result);
+    if (pose == nullptr) return false;
+    if (pose != &result) result = *pose;
+  }
   Pose room;
-  for (std::size_t i = 1; i < arm.size(); ++i) {
+  for (; i < arm.size(); ++i) {
     const Pose* pose = pose_at(arm[i], t, room);
     if (pose == nullptr) return false;
-    top = *pose * top;
+    result = *pose * result;
   }
-  result = top;
   return true;
 }
 
