@@ -1,5 +1,5 @@
-// Makes elements that scroll sideways reachable by keyboard, names the columns next to the text, and
-// adds a menu of the versions, if the site has several.
+// Makes elements that scroll sideways reachable by keyboard, names the columns next to the text,
+// and adds a menu of the versions, if the site has several.
 
 const watch = new ResizeObserver((entries) => {
   for (const { target } of entries) {

@@ -81,7 +81,7 @@ class BasePublisher(Generic[MsgT]):
             or 0 < qos_profile.deadline.nanoseconds < BEST_AVAILABLE_NS
         )
         # The first message is encoded even if nobody listens: a field that its type cannot hold is
-        # an error at the line that publishes it, and not later, when somebody looks at the topic.
+        # an error at the line that publishes it, and not later, when another program looks at it.
         self._checked = False
         self._destroyed = False
         self._on_destroy = on_destroy

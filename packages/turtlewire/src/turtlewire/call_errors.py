@@ -148,7 +148,7 @@ def _explained(method: Callable[..., Any], name: str, first: int = 0) -> Callabl
 
 
 def ros_time_error(what: str, value: object) -> TypeError:
-    """Return the error, in ROS 2's words, for a value that is no time or duration of ROS.
+    """Return the error, in ROS 2's words, for a value that is neither a time nor a duration.
 
     Args:
         what: ``time`` or ``duration``.

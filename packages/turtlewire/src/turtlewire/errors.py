@@ -224,7 +224,7 @@ class TransformException(TurtlewireError):
 
 
 class Wording(NamedTuple):
-    """What the interface through which a program uses a buffer offers, for hints.
+    """The words of hints, by the interface through which a program uses a buffer.
 
     Attributes:
         latest: What to do to get the latest transform.

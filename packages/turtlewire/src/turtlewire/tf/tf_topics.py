@@ -24,7 +24,7 @@ _NAMES = {"tf", "tf_static"}  # also in a robot's namespace
 
 
 class TfTopics(NamedTuple):
-    """Where the transforms of one robot are published, as fully qualified names."""
+    """The topics with the transforms of one robot, as fully qualified names."""
 
     moving: str = "/tf"
     static: str = "/tf_static"

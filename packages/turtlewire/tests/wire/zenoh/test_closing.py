@@ -72,7 +72,7 @@ def test_closing_waits_for_other_threads():
     caller.join(60)
 
 
-def test_what_zenoh_refuses_starts_no_thread_to_wait_for():
+def test_a_refused_declaration_starts_no_thread_to_wait_for():
     context, threads = open_context(middleware="rmw_zenoh_cpp"), CallbackThreads()
     session = context._core.session
     with pytest.raises(zenoh.ZError):  # before it starts the thread

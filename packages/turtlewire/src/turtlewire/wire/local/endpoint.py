@@ -1,4 +1,4 @@
-"""What publishers and subscriptions of the in-process middleware have in common."""
+"""The common base of publishers and subscriptions of the in-process middleware."""
 
 from __future__ import annotations
 
