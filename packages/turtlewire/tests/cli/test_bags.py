@@ -237,7 +237,7 @@ def test_remarks_about_a_file_are_lines_below_each_other(capsys, tmp_path):
         ("doctor BAG --listen 2", "--listen cannot be combined with"),
         ("trajectory BAG base_link camera --rate 10", "bag tf BAG` shows which frames have a rate"),
         ("compare BAG:odom:camera BAG:odom:camera --plane ab", "ab"),
-        ("doctor --topic /r1/tf --topic /r2/tf", "only for a BAG, --topic and"),
+        ("doctor --topic /r1/tf --topic /r2/tf", "--topic and --static-topic may be repeated"),
         ("trajectory BAG /odom --topic /r1/tf", "need two frames"),
     ],
 )
