@@ -190,6 +190,7 @@ class _Parser:
         assert isinstance(event, yaml.SequenceStartEvent)
         self._check_tag(event, f"{_TAGS}seq", _BINARY_TAG)
         values: list[_Scalar] = []
+        hint = ""
         for item in self._events:
             if isinstance(item, yaml.SequenceEndEvent):
                 return values  # type: ignore[return-value]  # the types have been compared
@@ -201,12 +202,14 @@ class _Parser:
                     f"value {item.value} at line {self._line}"
                 )
             value = self._scalar(item)
+            if type(value) is bool and item.value.lower() not in {"true", "false"}:
+                hint = f"\nYAML reads {item.value} as a bool: for the text, write '{item.value}'"
             if values and type(value) is not type(values[0]):
                 text = (
                     f"Value type '{_TYPE_NAMES[type(value)]}' do not belong at line_num "
                     f"{self._line}"
                 )
-                raise RuleError(f"Sequence should be of same type. {text}")
+                raise RuleError(f"Sequence should be of same type. {text}{hint}")
             values.append(value)
         raise AssertionError("a sequence ends with its end event")
 

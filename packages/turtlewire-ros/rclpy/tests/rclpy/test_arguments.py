@@ -130,7 +130,17 @@ def test_golden_exit_codes(name):
         ),
         (
             ["-p", "n:=[1, yes]"],
-            "Sequence should be of same type. Value type 'bool' do not belong at line_num 1",
+            (
+                "Sequence should be of same type. Value type 'bool' do not belong at line_num 1\n"
+                "YAML reads yes as a bool: for the text, write 'yes'"
+            ),
+        ),
+        (
+            ["-p", "n:=[y, x]"],
+            (
+                "Sequence should be of same type. Value type 'string' do not belong at line_num 1\n"
+                "YAML reads y as a bool: for the text, write 'y'"
+            ),
         ),
         (
             ["-p", "n:="],
