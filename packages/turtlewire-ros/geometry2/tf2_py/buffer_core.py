@@ -8,8 +8,8 @@ import turtlewire
 from tf2_py.messages import message_lookup
 from tf2_py.times import to_moment, to_nanoseconds
 from turtlewire.distro import LYRICAL, current_distro, since
-from turtlewire.errors import Wording
 from turtlewire.tf.links import links
+from turtlewire.wording import Wording
 
 if TYPE_CHECKING:
     from geometry_msgs.msg import TransformStamped

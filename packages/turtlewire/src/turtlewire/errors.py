@@ -24,7 +24,9 @@ later.
 
 from __future__ import annotations
 
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
+
+from turtlewire.wording import wording
 
 __all__ = [
     "BagError",
@@ -221,24 +223,6 @@ class TransformException(TurtlewireError):
         # A copy in another process cannot ask the buffer: the hint travels as text.
         kept = {k: v for k, v in self.__dict__.items() if k not in {"_buffer", "_notes"}}
         return (type(self), self.args, {**kept, "_hint": self.hint})
-
-
-class Wording(NamedTuple):
-    """The words of hints, by the interface through which a program uses a buffer.
-
-    Attributes:
-        latest: What to do to get the latest transform.
-        problems: The call that lists contradictions and refused transforms.
-    """
-
-    latest: str = "leave out the time"
-    problems: str = "turtlewire.Buffer.problems()"
-
-
-def wording(buffer: Any) -> Wording:
-    """Return the wording of a buffer's interface."""
-    words: Wording = getattr(buffer, "_wording", Wording())
-    return words
 
 
 class ConnectivityException(TransformException):

@@ -14,6 +14,7 @@ __all__ = [
     "GROUP",
     "domains_of",
     "multicast_works",
+    "named_domains",
     "other_domains",
     "other_domains_hint",
     "udp_ports",

@@ -9,9 +9,9 @@ import warnings
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.attribute_hints import hint_at
-from turtlewire.errors import Wording, wording
 from turtlewire.terminal.printable import printable
 from turtlewire.tf.implementation import CORE, BaseBuffer, RecordWalk, Transform
+from turtlewire.wording import Wording, wording
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
