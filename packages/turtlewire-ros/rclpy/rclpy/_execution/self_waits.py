@@ -54,8 +54,9 @@ class SelfWaits:
     def bounded(self, timeout_ns: int | None) -> int | None:
         """Shorten a wait so that :meth:`warn` can be called in time."""
         moments = [due for _, due in list(self._due.values())]
-        # Another thread may have emptied the table after the look above.
-        left = max(0, min(moments, default=0) - time.monotonic_ns())
+        if not moments:
+            return timeout_ns
+        left = max(0, min(moments) - time.monotonic_ns())
         return left if timeout_ns is None else min(left, timeout_ns)
 
     def warn(self) -> None:

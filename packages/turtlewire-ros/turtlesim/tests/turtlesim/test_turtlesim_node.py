@@ -585,8 +585,8 @@ def test_a_faster_simulation_has_its_speed_as_a_parameter(make_world):
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        ("--haedless", "turtlesim_node: ignored: --haedless. Did you mean: --headless, --help\n"),
-        ("--headles", "turtlesim_node: ignored: --headles. Did you mean: --headless, --help\n"),
+        ("--haedless", "turtlesim_node: ignored: --haedless. Did you mean: --headless\n"),
+        ("--headles", "turtlesim_node: ignored: --headles. Did you mean: --headless\n"),
         ("--sped=2", "turtlesim_node: ignored: --sped=2. Did you mean: --speed\n"),
         ("word", "turtlesim_node: ignored: word. See --help\n"),
         ("--headless --ros-args -r __node:=sim", ""),
