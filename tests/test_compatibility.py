@@ -195,7 +195,7 @@ two SIGINT for one Ctrl-C (terminal and launch) interrupt the clean-up
 `rclpy.spin_once(node)` takes a node out of the executor it was in
   rclpy/test_init_shutdown.py test_a_spin_within_a_callback_leaves_the_node_where_it_was
 messages are encoded even without a subscription
-  rclpy/test_topics.py test_messages_without_subscriptions_are_not_encoded
+  rclpy/test_topics.py test_without_subscriptions_only_the_first_message_is_encoded
 a client drops the feedback that it has not handled when it gets the result
   rclpy/test_actions.py test_no_feedback_that_was_sent_after_the_result
 SIGTERM does not end `AsyncNode.run()`, because nothing wakes the loop (Lyrical)

@@ -10,6 +10,7 @@ import pytest
 from tests.how_to import blocks_of
 from tests.places import PATH, ROOT, SITE, modules_of_tests
 
+import tf2_ros
 import turtlewire
 from turtlewire.cli.main import main
 from turtlewire_ros.executables import executable_paths
@@ -50,7 +51,7 @@ def test_the_commands(page, run, monkeypatch):
 
 def buffer():
     """Two trees, a link with data from 1 s to 2 s, one with one sample."""
-    made = turtlewire.Buffer()
+    made = tf2_ros.Buffer().engine  # its hints have the words of tf2_ros
     upright = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)
     for stamp in (SECOND, 2 * SECOND):
         made.set_transform("world", "turtle1", stamp, *upright)
