@@ -39,7 +39,8 @@ class WakeUp:
         Returns:
             False after the timeout.
         """
-        return self._lock.acquire(timeout=-1 if timeout is None else max(timeout, 0.0))
+        unlimited = timeout is None or timeout >= threading.TIMEOUT_MAX
+        return self._lock.acquire(timeout=-1 if unlimited else max(timeout, 0.0))
 
 
 class LoopWakeUp:

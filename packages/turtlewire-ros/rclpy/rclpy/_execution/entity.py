@@ -124,7 +124,8 @@ class Entity:
 
     def _join(self, host: EntityHost, node_index: int, number: int) -> bool:
         """Belong to ``host``; False if it belongs to one already, or was destroyed."""
-        if self._host is not None or self._destroyed:
+        # An executor that was dropped without a shutdown serves nothing.
+        if self._serving_host() is not None or self._destroyed:
             return False
         # The parts of a waitable, which belong to no node, come in the order that it gives them.
         self._rank = (node_index, self._ORDER if node_index >= 0 else 0, number)

@@ -232,23 +232,21 @@ class Scheduler:
     def _collect(self, timeout_ns: int | None) -> None:
         """Wait until something is ready, and line it up in ROS 2's order."""
         self._collecting = True
-        tasks: list[Task[Any]] = []
         # While a callback blocks for a response, tasks stay in the list.
-        if self._response_awaited is None:
-            if self._tasks:
-                with self.lock:
-                    tasks, self._tasks = self._tasks, []
-            # Within an endless spin, only a callback that spins again can wait for such a message.
-            if not self.serves_endlessly or self._running.of_this_thread():
-                self.wait.expect_background()
+        takes_tasks = self._response_awaited is None
+        # Within an endless spin, only a callback that spins again can wait for such a message.
+        if takes_tasks and (not self.serves_endlessly or self._running.of_this_thread()):
+            self.wait.expect_background()
         if self._self_waits:
             timeout_ns = self._self_waits.bounded(timeout_ns)
         # Tasks run at once, but what became ready with them belongs to the same cycle.
-        entities = self.wait.wait(0 if tasks else timeout_ns)
+        entities = self.wait.wait(0 if takes_tasks and self._tasks else timeout_ns)
         self._collecting = False
         if self._self_waits:
             self._self_waits.warn()
-        if tasks:
+        if takes_tasks and self._tasks:
+            with self.lock:
+                tasks, self._tasks = self._tasks, []
             self._ready.extend(reversed(tasks))
         self._ready.extend(entities)
 

@@ -207,6 +207,51 @@ def test_a_node_leaves_the_executor_it_was_in(context, node, executor):
     other.shutdown()
 
 
+def test_a_node_of_a_dropped_executor_is_served_by_the_next_one(context):
+    node = Node("served_again", context=context)
+    calls = []
+    guard = node.create_guard_condition(lambda: calls.append(1))
+    dropped = SingleThreadedExecutor(context=context)
+    dropped.add_node(node)
+    dropped.spin_once(timeout_sec=0)
+    del dropped  # without a shutdown
+    gc.collect()
+    following = SingleThreadedExecutor(context=context)
+    following.add_node(node)
+    guard.trigger()
+    following.spin_once(timeout_sec=60)
+    assert calls == [1]
+    following.shutdown()
+    node.destroy_node()
+
+
+def test_a_task_survives_an_interrupted_wait(node, executor, monkeypatch):
+    calls = []
+    executor.create_task(calls.append, 1)
+
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(executor._rclpy_scheduler.wait, "wait", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            executor.spin_once(timeout_sec=60)
+    executor.spin_once(timeout_sec=60)
+    assert calls == [1]
+
+
+def test_a_shutdown_may_wait_without_limit(node, executor, spinning):
+    begun, goes_on = threading.Event(), threading.Event()
+    node.create_guard_condition(lambda: (begun.set(), goes_on.wait(60))).trigger()
+    spinning(executor)
+    assert begun.wait(60)
+    alarm = threading.Timer(0.05, goes_on.set)
+    alarm.start()
+    assert executor.shutdown(timeout_sec=math.inf)
+    assert executor.get_nodes() == []
+    alarm.join()
+
+
 def test_an_exception_leaves_spin_and_the_group_is_free_again(node, executor):
     node.create_guard_condition(lambda: 1 / 0).trigger()
     with pytest.raises(ZeroDivisionError):
