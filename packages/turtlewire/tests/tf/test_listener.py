@@ -15,7 +15,7 @@ import weakref
 import pytest
 
 from turtlewire import Buffer, errors, msg, wire
-from turtlewire.errors import InvalidTransformError
+from turtlewire.errors import InvalidTransformError, WireError
 from turtlewire.tf import faults, refusal_warnings
 from turtlewire.tf.links import links
 from turtlewire.tf.listener import QOS, STATIC_QOS, TYPE_NAME, TransformListener
@@ -204,6 +204,36 @@ def test_the_subscription_moves_on_when_its_first_owner_leaves(domain):
         assert "robot" not in first
 
 
+def test_the_subscription_moves_on_past_a_closed_node(domain):
+    nodes = [domain.receiver.create_node(name) for name in ("first", "second", "third")]
+    buffers = [Buffer() for _ in nodes]
+    first, second, third = (
+        TransformListener(buffer, node, context=domain.receiver)
+        for buffer, node in zip(buffers, nodes, strict=True)
+    )
+    nodes[1].close()
+    first.close()
+    nodes[0].close()
+    assert [end.node.name for end in domain.subscriptions("/tf_static")] == ["third"]
+    domain.tf_static.publish(tf_bytes("world", "robot"))
+    buffers[2].lookup_transform("world", "robot", None, timeout_ns=LONG_NS)
+    second.close()
+    third.close()
+
+
+def test_a_listener_that_fails_leaves_the_topic_to_others(domain):
+    closed = domain.receiver.create_node("closed")
+    closed.close()
+    with pytest.raises(WireError, match="the node is closed"):
+        TransformListener(Buffer(), closed, context=domain.receiver)
+    buffer = Buffer()
+    with TransformListener(buffer, domain.node, context=domain.receiver):
+        domain.wait_for_subscriptions(domain.tf)
+        domain.tf.publish(tf_bytes("world", "robot"))
+        buffer.lookup_transform("world", "robot", None, timeout_ns=LONG_NS)
+    assert domain.subscriptions() == []
+
+
 def test_closing_stops_the_flow_and_keeps_the_data(domain):
     buffer, still_open = Buffer(), Buffer()
     listener = TransformListener(buffer, domain.node, context=domain.receiver)
@@ -244,8 +274,12 @@ def test_each_refused_frame_is_logged_once_for_each_reason(domain, monkeypatch):
     buffer = Buffer()
     with TransformListener(buffer, domain.node, context=domain.receiver):
         domain.wait_for_subscriptions(domain.tf)
-        domain.tf.publish(tf_bytes("world", "robot", stamp_s=1))  # introduces the publisher
+        domain.tf.publish(tf_bytes("world", "robot", stamp_s=1))
         buffer.lookup_transform("world", "robot", None, timeout_ns=LONG_NS)
+        assert domain.receiver.graph.wait_for(
+            lambda: [each.name for link in links(buffer) for each in link.senders] == ["/talker"],
+            LONG_NS,
+        )
         for stamp_s in range(3):
             domain.tf.publish(tf_bytes("world", arm, x=math.nan, stamp_s=stamp_s))
         domain.tf.publish(tf_bytes(hand, hand))

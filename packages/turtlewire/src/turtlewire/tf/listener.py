@@ -264,10 +264,17 @@ class _Channel:
                 self._feed.close()
                 self._subscription = self._feed = None
             elif member is former[0]:
-                # The subscription belongs to the first member's node, which is about to close. An
-                # error means that the whole context is closed, so nothing more comes for others.
-                with suppress(WireError):
-                    self._subscribe(self._feed.members)
+                self._move_subscription(self._feed.members)
+
+    def _move_subscription(self, members: tuple[_Member, ...]) -> None:
+        """Subscribe with the first node that is open; that of the former subscription is closing.
+
+        Without one, the whole context is closed, and nothing more comes.
+        """
+        for first in range(len(members)):
+            with suppress(WireError):
+                self._subscribe(members[first:] + members[:first])
+                return
 
     def _subscribe(self, members: tuple[_Member, ...]) -> None:
         """Begin a subscription of the first member's node in place of the former one.
@@ -288,9 +295,14 @@ class _Channel:
             refusal_warnings=self._refusal_warnings,
         )
         type_id = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
-        self._subscription = members[0].node.create_subscription(
-            self._topic, type_id, self._qos, self._feed, self._feed.intake
-        )
+        try:
+            self._subscription = members[0].node.create_subscription(
+                self._topic, type_id, self._qos, self._feed, self._feed.intake
+            )
+        except BaseException:
+            self._feed.close()
+            self._feed = former_feed
+            raise
         if former is not None and not self._latched:
             former.close()
         if former_feed is not None:
@@ -366,15 +378,19 @@ class TransformListener:
         self._lock = threading.Lock()
         self._joined: list[_Channel] = []
         self._seen: dict[_Channel, int] = {}
-        for channel in self._wanted(context, topic, static_topic, qos, static_qos):
-            # Before joining, which may bring latched messages at once.
-            self._seen[channel] = channel.total()
-            channel.join(self._member)
-            self._joined.append(channel)
         self._topic = topic
         self._departures: DepartureWatch | None = None
-        if topic is not None and forget_after_ns is not None:
-            self._departures = DepartureWatch(buffer, context.graph, topic, forget_after_ns)
+        try:
+            for channel in self._wanted(context, topic, static_topic, qos, static_qos):
+                # Before joining, which may bring latched messages at once.
+                self._seen[channel] = channel.total()
+                channel.join(self._member)
+                self._joined.append(channel)
+            if topic is not None and forget_after_ns is not None:
+                self._departures = DepartureWatch(buffer, context.graph, topic, forget_after_ns)
+        except BaseException:
+            self.close()
+            raise
 
     def departed_frames(self) -> list[str]:
         """Return the moving frames whose publisher has left the graph."""
