@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
 from turtlewire.wire import names
@@ -102,23 +103,32 @@ class CycloneNode(CheckedNode):
     def _create_client(self, service: str, types: ServiceTypes, qos: QoS) -> Client:
         identity = self._identity("clientid", types)
         spec = EndpointSpec(service, names.request_topic(service), types.request, qos, identity)
-        requests = self._publisher(spec._replace(partition=ONLY_CYCLONE))
-        replies = self._subscription(
-            EndpointSpec(service, names.reply_topic(service), types.response, qos, identity)
-        )
-        return CycloneClient(service, requests, replies, lambda: self._publisher(spec))
+        with ExitStack() as if_it_fails:
+            requests = self._publisher(spec._replace(partition=ONLY_CYCLONE))
+            if_it_fails.callback(requests.close)
+            replies = self._subscription(
+                EndpointSpec(service, names.reply_topic(service), types.response, qos, identity)
+            )
+            if_it_fails.callback(replies.close)
+            client = CycloneClient(service, requests, replies, lambda: self._publisher(spec))
+            if_it_fails.pop_all()
+        return client
 
     def _create_service(self, service: str, types: ServiceTypes, qos: QoS) -> Service:
         identity = self._identity("serviceid", types)
-        replies = self._publisher(
-            EndpointSpec(service, names.reply_topic(service), types.response, qos, identity)
-        )
-        requests = self._subscription(
-            EndpointSpec(service, names.request_topic(service), types.request, qos, identity)
-        )
-        server = CycloneService(
-            service, requests, replies, self._core.reader, self._core.receiving_addresses
-        )
+        with ExitStack() as if_it_fails:
+            replies = self._publisher(
+                EndpointSpec(service, names.reply_topic(service), types.response, qos, identity)
+            )
+            if_it_fails.callback(replies.close)
+            requests = self._subscription(
+                EndpointSpec(service, names.request_topic(service), types.request, qos, identity)
+            )
+            if_it_fails.callback(requests.close)
+            server = CycloneService(
+                service, requests, replies, self._core.reader, self._core.receiving_addresses
+            )
+            if_it_fails.pop_all()
         replies.on_matched.append(server.matched)
         return server
 

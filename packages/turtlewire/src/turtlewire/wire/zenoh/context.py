@@ -171,11 +171,15 @@ def _open(configuration: zenoh.Config) -> zenoh.Session:
         fault = fault_of(configuration, reason_of(error))
         failed = WireError(f"cannot open a Zenoh session: {fault.text}")
         raise failed.with_hint(fault.remedy) from None
-    if stays_on_loopback(configuration):
-        bind_to_loopback(former, ANY_PORT)
-    if "tls/" in configuration.get_json("connect/endpoints"):
-        from .diagnosis import warn_of_faults
+    try:
+        if stays_on_loopback(configuration):
+            bind_to_loopback(former, ANY_PORT)
+        if "tls/" in configuration.get_json("connect/endpoints"):
+            from .diagnosis import warn_of_faults
 
-        warn_of_faults(configuration)
-    wait_for_router(session)
+            warn_of_faults(configuration)
+        wait_for_router(session)
+    except BaseException:  # Ctrl-C during the wait
+        session.close()
+        raise
     return session
