@@ -49,6 +49,7 @@ def add_releases(repository: Path, site: Path, base: str) -> list[str]:
     Raises:
         BuildError: The site of a release cannot be built.
     """
+    site = site.resolve()  # the script of a release works in its own folder
     found = releases(repository)
     for version in found:
         with tempfile.TemporaryDirectory() as folder:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import subprocess
+from pathlib import Path
 
 import pytest
 from docs_releases import add_releases, is_of_release, releases
@@ -48,6 +49,14 @@ def test_each_release_is_built_by_its_own_script(repository, tmp_path, capfd):
     text = (site / "0.9.0" / "index.html").read_text()
     assert text == "v0.9.0 --base /project/0.9.0/\n"
     assert "building 0.10.0" in capfd.readouterr().out
+
+
+def test_the_folder_of_the_site_may_be_relative(repository, tmp_path, monkeypatch):
+    _release(repository, "v0.1.0")
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "site").mkdir()
+    add_releases(repository, Path("site"), "/")
+    assert (tmp_path / "site" / "0.1.0" / "index.html").exists()
 
 
 def test_a_release_that_cannot_be_built_leaves_no_work_tree(repository, tmp_path):
