@@ -22,6 +22,9 @@ __all__ = [
     "ros_time_error",
 ]
 
+#: Such a number cannot be seconds, from 1970 until far in the future.
+_SURELY_NANOSECONDS = 10**12
+
 _Class = TypeVar("_Class", bound=type)
 _Function = TypeVar("_Function", bound="Callable[..., Any]")
 
@@ -163,7 +166,11 @@ def ros_time_error(what: str, value: object) -> TypeError:
 
 def _ros_time_for(what: str, value: object) -> str:
     """Return what to write instead, as the end of a sentence."""
-    number = f"(seconds={float(value)!r})" if isinstance(value, (int, float)) else ""
+    number = ""
+    if isinstance(value, int) and abs(value) >= _SURELY_NANOSECONDS:
+        number = f"(nanoseconds={value})"
+    elif isinstance(value, (int, float)):
+        number = f"(seconds={float(value)!r})"
     if what == "duration":
         return f": write rclpy.duration.Duration{number or '(seconds=…)'}"
     if hasattr(value, "header"):

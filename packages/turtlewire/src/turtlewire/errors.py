@@ -329,7 +329,7 @@ def _wrong_unit(requested: int, oldest: int, newest: int) -> str:
 
 
 def _rounded(duration_s: float) -> str:
-    return f"{duration_s:.3g}" if duration_s < 1000 else f"{duration_s:.0f}"
+    return f"{duration_s:.3g}" if duration_s < 999.5 else f"{duration_s:.0f}"
 
 
 class ExtrapolationException(TransformException):

@@ -40,6 +40,7 @@ TF = TypeId("tf2_msgs/msg/TFMessage", msg.type_hash("tf2_msgs/msg/TFMessage"))
         (f"bag {BAG}", 2, f"\n{BAG} is a bag. {SHOW_BAG}"),
         (f"{BAG}", 2, f"\n{BAG} is a bag. {SHOW_BAG}"),
         ("bag fts", 2, "turtlewire bag: error: argument COMMAND: invalid choice: 'fts'"),
+        ("doctor --topic a//b --listen 0.1", 2, "turtlewire doctor: create subscription '/a//b'"),
         ("doctr", 2, "usage: turtlewire [-h] [--version] COMMAND ...\n"),
         ("bag x", 2, "usage: turtlewire bag [-h] COMMAND ...\n"),
         ("", 0, "usage: turtlewire [-h] [--version]"),

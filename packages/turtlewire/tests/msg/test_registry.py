@@ -86,6 +86,7 @@ def test_all_interfaces_are_listed():
             "unknown interface 'nope/msg/X'",
             "`ros2 interface list` shows all interfaces.",
         ),
+        ("a" * 300 + "/msg/X", f"unknown interface '{'a' * 300}/msg/X'", ""),
         (
             "Twist",
             "'Twist' is not the name of an interface",

@@ -126,6 +126,13 @@ def test_times_are_ros_times(buffer, wrong):
             ),
         ),
         (
+            lambda buffer: buffer.lookup_transform("a", "b", 1_700_000_000_500_000_000),
+            (
+                "It is of type int: write rclpy.time.Time() for the latest transform, or "
+                "rclpy.time.Time(nanoseconds=1700000000500000000)."
+            ),
+        ),
+        (
             lambda buffer: buffer.lookup_transform("a", "b", Header()),
             "It is of type Header: pass its stamp.",
         ),

@@ -188,10 +188,15 @@ def _frame_names(**_: Any) -> list[str]:
 
 def _doctor(args: argparse.Namespace) -> int:
     from turtlewire.doctor.examination import as_json, examine, full_report, report
+    from turtlewire.errors import WireError
 
     as_text = full_report if args.bag is None else report
     if args.bag is None:
-        findings = examine(args.listen, _robot_topics(args))
+        try:
+            findings = examine(args.listen, _robot_topics(args))
+        except WireError as error:
+            print(f"turtlewire doctor: {error.in_one_line()}", file=sys.stderr)
+            return 2
     else:
         if args.listen is not None:
             args.parser.error("--listen cannot be combined with a BAG")

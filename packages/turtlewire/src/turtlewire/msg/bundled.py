@@ -78,10 +78,17 @@ def bundled_file(full_name: str) -> str | None:
         if JAZZY < distro <= current
     ]
     package = full_name.partition("/")[0]
+    if package not in _known_packages():
+        return None
     for file in (*changes, os.path.join(_FOLDER, f"{package}.txt")):
         if full_name in bundled_definitions(file):
             return file
     return None
+
+
+@functools.cache
+def _known_packages() -> frozenset[str]:
+    return frozenset(bundled_packages())
 
 
 @functools.cache
