@@ -39,8 +39,9 @@ class WakeUp:
         Returns:
             False after the timeout.
         """
-        unlimited = timeout is None or timeout >= threading.TIMEOUT_MAX
-        return self._lock.acquire(timeout=-1 if unlimited else max(timeout, 0.0))
+        if timeout is None or timeout >= threading.TIMEOUT_MAX:
+            return self._lock.acquire()
+        return self._lock.acquire(timeout=max(timeout, 0.0))
 
 
 class LoopWakeUp:

@@ -180,6 +180,6 @@ def _open(configuration: zenoh.Config) -> zenoh.Session:
             warn_of_faults(configuration)
         wait_for_router(session)
     except BaseException:  # Ctrl-C during the wait
-        session.close()
+        session.close()  # type: ignore[no-untyped-call]
         raise
     return session
