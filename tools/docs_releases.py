@@ -1,4 +1,4 @@
-"""The releases on the site: each tag is built by its own ``scripts/docs``, below its number."""
+"""Adds the releases to the site: builds each tag with its own ``scripts/docs``."""
 
 from __future__ import annotations
 
@@ -14,20 +14,16 @@ from lesson_npm import BuildError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-_TAG = re.compile(r"v(\d+)\.(\d+)\.(\d+)")
+_TAG = re.compile(r"v\d+\.\d+\.\d+")
 #: The list that a page reads for its menu of versions, at the root of the site.
 LIST = "versions.json"
 
 
 def releases(repository: Path) -> list[str]:
     """Return the numbers of the released versions, newest first."""
-    numbers = [match.groups() for tag in _git(repository, "tag").split() if (match := _match(tag))]
-    ranked = sorted((tuple(map(int, number)) for number in numbers), reverse=True)
+    tags = filter(_TAG.fullmatch, _git(repository, "tag").split())
+    ranked = sorted((tuple(map(int, tag[1:].split("."))) for tag in tags), reverse=True)
     return [".".join(map(str, number)) for number in ranked]
-
-
-def _match(tag: str) -> re.Match[str] | None:
-    return _TAG.fullmatch(tag)
 
 
 def is_of_release(base: str, version: str) -> bool:

@@ -236,7 +236,7 @@ def install_signal_handlers(options: SignalHandlerOptions = SignalHandlerOptions
 
 
 def rearm() -> None:
-    """Have signals end the waits of the main thread, although asyncio has handled them since.
+    """Restore the handling of signals that asyncio has replaced.
 
     Nothing happens in other threads, and without installed handlers.
     """

@@ -1,4 +1,4 @@
-"""Calls of functions on a thread that serves others, too, which an exception would end."""
+"""Guards callbacks on shared threads, which an exception would end."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ if TYPE_CHECKING:
 
 __all__ = ["call_guarded"]
 
-#: Programs can make code without end; after this many places, an exception can be reported again.
+#: Bounds the table for programs that generate code; beyond it, lines are reported again.
 _MOST_PLACES = 1000
 _reported: set[tuple[str, int, type[BaseException]]] = set()
 
 
 def call_guarded(call: Callable[..., object], *arguments: object) -> None:
-    """Call ``call(*arguments)``; an exception is reported and goes no further.
+    """Call ``call(*arguments)``, and report an exception instead of raising it.
 
-    It is reported as the end of any thread, by ``threading.excepthook``, and once for each line
-    that raises it: what fails for one message often fails for a thousand each second.
+    ``threading.excepthook`` reports it, once for each line that raises: a callback that fails for
+    one message often fails for a thousand each second.
     """
     try:
         call(*arguments)

@@ -1,4 +1,4 @@
-"""The common part of all middlewares' nodes: what they refuse."""
+"""The common base of the middlewares' nodes: checks names and that the node is open."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ __all__ = ["CheckedNode"]
 
 
 class CheckedNode(Node):
-    """Makes endpoints until it is closed; the subclass has the ``_create`` methods."""
+    """Creates endpoints until it is closed; subclasses define the ``_create`` methods."""
 
     def __init__(self) -> None:
         # Held while an endpoint is made, so that none is made on a node that closes meanwhile. A
@@ -66,12 +66,15 @@ class CheckedNode(Node):
 
     @contextmanager
     def _checked(self, kind: str, name: str, *, bare: bool = False) -> Iterator[None]:
-        """Let the block make an endpoint.
+        """Check the name and the node, and keep the node open within the block.
 
         Args:
-            kind: What it makes.
+            kind: The endpoint to create, for the error.
             name: Name of the topic or service.
-            bare: Whether it is a name of DDS, for which ROS has no rules.
+            bare: True for a DDS name, which ROS's rules do not restrict.
+
+        Raises:
+            WireError: The name is invalid, or the node is closed.
         """
         fault = _fault_of_bare(name) if bare else validate_full_topic_name(name)
         if fault is not None:
@@ -92,7 +95,7 @@ class CheckedNode(Node):
 
     @abstractmethod
     def _create_publisher(self, topic: str, type_id: TypeId, qos: QoS) -> Publisher:
-        """Do what :meth:`create_publisher` says."""
+        """Create a publisher of a valid topic."""
 
     @abstractmethod
     def _create_subscription(
@@ -103,15 +106,15 @@ class CheckedNode(Node):
         on_message: Callable[[bytes, MessageInfo], None] | None,
         sink: Sink | None,
     ) -> Subscription:
-        """Do what :meth:`create_subscription` says."""
+        """Create a subscription of a valid topic."""
 
     @abstractmethod
     def _create_client(self, service: str, types: ServiceTypes, qos: QoS) -> Client:
-        """Do what :meth:`create_client` says."""
+        """Create a client of a valid service."""
 
     @abstractmethod
     def _create_service(self, service: str, types: ServiceTypes, qos: QoS) -> Service:
-        """Do what :meth:`create_service` says."""
+        """Create a server of a valid service."""
 
     @abstractmethod
     def _close(self) -> None:
@@ -119,7 +122,7 @@ class CheckedNode(Node):
 
 
 def _fault_of_bare(name: str) -> NameFault | None:
-    """Check what C and UTF-8 cannot express."""
+    """Check a DDS name for characters that a C string or UTF-8 cannot hold."""
     if name and name.isprintable():
         return None
     return NameFault("topic name must not be empty or contain unprintable characters", 0)

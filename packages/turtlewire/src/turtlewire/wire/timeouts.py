@@ -1,4 +1,4 @@
-"""Timeouts as the functions that wait take them."""
+"""Converts timeouts for `threading` and for DDS."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ _LONGEST_NS = int(threading.TIMEOUT_MAX * 1_000_000_000)
 
 
 def of_threading(timeout_ns: int | None) -> float | None:
-    """Return the seconds; None, which is without limit, for more than a thread can wait."""
+    """Convert to seconds; None (no limit) for more than a thread can wait."""
     if timeout_ns is None or timeout_ns >= _LONGEST_NS:
         return None
     return max(timeout_ns, 0) / 1e9
 
 
 def of_dds(timeout_ns: int | None) -> int:
-    """Return the nanoseconds, from 0 to what DDS calls infinite."""
+    """Limit to the range of DDS: from 0 to its infinite duration."""
     return INFINITE_NS if timeout_ns is None else min(max(timeout_ns, 0), INFINITE_NS)

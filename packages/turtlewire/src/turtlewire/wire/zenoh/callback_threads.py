@@ -53,7 +53,7 @@ class CallbackThreads:
         self._join_later(thread)
 
     def _end(self, running: object) -> None:
-        """Note that the calling thread has nothing more to do."""
+        """Note that the calling thread is about to end."""
         self._join_later(threading.current_thread())
         self._remove(running)
 

@@ -200,7 +200,7 @@ class ZenohService(_QueuedEndpoint, Service):
         self._forget(list(self._queries))
 
     def _forget(self, requests: list[RequestId]) -> None:
-        """Answer no more: the server closes, or the client has left."""
+        """Stop answering, because the server closes or the client has left."""
         with suppress(WireError), self._core.calls:
             self._drop_queries(requests)
 
