@@ -273,7 +273,8 @@ class Executor:
         self, timeout_sec: float | None, condition: Callable[[], bool] | None = None
     ) -> None:
         try:
-            self._rclpy_scheduler.spin_once(_nanoseconds(timeout_sec), condition)
+            limit_ns = None if timeout_sec is None else _nanoseconds(timeout_sec)
+            self._rclpy_scheduler.spin_once(limit_ns, condition)
         # As in ROS 2, these end a single spin without an error.
         except (ShutdownException, TimeoutException, ConditionReachedException):
             return

@@ -58,10 +58,12 @@ class BaseTimer(ClosingEntity):
         super().__init__(None)
         self._on_destroy = on_destroy
         self.callback = callback
+        self._inspected_callback: Callable[..., Any] | None = None
+        self._info_parameter = ""  # of the inspected callback
         self._context = get_default_context() if context is None else context
         self._clock = clock
         self._period_ns = timer_period_ns
-        self._last_call_ns = self._now_ns()
+        self._last_call_ns = self._clock._now_ns()
         self._next_call_ns = self._last_call_ns + timer_period_ns
         self._remaining_ns = 0
         self._canceled = not autostart
@@ -87,7 +89,7 @@ class BaseTimer(ClosingEntity):
     def is_ready(self) -> bool:
         """Return True if a call is due."""
         self._check_usable()
-        return not self._canceled and self._next_call_ns <= self._now_ns()
+        return not self._canceled and self._next_call_ns <= self._clock._now_ns()
 
     def is_canceled(self) -> bool:
         """Return True if it was cancelled and not reset since."""
@@ -98,12 +100,12 @@ class BaseTimer(ClosingEntity):
         """Make no more calls until :meth:`reset`."""
         self._check_usable()
         self._canceled = True
-        self._reschedule(self._now_ns())
+        self._reschedule(self._clock._now_ns())
 
     def reset(self) -> None:
         """Start (again): the next call is one period from now."""
         self._check_usable()
-        now_ns = self._now_ns()
+        now_ns = self._clock._now_ns()
         self._next_call_ns = now_ns + self._period_ns
         self._canceled = False
         self._reschedule(now_ns)
@@ -111,18 +113,12 @@ class BaseTimer(ClosingEntity):
     def time_since_last_call(self) -> int:
         """Nanoseconds since the last call, or since it was made."""
         self._check_usable()
-        return self._now_ns() - self._last_call_ns
+        return self._clock._now_ns() - self._last_call_ns
 
     def time_until_next_call(self) -> int | None:
         """Nanoseconds until the next call, negative when it is late, None when it is cancelled."""
         self._check_usable()
-        return None if self._canceled else self._next_call_ns - self._now_ns()
-
-    def _now_ns(self) -> int:
-        return self._clock._now_ns()
-
-    def _follows_clock_topic(self) -> bool:
-        return self._jump_handle is not None and self._clock.ros_time_is_active
+        return None if self._canceled else self._next_call_ns - self._clock._now_ns()
 
     def _delay_ns(self, now_ns: int) -> int | None:
         """Time on the monotonic clock until a look at the timer makes sense.
@@ -135,7 +131,7 @@ class BaseTimer(ClosingEntity):
         if delay_ns <= 0:
             return 0
         # A message on `/clock` reschedules the timer in `_after_jump`.
-        return None if self._follows_clock_topic() else delay_ns
+        return None if self._clock._override_is_active else delay_ns
 
     def _reschedule(self, now_ns: int) -> None:
         host = self._serving_host()
@@ -143,13 +139,13 @@ class BaseTimer(ClosingEntity):
             host.wait.timers.schedule(self, self._delay_ns(now_ns))
 
     def _attach(self, host: EntityHost) -> None:
-        host.wait.timers.schedule(self, self._delay_ns(self._now_ns()))
+        host.wait.timers.schedule(self, self._delay_ns(self._clock._now_ns()))
 
     def _detach(self, host: EntityHost) -> None:
         host.wait.timers.discard(self)
 
     def _take(self) -> Work | None:
-        now_ns = self._now_ns()
+        now_ns = self._clock._now_ns()
         if self._canceled:
             return None
         if self._next_call_ns > now_ns:  # its clock went back or has stopped
@@ -163,10 +159,12 @@ class BaseTimer(ClosingEntity):
         self._reschedule(now_ns)
         if self.callback is None:
             return _missing_callback, ()
-        parameter = parameter_for_info(self.callback)
-        if not parameter:
+        if self.callback is not self._inspected_callback:
+            self._inspected_callback = self.callback
+            self._info_parameter = parameter_for_info(self.callback)
+        if not self._info_parameter:
             return self.callback, ()
-        return partial(self.callback, **{parameter: self._info(due_ns)}), ()
+        return partial(self.callback, **{self._info_parameter: self._info(due_ns)}), ()
 
     def _info(self, due_ns: int) -> TimerInfo:
         """Return the times of the call that was just taken."""
@@ -198,12 +196,12 @@ class BaseTimer(ClosingEntity):
         )
 
     def _before_jump(self) -> None:
-        self._remaining_ns = self._next_call_ns - self._now_ns()
+        self._remaining_ns = self._next_call_ns - self._clock._now_ns()
 
     def _after_jump(self, jump: TimeJump) -> None:
         from .clock import ClockChange
 
-        now_ns = self._now_ns()
+        now_ns = self._clock._now_ns()
         if jump.clock_change in (ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED):
             # As in rcl, the timer keeps its remaining time; 0 means that no time has arrived yet.
             if now_ns != 0:

@@ -88,7 +88,7 @@ class Entity:
     """Base of all entities.
 
     An entity is *attached* to at most one executor, that of its node. When it is ready, the
-    executor claims its callback group, calls :meth:`_work` and runs what comes back. An entity
+    executor claims its callback group, calls :meth:`_take` and runs what comes back. An entity
     whose group is busy is *paused*: it must not report itself ready again before it is *resumed*,
     or the executor would spin.
 
@@ -194,10 +194,6 @@ class Entity:
     def _resume(self, host: EntityHost) -> None:
         """Report again, at once if it is ready."""
         self._attach(host)
-
-    def _work(self) -> Work | None:
-        """Return the work to run now; the executor calls this."""
-        return self._take() if self._owner is None else self._owner._work_of(self)
 
     def _take(self) -> Work | None:
         """Take what made it ready; None if there was nothing after all."""

@@ -235,14 +235,18 @@ class Scheduler:
         # While a callback blocks for a response, tasks stay in the list.
         takes_tasks = self._response_awaited is None
         # Within an endless spin, only a callback that spins again can wait for such a message.
-        if takes_tasks and (not self.serves_endlessly or self._running.of_this_thread()):
+        if (
+            takes_tasks
+            and self.wait.background
+            and (not self.serves_endlessly or self._running.of_this_thread())
+        ):
             self.wait.expect_background()
-        if self._self_waits:
+        if self._self_waits.due:
             timeout_ns = self._self_waits.bounded(timeout_ns)
         # Tasks run at once, but what became ready with them belongs to the same cycle.
         entities = self.wait.wait(0 if takes_tasks and self._tasks else timeout_ns)
         self._collecting = False
-        if self._self_waits:
+        if self._self_waits.due:
             self._self_waits.warn()
         if takes_tasks and self._tasks:
             with self.lock:
@@ -263,15 +267,14 @@ class Scheduler:
         """
         if entity not in self._served:
             return None  # destroyed, or moved to another executor since it became ready
-        if not entity._GATED:
-            return entity._work()
-        group = entity.callback_group
-        if not self.may_run(entity) or not group.beginning_execution(entity):
+        if entity._GATED and not (
+            self.may_run(entity) and entity.callback_group.beginning_execution(entity)
+        ):
             self._pause(entity)
             return None
         work = None
         try:
-            work = entity._work()
+            work = entity._take() if entity._owner is None else entity._owner._work_of(entity)
         finally:
             # The message was taken elsewhere or cannot be decoded: the group must not stay claimed.
             if work is None:
@@ -298,15 +301,16 @@ class Scheduler:
         """Release the group, and resume the entities that waited for it."""
         if not entity._GATED:
             return
-        entity.callback_group.ending_execution(entity)
+        group = entity.callback_group
+        group.ending_execution(entity)
         # A callback of this group may have freed another one: programs define their own groups.
-        self.resume_paused()
-        entity.callback_group._rclpy_wake_schedulers()
+        if self._paused:
+            self.resume_paused()
+        if group._rclpy_schedulers:
+            group._rclpy_wake_schedulers()
 
     def resume_paused(self) -> None:
         """Let all entities report themselves again whose groups have become free."""
-        if not self._paused:
-            return
         with self.lock:
             free = [entity for entity in self._paused if self.may_run(entity)]
         for entity in free:
@@ -322,10 +326,6 @@ class Scheduler:
         self.wake()
 
     # Running
-
-    def run(self, source: Entity | Task[Any], work: Work | None) -> None:
-        """Run what :meth:`next` found; here, or in another thread."""
-        self.execute(source, work)
 
     def execute(self, source: Entity | Task[Any], work: Work | None) -> None:
         """Run a callback to its end or to its first ``await``, or a task to its next one."""
@@ -345,6 +345,9 @@ class Scheduler:
                 task: Task[Any] = Task(coroutine, executor=self)
                 self._holders[task] = source  # type: ignore[assignment]
                 self._advance(task)
+
+    #: Runs what :meth:`next` found; a pool does it in another thread.
+    run = execute
 
     def _advance(self, task: Task[Any]) -> None:
         """Run one step of a task; schedule the next step for when the awaited future is done."""

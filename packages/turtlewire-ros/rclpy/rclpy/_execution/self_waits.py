@@ -18,14 +18,14 @@ _PATIENCE_NS = 1_000_000_000
 
 
 class SelfWaits:
-    """Services held up by a callback that may be waiting for them; warns after a second."""
+    """Services held up by a callback that may be waiting for them; warns after a second.
+
+    Attributes:
+        due: The services to warn about, and when.
+    """
 
     def __init__(self) -> None:
-        self._due: dict[Entity, tuple[Service, int]] = {}
-
-    def __bool__(self) -> bool:
-        """Return True while there is something to warn about."""
-        return bool(self._due)
+        self.due: dict[Entity, tuple[Service, int]] = {}
 
     def held_up(
         self, entity: Entity, suspended: Collection[Entity], served: Iterable[Entity]
@@ -45,15 +45,15 @@ class SelfWaits:
         ):
             service = entity._wire.service  # `service_name` raises when another thread destroys it
             if any(other._awaits(service) for other in list(served)):
-                self._due[entity] = (entity, time.monotonic_ns() + _PATIENCE_NS)
+                self.due[entity] = (entity, time.monotonic_ns() + _PATIENCE_NS)
 
     def goes_on(self, entity: Entity) -> None:
         """Stop watching an entity that may run again or was released."""
-        self._due.pop(entity, None)
+        self.due.pop(entity, None)
 
     def bounded(self, timeout_ns: int | None) -> int | None:
         """Shorten a wait so that :meth:`warn` can be called in time."""
-        moments = [due for _, due in list(self._due.values())]
+        moments = [due for _, due in list(self.due.values())]
         if not moments:
             return timeout_ns
         left = max(0, min(moments) - time.monotonic_ns())
@@ -61,7 +61,7 @@ class SelfWaits:
 
     def warn(self) -> None:
         """Say what has been held up for too long, once."""
-        for service, due in list(self._due.values()):
+        for service, due in list(self.due.values()):
             if time.monotonic_ns() >= due:
-                self._due.pop(service, None)
+                self.due.pop(service, None)
                 service._warn_of_self_wait()

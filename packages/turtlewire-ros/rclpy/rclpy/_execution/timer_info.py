@@ -48,7 +48,7 @@ class TimerInfo:
 def parameter_for_info(callback: Callable[..., Any]) -> str:
     """Return the parameter that is annotated with `TimerInfo`; empty without one.
 
-    Annotations may be texts. They are read at each call, as in rclpy.
+    Annotations may be texts.
     """
     notes: dict[str, object] = getattr(callback, "__annotations__", None) or {}
     for name, note in notes.items():

@@ -69,7 +69,8 @@ class TimerQueue(Generic[T]):
         0 if a timer is due, None without timers.
         """
         with self._lock:
-            self._drop_stale()
+            if len(self._heap) > len(self._tickets):
+                self._drop_stale()
             if not self._heap:
                 self._awaited_ns = math.inf
                 return None

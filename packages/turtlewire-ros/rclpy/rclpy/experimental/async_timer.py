@@ -81,7 +81,7 @@ class AsyncTimer(AsyncEntity, BaseTimer):
         return self._callback, (self._info(due_ns),)
 
     async def _until_ready(self) -> None:
-        delay_ns = self._delay_ns(self._now_ns())
+        delay_ns = self._delay_ns(self._clock._now_ns())
         await self._waker().wait(None if delay_ns is None else delay_ns / 1e9)
 
     def _reschedule(self, now_ns: int) -> None:  # noqa: ARG002 - the loop asks for the delay itself

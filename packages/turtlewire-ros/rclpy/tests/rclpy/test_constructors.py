@@ -46,7 +46,7 @@ group = node.default_callback_group
 qos = QoSProfile(depth=3)
 
 def run(entity):
-    callback, arguments = entity._work()
+    callback, arguments = entity._take()
     return callback(*arguments)
 """
 
