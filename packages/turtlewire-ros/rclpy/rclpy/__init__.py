@@ -179,10 +179,10 @@ def get_global_executor() -> Executor:
     It lives until the default context is shut down.
     """
     global _global_executor  # noqa: PLW0603 - there is one for the process
-    from .executors import SingleThreadedExecutor
-
     executor = _global_executor
     if executor is None:
+        from .executors import SingleThreadedExecutor
+
         executor = _global_executor = SingleThreadedExecutor()
         get_default_context().on_shutdown(_forget_global_executor)
     return executor

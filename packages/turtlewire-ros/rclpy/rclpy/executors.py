@@ -152,8 +152,11 @@ class Executor:
         """Serve ``node`` no longer; nothing happens when it does not."""
         node = _node_of(node)
         with self._rclpy_scheduler.lock:
-            if self._nodes.pop(node, None) is None:
+            index = self._nodes.pop(node, None)
+            if index is None:
                 return
+            if index == self._nodes_made - 1:  # the same index if it comes back at once
+                self._nodes_made = index
         node._rclpy_endpoints.detach(self._rclpy_scheduler)
         node._rclpy_served_by(None)
 

@@ -58,7 +58,7 @@ class BaseTimer(ClosingEntity):
         super().__init__(None)
         self._on_destroy = on_destroy
         self.callback = callback
-        self._inspected_callback: Callable[..., Any] | None = None
+        self._inspected_callback: object = None
         self._info_parameter = ""  # of the inspected callback
         self._context = get_default_context() if context is None else context
         self._clock = clock
@@ -157,14 +157,15 @@ class BaseTimer(ClosingEntity):
         if self._next_call_ns < now_ns:
             self._skip_missed_periods(now_ns)
         self._reschedule(now_ns)
-        if self.callback is None:
+        callback = self.callback
+        if callback is None:
             return _missing_callback, ()
-        if self.callback is not self._inspected_callback:
-            self._inspected_callback = self.callback
-            self._info_parameter = parameter_for_info(self.callback)
+        if callback is not self._inspected_callback:
+            self._inspected_callback = callback
+            self._info_parameter = parameter_for_info(callback)
         if not self._info_parameter:
-            return self.callback, ()
-        return partial(self.callback, **{self._info_parameter: self._info(due_ns)}), ()
+            return callback, ()
+        return partial(callback, **{self._info_parameter: self._info(due_ns)}), ()
 
     def _info(self, due_ns: int) -> TimerInfo:
         """Return the times of the call that was just taken."""

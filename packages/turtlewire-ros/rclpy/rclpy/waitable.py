@@ -183,11 +183,18 @@ class Waitable(Entity):
                 part.callback_group = self.callback_group
                 self._parts.append(part)
         for part in self._parts:
-            host.adopt(part)
+            part._is_part = True
+            host.adopt(part, self._membership)
 
     def _detach(self, host: EntityHost) -> None:
         for part in self._parts:
             host.release(part)
+
+    def _pause(self, host: EntityHost) -> None:
+        """Nothing: the executor pauses the parts."""
+
+    def _resume(self, host: EntityHost) -> None:
+        """Nothing: the executor resumes the parts."""
 
     def _close(self) -> None:
         for part in self._parts:

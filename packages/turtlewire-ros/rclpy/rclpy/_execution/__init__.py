@@ -6,6 +6,7 @@ module                    contents
 `scheduler`, `pool`       finds and runs ready callbacks; a variant with a thread pool
 `wait`, `timer_queue`     the one wait for wire and timers; timers by their due times
 `entity`                  `Entity`; `EntityHost`, an entity's view of its executor
+`membership`              the entities of a node in an executor
 `running_callbacks`       the callbacks that each thread is running
 `blocking`, `self_waits`  waiting for a response; warnings of deadlocks
 `futures`                 callbacks of futures: called at once, or by an executor

@@ -5,7 +5,7 @@ from __future__ import annotations
 import weakref
 from typing import TYPE_CHECKING, Protocol
 
-from rclpy._execution.entity import Entity, EntityHost, Work
+from rclpy._execution.entity import HANDLED, Entity, EntityHost, Work
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -76,8 +76,4 @@ class BackgroundEvents(Entity):
         host.wait.background.discard(self)
 
     def _take(self) -> Work | None:
-        return (_nothing, ()) if self._arrivals.take_arrivals() else None
-
-
-def _nothing() -> None:
-    """The message has been handled already."""
+        return HANDLED if self._arrivals.take_arrivals() else None

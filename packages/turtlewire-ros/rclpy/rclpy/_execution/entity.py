@@ -6,7 +6,6 @@ with an underscore, although the scheduler uses them.
 
 from __future__ import annotations
 
-import weakref
 from typing import TYPE_CHECKING, Any, Protocol
 
 from rclpy._execution.handle import Handle
@@ -20,12 +19,21 @@ if TYPE_CHECKING:
     from rclpy.task import Future, Task
     from turtlewire.wake_up import WakeUp
 
+    from .membership import Membership
     from .wait import ExecutorWait
 
-__all__ = ["ClosingEntity", "Entity", "EntityHost", "Work"]
+__all__ = ["HANDLED", "ClosingEntity", "Entity", "EntityHost", "Work"]
 
 #: A callback and its arguments; the callback may be, or return, a coroutine.
 Work = tuple["Callable[..., Any]", "tuple[Any, ...]"]
+
+
+def _nothing() -> None:
+    """Do nothing: there is no callback."""
+
+
+#: The work after a message that another thread has handled already.
+HANDLED: Work = (_nothing, ())
 
 
 class EntityHost(Protocol):
@@ -41,12 +49,24 @@ class EntityHost(Protocol):
     is_shutdown: bool
     blocked: set[WakeUp]
 
-    def adopt(self, entity: Entity, node_index: int = -1) -> None:
+    def adopt(self, entity: Entity, membership: Membership | None = None) -> None:
         """Serve an entity."""
         ...
 
     def release(self, entity: Entity) -> None:
         """Serve an entity no longer."""
+        ...
+
+    def park(self, membership: Membership) -> bool:
+        """Serve the entities of a node no longer; True if :meth:`take_back` may follow."""
+        ...
+
+    def take_back(self, membership: Membership) -> None:
+        """Serve the entities of a parked node again."""
+        ...
+
+    def abandon_parked(self) -> None:
+        """Detach the entities of parked nodes."""
         ...
 
     def create_task(self, callback: Callable[..., Any], *args: Any) -> Task[Any]:
@@ -94,11 +114,12 @@ class Entity:
 
     Attributes:
         callback_group: Says which callbacks may run at the same time.
-        _host: The executor that serves it, as a weak reference.
+        _membership: The entities of its node in an executor; None while none serves it.
         _rank: Its place in a cycle of the executor: number of the node, kind, number of the entity.
         _destroyed: Whether :meth:`destroy` was called.
         _on_destroy: Called with the entity after it was destroyed.
         _owner: The waitable that it is part of, which decides about its work.
+        _is_part: Whether it is part of a waitable.
     """
 
     #: Place in the order of one node's entities within a cycle of the executor (waitables of all
@@ -110,11 +131,12 @@ class Entity:
     callback_group: CallbackGroup
 
     def __init__(self, callback_group: CallbackGroup | None) -> None:
-        self._host: weakref.ref[EntityHost] | None = None
+        self._membership: Membership | None = None
         self._rank: tuple[int, int, int] = (0, 0, 0)
         self._destroyed = False
         self._on_destroy: Callable[[Any], None] | None = None
         self._owner: _Owner | None = None
+        self._is_part = False
         if callback_group is not None:
             self._enter(callback_group)
 
@@ -122,25 +144,28 @@ class Entity:
         self.callback_group = callback_group
         callback_group.add_entity(self)
 
-    def _join(self, host: EntityHost, node_index: int, number: int) -> bool:
-        """Belong to ``host``; False if it belongs to one already, or was destroyed."""
+    def _join(self, membership: Membership, number: int) -> bool:
+        """Become a member; False if an executor serves it already, or it was destroyed."""
         # An executor that was dropped without a shutdown serves nothing.
         if self._serving_host() is not None or self._destroyed:
             return False
         # The parts of a waitable, which belong to no node, come in the order that it gives them.
-        self._rank = (node_index, self._ORDER if node_index >= 0 else 0, number)
-        self._host = weakref.ref(host)
+        if self._is_part or membership.node_index < 0:
+            self._rank = (-1, 0, number)
+        else:
+            self._rank = (membership.node_index, self._ORDER, number)
+        self._membership = membership
         return True
 
     def _leave(self, host: EntityHost) -> None:
         """Belong to no executor, and report to ``host`` no more."""
-        self._host = None
+        self._membership = None
         self._detach(host)
 
     def _serving_host(self) -> EntityHost | None:
         """Return the executor that serves it."""
-        reference = self._host  # one look: another thread may detach it at any moment
-        return None if reference is None else reference()
+        membership = self._membership  # one look: another thread may detach it at any moment
+        return None if membership is None or not membership.is_active else membership.host()
 
     @property
     def handle(self) -> Any:

@@ -24,12 +24,14 @@ from rclpy.logging import get_logger
 from rclpy.task import Future, Task
 from turtlewire.errors import WireError
 
+from .entity import HANDLED
 from .exceptions import (
     ConditionReachedException,
     ExternalShutdownException,
     ShutdownException,
     TimeoutException,
 )
+from .membership import Membership
 from .running_callbacks import RunningCallbacks
 from .self_waits import SelfWaits
 from .wait import ExecutorWait
@@ -73,7 +75,8 @@ class Scheduler:
         self.serves_endlessly = False
         self.blocked: set[WakeUp] = set()
         self._entities_made = 0
-        self._served: dict[Entity, None] = {}
+        self._without_node = Membership(self, -1)
+        self._members = {self._without_node: None}
         self.lock = threading.RLock()
         self._tasks: list[Task[Any]] = []
         self._ready: deque[Entity | Task[Any]] = deque()
@@ -90,22 +93,65 @@ class Scheduler:
 
     # Entities
 
-    def adopt(self, entity: Entity, node_index: int = -1) -> None:
-        """Serve an entity of the node with this number; entities without a node come first."""
+    def adopt(self, entity: Entity, membership: Membership | None = None) -> None:
+        """Serve an entity of a node; entities without a node come first."""
         with self.lock:
+            if membership is None:
+                membership = self._without_node
+            if not membership.is_active:  # another thread has removed the node
+                return
+            self._members[membership] = None
             self._entities_made += 1
-            if entity._join(self, node_index, self._entities_made):
-                self._served[entity] = None
+            if entity._join(membership, self._entities_made):
+                membership.entities[entity] = None
+                membership.by_wire = None
                 self._listen_to(entity, entity._attach)
 
     def release(self, entity: Entity) -> None:
         """Serve an entity no longer."""
         with self.lock:
-            self._served.pop(entity, None)
+            membership = entity._membership
+            if membership is not None:
+                membership.entities.pop(entity, None)
+                membership.by_wire = None
             if entity in self._paused:
                 self._paused.discard(entity)
                 self._self_waits.goes_on(entity)
             entity._leave(self)
+
+    def park(self, membership: Membership) -> bool:
+        """Serve the entities of a node no longer; its endpoints stay attached for the moment.
+
+        Returns:
+            True if :meth:`take_back` can undo it; else the membership is over.
+        """
+        with self.lock:
+            self._members.pop(membership, None)
+            membership.is_active = False
+            if self._paused:  # perhaps some of its entities, which are not attached
+                for entity in list(membership.entities):
+                    self.release(entity)
+                return False
+            self.wait.park(membership)
+            for entity in membership.others:
+                entity._pause(self)
+            return True
+
+    def take_back(self, membership: Membership) -> None:
+        """Serve the entities of a parked node again."""
+        with self.lock:
+            self._members[membership] = None
+            membership.is_active = True
+            if self.wait.take_back(membership):
+                for entity in membership.others:
+                    self._listen_to(entity, entity._resume)
+            else:
+                for entity in list(membership.entities):
+                    self._listen_to(entity, entity._attach)
+
+    def abandon_parked(self) -> None:
+        """Detach the entities of parked nodes, at the latest when one joins another executor."""
+        self.wait.detach_parked()
 
     def _listen_to(self, entity: Entity, attach: Callable[[EntityHost], None]) -> None:
         """Attach an entity; another thread may destroy it, or shut down, at this moment."""
@@ -265,8 +311,11 @@ class Scheduler:
 
         None if nothing is ready or the group is busy.
         """
-        if entity not in self._served:
-            return None  # destroyed, or moved to another executor since it became ready
+        if entity._serving_host() is not self:
+            # Destroyed, or its node has left the executor since it became ready. A node that comes
+            # back attaches it anew, so that it is reported again.
+            self.wait.detach_parked()
+            return None
         if entity._GATED and not (
             self.may_run(entity) and entity.callback_group.beginning_execution(entity)
         ):
@@ -288,12 +337,13 @@ class Scheduler:
     def _pause(self, entity: Entity) -> None:
         # With the lock: a thread that ends its callback may resume the entity at any moment.
         with self.lock:
-            if entity not in self._served:  # the group was released after the check above
+            if entity._serving_host() is not self:  # the group was released after the check above
                 return
             self._paused.add(entity)
             entity.callback_group._rclpy_note_wait(self)
             entity._pause(self)
-            self._self_waits.held_up(entity, list(self._holders.values()), self._served)
+            served = [other for member in self._members for other in member.entities]
+            self._self_waits.held_up(entity, list(self._holders.values()), served)
         if self.may_run(entity):  # the group became free before the entity was in the list
             self._resume(entity)
 
@@ -329,6 +379,8 @@ class Scheduler:
 
     def execute(self, source: Entity | Task[Any], work: Work | None) -> None:
         """Run a callback to its end or to its first ``await``, or a task to its next one."""
+        if work is HANDLED:
+            return
         with self._running:
             if work is None:
                 self._advance(source)  # type: ignore[arg-type]

@@ -12,6 +12,8 @@ from .timer_queue import TimerQueue
 if TYPE_CHECKING:
     from turtlewire.wire import base
 
+    from .membership import Membership
+
 __all__ = ["ExecutorWait"]
 
 
@@ -19,6 +21,7 @@ class _Ranked(Protocol):
     """An object that the wait can report as ready."""
 
     _rank: tuple[int, int, int]
+    _membership: Membership | None
 
 
 T = TypeVar("T", bound=_Ranked)
@@ -39,10 +42,9 @@ class ExecutorWait(Generic[T]):
         self.timers: TimerQueue[Any] = TimerQueue(wait_set.wake)
         self.background: set[Any] = set()  # of BackgroundEvents
         self._wait_set = wait_set
-        self._by_wire: dict[base.Entity, T] = {}
-        # Endpoints that are no longer watched but still attached: `rclpy.spin_once` removes a node
-        # after each call and adds it again before the next one. Closing an endpoint detaches it.
-        self._left: set[weakref.ref[base.Waitable]] = set()
+        self._by_wire: dict[Any, T] = {}  # the key is a `base.Waitable`
+        # Their endpoints are still attached. Closing an endpoint detaches it.
+        self._parked: set[weakref.ref[Membership]] = set()
         # Also held by finalizers, which run in the middle of anything.
         self._lock = threading.RLock()
         self._notified: deque[T] = deque()
@@ -55,24 +57,50 @@ class ExecutorWait(Generic[T]):
         """Report ``entity`` when its side on the wire has something."""
         with self._lock:
             self._by_wire[wire] = entity
-            reference = weakref.ref(wire)
-            if reference in self._left:
-                self._left.discard(reference)
-            else:
-                self._wait_set.attach(wire)
+            self._wait_set.attach(wire)
 
     def unwatch(self, wire: base.Waitable) -> None:
         """Undo :meth:`watch`."""
         with self._lock:
             if self._by_wire.pop(wire, None) is not None:
-                self._left.add(weakref.ref(wire))
+                self._wait_set.detach(wire)
 
-    def _detach_left(self) -> None:
+    def park(self, membership: Membership) -> None:
+        """Report the endpoints of a node no longer, but detach them only before the next wait.
+
+        So a loop of ``rclpy.spin_once``, which removes the node after each call and adds it again
+        before the next one, leaves the middleware's wait set as it is.
+        """
         with self._lock:
-            left, self._left = self._left, set()
-            for reference in left:
-                wire = reference()
-                if wire is not None:
+            if membership.by_wire is None:
+                membership.by_wire = {
+                    wire: entity
+                    for wire, entity in self._by_wire.items()
+                    if entity._membership is membership
+                }
+                watched = set(membership.by_wire.values())
+                membership.others = [each for each in membership.entities if each not in watched]
+            for wire in membership.by_wire:
+                self._by_wire.pop(wire, None)
+            self._parked.add(weakref.ref(membership))
+
+    def take_back(self, membership: Membership) -> bool:
+        """Undo :meth:`park`; False if the endpoints have been detached."""
+        reference = weakref.ref(membership)
+        with self._lock:
+            if membership.by_wire is None or reference not in self._parked:
+                return False
+            self._parked.discard(reference)
+            self._by_wire.update(membership.by_wire)
+            return True
+
+    def detach_parked(self) -> None:
+        """Detach the endpoints of nodes that were not taken back."""
+        with self._lock:
+            while self._parked:
+                membership = self._parked.pop()()
+                # Without a node, its endpoints are closed.
+                for wire in (membership is not None and membership.by_wire) or ():
                     self._wait_set.detach(wire)
 
     def notify(self, entity: T) -> None:
@@ -96,8 +124,8 @@ class ExecutorWait(Generic[T]):
         Returns:
             What is ready, in ROS 2's order.
         """
-        if self._left:
-            self._detach_left()
+        if self._parked:
+            self.detach_parked()
         # The middleware is still checked: its ready entities belong to the same cycle.
         if self._notified:
             timeout_ns = 0
@@ -120,12 +148,14 @@ class ExecutorWait(Generic[T]):
     def _wait_for_wire(self, timeout_ns: int | None) -> list[T]:
         self._waiting = True
         try:
-            ready = () if self._ended else self._wait_set.wait(timeout_ns)
+            ready = [] if self._ended else self._wait_set.wait(timeout_ns)
         finally:
             self._waiting = False
             # `close` left this to the thread that was in the wait set.
             if self._ended:
                 self._wait_set.close()
+        if not ready:
+            return []
         # one look at the table for each: another thread may unwatch it at any moment
         return [entity for wire in ready if (entity := self._by_wire.get(wire)) is not None]
 

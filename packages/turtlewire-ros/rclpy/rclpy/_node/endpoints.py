@@ -7,11 +7,11 @@ them, and closes them.
 from __future__ import annotations
 
 import threading
-import weakref
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from rclpy._execution.entity import Entity
 from rclpy._execution.handle import EndpointImpl, closed_on_error
+from rclpy._execution.membership import Membership
 from rclpy._node.checks import check_callable, in_open_context, validate_qos
 from rclpy._node.names import NameResolver
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
@@ -64,8 +64,11 @@ class OwnEndpoints:
     def __init__(self, core: NodeState) -> None:
         self._core = core
         self.names = NameResolver(core)
-        # Weak: a node does not keep alive an executor that the program has dropped.
-        self._host: tuple[weakref.ref[EntityHost], int] | None = None
+        self._membership: Membership | None = None
+        #: The last membership, for the case that the node comes back, and `_changes` at its end.
+        self._parked: tuple[Membership, int] | None = None
+        #: How often an entity was made or destroyed.
+        self._changes = 0
         self._lock = threading.Lock()
         self._owned: dict[type, list[Any]] = {}
         self.default_callback_group: CallbackGroup = MutuallyExclusiveCallbackGroup()
@@ -341,13 +344,13 @@ class OwnEndpoints:
         made: Any = owned
         with self._lock:
             self._owned.setdefault(kind, []).append(owned)
+            self._changes += 1
         made._on_destroy = self._disown
-        host = self._host
-        if host is not None and isinstance(owned, Entity):
-            reference, node_index = host
-            executor = reference()
+        membership = self._membership
+        if membership is not None and isinstance(owned, Entity):
+            executor = membership.host()
             if executor is not None:
-                executor.adopt(owned, node_index)
+                executor.adopt(owned, membership)
         return owned
 
     def attach(self, executor: EntityHost, node_index: int) -> None:
@@ -357,20 +360,43 @@ class OwnEndpoints:
             executor: What serves them.
             node_index: Their node's place in the executor's order.
         """
+        changes = self._changes
+        parked, self._parked = self._parked, None
+        membership = self._reusable(parked, executor, node_index)
         # First: what another thread creates from here on is adopted there. Adopting twice is
         # harmless.
-        self._host = (weakref.ref(executor), node_index)
+        self._membership = member = membership or Membership(executor, node_index)
+        if membership is not None:
+            executor.take_back(membership)
+            if self._changes == changes:
+                return
         for entity in self.entities():
-            executor.adopt(entity, node_index)
+            executor.adopt(entity, member)
+
+    def _reusable(
+        self, parked: tuple[Membership, int] | None, executor: EntityHost, node_index: int
+    ) -> Membership | None:
+        """Return the last membership if the node comes back as it left, or else end it."""
+        if parked is None:
+            return None
+        membership, changes = parked
+        former = membership.host()
+        if former is executor and membership.node_index == node_index and changes == self._changes:
+            return membership
+        if former is not None:
+            former.abandon_parked()
+        return None
 
     def detach(self, executor: EntityHost) -> None:
         """Undo :meth:`attach`."""
-        self._host = None
-        for entity in self.entities():
-            executor.release(entity)
+        changes = self._changes
+        membership, self._membership = self._membership, None
+        if membership is not None and executor.park(membership):
+            self._parked = membership, changes
 
     def _disown(self, owned: Any) -> None:
         with self._lock:
+            self._changes += 1
             for group in self._owned.values():
                 if owned in group:
                     group.remove(owned)

@@ -316,7 +316,7 @@ class ActionServer(IntrospectedAction, Waitable):
                 error, "Pass execute_callback to ActionServer, or a callback to execute()"
             )
         execution = partial(self._execute_goal, callback, goal_handle, goal)
-        # Otherwise `_attach` could empty the list just before the execution is added to it.
+        # Otherwise another thread could empty the list just before the execution is added to it.
         with self._lock:
             host = self._serving_host()
             if host is None:
@@ -326,6 +326,12 @@ class ActionServer(IntrospectedAction, Waitable):
 
     def _attach(self, host: EntityHost) -> None:
         super()._attach(host)
+        self._start_waiting_executions(host)
+
+    def _resume(self, host: EntityHost) -> None:
+        self._start_waiting_executions(host)
+
+    def _start_waiting_executions(self, host: EntityHost) -> None:
         with self._lock:
             waiting, self._waiting_executions = self._waiting_executions, []
         for execution in waiting:

@@ -14,7 +14,6 @@ from functools import partial
 import pytest
 
 from example_interfaces.srv import AddTwoInts
-from rclpy._execution.wait import ExecutorWait
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
 from rclpy.context import Context
 from rclpy.exceptions import NotInitializedException
@@ -960,73 +959,6 @@ def test_an_executor_that_is_dropped_gives_back_its_wait_set(context):
     context.wire.call_soon(closed.set)
     assert closed.wait(60)
     assert context.wire._wait_sets == before
-
-
-class _WaitSet:
-    """A wait set that notes what is attached, and how often that changes."""
-
-    def __init__(self):
-        self.attached = set()
-        self.changes = 0
-
-    def attach(self, wire):
-        assert wire not in self.attached
-        self.attached.add(wire)
-        self.changes += 1
-
-    def detach(self, wire):
-        self.attached.remove(wire)
-        self.changes += 1
-
-    def wait(self, _timeout_ns):
-        return sorted(self.attached, key=repr)
-
-    def wake(self):
-        """Nobody waits in another thread."""
-
-    def native_waker(self):
-        return None
-
-
-class _Wire:
-    """An endpoint, ready at all times."""
-
-
-class _Ready:
-    _rank = (0, 0, 0)
-
-
-def test_an_endpoint_that_leaves_and_returns_stays_attached():
-    wait_set, wire, entity, other = _WaitSet(), _Wire(), _Ready(), _Ready()
-    wait = ExecutorWait(wait_set)
-    wait.watch(wire, entity)
-    for _ in range(3):
-        assert wait.wait(0) == [entity]
-        wait.unwatch(wire)
-        wait.watch(wire, entity)
-    assert wait_set.changes == 1
-    wait.unwatch(wire)
-    wait.unwatch(wire)
-    wait.watch(wire, other)
-    assert wait.wait(0) == [other]
-    wait.unwatch(wire)
-    assert wait.wait(0) == []
-    assert wait_set.attached == set()
-    wait.watch(wire, entity)
-    assert wait.wait(0) == [entity]
-
-
-def test_an_endpoint_that_left_is_not_kept_alive():
-    wait_set, wire = _WaitSet(), _Wire()
-    wait = ExecutorWait(wait_set)
-    wait.watch(wire, _Ready())
-    wait.unwatch(wire)
-    wait_set.attached.clear()  # what closing an endpoint does
-    reference = weakref.ref(wire)
-    del wire
-    gc.collect()
-    assert reference() is None
-    assert wait.wait(0) == []
 
 
 def test_a_timeout_that_changes_between_waits(executor):

@@ -85,17 +85,16 @@ class _Member(NamedTuple):
 class _Arrivals:
     """Tells waiting threads of the next message of a channel, after it was stored. Thread-safe.
 
-    With an intake, native code stores and counts most messages; Python counts the others.
+    With an intake, native code stores and counts most messages.
+
+    Attributes:
+        counted: The number of the other messages.
     """
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._count = 0
+        self.counted = 0
         self._calls: dict[Callable[[], None], None] = {}
-
-    def total(self, intake: Intake | None) -> int:
-        """Return the number of messages so far."""
-        return self._count + (0 if intake is None else intake.stored())
 
     def expect(
         self, call: Callable[[], None], intake: Intake | None, waker: tuple[int, int] | None
@@ -114,7 +113,7 @@ class _Arrivals:
     def count(self, messages: int = 1) -> None:
         """Count messages that native code does not count (any more)."""
         with self._lock:
-            self._count += messages
+            self.counted += messages
         self.tell()
 
     def tell(self) -> None:
@@ -245,7 +244,8 @@ class _Channel:
     def total(self) -> int:
         """Return the number of messages so far."""
         feed = self._feed
-        return self._arrivals.total(None if feed is None else feed.intake)
+        intake = None if feed is None else feed.intake
+        return self._arrivals.counted + (0 if intake is None else intake.stored())
 
     def expect(self, call: Callable[[], None], waker: tuple[int, int] | None) -> None:
         """Call ``call()`` once, after the next message; it may come without one, too."""
@@ -414,13 +414,15 @@ class TransformListener:
         for channel in self._seen:
             channel.expect(call, waker)
         # After that: a message that came before is seen here, a later one calls.
-        return any(channel.total() != seen for channel, seen in self._seen.items())
+        return self._totals() != self._seen
 
     def take_arrivals(self) -> bool:
         """Return True if a message was stored since the last call."""
-        former = self._seen
-        self._seen = {channel: channel.total() for channel in former}
+        former, self._seen = self._seen, self._totals()
         return self._seen != former
+
+    def _totals(self) -> dict[_Channel, int]:
+        return {channel: channel.total() for channel in self._seen}
 
     @staticmethod
     def _wanted(

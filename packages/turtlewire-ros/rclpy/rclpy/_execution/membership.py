@@ -1,0 +1,42 @@
+"""The entities of a node in an executor."""
+
+from __future__ import annotations
+
+import weakref
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from turtlewire.wire import base
+
+    from .entity import Entity, EntityHost
+
+__all__ = ["Membership"]
+
+
+class Membership:
+    """The entities of one node that an executor serves, or its entities without a node.
+
+    ``rclpy.spin_once`` adds its node to an executor, and removes it after the call. As long as the
+    node has the same entities, its membership is only *parked* in between: see
+    :meth:`ExecutorWait.park`.
+
+    Args:
+        host: Serves the entities.
+        node_index: The place of the node in the executor's order; -1: the entities have no node.
+
+    Attributes:
+        host: A weak reference.
+        is_active: False while the node is not in the executor.
+        entities: The entities, in the order in which they were adopted.
+        by_wire: The entities that are ready when their side on the wire is; None before it is
+            known.
+        others: The other entities, such as timers.
+    """
+
+    def __init__(self, host: EntityHost, node_index: int) -> None:
+        self.host: weakref.ref[EntityHost] = weakref.ref(host)
+        self.node_index = node_index
+        self.is_active = True
+        self.entities: dict[Entity, None] = {}
+        self.by_wire: dict[base.Waitable, Any] | None = None
+        self.others: list[Entity] = []
