@@ -313,7 +313,7 @@ class Scheduler:
         """
         if entity._serving_host() is not self:
             # Destroyed, or its node has left the executor since it became ready. A node that comes
-            # back attaches it anew, so that it is reported again.
+            # back attaches it again, so that it is reported again.
             self.wait.detach_parked()
             return None
         if entity._GATED and not (
