@@ -108,7 +108,7 @@ def test_another_node_is_served_alone(node, executor, heard, send, make_node, mo
     assert detached == {wire for name, wire in changes if name == "attach"} != set()
 
 
-def test_what_was_ready_for_another_node_comes_again(node, executor, make_node):
+def test_a_passed_over_callback_is_reported_again(node, executor, make_node):
     """Found ready together with the first callback, and passed over in a spin of another node."""
     calls = []
     guards = [node.create_guard_condition(lambda n=n: calls.append(n)) for n in range(2)]
