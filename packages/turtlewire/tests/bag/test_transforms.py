@@ -10,7 +10,7 @@ import pytest
 from tests.bags import SECOND, START, transform, write_bag
 
 from turtlewire import Buffer, msg
-from turtlewire.bag import BagWriter, mcap_storage, open_bag
+from turtlewire.bag import Bag, BagWriter, mcap_storage, open_bag
 from turtlewire.bag.files import open_storage
 from turtlewire.bag.mcap_reader import McapFile
 from turtlewire.cli.bag_tf import show_transforms
@@ -111,6 +111,22 @@ def test_the_pages_of_chunks_that_were_read_are_given_back(tmp_path, monkeypatch
     report = Buffer.from_bag(path).bag_report
     assert report.messages == 60_000
     assert max(resident) < size / 3
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux shows which pages are resident")
+def test_reading_messages_leaves_no_pages_behind(tmp_path):
+    """Neither those of the chunks, nor those that Linux maps around each page that is read."""
+    path = tmp_path / "made"
+    with BagWriter(path, chunk_bytes=100_000) as writer:
+        writer.add_topic("/blob", "std_msgs/msg/String")
+        for count in range(1000):
+            writer.write("/blob", bytes(10_000), count)
+    resident = {
+        count: resident_bytes(path / "made_0.mcap")
+        for count, _ in enumerate(Bag(path))
+        if count in (100, 900)
+    }
+    assert resident[900] < resident[100] + 200_000
 
 
 def resident_bytes(file):

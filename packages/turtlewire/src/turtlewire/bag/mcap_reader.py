@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
     from turtlewire.bag.record_messages import RawMessage
 
-__all__ = ["McapFile", "map_file"]
+__all__ = ["McapFile", "forget_pages", "map_file"]
 
 _MESSAGE = struct.Struct("<HIQQ")  # channel, sequence, log time, publish time
 _PREFIX = OPCODE_AND_LENGTH.size
@@ -42,6 +42,7 @@ _FOOTER_SIZE = OPCODE_AND_LENGTH.size + 20
 _NO_TIME = (1 << 64) - 1
 _CHUNK_FIELDS = 8 + 8 + 8 + 4  # times, size and checksum, before the compression
 _CHUNK = bytes([Op.CHUNK])
+_MAPPED_AT_ONCE = max(1 << 16, mmap.PAGESIZE)  # by Linux, around a page that is read
 
 
 class McapFile:
@@ -94,9 +95,7 @@ class McapFile:
 
     def forget(self, chunk: ChunkIndex) -> None:
         """Give the memory of a chunk's pages back; they are read again when they are needed."""
-        if sys.platform != "win32" and hasattr(mmap, "MADV_DONTNEED"):
-            start = chunk.offset // mmap.PAGESIZE * mmap.PAGESIZE
-            self._map.madvise(mmap.MADV_DONTNEED, start, chunk.offset + chunk.length - start)
+        forget_pages(self._map, chunk.offset, chunk.length)
 
     def records(self, chunk: ChunkIndex) -> bytes | memoryview:
         """The records of a chunk, decompressed and checked; a view of the file if they are plain.
@@ -426,6 +425,14 @@ def map_file(path: str, magic: bytes, kind: str) -> tuple[mmap.mmap, memoryview]
         mapped.close()
         raise BagError(f"{path} is not {kind}: it does not begin with its magic bytes")
     return mapped, memoryview(mapped)
+
+
+def forget_pages(mapped: mmap.mmap, offset: int, length: int) -> None:
+    """Release the memory of a part of a mapped file; it is read again when it is needed."""
+    if sys.platform != "win32" and hasattr(mmap, "MADV_DONTNEED"):
+        # Reading a page maps some before it, too, which were perhaps released already.
+        start = offset // _MAPPED_AT_ONCE * _MAPPED_AT_ONCE
+        mapped.madvise(mmap.MADV_DONTNEED, start, offset + length - start)
 
 
 def _chunk_records(content: memoryview, *, is_intact: bool) -> bytes | memoryview:

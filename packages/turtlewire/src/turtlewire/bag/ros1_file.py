@@ -7,15 +7,13 @@ was killed has no end and is walked from the start; all intact messages are read
 from __future__ import annotations
 
 import bz2
-import mmap
 import struct
-import sys
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from turtlewire.bag.compression import decompress, most_bytes
-from turtlewire.bag.mcap_reader import map_file
+from turtlewire.bag.mcap_reader import forget_pages, map_file
 from turtlewire.bag.mcap_records import ChunkIndex
 from turtlewire.bag.record_messages import ros1_fields, ros1_header, ros1_messages
 from turtlewire.errors import BagError
@@ -90,9 +88,7 @@ class Ros1File:
 
     def forget(self, chunk: ChunkIndex) -> None:
         """Release the memory of a chunk's pages; they are read again when they are needed."""
-        if sys.platform != "win32" and hasattr(mmap, "MADV_DONTNEED"):
-            start = chunk.offset // mmap.PAGESIZE * mmap.PAGESIZE
-            self._map.madvise(mmap.MADV_DONTNEED, start, chunk.offset + chunk.length - start)
+        forget_pages(self._map, chunk.offset, chunk.length)
 
     def messages(
         self, chunk: ChunkIndex, wanted: Container[int] | None = None
