@@ -189,11 +189,13 @@ void add_intake_type(nb::module_& module) {
       .def(
           "expect_waking",
           [](IntakeObject& self, std::uintptr_t trigger, std::int32_t guard) {
-            self.core.expect(Waker{reinterpret_cast<decltype(Waker::trigger)>(trigger), guard});
+            return self.core.expect(
+                Waker{reinterpret_cast<decltype(Waker::trigger)>(trigger), guard});
           },
           "trigger"_a, "guard"_a,
           "Have the next message that is stored trigger a guard condition, once: `trigger` is the "
-          "address of\ndds_set_guardcondition. Python takes no part in it.")
+          "address of\ndds_set_guardcondition. Python takes no part in it. Returns the number of "
+          "messages stored so far.")
       .def("serve", &IntakeObject::serve, "gid_of"_a,
            "See turtlewire.wire.base.Sink. Identifies publishers, stores their messages, calls the "
            "change listeners of\nthe buffers if data came since the last time, and on_expected "

@@ -1,5 +1,6 @@
 #include "intake.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace turtlewire {
@@ -123,12 +124,11 @@ void Intake::expect() {
   expecting_ = true;
 }
 
-void Intake::expect(Waker waker) {
+std::uint64_t Intake::expect(Waker waker) {
   const std::scoped_lock lock(mutex_);
-  for (const Waker& known : wakers_) {
-    if (known.guard == waker.guard) return;
-  }
-  wakers_.push_back(waker);
+  const auto is_known = [&](const Waker& known) { return known.guard == waker.guard; };
+  if (std::ranges::none_of(wakers_, is_known)) wakers_.push_back(waker);
+  return stored_;
 }
 
 bool Intake::take_expected() {

@@ -63,8 +63,9 @@ class Intake final : public ForkAware {
   std::uint64_t stored();
   // The next message that is stored wakes the reader thread.
   void expect();
-  // The next message that is stored wakes another thread, once, and not the reader thread.
-  void expect(Waker waker);
+  // The next message that is stored wakes another thread, once, and not the reader thread. Returns
+  // how many were stored so far.
+  std::uint64_t expect(Waker waker);
   // Whether an expected message came since the last time, or one of which a buffer refused a frame:
   // each frame is told of once for each reason, and a lack of room once in kRoomPeriod.
   bool take_expected();

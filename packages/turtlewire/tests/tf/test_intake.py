@@ -111,9 +111,10 @@ def test_an_expected_message_ends_a_wait_without_python_where_it_can(flow):
     with flow.listen(buffer) as listening:
         flow.wait_for_match()
         flow.send_until_short(buffer)
+        listening.on_message(lambda: (calls.append(1), wait_set.wake()))
         for _ in range(3):
             assert listening.take_arrivals()
-            assert not listening.expect_message(lambda: (calls.append(1), wait_set.wake()), waker)
+            assert not listening.expect_message(waker)
             waiting = threading.Thread(target=wait_set.wait, daemon=True)
             waiting.start()
             flow.send(buffer)

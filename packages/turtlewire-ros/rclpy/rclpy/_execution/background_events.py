@@ -17,10 +17,12 @@ __all__ = ["Arrivals", "BackgroundEvents"]
 class Arrivals(Protocol):
     """A handler of messages, such as :class:`turtlewire.tf.listener.TransformListener`."""
 
-    def expect_message(
-        self, call: Callable[[], None], waker: tuple[int, int] | None = None
-    ) -> bool:
-        """Return True if a message came since :meth:`take_arrivals`; else call back at the next.
+    def on_message(self, call: Callable[[], None]) -> None:
+        """Call ``call()`` after messages; native code only after :meth:`expect_message`."""
+        ...
+
+    def expect_message(self, waker: tuple[int, int] | None = None) -> bool:
+        """Return True if a message came since :meth:`take_arrivals`; else report the next.
 
         With a waker, native code may use it instead of the call.
         """
@@ -46,6 +48,7 @@ class BackgroundEvents(Entity):
     def __init__(self, arrivals: Arrivals) -> None:
         super().__init__(None)
         self._arrivals = arrivals
+        self._expecting = False
         report = weakref.WeakMethod(self._report)  # what is called later keeps no node alive
 
         def report_if_alive() -> None:
@@ -53,7 +56,7 @@ class BackgroundEvents(Entity):
             if method is not None:
                 method()
 
-        self._call = report_if_alive
+        arrivals.on_message(report_if_alive)
 
     def expect(self, waker: tuple[int, int] | None) -> None:
         """Report the next message to the executor, at once if one came already.
@@ -61,12 +64,14 @@ class BackgroundEvents(Entity):
         Args:
             waker: Ends the executor's wait from native code; then the executor has to ask.
         """
-        if self._arrivals.expect_message(self._call, waker):
+        self._expecting = True
+        if self._arrivals.expect_message(waker):
             self._report()
 
     def _report(self) -> None:
         host = self._serving_host()
-        if host is not None:
+        if host is not None and self._expecting:
+            self._expecting = False
             host.wait.notify(self)
 
     def _attach(self, host: EntityHost) -> None:

@@ -83,7 +83,7 @@ class _Member(NamedTuple):
 
 
 class _Arrivals:
-    """Tells waiting threads of the next message of a channel, after it was stored. Thread-safe.
+    """Tells listeners of the next message of a channel, after it was stored. Thread-safe.
 
     With an intake, native code stores and counts most messages.
 
@@ -93,22 +93,18 @@ class _Arrivals:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self.counted = 0
         self._calls: dict[Callable[[], None], None] = {}
+        self.counted = 0
 
-    def expect(
-        self, call: Callable[[], None], intake: Intake | None, waker: tuple[int, int] | None
-    ) -> None:
-        """Call ``call()`` once, or use ``waker`` instead, after the next message."""
-        # In this order: a message that comes between both steps finds the call.
+    def add(self, call: Callable[[], None]) -> None:
+        """Call ``call()`` after messages from now on."""
         with self._lock:
             self._calls[call] = None
-        if intake is None:
-            return
-        if waker is None:
-            intake.expect()
-        else:
-            intake.expect_waking(*waker)
+
+    def discard(self, call: Callable[[], None]) -> None:
+        """Undo :meth:`add`."""
+        with self._lock:
+            self._calls.pop(call, None)
 
     def count(self, messages: int = 1) -> None:
         """Count messages that native code does not count (any more)."""
@@ -117,10 +113,10 @@ class _Arrivals:
         self.tell()
 
     def tell(self) -> None:
-        """Call all that wait."""
+        """Call all listeners."""
         with self._lock:
-            calls, self._calls = self._calls, {}
-        # Without the lock: a call may expect the next message at once.
+            calls = list(self._calls)
+        # Without the lock: a call may take any other lock.
         for call in calls:
             call_guarded(call)
 
@@ -217,7 +213,11 @@ def _most_kept(qos: QoS) -> int:
 
 
 class _Channel:
-    """A subscription that fills several buffers. It belongs to the node of the first one."""
+    """A subscription that fills several buffers. It belongs to the node of the first one.
+
+    Attributes:
+        arrivals: Reports its messages.
+    """
 
     def __init__(self, topic: str, qos: QoS, *, static: bool) -> None:
         self._topic = topic
@@ -225,7 +225,7 @@ class _Channel:
         self._static = static
         self._latched = qos.durability == Durability.TRANSIENT_LOCAL
         self._lock = threading.Lock()
-        self._arrivals = _Arrivals()
+        self.arrivals = _Arrivals()
         self._refusal_warnings = RefusalWarnings(topic)
         self._feed: _Feed | None = None
         self._subscription: base.Subscription | None = None
@@ -245,12 +245,18 @@ class _Channel:
         """Return the number of messages so far."""
         feed = self._feed
         intake = None if feed is None else feed.intake
-        return self._arrivals.counted + (0 if intake is None else intake.stored())
+        return self.arrivals.counted + (0 if intake is None else intake.stored())
 
-    def expect(self, call: Callable[[], None], waker: tuple[int, int] | None) -> None:
-        """Call ``call()`` once, after the next message; it may come without one, too."""
+    def expect(self, waker: tuple[int, int] | None) -> int:
+        """Let native code report the next message that it stores; return :meth:`total`."""
         feed = self._feed
-        self._arrivals.expect(call, None if feed is None else feed.intake, waker)
+        intake = None if feed is None else feed.intake
+        if intake is None:
+            return self.arrivals.counted
+        if waker is None:
+            intake.expect()
+            return self.total()
+        return self.arrivals.counted + intake.expect_waking(*waker)
 
     def leave(self, member: _Member) -> None:
         """Feed one buffer less; the last one ends the subscription."""
@@ -291,7 +297,7 @@ class _Channel:
             self._topic,
             self._qos,
             static=self._static,
-            arrivals=self._arrivals,
+            arrivals=self.arrivals,
             refusal_warnings=self._refusal_warnings,
         )
         type_id = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
@@ -377,6 +383,7 @@ class TransformListener:
         self._member = _Member(node, context.graph, buffer)
         self._lock = threading.Lock()
         self._joined: list[_Channel] = []
+        self._calls: list[Callable[[], None]] = []
         self._seen: dict[_Channel, int] = {}
         self._topic = topic
         self._departures: DepartureWatch | None = None
@@ -398,31 +405,32 @@ class TransformListener:
             return []
         return departed_frames(self._member.store, self._member.graph, self._topic)
 
-    def expect_message(
-        self, call: Callable[[], None], waker: tuple[int, int] | None = None
-    ) -> bool:
+    def on_message(self, call: Callable[[], None]) -> None:
+        """Call ``call()`` on a thread of the wire after a message, until the listener is closed.
+
+        Native code calls only after :meth:`expect_message`. A call may come without a message.
+        """
+        self._calls.append(call)
+        for channel in self._seen:
+            channel.arrivals.add(call)
+
+    def expect_message(self, waker: tuple[int, int] | None = None) -> bool:
         """Return True if a message was stored since :meth:`take_arrivals`.
 
-        If not, ``call()`` is called once after the next one, on a thread of the wire; it may also
-        be called without one.
+        If not, the next one leads to a call of what :meth:`on_message` was given.
 
         Args:
-            call: What to call.
             waker: What native code does in place of the call where it stores the message; see
                 :meth:`turtlewire.wire.base.WaitSet.native_waker`.
         """
-        for channel in self._seen:
-            channel.expect(call, waker)
-        # After that: a message that came before is seen here, a later one calls.
-        return self._totals() != self._seen
+        # A message that comes after its channel was asked is reported.
+        return {channel: channel.expect(waker) for channel in self._seen} != self._seen
 
     def take_arrivals(self) -> bool:
         """Return True if a message was stored since the last call."""
-        former, self._seen = self._seen, self._totals()
+        former = self._seen
+        self._seen = {channel: channel.total() for channel in former}
         return self._seen != former
-
-    def _totals(self) -> dict[_Channel, int]:
-        return {channel: channel.total() for channel in self._seen}
 
     @staticmethod
     def _wanted(
@@ -444,6 +452,8 @@ class TransformListener:
         if self._departures is not None:
             self._departures.close()
         for channel in joined:
+            for call in self._calls:
+                channel.arrivals.discard(call)
             channel.leave(self._member)
         if self._own_node is not None:
             self._own_node.close()
