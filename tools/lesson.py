@@ -113,10 +113,17 @@ def _build_wheels(folder: Path) -> None:
     """Copy our wheels, built as for a platform without a compiler; the last ones are kept."""
     kept = WHEEL_CACHE / _fingerprint()
     if not kept.exists():
-        shutil.rmtree(WHEEL_CACHE, ignore_errors=True)
-        with tempfile.TemporaryDirectory(dir=_made(WHEEL_CACHE)) as fresh:
-            _build_wheels_into(Path(fresh))
-            shutil.copytree(fresh, kept)
+        # Outside the cache, and moved there as a whole: another process may build at the same time.
+        with tempfile.TemporaryDirectory(dir=_made(WHEEL_CACHE.parent)) as fresh:
+            wheels = _made(Path(fresh) / "wheels")
+            _build_wheels_into(wheels)
+            try:
+                wheels.rename(_made(WHEEL_CACHE) / kept.name)
+            except OSError:
+                if not kept.exists():  # another process was not just faster
+                    raise
+        for former in set(WHEEL_CACHE.iterdir()) - {kept}:
+            shutil.rmtree(former, ignore_errors=True)
     shutil.copytree(kept, folder)
 
 
