@@ -178,7 +178,7 @@ def picture_class(browser: Browser) -> None:
         )
         page = browser.new_page(viewport={"width": 860, "height": 480})
         page.goto(address_of(shown))
-        page.locator("article p", has_text="By TF").nth(2).wait_for(timeout=PATIENCE_MS)
+        page.locator("article p", has_text="According to TF").nth(2).wait_for(timeout=PATIENCE_MS)
         page.wait_for_timeout(4000)
         page.screenshot(path=GALLERY / "class.png")
         page.close()
