@@ -344,7 +344,9 @@ def _node_of(node: Any) -> Node:
         TypeError: The argument is not a node.
     """
     node_class = _node_class()
-    found = node if isinstance(node, node_class) else getattr(node, "node", None)
+    if isinstance(node, node_class):
+        return node
+    found = getattr(node, "node", None)
     if not isinstance(found, node_class):
         from .node import BaseNode
 

@@ -217,6 +217,7 @@ class Scheduler:
             TimeoutException: Nothing was ready in time (None: no limit).
             ShutdownException, ExternalShutdownException: The executor or the context was shut down.
         """
+        remaining = timeout_ns
         deadline = None if timeout_ns is None else time.monotonic_ns() + timeout_ns
         expired = False
         warning_due = 0.0
@@ -233,13 +234,14 @@ class Scheduler:
             if expired:
                 raise TimeoutException
             # At the deadline, and with a timeout of 0, there is one more look at what is ready.
-            remaining = None if deadline is None else max(0, deadline - time.monotonic_ns())
-            expired = remaining == 0
+            expired = remaining is not None and remaining <= 0
             # Only a wait without a limit can hang, and only entities in busy groups make it hang.
             if remaining is None and self._paused:
                 warning_due = self._collect_with_warning(warning_due)
             else:
                 self._collect(remaining)
+            if deadline is not None:
+                remaining = max(0, deadline - time.monotonic_ns())
 
     def check_alive(self) -> None:
         """Raise if the executor or its context is shut down."""
