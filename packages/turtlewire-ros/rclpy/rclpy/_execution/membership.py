@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from turtlewire.wire import base
 
-    from .entity import Entity, EntityHost
-
 __all__ = ["Membership"]
 
 
@@ -21,22 +19,22 @@ class Membership:
     :meth:`ExecutorWait.park`.
 
     Args:
-        host: Serves the entities.
+        host: An `EntityHost`, which serves the entities.
         node_index: The place of the node in the executor's order; -1: the entities have no node.
 
     Attributes:
         host: A weak reference.
         is_active: False while the node is not in the executor.
-        entities: The entities, in the order in which they were adopted.
+        entities: Each `Entity`, in the order in which they were adopted.
         by_wire: The entities that are ready when their side on the wire is; None before it is
             known.
         others: The other entities, such as timers.
     """
 
-    def __init__(self, host: EntityHost, node_index: int) -> None:
-        self.host: weakref.ref[EntityHost] = weakref.ref(host)
+    def __init__(self, host: Any, node_index: int) -> None:
+        self.host: weakref.ref[Any] = weakref.ref(host)
         self.node_index = node_index
         self.is_active = True
-        self.entities: dict[Entity, None] = {}
+        self.entities: dict[Any, None] = {}
         self.by_wire: dict[base.Waitable, Any] | None = None
-        self.others: list[Entity] = []
+        self.others: list[Any] = []
