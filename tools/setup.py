@@ -160,7 +160,8 @@ def fingerprint() -> str:
     files = [ROOT / "pyproject.toml", LEARNING / "package.xml"]
     for folder in distributions():
         files += [*folder.glob("*.toml"), *folder.glob("setup.*"), *folder.glob("*_build.py")]
-        files += [path for path in folder.glob("prefix/**/*") if path.suffix != ".py"]
+        other = (".py", ".typed")  # code, and what the installation itself writes
+        files += [path for path in folder.glob("prefix/**/*") if path.suffix not in other]
     files += ROS.glob("*/*/share/**/*")
     msg = ENGINE / "src" / "turtlewire" / "msg"
     files += [msg / "generate.py", msg / "stubs.py", *msg.glob("interfaces/*")]

@@ -3,7 +3,8 @@
 The interface packages (``std_msgs`` …) are made of the engine's definitions. The prefix has files
 for ament, colcon, rosdep and shells: every package on a shelf and every interface package is a ROS
 package, and entry points of the groups ``turtlewire.executables.<package>`` become
-``lib/<package>/<executable>``, as ``ros2 run`` expects them.
+``lib/<package>/<executable>``, as ``ros2 run`` expects them. ``py.typed`` in each package tells
+type checkers that its code has annotations.
 """
 
 from __future__ import annotations
@@ -73,6 +74,8 @@ class PrefixBuildHook(BuildHookInterface):  # type: ignore[type-arg]
             return
         self._add_interfaces(root, version, build_data)
         packages = {init.parent for init in root.glob("*/*/__init__.py")}
+        for package in packages:
+            (package / "py.typed").touch()
         packages |= {init.parent for init in self._modules.glob("*/__init__.py")}
         for package in sorted(packages):
             self._add_package(package.name, package)

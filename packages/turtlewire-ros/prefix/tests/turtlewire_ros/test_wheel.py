@@ -53,6 +53,11 @@ def test_every_package_has_its_marks(wheel, packages):
         assert root.findtext("export/build_type") == "ament_python"
 
 
+def test_type_checkers_read_every_package(wheel, packages):
+    names = set(wheel.namelist())
+    assert [package for package in packages if f"{package}/py.typed" not in names] == []
+
+
 def test_nothing_but_packages_lies_beside_them(wheel):
     tops = {name.split("/")[0] for name in wheel.namelist()}
     assert {
