@@ -14,7 +14,7 @@ from fnmatch import fnmatch
 
 import pytest
 from tests.needs import HAS_CYCLONE_DDS
-from tests.places import ROOT, SCRIPTS, TOOLS
+from tests.places import ROOT, ROS, SCRIPTS, TOOLS
 
 #: Modules that lie in circles, by room: rclpy's pairs, which ROS 2's surface wants. Lower a number
 #: when circles end; raise none.
@@ -134,6 +134,27 @@ def test_public_names_of_a_module_are_in_its_all(house):
         if exported is not None and (missing := defined - set(exported)):
             forgotten[name] = sorted(missing)
     assert forgotten == {}
+
+
+#: These modules still list what they define.
+NOT_YET = ("rclpy._execution.", "rclpy._node.", "rclpy.executors", "rclpy.node")
+
+
+def test_all_lists_only_what_a_module_hands_on(house):
+    """On ROS 2's shelves; the names that a module itself defines are public without a list."""
+    repeated = []
+    for name, tree in house.trees.items():
+        path = house.paths[name]
+        if ROS in path.parents and path.name != "__init__.py" and not name.startswith(NOT_YET):
+            own = {
+                node.name
+                for node in tree.body
+                if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef))
+            }
+            exported = public(tree)[1]
+            if exported and own.issuperset(exported):
+                repeated.append(name)
+    assert repeated == []
 
 
 def test_names_in_all_exist(house):

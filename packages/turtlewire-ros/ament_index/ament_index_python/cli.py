@@ -9,8 +9,6 @@ from typing import Any
 from ament_index_python.resources import get_resource, get_resource_types, get_resources
 from turtlewire.program import program
 
-__all__ = ["main", "resource_name_completer", "resource_type_completer"]
-
 
 def main(argv: list[str] = sys.argv[1:]) -> str | None:
     """Print the types, the names of a type, or a resource.

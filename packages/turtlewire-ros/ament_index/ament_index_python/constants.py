@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-__all__ = ["AMENT_PREFIX_PATH_ENV_VAR", "RESOURCE_INDEX_SUBFOLDER"]
-
 #: Name of the environment variable that lists the prefixes of sourced workspaces.
 AMENT_PREFIX_PATH_ENV_VAR = "AMENT_PREFIX_PATH"
 

@@ -7,14 +7,6 @@ import pathlib
 
 from ament_index_python.search_paths import get_search_paths
 
-__all__ = [
-    "PackageNotFoundError",
-    "get_package_prefix",
-    "get_package_share_directory",
-    "get_package_share_path",
-    "get_packages_with_prefixes",
-]
-
 
 class PackageNotFoundError(KeyError):
     """The package is in no prefix."""

@@ -18,16 +18,6 @@ if TYPE_CHECKING:
 
     from std_msgs.msg import Header
 
-__all__ = [
-    "DUMMY_FIELD_PREFIX",
-    "create_cloud",
-    "create_cloud_xyz32",
-    "dtype_from_fields",
-    "read_points",
-    "read_points_list",
-    "read_points_numpy",
-]
-
 DUMMY_FIELD_PREFIX = "unnamed_field"
 """The name of a nameless field is this prefix and the field's number."""
 

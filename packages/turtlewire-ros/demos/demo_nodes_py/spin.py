@@ -13,8 +13,6 @@ if TYPE_CHECKING:
 
     from rclpy.node import Node
 
-__all__ = ["spin"]
-
 
 def spin(make_node: Callable[[], Node], args: list[str] | None = None) -> None:
     """Initialize rclpy, make the node and spin it until Ctrl-C or a shutdown."""

@@ -11,8 +11,6 @@ from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.node import Node
 from std_msgs.msg import String
 
-__all__ = ["DoubleTalker", "main"]
-
 
 class DoubleTalker(Node):
     """Publishes a counted greeting from two timers.

@@ -9,8 +9,6 @@ from examples_rclpy_executors.listener import Listener
 from examples_rclpy_executors.talker import Talker
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 
-__all__ = ["main"]
-
 
 def main(args: list[str] | None = None) -> None:
     """Talk and listen until Ctrl-C."""

@@ -15,8 +15,6 @@ from std_msgs.msg import String
 if TYPE_CHECKING:
     from rclpy.timer import Timer
 
-__all__ = ["IntermittentTalker", "ThrottledCallbackGroup", "main"]
-
 
 class ThrottledCallbackGroup(CallbackGroup):
     """Runs one callback, then none until a timer allows the next one.

@@ -14,8 +14,6 @@ from rclpy.executors import Executor, ExternalShutdownException, TimeoutExceptio
 from rclpy.node import Node
 from std_msgs.msg import String
 
-__all__ = ["Estopper", "PriorityExecutor", "main"]
-
 
 class Estopper(Node):
     """Listens for emergency stops, which must not wait."""

@@ -9,8 +9,6 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from std_msgs.msg import String
 
-__all__ = ["Listener", "main"]
-
 
 class Listener(Node):
     """Logs each greeting."""

@@ -9,8 +9,6 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from std_msgs.msg import String
 
-__all__ = ["Talker", "main"]
-
 
 class Talker(Node):
     """Publishes a counted greeting every second."""

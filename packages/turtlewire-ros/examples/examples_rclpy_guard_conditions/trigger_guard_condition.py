@@ -5,8 +5,6 @@ from __future__ import annotations
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
 
-__all__ = ["main"]
-
 
 def main(args: list[str] | None = None) -> None:
     """Trigger, spin once, and again."""

@@ -12,8 +12,6 @@ from rclpy.action import ActionClient
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 
-__all__ = ["MinimalActionClientAsyncIO", "main", "run", "send_goals"]
-
 
 class MinimalActionClientAsyncIO(Node):
     """Asks for Fibonacci sequences."""

@@ -14,8 +14,6 @@ from rclpy.node import Node
 if TYPE_CHECKING:
     from rclpy.task import Future
 
-__all__ = ["MinimalActionClient", "main"]
-
 
 class MinimalActionClient(Node):
     """Asks for the Fibonacci sequence of order 10, and cancels the goal two seconds later."""

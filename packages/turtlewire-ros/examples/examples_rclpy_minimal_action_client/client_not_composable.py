@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from rclpy.node import Node
     from rclpy.task import Future
 
-__all__ = ["main", "wait_for"]
-
 
 def wait_for(node: Node, future: Future[Any]) -> Any:
     """Return the future's result, for which the node spins."""

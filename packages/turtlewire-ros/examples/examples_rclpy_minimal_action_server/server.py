@@ -13,8 +13,6 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.node import Node
 
-__all__ = ["MinimalActionServer", "main"]
-
 
 class MinimalActionServer(Node):
     """Computes Fibonacci sequences, several at a time."""

@@ -16,8 +16,6 @@ from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 if TYPE_CHECKING:
     from rclpy.node import Node
 
-__all__ = ["cancel_callback", "execute_callback", "main"]
-
 
 def cancel_callback(node: Node, _goal_handle: Any) -> CancelResponse:
     """Accept every cancellation."""

@@ -14,8 +14,6 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.node import Node
 
-__all__ = ["MinimalActionServer", "main"]
-
 
 class MinimalActionServer(Node):
     """Computes one Fibonacci sequence at a time, that of the latest goal."""

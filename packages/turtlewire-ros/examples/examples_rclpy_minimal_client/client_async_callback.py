@@ -10,8 +10,6 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import ExternalShutdownException
 from rclpy.task import Future
 
-__all__ = ["main"]
-
 
 def main(args: list[str] | None = None) -> None:
     """Ask for 41 + 1, once, half a second after the service is available, and log the answer."""

@@ -11,8 +11,6 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.utilities import remove_ros_args
 
-__all__ = ["MinimalClientAsync", "main"]
-
 
 class MinimalClientAsync(Node):
     """Waits for the service at construction, then asks it."""

@@ -9,8 +9,6 @@ import rclpy
 from rclpy.executors import ExternalShutdownException
 from std_msgs.msg import String
 
-__all__ = ["main"]
-
 
 def main(args: list[str] | None = None) -> None:
     """Publish until Ctrl-C."""

@@ -9,8 +9,6 @@ from example_interfaces.srv import AddTwoInts
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 
-__all__ = ["MinimalService", "main"]
-
 
 class MinimalService(Node):
     """Adds the two integers of each request."""

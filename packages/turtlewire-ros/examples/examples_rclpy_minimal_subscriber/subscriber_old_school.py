@@ -8,8 +8,6 @@ import rclpy
 from rclpy.executors import ExternalShutdownException
 from std_msgs.msg import String
 
-__all__ = ["main"]
-
 
 def main(args: list[str] | None = None) -> None:
     """Listen until Ctrl-C."""

@@ -13,8 +13,6 @@ from sensor_msgs.msg import PointCloud2, PointField
 from sensor_msgs_py import point_cloud2
 from std_msgs.msg import Header
 
-__all__ = ["PointCloudPublisher", "main"]
-
 
 class PointCloudPublisher(Node):
     """Publishes the surface 30 times a second, a little further each time."""

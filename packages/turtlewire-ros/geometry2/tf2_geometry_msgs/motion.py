@@ -10,8 +10,6 @@ from turtlewire.geometry.quaternions import matrix, multiply
 if TYPE_CHECKING:
     from turtlewire.geometry.quaternions import Quaternion, Vector
 
-__all__ = ["NO_LENGTH", "Motion", "unit_quaternion"]
-
 #: The epsilon of doubles. tf2 treats a quaternion whose squared length is below it as no rotation.
 NO_LENGTH = 2.220446049250313e-16
 

@@ -26,29 +26,6 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = [
-    "array_from_point",
-    "array_from_points",
-    "array_from_pose",
-    "array_from_poses",
-    "array_from_quaternion",
-    "array_from_transform",
-    "array_from_vector3",
-    "euler_from_quaternion",
-    "matrix_from_pose",
-    "matrix_from_transform",
-    "point_from_array",
-    "points_from_array",
-    "pose_from_array",
-    "pose_from_matrix",
-    "poses_from_array",
-    "quaternion_from_array",
-    "quaternion_from_euler",
-    "transform_from_array",
-    "transform_from_matrix",
-    "vector3_from_array",
-]
-
 
 def array_from_point(point: Point | Any) -> Array:
     """Convert a Point or Point32 to shape ``(3,)``."""

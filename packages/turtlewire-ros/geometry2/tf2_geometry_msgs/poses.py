@@ -26,19 +26,6 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = [
-    "do_transform_odometry",
-    "do_transform_path",
-    "do_transform_pose",
-    "do_transform_pose_array",
-    "do_transform_pose_stamped",
-    "do_transform_pose_with_covariance",
-    "do_transform_pose_with_covariance_stamped",
-    "do_transform_transform",
-    "do_transform_transform_stamped",
-    "transform_covariance",
-]
-
 
 def do_transform_pose(pose: Pose, transform: TransformStamped | Any) -> Pose:
     """Return a pose in the frame of a transform; its quaternion gets unit length and w >= 0."""

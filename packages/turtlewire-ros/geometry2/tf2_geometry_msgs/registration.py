@@ -9,8 +9,6 @@ from geometry_msgs import msg as geometry
 from nav_msgs.msg import Odometry, Path
 from tf2_geometry_msgs import poses, twists, vectors
 
-__all__ = ["from_msg_msg", "register", "to_msg_msg"]
-
 _M = TypeVar("_M")
 
 

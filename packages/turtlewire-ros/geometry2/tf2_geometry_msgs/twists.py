@@ -33,17 +33,6 @@ if TYPE_CHECKING:
 
     from geometry_msgs.msg import TransformStamped
 
-__all__ = [
-    "do_transform_twist",
-    "do_transform_twist_stamped",
-    "do_transform_twist_with_covariance",
-    "do_transform_twist_with_covariance_stamped",
-    "do_transform_velocity_stamped",
-    "do_transform_wrench",
-    "do_transform_wrench_stamped",
-    "transform_twist_covariance",
-]
-
 
 def do_transform_twist(twist: Twist, transform: TransformStamped | Any) -> Twist:
     """Return the same motion, stated for the origin of the target frame and in its axes."""

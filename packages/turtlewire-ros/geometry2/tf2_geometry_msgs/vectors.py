@@ -24,20 +24,6 @@ from tf2_geometry_msgs.motion import Motion
 if TYPE_CHECKING:
     from geometry_msgs.msg import TransformStamped
 
-__all__ = [
-    "copy_of",
-    "do_transform_point",
-    "do_transform_point32",
-    "do_transform_polygon",
-    "do_transform_polygon_instance",
-    "do_transform_polygon_instance_stamped",
-    "do_transform_polygon_stamped",
-    "do_transform_quaternion",
-    "do_transform_quaternion_stamped",
-    "do_transform_vector3",
-    "header_of",
-]
-
 _P = TypeVar("_P", Point, PointStamped)
 _V = TypeVar("_V", Vector3, Vector3Stamped)
 

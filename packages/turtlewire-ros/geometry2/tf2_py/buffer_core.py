@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
     Triple: TypeAlias = tuple[float, float, float]
 
-__all__ = ["BufferCore"]
-
 _DEFAULT_CACHE_NS = 10_000_000_000
 _HINT_IF_EMPTY = (
     "No transform has arrived yet. Is a broadcaster running, and does a TransformListener fill "

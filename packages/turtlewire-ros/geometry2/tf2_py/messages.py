@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     import turtlewire
     from geometry_msgs.msg import TransformStamped
 
-__all__ = ["MessageLookup", "message_lookup", "to_message"]
-
 
 class MessageLookup(Protocol):
     """Lookups of a buffer with ROS times in and messages out."""

@@ -6,8 +6,6 @@ from typing import Any
 
 from turtlewire.call_errors import ros_time_error
 
-__all__ = ["to_moment", "to_nanoseconds"]
-
 
 def to_moment(time: Any) -> int | None:
     """Return the nanoseconds of a time of a question; time 0, the latest, is the engine's None."""

@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from rclpy.task import Future
     from turtlewire.errors import TransformException
 
-__all__ = ["JUMP_BACK", "Buffer"]
-
 #: The jumps of a clock after which the stored samples belong to another time.
 JUMP_BACK = JumpThreshold(min_forward=None, min_backward=Duration(seconds=-1), on_clock_change=True)
 

@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from geometry_msgs.msg import TransformStamped
     from rclpy.task import Future
 
-__all__ = ["BufferClient"]
-
 # `STATUS_SUCCEEDED` of action_msgs.
 _SUCCEEDED = 4
 _NOT_READY = "The BufferServer is not ready."

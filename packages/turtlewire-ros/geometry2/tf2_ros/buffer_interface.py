@@ -13,18 +13,6 @@ if TYPE_CHECKING:
 
     from geometry_msgs.msg import TransformStamped
 
-__all__ = [
-    "NO_TIMEOUT",
-    "BufferInterface",
-    "ConvertRegistration",
-    "NotImplementedException",
-    "Stamped",
-    "TransformRegistration",
-    "TypeException",
-    "convert",
-]
-
-
 #: The import that registers a type.
 _REGISTERED_BY = {
     "tf2_geometry_msgs": {

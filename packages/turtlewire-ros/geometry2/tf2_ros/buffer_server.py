@@ -27,8 +27,6 @@ if TYPE_CHECKING:
 
     from .buffer import Buffer
 
-__all__ = ["BufferServer", "error_number", "exception_for"]
-
 # The base class comes last, because the first match counts.
 _NUMBERS: dict[type[TransformException], int] = {
     LookupException: TF2Error.LOOKUP_ERROR,

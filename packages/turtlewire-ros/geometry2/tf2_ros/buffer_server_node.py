@@ -14,8 +14,6 @@ from .buffer import Buffer
 from .buffer_server import BufferServer
 from .transform_listener import TransformListener
 
-__all__ = ["main"]
-
 _MOST_S = 1e9
 
 

@@ -6,8 +6,6 @@ import argparse
 import sys
 from typing import Any
 
-__all__ = ["ToolParser", "count", "digits", "frame_id"]
-
 
 class ToolParser(argparse.ArgumentParser):
     """A parser that exits with status 1 after an error, as ROS 2's tools do."""

@@ -13,8 +13,6 @@ from turtlewire.guarded import call_guarded
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["Deadlines"]
-
 
 class Deadlines:
     """Functions to call later. Thread-safe."""

@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 
     from .buffer import Buffer
 
-__all__ = ["FilterFailureReason", "MessageFilter"]
-
 
 class FilterFailureReason(IntEnum):
     """The reason for which a message was dropped."""

@@ -6,8 +6,6 @@ from typing import NamedTuple
 
 from geometry_msgs.msg import TransformStamped
 
-__all__ = ["transform_html"]
-
 
 class _Pose(NamedTuple):
     target_frame: str

@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from rclpy.experimental import AsyncNode
     from rclpy.node import Node
 
-__all__ = ["spin_in_thread"]
-
 
 def spin_in_thread(node: Node | AsyncNode, name: str) -> tuple[SingleThreadedExecutor, Thread]:
     """Spin a node in a daemon thread, until its executor or its context is shut down.

@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from rclpy.node import Node
     from rclpy.publisher import BasePublisher
 
-__all__ = ["StaticTransformBroadcaster"]
-
 
 class _Kept:
     """The transforms that one publisher keeps for late joiners."""

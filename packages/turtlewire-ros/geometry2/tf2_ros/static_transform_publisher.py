@@ -23,8 +23,6 @@ from .static_transform_broadcaster import StaticTransformBroadcaster
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["ArgumentsError", "Placement", "StaticTransformPublisher", "main", "parse"]
-
 _USAGE = """usage: static_transform_publisher --frame-id FRAME_ID --child-frame-id CHILD_FRAME_ID
            [--x X] [--y Y] [--z Z] [--qx QX] [--qy QY] [--qz QZ] [--qw QW]
            [--roll ROLL] [--pitch PITCH] [--yaw YAW]

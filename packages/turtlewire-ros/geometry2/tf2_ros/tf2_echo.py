@@ -27,8 +27,6 @@ if TYPE_CHECKING:
 
     from geometry_msgs.msg import TransformStamped
 
-__all__ = ["as_json", "describe", "in_words", "main"]
-
 _BAD_RATE = "Failed to convert rate argument '%s' to a floating-point number"
 
 

@@ -30,8 +30,6 @@ if TYPE_CHECKING:
     from turtlewire.tf.frame_tree import FrameLink
     from turtlewire.wire.base import MessageInfo
 
-__all__ = ["NOBODY", "DelayStatistics", "Delays", "chain", "main"]
-
 #: ROS 2's name for a publisher whose node is unknown.
 NOBODY = "<no authority available>"
 

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from rclpy.experimental import AsyncNode
     from rclpy.node import Node
 
-__all__ = ["TransformBroadcaster", "as_list"]
-
 
 class TransformBroadcaster:
     """Publishes where frames are at the moment.

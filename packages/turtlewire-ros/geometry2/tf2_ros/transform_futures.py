@@ -29,8 +29,6 @@ if TYPE_CHECKING:
             ...
 
 
-__all__ = ["TransformFutures"]
-
 _deadlines = Deadlines()
 
 

@@ -23,12 +23,6 @@ if TYPE_CHECKING:
     from rclpy.node import Node
     from tf2_msgs.msg import TFMessage
 
-__all__ = [
-    "DEFAULT_STATIC_TF_TOPIC",
-    "DEFAULT_TF_TOPIC",
-    "TransformListener",
-]
-
 DEFAULT_TF_TOPIC = "/tf"
 DEFAULT_STATIC_TF_TOPIC = "/tf_static"
 _FORGET_AFTER = "tf_forget_after"

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
     from geometry_msgs.msg import Transform, TransformStamped
 
-__all__ = ["do_transform_cloud", "transform_points"]
-
 _FLOATS = {PointField.FLOAT32: "f4", PointField.FLOAT64: "f8"}
 _POINT = ("x", "y", "z")
 _NORMAL = ("normal_x", "normal_y", "normal_z")

@@ -6,8 +6,6 @@ from typing import Any
 
 from turtlewire.tf.frame_tree import FrameLink, FrameTree
 
-__all__ = ["dot_from_tree", "generate_dot"]
-
 
 def dot_from_tree(tree: FrameTree, recorded_time: str) -> str:
     """Return Graphviz text with a link for each frame, and a legend with the recording's time."""

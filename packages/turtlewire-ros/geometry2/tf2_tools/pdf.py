@@ -10,8 +10,6 @@ from turtlewire.tf.pdf import colour_operands, pdf_file, text_operators
 if TYPE_CHECKING:
     from turtlewire.tf.drawing import Drawing, Shape
 
-__all__ = ["pdf_from_drawing"]
-
 
 def pdf_from_drawing(drawing: Drawing) -> bytes:
     """Return a page of the size of the drawing."""

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from launch.frontend import Entity, Parser
     from launch.launch_context import LaunchContext
 
-__all__ = ["Action", "ProcessAction"]
-
 
 def _condition_in(entity: Entity, parser: Parser) -> dict[str, Any]:
     """Return the argument ``condition`` that an entity's attributes mean, if they mean one."""

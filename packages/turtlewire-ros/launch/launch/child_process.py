@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
     from logging import Logger
 
-__all__ = ["ChildProcess", "escalate", "stdin_is_terminal"]
-
 # A grandchild may hold the pipes open; the child's own output has already arrived.
 _DRAIN_S = 0.5
 _SIGKILL = getattr(signal, "SIGKILL", signal.SIGTERM)  # Windows has none

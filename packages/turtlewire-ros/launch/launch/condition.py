@@ -9,8 +9,6 @@ if TYPE_CHECKING:
 
     from launch.launch_context import LaunchContext
 
-__all__ = ["Condition"]
-
 
 class Condition:
     """Evaluates a predicate at each visit of the action that has it."""

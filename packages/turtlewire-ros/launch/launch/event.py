@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-__all__ = ["Event"]
-
 
 class Event:
     """Base of all events."""

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_entities_type import SomeEntitiesType
 
-__all__ = ["BaseEventHandler", "EventHandler", "entity_list"]
-
 
 class BaseEventHandler:
     """Decides which events it handles, and returns the entities to visit then.

@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["InvalidLaunchFileError"]
-
 
 class InvalidLaunchFileError(Exception):
     """No loader could read a launch file; the text holds the error of each.

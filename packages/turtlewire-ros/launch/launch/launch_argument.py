@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING, Protocol
 if TYPE_CHECKING:
     from launch.substitution import Substitution
 
-__all__ = ["LaunchArgument"]
-
 
 class LaunchArgument(Protocol):
     """The description of a ``DeclareLaunchArgument``."""

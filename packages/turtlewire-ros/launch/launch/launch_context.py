@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from launch._kernel.protocols import EventHandling, Performable
     from launch.event import Event
 
-__all__ = ["LaunchContext"]
-
 
 class _Locals:
     """Read access to the locals as attributes."""

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from launch.launch_argument import LaunchArgument
     from launch.launch_context import LaunchContext
 
-__all__ = ["LaunchDescription"]
-
 
 class LaunchDescription(LaunchDescriptionEntity):
     """A list of entities, which a launch file returns.

@@ -11,8 +11,6 @@ if TYPE_CHECKING:
     from launch.launch_argument import LaunchArgument
     from launch.launch_context import LaunchContext
 
-__all__ = ["LaunchDescriptionEntity"]
-
 
 class LaunchDescriptionEntity:
     """An entity that a launch visits; a visit may return further entities."""

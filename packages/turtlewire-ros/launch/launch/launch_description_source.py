@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution
 
-__all__ = ["LaunchDescriptionSource"]
-
 
 class LaunchDescriptionSource:
     """A launch description, or a file that is read when it is first needed.

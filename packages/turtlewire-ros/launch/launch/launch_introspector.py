@@ -15,16 +15,6 @@ if TYPE_CHECKING:
     from launch.launch_description_entity import LaunchDescriptionEntity
     from launch.substitution import Substitution
 
-__all__ = [
-    "LaunchIntrospector",
-    "format_action",
-    "format_entities",
-    "format_event_handler",
-    "format_substitutions",
-    "indent",
-    "tree_like_indent",
-]
-
 
 class LaunchIntrospector:
     """Shows launch descriptions without running them."""

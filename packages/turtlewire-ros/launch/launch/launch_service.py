@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from launch.event import Event
     from launch.launch_description import LaunchDescription
 
-__all__ = ["LaunchService"]
-
 # Interrupt a hanging launch file after this many Ctrl-C that the loop did not handle.
 _PATIENCE = 3
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-__all__ = ["OutputLines"]
-
 # A process that never ends its line must not fill the memory.
 _LONGEST_REST = 1 << 20
 

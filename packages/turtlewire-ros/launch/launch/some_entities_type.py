@@ -6,8 +6,6 @@ from collections.abc import Iterable
 
 from launch.launch_description_entity import LaunchDescriptionEntity
 
-__all__ = ["SomeEntitiesType", "SomeEntitiesType_types_tuple"]
-
 #: One entity or several.
 SomeEntitiesType = LaunchDescriptionEntity | Iterable[LaunchDescriptionEntity]
 

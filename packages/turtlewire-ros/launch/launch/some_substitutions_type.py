@@ -7,8 +7,6 @@ from pathlib import Path
 
 from launch.substitution import Substitution
 
-__all__ = ["SomeSubstitutionsType", "SomeSubstitutionsType_types_tuple"]
-
 #: Text, a path, one substitution, or several of these whose texts are joined.
 SomeSubstitutionsType = str | Path | Substitution | Iterable[str | Path | Substitution]
 

@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
-__all__ = ["Substitution"]
-
 
 class Substitution:
     """Base of all substitutions."""

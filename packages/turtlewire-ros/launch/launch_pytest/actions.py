@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from launch_testing.actions.ready import ReadyToTest as _ReadyToTest
 
-__all__ = ["ReadyToTest"]
-
 
 class ReadyToTest(_ReadyToTest):
     """Lets the tests begin as soon as it is visited."""

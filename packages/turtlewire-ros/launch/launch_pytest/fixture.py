@@ -14,16 +14,6 @@ from launch import LaunchContext, LaunchService
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-__all__ = [
-    "FixtureOptions",
-    "finalize_launch_service",
-    "fixture",
-    "get_event_loop_fixture",
-    "get_launch_context_fixture",
-    "get_launch_service_fixture",
-    "scope_gt",
-]
-
 _SCOPES = ("function", "class", "module", "package", "session")
 
 

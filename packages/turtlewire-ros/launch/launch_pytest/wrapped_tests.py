@@ -12,16 +12,6 @@ if TYPE_CHECKING:
     import asyncio
     from collections.abc import Awaitable, Callable
 
-__all__ = [
-    "run_until_complete",
-    "wrap_asyncgen",
-    "wrap_asyncgen_fscope",
-    "wrap_coroutine",
-    "wrap_func",
-    "wrap_generator",
-    "wrap_generator_fscope",
-]
-
 _END = object()
 
 

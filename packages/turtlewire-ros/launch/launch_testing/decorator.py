@@ -8,8 +8,6 @@ if TYPE_CHECKING:
     import unittest
     from collections.abc import Callable
 
-__all__ = ["post_shutdown_test"]
-
 T = TypeVar("T", bound="type[unittest.TestCase]")
 
 

@@ -9,8 +9,6 @@ if TYPE_CHECKING:
     import unittest
     from collections.abc import Mapping
 
-__all__ = ["unittestCaseToXml", "unittestResultToXml", "unittestResultsToXml"]
-
 
 def unittestResultsToXml(  # noqa: N802  ROS 2's name
     *,

@@ -18,8 +18,6 @@ from turtlewire.program import program
 if TYPE_CHECKING:
     from types import ModuleType
 
-__all__ = ["add_arguments", "main", "parse_arguments", "run"]
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command to a parser."""

@@ -16,13 +16,6 @@ if TYPE_CHECKING:
 
     from launch.launch_description_entity import LaunchDescriptionEntity
 
-__all__ = [
-    "LoadTestsFromPythonModule",
-    "PostShutdownTestLoader",
-    "PreShutdownTestLoader",
-    "TestRun",
-]
-
 _Description = tuple[LaunchDescription, dict[str, Any]]
 
 _FIXTURES = ("setUp", "tearDown")

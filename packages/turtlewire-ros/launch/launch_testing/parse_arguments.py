@@ -9,8 +9,6 @@ from launch.utilities.command_line import parse_arguments
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["parse_launch_arguments"]
-
 
 def parse_launch_arguments(launch_arguments: Iterable[str]) -> list[tuple[str, str]]:
     """Split words ``name:=value``; of several with one name the last one counts.

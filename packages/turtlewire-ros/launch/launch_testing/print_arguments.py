@@ -9,8 +9,6 @@ from launch.utilities.command_line import describe_arguments
 if TYPE_CHECKING:
     from launch import LaunchDescription
 
-__all__ = ["print_arguments_of_launch_description"]
-
 
 def print_arguments_of_launch_description(*, launch_description: LaunchDescription) -> None:
     """Print names, descriptions and defaults of the arguments."""

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
 
     from launch.events.process import RunningProcessEvent
 
-__all__ = ["ActiveProcInfoHandler", "ProcInfoHandler"]
-
 __unittest = True  # unittest leaves this module out of the tracebacks of failures
 
 

@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["ReadyAggregator"]
-
 
 class ReadyAggregator:
     """Calls a function at the n-th call of :meth:`ready_fn`. Safe from any thread.

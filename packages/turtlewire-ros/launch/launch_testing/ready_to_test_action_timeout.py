@@ -10,8 +10,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import Any
 
-__all__ = ["ready_to_test_action_timeout"]
-
 F = TypeVar("F", bound="Callable[..., Any]")
 
 

@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from launch.launch_description_entity import LaunchDescriptionEntity
     from launch_testing.loader import TestRun
 
-__all__ = ["LaunchTestRunner", "TestResult"]
-
 # Seconds; `ready_to_test_action_timeout` sets another.
 _READY_TIMEOUT = 15.0
 # How long a running test may take to notice that its processes have ended.

@@ -8,8 +8,6 @@ from xml.etree.ElementTree import Element
 from launch.frontend import Entity as BaseEntity
 from launch.frontend.type_utils import check_is_list_entity, coerce, list_item_type, may_become
 
-__all__ = ["Entity"]
-
 
 class Entity(BaseEntity):
     """An XML element of a launch file.

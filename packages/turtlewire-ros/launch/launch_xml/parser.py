@@ -12,8 +12,6 @@ from launch_xml.entity import Entity
 if TYPE_CHECKING:
     import io
 
-__all__ = ["Parser"]
-
 
 class _Element(ET.Element):
     line = 0

@@ -7,8 +7,6 @@ from typing import Any
 from launch.frontend import Entity as BaseEntity
 from launch.frontend.type_utils import check_is_list_entity, list_item_type, may_become
 
-__all__ = ["Entity"]
-
 
 class Entity(BaseEntity):
     """An element of a YAML launch file: a name with attributes or a list of elements.

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     import io
     from collections.abc import Iterator
 
-__all__ = ["Parser"]
-
 # With aliases, a few lines can expand to billions of elements; real launch files have far fewer.
 _MOST_ELEMENTS = 100_000
 

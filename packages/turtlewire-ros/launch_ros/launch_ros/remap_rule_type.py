@@ -7,8 +7,6 @@ from collections.abc import Iterable, Sequence
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
 
-__all__ = ["RemapRule", "SomeRemapRule", "SomeRemapRules"]
-
 #: From and to, each performed by joining.
 RemapRule = tuple[Sequence[Substitution], Sequence[Substitution]]
 #: From and to.

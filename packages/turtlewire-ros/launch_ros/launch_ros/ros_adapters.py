@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from rclpy.executors import SingleThreadedExecutor
     from rclpy.node import Node
 
-__all__ = ["ROSAdapter", "call_service", "get_ros_adapter", "get_ros_node"]
-
 _KEY = "ros_adapter"
 
 

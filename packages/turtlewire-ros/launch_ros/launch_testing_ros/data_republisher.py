@@ -10,8 +10,6 @@ if TYPE_CHECKING:
 
     from rclpy.node import Node
 
-__all__ = ["DataRepublisher"]
-
 
 class DataRepublisher:
     """Sends each message of a topic, changed, on another topic. The node must be spun.

@@ -11,8 +11,6 @@ if TYPE_CHECKING:
     from rclpy.context import Context
     from rclpy.node import Node
 
-__all__ = ["MessagePump"]
-
 
 class MessagePump:
     """Spins a node on its own thread, so that a test can wait for what it receives.

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from launch_testing.test_runner import LaunchTestRunner as _LaunchTestRunner
 
-__all__ = ["LaunchTestRunner"]
-
 
 class LaunchTestRunner(_LaunchTestRunner):
     """Runs launches of ROS nodes with their tests; nothing more is needed for nodes."""

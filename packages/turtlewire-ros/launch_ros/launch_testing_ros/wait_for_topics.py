@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 
     from rclpy.qos import QoSProfile
 
-__all__ = ["WaitForTopics"]
-
 
 class WaitForTopics:
     """Subscribes to topics and waits for a message on each.

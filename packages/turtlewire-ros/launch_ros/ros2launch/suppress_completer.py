@@ -9,8 +9,6 @@ from typing import Any
 
 from argcomplete.completers import SuppressCompleter
 
-__all__ = ["SuppressCompleterWorkaround"]
-
 
 class SuppressCompleterWorkaround(SuppressCompleter):
     """Gives no completions, whether argcomplete calls it or asks for its ``suppress``."""

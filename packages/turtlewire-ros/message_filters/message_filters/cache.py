@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 
     from .simple_filter import SimpleFilter
 
-__all__ = ["Cache"]
-
 _DEPRECATED_LASTEST_TIME = "Deprecated in favour of :py:classmethod:Cache.getLatestTime:."
 
 

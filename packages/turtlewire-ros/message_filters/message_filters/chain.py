@@ -6,8 +6,6 @@ from typing import Any
 
 from .simple_filter import SimpleFilter
 
-__all__ = ["Chain"]
-
 
 class Chain(SimpleFilter):
     """Passes messages through filters, one behind the other; what leaves the last leaves the chain.

@@ -15,15 +15,6 @@ from .simple_filter import SimpleFilter
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-__all__ = [
-    "CachedComparisonHandler",
-    "ComparisonFilter",
-    "ComparisonHandler",
-    "DeltaCompare",
-    "DeltaFilter",
-    "PathDeltaFilter",
-]
-
 
 class ComparisonHandler(ABC):
     """Decides which messages pass a :class:`ComparisonFilter`."""

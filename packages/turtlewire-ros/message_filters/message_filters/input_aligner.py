@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from rclpy.node import Node
     from rclpy.timer import Timer
 
-__all__ = ["InputAligner", "QueueStatus"]
-
 
 @dataclass
 class QueueStatus:

@@ -10,8 +10,6 @@ from rclpy._typing import MsgT
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["OneMessageFilter", "SimpleFilter"]
-
 
 class SimpleFilter:
     """Passes messages on to registered callbacks. Thread-safe.

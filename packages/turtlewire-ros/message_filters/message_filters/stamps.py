@@ -8,8 +8,6 @@ from rclpy.clock import Clock, ClockType
 from rclpy.logging import get_logger
 from rclpy.time import Time
 
-__all__ = ["stamp_of"]
-
 _HEADERLESS = (
     "can not use message filters messages without timestamp infomation when "
     '"allow_headerless" is disabled. auto assign ROSTIME to headerless '

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from rclpy.subscription import Subscription
     from rclpy.subscription_content_filter_options import ContentFilterOptions
 
-__all__ = ["Subscriber"]
-
 
 class Subscriber(OneMessageFilter[MsgT]):
     """Passes on the messages of a topic.

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from rclpy.clock import TimeJump
     from rclpy.node import Node
 
-__all__ = ["TimeSequencer"]
-
 _JUMP_BACK = JumpThreshold(min_forward=None, min_backward=Duration(nanoseconds=-1))
 
 

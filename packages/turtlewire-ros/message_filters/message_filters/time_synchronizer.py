@@ -16,8 +16,6 @@ from .stamps import stamp_of
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["ApproximateTimeSynchronizer", "TimeSynchronizer"]
-
 _LOGGER = "message_filters_synchronizer"
 
 

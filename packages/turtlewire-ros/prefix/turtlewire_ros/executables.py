@@ -13,8 +13,6 @@ import sys
 
 from turtlewire_ros.prefix import package_prefix
 
-__all__ = ["argv_for", "executable_paths", "is_python_script", "libexec_directory"]
-
 
 def libexec_directory(prefix: str, package: str) -> str:
     """Return the folder in which a prefix keeps the executables of a package."""

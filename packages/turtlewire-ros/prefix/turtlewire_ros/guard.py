@@ -11,8 +11,6 @@ from __future__ import annotations
 import os
 import signal
 
-__all__ = ["foreign_package", "main"]
-
 
 def main() -> int | str:
     """Run the ``ros2`` command line of this process.

@@ -16,8 +16,6 @@ from turtlewire.msg.bundled import bundled_interfaces, bundled_packages
 from turtlewire.msg.generate import import_lines, write_modules
 from turtlewire.msg.registry import interface_text
 
-__all__ = ["INDEX", "write_interface_files", "write_interface_modules"]
-
 #: Folder of a prefix that has, for each package with interfaces, a file that lists theirs.
 INDEX = Path("share", "ament_index", "resource_index", "rosidl_interfaces")
 

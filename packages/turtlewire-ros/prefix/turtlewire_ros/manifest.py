@@ -6,8 +6,6 @@ from pathlib import Path
 from typing import NamedTuple
 from xml.parsers import expat
 
-__all__ = ["Manifest", "ManifestError", "manifest_fault", "read_manifest"]
-
 
 class ManifestError(Exception):
     """A package.xml cannot be read; the text names the file, the line and the reason."""

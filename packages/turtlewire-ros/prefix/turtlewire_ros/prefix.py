@@ -11,18 +11,6 @@ import os
 import sys
 from pathlib import Path
 
-__all__ = [
-    "COMPILED_TARGETS",
-    "MARKERS",
-    "compiled_targets",
-    "editable_source",
-    "own_prefix",
-    "package_names",
-    "package_prefix",
-    "prefixes",
-    "share_directory",
-]
-
 #: Folder of a prefix in which each installed package has a file of its name.
 MARKERS = os.path.join("share", "ament_index", "resource_index", "packages")
 #: Kind of the index entry in which a build here lists the C++ targets that it has left out.

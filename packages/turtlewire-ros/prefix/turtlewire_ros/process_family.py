@@ -19,8 +19,6 @@ from turtlewire_ros import process_guardian
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["ProcessFamily"]
-
 
 class ProcessFamily:
     """The descendants of one command. Not thread-safe.

@@ -13,8 +13,6 @@ import signal
 import sys
 import time
 
-__all__ = ["FAMILIES", "guard"]
-
 #: Environment variable: the families that a process belongs to, outermost first, joined by colons.
 FAMILIES = "TURTLEWIRE_FAMILIES"
 #: Seconds between SIGTERM and SIGKILL, as in a launch.

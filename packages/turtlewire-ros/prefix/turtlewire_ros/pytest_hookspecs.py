@@ -9,8 +9,6 @@ import pytest
 if TYPE_CHECKING:
     from pathlib import Path
 
-__all__ = ["pytest_launch_collect_makemodule"]
-
 
 @pytest.hookspec(firstresult=True)
 def pytest_launch_collect_makemodule(

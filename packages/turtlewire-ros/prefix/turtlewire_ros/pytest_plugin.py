@@ -20,8 +20,6 @@ from turtlewire_ros import pytest_hookspecs
 if TYPE_CHECKING:
     from pathlib import Path
 
-__all__ = ["pytest_addhooks", "pytest_addoption", "pytest_configure", "pytest_pycollect_makemodule"]
-
 _MARKERS = (
     "launch_test: marks a generate_test_description function as a launch test",
     "rostest: marks a generate_test_description function as a launch test of ROS nodes",

@@ -5,8 +5,6 @@ from __future__ import annotations
 import os
 import sys
 
-__all__ = ["equivalent", "main"]
-
 _EQUIVALENTS = {
     "rqt": "turtlewire graph (nodes, topics), turtlewire view (frames, robots, images), turtlewire "
     "foxglove (plots, logs)",

@@ -17,8 +17,6 @@ from turtlewire_ros.rqt import equivalent
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["executable_hint", "file_hint", "package_hint", "path_hint", "source_hint"]
-
 #: colcon leaves this file in the folder of what it installs.
 _LAYOUT = ".colcon_install_layout"
 #: How deep below `src` packages are looked for.

@@ -9,24 +9,6 @@ from __future__ import annotations
 from enum import IntEnum
 from typing import Any
 
-__all__ = [
-    "Client",
-    "InvalidHandle",
-    "NodeNameNonExistentError",
-    "Publisher",
-    "RCLError",
-    "RCLInvalidROSArgsError",
-    "RMWError",
-    "Service",
-    "Subscription",
-    "TimerCancelledError",
-    "UnknownROSArgsError",
-    "UnsupportedEventTypeError",
-    "rcl_duration_t",
-    "rmw_qos_policy_kind_t",
-    "rmw_qos_profile_t",
-]
-
 
 class InvalidHandle(RuntimeError):
     """An entity was used after it had been destroyed."""

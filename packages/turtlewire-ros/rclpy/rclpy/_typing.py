@@ -8,19 +8,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-__all__ = [
-    "ActionT_co",
-    "FeedbackT",
-    "GoalT",
-    "MsgT",
-    "RequestT",
-    "ResponseT",
-    "ResultT",
-    "SrvT",
-    "SrvT_co",
-    "T",
-]
-
 if TYPE_CHECKING:
     from typing_extensions import TypeVar
 

@@ -10,8 +10,6 @@ import weakref
 from abc import ABC, abstractmethod
 from typing import Any, Protocol
 
-__all__ = ["CallbackGroup", "MutuallyExclusiveCallbackGroup", "ReentrantCallbackGroup"]
-
 
 class _Scheduler(Protocol):
     """The part of an executor that pauses entities of busy groups."""

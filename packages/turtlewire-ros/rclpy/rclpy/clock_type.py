@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from enum import IntEnum
 
-__all__ = ["ClockType"]
-
 
 class ClockType(IntEnum):
     """ROS time follows ``/clock`` if ``use_sim_time`` is set, else it is the system's time."""

@@ -2,7 +2,5 @@
 
 from __future__ import annotations
 
-__all__ = ["S_TO_NS"]
-
 #: Nanoseconds of a second.
 S_TO_NS = 1_000_000_000

@@ -28,8 +28,6 @@ if TYPE_CHECKING:
 
     from .impl.arguments import Arguments
 
-__all__ = ["Context", "g_logging_ref_count"]
-
 #: The number of open contexts that have initialized logging.
 g_logging_ref_count = 0
 

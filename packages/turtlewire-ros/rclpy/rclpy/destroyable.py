@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Protocol
 
-__all__ = ["DestroyableType"]
-
 
 class DestroyableType(Protocol):
     """A publisher, a subscription, a timer … or the handle of one."""

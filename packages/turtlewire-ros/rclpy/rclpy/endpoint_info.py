@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 
     from turtlewire.wire import base
 
-__all__ = ["EndpointTypeEnum", "ServiceEndpointInfo", "TopicEndpointInfo", "service_infos"]
-
 _PROCESS_OF_GID = 12
 _UNKNOWN_HASH = TypeHash()
 _UNKNOWN_NAME = "_NODE_NAME_UNKNOWN_"

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from turtlewire.wire import names
 
-__all__ = ["expand_topic_name"]
-
 
 def expand_topic_name(topic_name: str, node_name: str, node_namespace: str) -> str:
     """Expand a topic or service name.

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from .callback_groups import CallbackGroup
     from .context import Context
 
-__all__ = ["GuardCondition", "SignalHandlerGuardCondition"]
-
 
 class GuardCondition(Entity):
     """Runs its callback on the executor after :meth:`trigger`.

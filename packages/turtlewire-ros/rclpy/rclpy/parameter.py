@@ -10,15 +10,6 @@ if TYPE_CHECKING:
 
     import rcl_interfaces.msg
 
-__all__ = [
-    "PARAMETER_SEPARATOR_STRING",
-    "AllowableParameterValue",
-    "Parameter",
-    "get_parameter_value",
-    "parameter_dict_from_yaml_file",
-    "parameter_value_to_python",
-]
-
 PARAMETER_SEPARATOR_STRING = "."
 
 #: What a parameter can hold, for annotations.

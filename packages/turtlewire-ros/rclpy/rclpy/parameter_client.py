@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from .subscription import Subscription
     from .task import Future
 
-__all__ = ["AsyncParameterClient"]
-
 
 class AsyncParameterClient:
     """Asks the parameter services of ``remote_node_name``.

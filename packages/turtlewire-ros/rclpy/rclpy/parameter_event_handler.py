@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from .node import Node
     from .qos_overriding_options import QoSOverridingOptions
 
-__all__ = ["ParameterCallbackHandle", "ParameterEventCallbackHandle", "ParameterEventHandler"]
-
 
 class ParameterCallbackHandle:
     """A callback for one parameter.

@@ -19,13 +19,6 @@ if TYPE_CHECKING:
     from ._node.parameters import NodeParameters
     from .qos import QoSProfile
 
-__all__ = [
-    "InvalidQosOverridesError",
-    "QoSOverridingOptions",
-    "declare_qos_parameters",
-    "overridden_profile",
-]
-
 
 class InvalidQosOverridesError(Exception):
     """The callback of :class:`QoSOverridingOptions` rejected the profile."""

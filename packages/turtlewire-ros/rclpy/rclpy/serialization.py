@@ -11,8 +11,6 @@ from .type_support import check_for_type_support
 if TYPE_CHECKING:
     from turtlewire.msg import Message
 
-__all__ = ["deserialize_message", "serialize_message"]
-
 M = TypeVar("M", bound="Message")
 
 

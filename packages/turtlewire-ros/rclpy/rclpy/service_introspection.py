@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from .clock import Clock
     from .qos import QoSProfile
 
-__all__ = ["EventType", "IntrospectedEndpoint", "ServiceIntrospectionState"]
-
 _GID_SIZE = 16
 
 

@@ -8,8 +8,6 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-__all__ = ["ContentFilterOptions"]
-
 
 class ContentFilterOptions(NamedTuple):
     """A filter of the messages that a subscription receives.

@@ -23,8 +23,6 @@ from ._typing import T
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
 
-__all__ = ["Future", "FutureState", "Task"]
-
 
 class FutureState(Enum):
     """The states of a future."""

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
     from ._node.views import TimeSourceOwner
 
-__all__ = ["CLOCK_TOPIC", "USE_SIM_TIME_NAME", "TimeSource"]
-
 CLOCK_TOPIC = "/clock"
 USE_SIM_TIME_NAME = "use_sim_time"
 

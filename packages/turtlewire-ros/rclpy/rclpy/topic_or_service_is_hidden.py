@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from .validate_topic_name import TOPIC_SEPARATOR_STRING
 
-__all__ = ["HIDDEN_TOPIC_PREFIX", "topic_or_service_is_hidden"]
-
 #: A part of a hidden name begins so.
 HIDDEN_TOPIC_PREFIX = "_"
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from .impl.hints import require
 
-__all__ = ["TypeHash"]
-
 _VALUE_SIZE = 32
 
 

@@ -6,8 +6,6 @@ from turtlewire.wire import names
 
 from .exceptions import InvalidServiceNameException, InvalidTopicNameException
 
-__all__ = ["validate_full_topic_name"]
-
 
 def validate_full_topic_name(name: str, *, is_service: bool = False) -> bool:
     """Check a fully qualified name.

@@ -6,8 +6,6 @@ from turtlewire.wire import names
 
 from .exceptions import InvalidNamespaceException
 
-__all__ = ["validate_namespace"]
-
 
 def validate_namespace(namespace: str) -> bool:
     """Check a fully qualified namespace.

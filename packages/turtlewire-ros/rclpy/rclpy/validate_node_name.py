@@ -6,8 +6,6 @@ from turtlewire.wire import names
 
 from .exceptions import InvalidNodeNameException
 
-__all__ = ["validate_node_name"]
-
 
 def validate_node_name(node_name: str) -> bool:
     """Check the base name of a node.

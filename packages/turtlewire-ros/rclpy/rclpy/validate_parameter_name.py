@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from .exceptions import InvalidParameterException
 
-__all__ = ["validate_parameter_name"]
-
 
 def validate_parameter_name(name: str) -> bool:
     """Check a parameter name.

@@ -9,8 +9,6 @@ from turtlewire.wire import names
 
 from .exceptions import InvalidServiceNameException, InvalidTopicNameException
 
-__all__ = ["TOPIC_SEPARATOR_STRING", "validate_topic_name"]
-
 #: Between the parts of a name.
 TOPIC_SEPARATOR_STRING = "/"
 

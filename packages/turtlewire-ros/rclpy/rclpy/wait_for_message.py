@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from .node import Node
     from .qos import QoSProfile
 
-__all__ = ["wait_for_message"]
-
 
 def wait_for_message(
     msg_type: Any,

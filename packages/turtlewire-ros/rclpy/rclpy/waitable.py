@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from .guard_condition import GuardCondition
     from .task import Future
 
-__all__ = ["NumberOfEntities", "WaitSet", "Waitable"]
-
 
 class NumberOfEntities:
     """The number of entities of each kind that a waitable waits for."""

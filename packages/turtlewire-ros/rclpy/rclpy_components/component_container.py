@@ -6,8 +6,6 @@ import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy_components.component_manager import ComponentManager
 
-__all__ = ["main"]
-
 
 def main(args: list[str] | None = None) -> None:
     """Run until Ctrl-C."""

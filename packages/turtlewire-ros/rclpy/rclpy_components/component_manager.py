@@ -16,8 +16,6 @@ from turtlewire.terminal.printable import printable, printable_lines
 if TYPE_CHECKING:
     from rclpy.context import Context
 
-__all__ = ["ComponentManager"]
-
 
 class ComponentManager(Node):
     """Offers ROS 2's services that load, unload and list components (``~/_container/load_node`` …).

@@ -12,8 +12,6 @@ import sys
 from turtlewire.errors import WireError
 from turtlewire.wire.zenoh.library import require_zenoh
 
-__all__ = ["main"]
-
 
 def main() -> int:
     """Route until Ctrl-C; returns the exit status."""

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from xml.etree.ElementTree import Element
 
-__all__ = ["DescriptionError", "JointOptions", "read_joints"]
-
 # As in ROS 2, left out: they do not move, or need more than one number.
 _SKIPPED_IN_URDF = frozenset({"fixed", "floating", "planar"})
 _SKIPPED_IN_SDF = frozenset({"gearbox", "revolute2", "ball", "screw", "universal", "fixed"})

@@ -21,8 +21,6 @@ from std_msgs.msg import String
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["JointStatePublisher", "LoggedError", "SettingError", "main", "run"]
-
 _DEPTH = 10
 _ALLOWED = ("parent", "factor", "offset")
 

@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["FreeJoint", "JointSet", "MimicLoopError", "MimicRule", "State"]
-
 
 class MimicLoopError(ValueError):
     """Joints mimic each other in a cycle."""

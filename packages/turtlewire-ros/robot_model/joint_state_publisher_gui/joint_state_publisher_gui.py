@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
     from joint_state_publisher_gui.page_commands import Command
 
-__all__ = ["JointStatePublisherGui", "main"]
-
 
 class JointStatePublisherGui(JointStatePublisher):
     """The node and its page.

@@ -6,8 +6,6 @@ from typing import NamedTuple
 
 from turtlewire.web.commands import CommandReader
 
-__all__ = ["READER", "Center", "Command", "Play", "Randomize", "Set"]
-
 
 class Set(NamedTuple):
     """A new position of one joint [rad or m]."""

@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from joint_state_publisher_gui.page_commands import Command
     from joint_state_publisher_gui.sliders import Sliders, Snapshot
 
-__all__ = ["SliderScreen"]
-
 _PAGE = Path(__file__).parent / "page"
 
 

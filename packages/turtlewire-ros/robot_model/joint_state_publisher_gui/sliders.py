@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from joint_state_publisher.joints import FreeJoint, JointSet
     from joint_state_publisher_gui.page_commands import Command
 
-__all__ = ["Sliders", "Snapshot"]
-
 #: How long a joint that plays takes from one limit to the other [s], if its velocity allows it.
 _SWEEP_S = 6.0
 

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
 
     from turtlewire.urdf import Joint
 
-__all__ = ["RobotDescriptionError", "oddities", "parse_description", "static_joints"]
-
 
 class RobotDescriptionError(RuntimeError):
     """The description is not a robot; the message is ROS 2's."""

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from rclpy.timer import Timer
     from turtlewire.urdf import Joint, Robot
 
-__all__ = ["Diagnosis"]
-
 _PATIENCE = 2.0  # seconds without a joint that is known
 _MOST_NAMES = 12
 

@@ -45,8 +45,6 @@ if TYPE_CHECKING:
     from turtlewire.urdf import Joint, Robot
     from turtlewire.urdf.joint_messages import Layout
 
-__all__ = ["RobotStatePublisher", "StartError"]
-
 _FALLBACK = (
     "No robot_description parameter, but command-line argument available.  Assuming argument is"
     " name of URDF file.  This backwards compatibility fallback will be removed in the future."

@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["PublishTimes"]
-
 _MOST_NAMES = 10_000  # with more joints than this, the names are made up
 
 

@@ -10,8 +10,6 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.utilities import remove_ros_args
 from robot_state_publisher.node import RobotStatePublisher, StartError
 
-__all__ = ["main"]
-
 _USAGE = """usage: robot_state_publisher [URDF_FILE] [--ros-args -p robot_description:=TEXT ...]
 
 Publishes the frames of a robot: subscribes to joint_states, publishes /tf, /tf_static and

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
 
     from turtlewire.urdf import Robot
 
-__all__ = ["main", "tree_lines"]
-
 _USAGE = "Expect URDF xml file to parse. Use - for stdin"
 
 

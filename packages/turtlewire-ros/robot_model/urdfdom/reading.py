@@ -7,8 +7,6 @@ import sys
 from turtlewire.urdf import Robot, UrdfError
 from turtlewire.urdf.faults import log_lines
 
-__all__ = ["read_robot"]
-
 
 def read_robot(path: str) -> Robot:
     """Return the robot in a file; ``-`` is stdin. Errors and warnings are printed on stderr.

@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from turtlewire.tf.drawing import Shape
     from turtlewire.urdf import Joint, Robot
 
-__all__ = ["main"]
-
 _USAGE = """Usage: urdf_to_graphviz input.xml [OUTPUT]
   Will create either ${ROBOT_NAME}.gv & ${ROBOT_NAME}.pdf in CWD,
   or OUTPUT.gv & OUTPUT.pdf."""

@@ -11,17 +11,6 @@ from ros2cli.node.direct import DirectNode
 if TYPE_CHECKING:
     import argparse
 
-__all__ = [
-    "ActionGoalPrototypeCompleter",
-    "ActionTypeCompleter",
-    "action_name_completer",
-    "action_type_completer",
-    "get_action_class",
-    "get_action_clients_and_servers",
-    "get_action_names",
-    "get_action_names_and_types",
-]
-
 _NodesAndTypes = list[tuple[str, list[str]]]
 
 

@@ -12,15 +12,6 @@ if TYPE_CHECKING:
 
     Completer = Callable[..., list[str]]
 
-__all__ = [
-    "Argument",
-    "Exclusive",
-    "add_arguments",
-    "argument",
-    "exclusive",
-    "timeout_argument",
-]
-
 
 # Plain classes: a NamedTuple takes half a millisecond of each command to make.
 class Argument:

@@ -17,8 +17,6 @@ from turtlewire_ros.process_guardian import FAMILIES
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-__all__ = ["PicklerForProcess", "daemonize", "main"]
-
 _READY = b"ready\n"
 
 

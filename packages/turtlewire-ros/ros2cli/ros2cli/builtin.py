@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 
     Class = TypeVar("Class", bound=type[Any])
 
-__all__ = ["command_of_module", "verb_of_module"]
-
 
 def verb_of_module(cls: Class) -> Class:
     """Give a class the ``ARGUMENTS`` of its module, and the ``main`` unless it has its own."""

@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from ros2cli.command import CommandExtension
 
-__all__ = ["main"]
-
 
 def main(
     *,

@@ -12,31 +12,6 @@ from ros2cli.interface_names import interface_names
 if TYPE_CHECKING:
     import argparse
 
-__all__ = [
-    "action_names",
-    "action_types",
-    "arguments_of_executable",
-    "executables",
-    "executables_of",
-    "files",
-    "folders",
-    "frame_names",
-    "goal_values",
-    "interface_packages",
-    "interfaces",
-    "message_types",
-    "message_values",
-    "node_names",
-    "packages",
-    "prototype",
-    "request_values",
-    "service_names",
-    "service_types",
-    "topic_names",
-    "topic_types",
-]
-
-
 _TAKES_FRAMES = {("tf2_ros", "tf2_echo"), ("tf2_ros", "tf2_monitor")}
 
 

@@ -18,14 +18,6 @@ if TYPE_CHECKING:
 
     from turtlewire.wire.base import Graph
 
-__all__ = [
-    "SPIN_ARGUMENTS",
-    "STRATEGY_ARGUMENTS",
-    "discovered_graph",
-    "hidden_node_name",
-    "wait_until_discovered",
-]
-
 # Other hosts have this much time to answer; participants of this host are counted. Measured on
 # two cores: the last of 50 participants answers 70 ms after the first question.
 _ANSWER_S = 0.15

@@ -9,8 +9,6 @@ if TYPE_CHECKING:
     from rclpy.endpoint_info import ServiceEndpointInfo, TopicEndpointInfo
     from rclpy.qos import QoSProfile
 
-__all__ = ["service_endpoint_data", "topic_endpoint_data"]
-
 # ROS 2's name of the node of an endpoint that no node claims.
 _UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
 

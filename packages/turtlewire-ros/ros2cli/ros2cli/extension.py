@@ -11,8 +11,6 @@ if TYPE_CHECKING:
 
     from turtlewire.plugins import Entry
 
-__all__ = ["define_extension", "define_options", "extensions_of_others"]
-
 
 class _Runner:
     """Stands for the module of a verb: `main` runs the extension."""

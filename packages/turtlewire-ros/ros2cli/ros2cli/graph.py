@@ -17,27 +17,6 @@ if TYPE_CHECKING:
 
     from turtlewire.wire.base import EndpointInfo, Graph
 
-__all__ = [
-    "NamesAndTypes",
-    "action_clients",
-    "action_nodes",
-    "action_servers",
-    "actions",
-    "endpoints_of_topic",
-    "foreign_middlewares",
-    "full_node_name",
-    "is_hidden_node",
-    "node_exists",
-    "node_names",
-    "publishers",
-    "require_node",
-    "service_clients",
-    "service_servers",
-    "services",
-    "subscribers",
-    "topics",
-]
-
 NamesAndTypes = list[tuple[str, list[str]]]
 
 _FEEDBACK = "/_action/feedback"

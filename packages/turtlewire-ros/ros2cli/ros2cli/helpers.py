@@ -13,19 +13,6 @@ from ros2cli.values import unsigned_int as _unsigned_int
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-__all__ = [
-    "before_invocation",
-    "bind",
-    "check_discovery_configuration",
-    "collect_stdin",
-    "get_ros_domain_id",
-    "interactive_select",
-    "pretty_print_call",
-    "unsigned_int",
-    "wait_for",
-]
-
-
 _NO_DISCOVERY = """\
 Warning: ROS_AUTOMATIC_DISCOVERY_RANGE=OFF with no ROS_STATIC_PEERS configured.
 No discovery mechanism is available. Results will be empty.

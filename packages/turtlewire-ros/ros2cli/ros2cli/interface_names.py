@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-__all__ = ["interface_names", "prototype"]
-
 
 def interface_names(kind: str = "") -> list[str]:
     """Full names of all interfaces, sorted; ``kind`` limits them to msg, srv or action."""

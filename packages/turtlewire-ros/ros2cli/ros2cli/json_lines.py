@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 
     from ros2cli.graph import NamesAndTypes
 
-__all__ = ["JSON_ARGUMENT", "print_json", "print_json_list", "remark_printer", "with_types"]
-
 JSON_ARGUMENT = argument("--json", action="store_true", help="Print one JSON object per line")
 
 

@@ -14,17 +14,6 @@ if TYPE_CHECKING:
     from ros2cli.arguments import Argument
     from ros2cli.graph import NamesAndTypes
 
-__all__ = [
-    "HIDDEN_NODES",
-    "SHOW_TYPES",
-    "count_argument",
-    "hidden_argument",
-    "print_names",
-    "print_names_and_types",
-    "print_names_of_type",
-    "print_types",
-]
-
 SHOW_TYPES = argument("-t", "--show-types", action="store_true", help="Also show the types")
 HIDDEN_NODES = "Include nodes whose name starts with an underscore"
 

@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from types import ModuleType
     from typing import NoReturn
 
-__all__ = ["define", "main", "make_parser"]
-
 _EXIT_INTERRUPTED = 2  # the number of SIGINT
 
 #: Commands of ROS 2 that are not here, and what does their work.

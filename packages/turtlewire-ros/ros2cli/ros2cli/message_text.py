@@ -10,15 +10,6 @@ from ros2cli.values import unsigned_int
 if TYPE_CHECKING:
     import argparse
 
-__all__ = [
-    "DEFAULT_TRUNCATE_LENGTH",
-    "TEXT_ARGUMENTS",
-    "event_text",
-    "message_csv",
-    "message_text",
-    "message_yaml",
-]
-
 DEFAULT_TRUNCATE_LENGTH = 128
 
 TEXT_ARGUMENTS = (

@@ -12,8 +12,6 @@ from turtlewire.terminal.printable import printable_lines
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-__all__ = ["clear_terminal", "escaped_output", "print_set_results", "tell", "tell_failed_call"]
-
 
 def tell(text: str) -> None:
     """Print a message to stderr; what peers have put into it is escaped."""

@@ -15,19 +15,6 @@ if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
     from turtlewire.wire.base import Graph
 
-__all__ = [
-    "QOS_ARGUMENTS",
-    "add_qos_arguments",
-    "asked_for",
-    "choose_qos",
-    "configure",
-    "matching_publishers",
-    "preset",
-    "profile_configure_short_keys",
-    "qos_profile_from_short_keys",
-    "with_options",
-]
-
 _POLICIES = ("history", "reliability", "durability", "liveliness")
 _PROFILES = (
     *("unknown", "default", "system_default", "sensor_data", "services_default", "parameters"),

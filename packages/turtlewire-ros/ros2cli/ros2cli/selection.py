@@ -14,8 +14,6 @@ from turtlewire.distro import LYRICAL, since
 if TYPE_CHECKING:
     from turtlewire.wire.base import Graph
 
-__all__ = ["OPTIONAL", "select_node", "select_topic"]
-
 #: The number of words, for argparse, of an argument that can be chosen: at most one, or one.
 OPTIONAL = "?" if since(LYRICAL) else None
 

@@ -10,19 +10,6 @@ from turtlewire.terminal import suggestion
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Mapping
 
-__all__ = [
-    "did_you_mean",
-    "field_meant",
-    "interface_meant",
-    "package_meant",
-    "say_interface_meant",
-    "say_what_there_is",
-    "say_what_was_meant",
-    "say_why_to_wait",
-    "source_meant",
-    "warn_of_other_type",
-]
-
 _MOST_NAMES = 12
 #: Packages of the services that every node has.
 _OF_EVERY_NODE = ("rcl_interfaces/", "type_description_interfaces/")

@@ -8,18 +8,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-__all__ = [
-    "assignment",
-    "positive",
-    "positive_float",
-    "positive_int",
-    "read_documents",
-    "read_values",
-    "regular_expression",
-    "shortened",
-    "unsigned_int",
-]
-
 _Number = TypeVar("_Number", int, float)
 
 #: How many values YAML aliases may add to the values that are written out.

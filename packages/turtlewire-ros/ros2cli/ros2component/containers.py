@@ -8,8 +8,6 @@ if TYPE_CHECKING:
     from ros2cli.node.direct import DirectNode
     from turtlewire.wire.base import Graph
 
-__all__ = ["LIST_TIMEOUT_S", "ask", "container_names", "require_container"]
-
 _SERVICE = "/_container/load_node"
 _TYPE = "composition_interfaces/srv/LoadNode"
 _DISCOVERY_S = 30.0

@@ -11,9 +11,6 @@ from ros2cli.values import assignment
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["COMPONENT_ARGUMENTS", "container_node_names", "load_request"]
-
-
 _LEVELS = ("unknown", "debug", "info", "warn", "error", "fatal")
 
 COMPONENT_ARGUMENTS = (

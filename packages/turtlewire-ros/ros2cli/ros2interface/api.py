@@ -7,13 +7,6 @@ from typing import Any
 from ros2cli import completion
 from ros2cli.interface_names import interface_names, prototype
 
-__all__ = [
-    "get_all_interface_names",
-    "interface_to_yaml",
-    "package_name_completer",
-    "type_completer",
-]
-
 
 def interface_to_yaml(identifier: str) -> str:
     """Default values of a message, of a service's request or of an action's goal, as YAML.

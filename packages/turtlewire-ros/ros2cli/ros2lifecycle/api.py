@@ -17,14 +17,6 @@ if TYPE_CHECKING:
 
     from ros2node.api import NodeName
 
-__all__ = [
-    "call_change_states",
-    "call_get_available_transitions",
-    "call_get_states",
-    "call_get_transition_graph",
-    "get_node_names",
-]
-
 
 def get_node_names(*, node: Any, include_hidden_nodes: bool = False) -> list[NodeName]:
     """Return the names of the managed nodes that a node sees, sorted."""

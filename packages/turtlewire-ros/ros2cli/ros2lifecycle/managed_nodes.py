@@ -13,15 +13,6 @@ if TYPE_CHECKING:
     from ros2cli.node.direct import DirectNode
     from turtlewire.wire.base import Graph
 
-__all__ = [
-    "DEFAULT_TIMEOUT_S",
-    "HIDDEN_ARGUMENT",
-    "ask",
-    "managed_node_names",
-    "managed_nodes",
-    "require_managed_node",
-]
-
 _SERVICE = "/get_state"
 _TYPE = "lifecycle_msgs/srv/GetState"
 

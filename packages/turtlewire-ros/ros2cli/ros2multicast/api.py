@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from types import TracebackType
 
-__all__ = ["DEFAULT_GROUP", "DEFAULT_PORT", "GROUP_ARGUMENTS", "MulticastSocket", "receive", "send"]
-
 # ROS 2's group and port.
 DEFAULT_GROUP = "225.0.0.1"
 DEFAULT_PORT = 49150

@@ -12,19 +12,6 @@ if TYPE_CHECKING:
 
     from rclpy.parameter_client import AsyncParameterClient
 
-__all__ = [
-    "ParameterNameCompleter",
-    "call_describe_parameters",
-    "call_get_parameters",
-    "call_list_parameters",
-    "call_set_parameters",
-    "call_set_parameters_atomically",
-    "get_parameter_type_string",
-    "get_parameter_value",
-    "get_value",
-    "load_parameter_file",
-]
-
 # ROS 2's time.
 _TIMEOUT_S = 5.0
 

@@ -12,8 +12,6 @@ from ros2cli.listing import HIDDEN_NODES
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["NAME_ARGUMENT", "node_arguments", "parameter_names"]
-
 _TIMEOUT_S = 5.0
 
 

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
 
     from ros2cli.node.direct import DirectNode
 
-__all__ = ["TYPE_NAMES", "ParameterCall", "RemoteParameters", "ask_all", "timed_out"]
-
 #: By the numbers of ``rcl_interfaces/msg/ParameterType``.
 TYPE_NAMES = {
     0: "not set",

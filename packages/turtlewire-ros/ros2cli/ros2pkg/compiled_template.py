@@ -7,17 +7,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = [
-    "ament_cmake_lists",
-    "cargo_manifest",
-    "cmake_lists",
-    "cpp_header",
-    "cpp_node",
-    "cpp_source",
-    "rust_library",
-    "rust_node",
-]
-
 _CPP_NODE = """#include <iostream>
 
 int main()

@@ -8,8 +8,6 @@ from xml.sax.saxutils import escape, quoteattr
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["cmake_files", "manifest", "node", "python_files"]
-
 _MANIFEST = """<?xml version="1.0"?>
 <?xml-model href="http://download.ros.org/schema/package_format{format}.xsd" schematypens="http://www.w3.org/2001/XMLSchema"?>
 <package format="{format}">

@@ -13,14 +13,6 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Sequence
 
-__all__ = [
-    "ROS2RUN_MSG_PREFIX",
-    "ExecutableNameCompleter",
-    "MultipleExecutables",
-    "get_executable_path",
-    "run_executable",
-]
-
 ROS2RUN_MSG_PREFIX = "[ros2run]:"
 
 

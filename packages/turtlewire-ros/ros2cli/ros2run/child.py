@@ -16,8 +16,6 @@ from turtlewire_ros.process_family import ProcessFamily
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["run"]
-
 #: Windows has no SIGHUP.
 _PASSED_ON = {
     getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)

@@ -11,16 +11,6 @@ from ros2cli.node.direct import DirectNode
 if TYPE_CHECKING:
     import argparse
 
-__all__ = [
-    "ServiceNameCompleter",
-    "ServicePrototypeCompleter",
-    "ServiceTypeCompleter",
-    "get_service_class",
-    "get_service_names",
-    "get_service_names_and_types",
-    "service_type_completer",
-]
-
 
 def get_service_names_and_types(
     *, node: Any, include_hidden_services: bool = False

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 
     from ros2cli.node.direct import DirectNode
 
-__all__ = ["SEVERAL_TOPICS", "choose", "print_table", "refused", "subscribe"]
-
 _BLANKS = 3
 
 

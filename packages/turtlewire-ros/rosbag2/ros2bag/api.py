@@ -16,26 +16,6 @@ if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
     from rosbag2_py import StorageOptions
 
-__all__ = [
-    "SplitLineFormatter",
-    "add_multi_bag_input_arg",
-    "add_standard_multi_reader_args",
-    "add_standard_reader_args",
-    "add_writer_storage_plugin_extensions",
-    "check_not_negative_float",
-    "check_not_negative_int",
-    "check_path_exists",
-    "check_positive_float",
-    "convert_service_to_service_event_topic",
-    "convert_yaml_to_qos_profile",
-    "create_bag_directory",
-    "dict_to_duration",
-    "input_bag_arg_to_storage_options",
-    "interpret_dict_as_qos_profile",
-    "print_error",
-    "print_warn",
-]
-
 _SPLIT = "SPLIT|"
 
 

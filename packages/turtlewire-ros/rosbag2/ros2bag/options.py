@@ -16,29 +16,6 @@ if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
     from rosbag2_py import StorageOptions
 
-__all__ = [
-    "BAGS_TO_PLAY",
-    "BAG_PATH",
-    "INPUT",
-    "LOG_LEVEL",
-    "QOS_OVERRIDES",
-    "READ_AHEAD",
-    "REMAP",
-    "STORAGE",
-    "STORAGES",
-    "STORAGE_CONFIG",
-    "absolute",
-    "bag_and_storage",
-    "bag_path",
-    "bag_topics",
-    "bags_to_play",
-    "custom_data",
-    "event_topics",
-    "existing_file",
-    "qos_overrides",
-    "remap_words",
-]
-
 STORAGES = ("mcap", "sqlite3")
 
 LOG_LEVEL = argument(

@@ -6,13 +6,6 @@ from dataclasses import dataclass
 
 from rosbag2_transport.options import NumberedEnum
 
-__all__ = [
-    "CompressionMode",
-    "CompressionOptions",
-    "compression_mode_from_string",
-    "compression_mode_to_string",
-]
-
 
 class CompressionMode(NumberedEnum):
     """The unit of compression."""

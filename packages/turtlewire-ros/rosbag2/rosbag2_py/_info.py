@@ -9,8 +9,6 @@ from rosbag2_py._storage import folder_size, from_engine
 from turtlewire.bag import Bag, open_bag
 from turtlewire.errors import BagError
 
-__all__ = ["Info", "service_counts"]
-
 _REQUEST_SENT, _REQUEST_RECEIVED, _RESPONSE_SENT, _RESPONSE_RECEIVED = range(4)
 
 

@@ -7,8 +7,6 @@ from turtlewire.bag.definitions import ENCODING, definition_text
 from turtlewire.errors import InterfaceError
 from turtlewire.msg import type_hash
 
-__all__ = ["LocalMessageDefinitionSource"]
-
 
 class LocalMessageDefinitionSource:
     """Finds the definitions that bags carry."""

@@ -19,17 +19,6 @@ if TYPE_CHECKING:
 
     from rclpy.qos import QoSProfile
 
-__all__ = [
-    "BagMetadata",
-    "FileInformation",
-    "TopicInformation",
-    "TopicMetadata",
-    "action_of",
-    "info",
-    "is_service_event",
-    "service_of",
-]
-
 _EVENT_TOPIC, _EVENT_TYPE = "/_service_event", "_Event"
 _LABEL_WIDTH, _SERVICE_WIDTH = 19, 21
 

@@ -15,8 +15,6 @@ from turtlewire.errors import BagError
 if TYPE_CHECKING:
     from rosbag2_py._storage import StorageOptions
 
-__all__ = ["PRESETS", "make_writer"]
-
 # rosbag2's limits in bytes.
 _SMALLEST_SPLIT = {"mcap": 1024, "sqlite3": 86_016}
 

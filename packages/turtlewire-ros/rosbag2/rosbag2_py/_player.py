@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from rosbag2_py._storage import StorageOptions
     from rosbag2_transport.player import BagPlayer
 
-__all__ = ["Player"]
-
 
 class Player:
     """Plays bags.

@@ -31,8 +31,6 @@ if TYPE_CHECKING:
     from rosbag2_py._metadata import BagMetadata, TopicMetadata
     from turtlewire.bag import BagMessage, TopicInfo
 
-__all__ = ["SequentialCompressionReader", "SequentialReader", "get_registered_readers"]
-
 _FOREVER = (1 << 64) - 1
 
 

@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from rosbag2_py._storage import StorageOptions
     from rosbag2_transport.recorder import BagRecorder
 
-__all__ = ["Recorder", "compression_mode_of"]
-
 _Stop = queue.SimpleQueue[None]
 
 

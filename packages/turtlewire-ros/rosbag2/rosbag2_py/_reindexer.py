@@ -13,8 +13,6 @@ from turtlewire.terminal.printable import printable
 if TYPE_CHECKING:
     from rosbag2_py._storage import StorageOptions
 
-__all__ = ["Reindexer"]
-
 
 class Reindexer:
     """Repairs bags whose recorder was killed."""

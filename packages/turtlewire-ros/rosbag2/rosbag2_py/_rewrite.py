@@ -24,8 +24,6 @@ from turtlewire.terminal.suggestion import did_you_mean
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["bag_rewrite", "input_bags"]
-
 _EXAMPLES = {
     "input_bags": """
 Such a file is, for example:

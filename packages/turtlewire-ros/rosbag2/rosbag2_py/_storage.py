@@ -24,25 +24,6 @@ from turtlewire.errors import BagError
 if TYPE_CHECKING:
     from turtlewire.wire.qos import QoS
 
-__all__ = [
-    "ConverterOptions",
-    "MessageDefinition",
-    "MetadataIo",
-    "ReadOrder",
-    "ReadOrderSortBy",
-    "StorageFilter",
-    "StorageOptions",
-    "check_format",
-    "convert_rclcpp_qos_to_rclpy_qos",
-    "folder_size",
-    "from_engine",
-    "get_default_storage_id",
-    "profile_of",
-    "to_engine",
-    "to_rclcpp_qos_vector",
-    "topic_of",
-]
-
 
 def get_default_storage_id() -> str:
     """Return the storage of new bags: ``mcap``."""

@@ -14,14 +14,6 @@ if TYPE_CHECKING:
     from rosbag2_py._storage import ConverterOptions, StorageOptions
     from turtlewire.bag import BagWriter
 
-__all__ = [
-    "SequentialCompressionWriter",
-    "SequentialWriter",
-    "get_registered_compressors",
-    "get_registered_serializers",
-    "get_registered_writers",
-]
-
 
 def get_registered_writers() -> set[str]:
     """Return the storages that can be written."""

@@ -5,8 +5,6 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-__all__ = ["ACTION_PARTS", "ActionTopic", "action_topic"]
-
 #: Parts of an action in the order of ``ros2 bag info``.
 ACTION_PARTS = ("feedback", "status", "send_goal", "cancel_goal", "get_result")
 

@@ -11,8 +11,6 @@ if TYPE_CHECKING:
     from rosbag2_transport.played_bags import PlayedBags
     from turtlewire.bag import BagMessage
 
-__all__ = ["Latched"]
-
 #: A bag of sqlite3 does not say when a message was sent. What a recorder receives within this
 #: time of its start was sent before.
 _SQLITE_NS = 1_000_000_000

@@ -13,8 +13,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
 
-__all__ = ["MessageOrder", "NumberedEnum", "PlayOptions", "RecordOptions", "ServiceRequestsSource"]
-
 
 class NumberedEnum(enum.Enum):
     """An enum that ``int()`` takes, as the C++ classes are in ROS 2."""

@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 
     from rosbag2_transport.options import PlayOptions
 
-__all__ = ["burst", "play", "served_player"]
-
 _RATE_STEP = 0.1
 _SECOND = 1_000_000_000
 _KEYS = (

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from rosbag2_transport.options import PlayOptions
     from rosbag2_transport.played_bags import PlayedBags
 
-__all__ = ["mistakes", "played_topics"]
-
 _SECOND = 1_000_000_000
 
 

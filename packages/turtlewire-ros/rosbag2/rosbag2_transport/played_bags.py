@@ -15,8 +15,6 @@ if TYPE_CHECKING:
 
     from turtlewire.bag import BagMessage, TopicInfo
 
-__all__ = ["PlayedBags"]
-
 
 class PlayedBags:
     """Bags whose messages are played in one order. Not thread-safe, as a `Bag`.

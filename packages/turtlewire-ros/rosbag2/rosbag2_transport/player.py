@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     from rosbag2_transport.options import PlayOptions
     from turtlewire.bag import BagMessage
 
-__all__ = ["BagPlayer"]
-
 _SECOND = 1_000_000_000
 _FOREVER = 1 << 62
 #: How long the end waits for reliable subscriptions, unless the options say otherwise.

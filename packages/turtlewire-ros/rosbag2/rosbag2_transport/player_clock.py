@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from rosbag2_transport.player import BagPlayer
     from turtlewire.bag import BagMessage
 
-__all__ = ["ClockPublisher"]
-
 
 class ClockPublisher:
     """Publishes at a frequency, with messages, or both; a context manager.

@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from turtlewire.bag import BagMessage, TopicInfo
     from turtlewire.wire.base import Client, Publisher
 
-__all__ = ["PlayerOutputs", "publisher_qos"]
-
 #: How long a playback waits at its start for existing subscriptions.
 _MATCHING_NS = 2_000_000_000
 

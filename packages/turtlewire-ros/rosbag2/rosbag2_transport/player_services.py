@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from rosbag2_transport.player import BagPlayer
     from turtlewire.bag import BagMessage
 
-__all__ = ["PlayerServices"]
-
 
 class PlayerServices:
     """Answers on the node's executor.

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-__all__ = ["ProgressLine", "time_text"]
-
 _REDRAW_SECONDS = 0.5
 _FASTEST_HZ = 30
 _COLUMNS = 80

@@ -19,8 +19,6 @@ from turtlewire.terminal.suggestion import did_you_mean
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["qos_profile", "read_qos_overrides"]
-
 _POLICIES = {
     "history": HistoryPolicy,
     "reliability": ReliabilityPolicy,

@@ -28,8 +28,6 @@ if TYPE_CHECKING:
     from rosbag2_transport.options import RecordOptions
     from turtlewire.bag.writer import BagWriter
 
-__all__ = ["record"]
-
 
 def record(
     make_writer: Callable[[], BagWriter],

@@ -29,8 +29,6 @@ if TYPE_CHECKING:
     from turtlewire.wire.base import EndpointInfo, Entity
     from turtlewire.wire.qos import QoS
 
-__all__ = ["BagRecorder"]
-
 #: How long the first look at the graph may wait for it to be complete.
 _DISCOVERY_NS = 1_000_000_000
 _BATCH = 1000

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from rosbag2_transport.options import RecordOptions
     from turtlewire.wire.base import Graph
 
-__all__ = ["missing"]
-
 
 def missing(options: RecordOptions, graph: Graph, recorded: Collection[str]) -> Iterator[str]:
     """Yield one text for each topic, service, type or pattern without a recorded topic.

@@ -10,8 +10,6 @@ from turtlewire.wire.qos import Durability, History, QoS, Reliability
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-__all__ = ["misses", "refusal", "subscription_qos"]
-
 #: How many messages of a topic may wait for the recorder. rosbag2 takes rmw's default of 10, which
 #: loses messages of a fast topic when the computer is busy for a moment; peers do not see it.
 _DEPTH = 10_000

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from rosbag2_transport.recorder import BagRecorder
     from turtlewire.bag.recording import Recording
 
-__all__ = ["RecorderServices"]
-
 
 class RecorderServices:
     """Answers on the node's executor.

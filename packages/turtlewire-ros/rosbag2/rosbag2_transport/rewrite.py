@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from rosbag2_transport.options import RecordOptions
     from turtlewire.bag import Bag, BagMessage, BagWriter
 
-__all__ = ["Output", "rewrite"]
-
 
 @dataclass
 class Output:

@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-__all__ = ["BagSession", "handle_keys", "stopped_by_signals"]
-
 _NO_TERMINAL = "stdin is not a terminal device. Keyboard handling disabled."
 _ESCAPE = b"\x1b"
 

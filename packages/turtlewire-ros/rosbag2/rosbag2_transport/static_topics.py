@@ -6,8 +6,6 @@ from turtlewire.bag.qos_yaml import load_yaml
 from turtlewire.errors import BagError
 from turtlewire.wire.names import validate_full_topic_name
 
-__all__ = ["read_static_topics"]
-
 _KEY = "static_topics_and_types_list"
 _EXAMPLE = f"""
 Such a file is, for example:

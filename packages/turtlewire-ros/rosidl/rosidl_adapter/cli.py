@@ -14,14 +14,6 @@ from rosidl_adapter.srv import convert_srv_to_idl
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-__all__ = [
-    "TranslateActionToIDL",
-    "TranslateMsgToIDL",
-    "TranslateSrvToIDL",
-    "TranslateToIDL",
-    "convert_files_to_idl",
-]
-
 
 class TranslateToIDL:
     """Converts files of one kind of a package, for a build; base of the classes for each kind.

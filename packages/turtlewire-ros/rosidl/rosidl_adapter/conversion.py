@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import pathlib
 
-__all__ = ["convert"]
-
 
 def convert(
     kind: str,

@@ -19,17 +19,6 @@ if TYPE_CHECKING:
 
     from rosidl_adapter.parser import Constant, Field
 
-__all__ = [
-    "MSG_TYPE_TO_IDL",
-    "get_idl_type",
-    "get_include_file",
-    "idl_text",
-    "interface_to_idl",
-    "string_to_idl_string_literal",
-    "string_to_idl_wstring_literal",
-    "to_idl_literal",
-]
-
 MSG_TYPE_TO_IDL = {
     "bool": "boolean",
     "byte": "octet",

@@ -9,8 +9,6 @@ import sys
 
 from rosidl_adapter import convert_to_idl
 
-__all__ = ["main"]
-
 
 def main(argv: list[str] = sys.argv[1:]) -> None:
     """Convert the files in ``--arguments-file``, and list the results in ``--output-file``.

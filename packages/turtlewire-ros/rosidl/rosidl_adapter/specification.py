@@ -10,29 +10,6 @@ from turtlewire.msg import parser
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = [
-    "PRIMITIVE_TYPES",
-    "ActionSpecification",
-    "BaseType",
-    "Constant",
-    "Field",
-    "InvalidActionSpecification",
-    "InvalidFieldDefinition",
-    "InvalidResourceName",
-    "InvalidServiceSpecification",
-    "InvalidSpecification",
-    "InvalidValue",
-    "MessageSpecification",
-    "ServiceSpecification",
-    "Type",
-    "UnknownMessageType",
-    "is_valid_constant_name",
-    "is_valid_field_name",
-    "is_valid_message_name",
-    "is_valid_package_name",
-    "parse_value_string",
-]
-
 PRIMITIVE_TYPES = [
     *("bool", "byte", "char", "float32", "float64", "int8", "uint8", "int16", "uint16"),
     *("int32", "uint32", "int64", "uint64", "string", "wstring", "duration", "time"),

@@ -5,8 +5,6 @@ from __future__ import annotations
 import pathlib
 from typing import Any, TypeVar
 
-__all__ = ["IdlContent", "IdlFile", "IdlLocator", "Include"]
-
 _Element = TypeVar("_Element")
 
 

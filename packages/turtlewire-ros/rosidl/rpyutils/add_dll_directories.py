@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["add_dll_directories_from_env"]
-
 
 @contextlib.contextmanager
 def add_dll_directories_from_env(env_name: str) -> Iterator[None]:

@@ -11,8 +11,6 @@ from rpyutils.add_dll_directories import add_dll_directories_from_env
 if TYPE_CHECKING:
     from types import ModuleType
 
-__all__ = ["import_c_library"]
-
 _HELP = "https://docs.ros.org/en/jazzy/How-To-Guides/Installation-Troubleshooting.html"
 
 

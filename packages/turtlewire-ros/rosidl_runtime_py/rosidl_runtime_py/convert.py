@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from turtlewire.msg import Message
     from turtlewire.msg.types import AbstractType
 
-__all__ = ["get_message_slot_types", "message_to_csv", "message_to_ordereddict", "message_to_yaml"]
-
 _ELLIPSIS = "..."
 
 

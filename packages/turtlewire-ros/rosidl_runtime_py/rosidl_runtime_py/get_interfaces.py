@@ -11,15 +11,6 @@ from turtlewire.msg.registry import interface_path
 if TYPE_CHECKING:
     from collections.abc import Collection
 
-__all__ = [
-    "get_action_interfaces",
-    "get_interface_packages",
-    "get_interface_path",
-    "get_interfaces",
-    "get_message_interfaces",
-    "get_service_interfaces",
-]
-
 _KINDS = ("msg", "srv", "action")
 
 

@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from turtlewire.msg.types import NamespacedType
 
-__all__ = ["import_message_from_namespaced_type"]
-
 
 def import_message_from_namespaced_type(message_type: NamespacedType) -> Any:
     """Return the class of an interface.

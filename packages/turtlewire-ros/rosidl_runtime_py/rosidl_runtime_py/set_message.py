@@ -12,8 +12,6 @@ from turtlewire.msg.types import AbstractNestedType, AbstractSequence, BasicType
 if TYPE_CHECKING:
     from turtlewire.msg.types import AbstractType
 
-__all__ = ["set_message_fields"]
-
 _HEADER = "std_msgs/msg/Header"
 _TIME = "builtin_interfaces/msg/Time"
 

@@ -8,20 +8,6 @@ from rosidl_runtime_py.import_message import import_message_from_namespaced_type
 from turtlewire.msg import Action, Message, Service
 from turtlewire.msg.types import NamespacedType
 
-__all__ = [
-    "get_action",
-    "get_action_namespaced_type",
-    "get_interface",
-    "get_message",
-    "get_message_namespaced_type",
-    "get_namespaced_type",
-    "get_service",
-    "get_service_namespaced_type",
-    "is_action",
-    "is_message",
-    "is_service",
-]
-
 
 def get_namespaced_type(identifier: str) -> NamespacedType:
     """Return the type of a name like ``geometry_msgs/msg/Twist``.

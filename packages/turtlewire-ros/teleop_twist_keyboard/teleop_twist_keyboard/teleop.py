@@ -25,8 +25,6 @@ from turtlewire.terminal.keyboard import (
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["BANNER", "TeleopTwistKeyboard", "main"]
-
 BANNER = """
 This node takes keypresses from the keyboard and publishes them
 as Twist/TwistStamped messages. It works best with a US keyboard layout.

@@ -12,8 +12,6 @@ from rclpy.qos import qos_profile_parameter_events
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["CppNode"]
-
 # What rclcpp declares for its publisher of parameter events.
 _QOS_OVERRIDES = {
     "depth": 1000,

@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 
     from turtlesim.model import Pen, Turtle
 
-__all__ = ["Crowd", "CrowdTick"]
-
 
 class CrowdTick(NamedTuple):
     """The results of one tick of a crowd.

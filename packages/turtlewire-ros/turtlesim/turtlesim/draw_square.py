@@ -17,20 +17,6 @@ from turtlesim.msg import Pose
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = [
-    "FORWARD_SPEED",
-    "HEADING_TOLERANCE",
-    "PERIOD_S",
-    "POSITION_TOLERANCE",
-    "SIDE",
-    "STOPPED",
-    "TURNING_SPEED",
-    "DrawSquare",
-    "SquareGoal",
-    "SquarePlan",
-    "main",
-]
-
 # All numbers are the original's.
 SIDE = 2.0
 FORWARD_SPEED = 1.0

@@ -10,8 +10,6 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from turtlesim.model import Stroke
 
-__all__ = ["RECORD_SIZE", "StrokeHistory"]
-
 #: One line on its way to the browser: colour and width as 0xRRGGBBWW, then x0, y0, x1, y1 in pixels
 #: of the 500 x 500 image.
 _RECORD = struct.Struct("<I4f")

@@ -10,8 +10,6 @@ from functools import lru_cache
 
 from turtlesim.model import DEFAULT_PEN, Pen
 
-__all__ = ["look_of", "shown_pen"]
-
 #: The shells of ``page/js/looks.js``, lightened with the default pen.
 _TINTS = (
     (0x72, 0xC3, 0xB0),

@@ -12,8 +12,6 @@ from rclpy.node import Node
 from turtlesim.msg import Pose
 from turtlesim.turtle_endpoints import QUEUE_DEPTH
 
-__all__ = ["MimicNode", "main"]
-
 
 class MimicNode(Node):
     """Sends the velocities of one turtle to another; remap the two topics to choose them."""

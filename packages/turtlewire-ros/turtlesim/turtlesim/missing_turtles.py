@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from rclpy.node import Node
     from turtlewire.wire.base import EndpointInfo
 
-__all__ = ["MissingTurtles", "find_missing"]
-
 #: How long a turtle must be missing before the first hint: most programs spawn theirs right after
 #: they start [s].
 _PATIENCE_S = 2.0

@@ -10,8 +10,6 @@ from rclpy.utilities import remove_ros_args
 from turtlewire.terminal.printable import printable
 from turtlewire.terminal.suggestion import did_you_mean
 
-__all__ = ["check_port", "parse_options"]
-
 
 def parse_options(args: list[str]) -> argparse.Namespace:
     """Return the options outside of ``--ros-args``.

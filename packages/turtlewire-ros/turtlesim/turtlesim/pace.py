@@ -12,8 +12,6 @@ if TYPE_CHECKING:
 
     from turtlesim.model import Turtle
 
-__all__ = ["FASTEST", "Pace", "hold"]
-
 #: The highest speed that can be set.
 FASTEST = 1000.0
 

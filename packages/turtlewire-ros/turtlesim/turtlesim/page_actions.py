@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from rclpy.task import Future
     from turtlesim.model import World
 
-__all__ = ["PageActions", "Simulator"]
-
 
 class Simulator(Protocol):
     """The objects that pages can change."""

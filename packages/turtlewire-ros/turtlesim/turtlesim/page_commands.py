@@ -6,24 +6,6 @@ from typing import Annotated, NamedTuple
 
 from turtlewire.web.commands import Between, CommandReader
 
-__all__ = [
-    "READER",
-    "Background",
-    "Cancel",
-    "Clear",
-    "Command",
-    "Drive",
-    "Kill",
-    "PenChange",
-    "Reset",
-    "Rotate",
-    "Spawn",
-    "Speed",
-    "Teleport",
-    "Unwatch",
-    "Watch",
-]
-
 _Byte = Annotated[int, Between(0, 255)]
 
 

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-__all__ = ["EMPTY_COLOUR", "PathImage"]
-
 #: The colour sensor's value where no pen has drawn, for every colour of the background.
 EMPTY_COLOUR = (255, 255, 255)
 #: How many strokes are kept after a tick; only a swarm has more.

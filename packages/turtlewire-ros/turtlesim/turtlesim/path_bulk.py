@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 
     from turtlesim.model import Stroke
 
-__all__ = ["MAX_EXTENT", "as_arrays", "draw_short_lines"]
-
 #: Longest extent of a line with its pen [pixels]; every line costs the square of the longest one's.
 MAX_EXTENT = 10
 

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-__all__ = ["boundary", "corners", "crossing", "length_of"]
-
 #: A float, or an array of them.
 _Number = TypeVar("_Number", float, "NDArray[np.float64]")
 

@@ -19,21 +19,6 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-__all__ = [
-    "COMMAND_LIFETIME_NS",
-    "FIELD_SIZE",
-    "IMAGE_SIZE",
-    "PIXELS_PER_METRE",
-    "TICK_NS",
-    "clamp",
-    "float32",
-    "move",
-    "normalize_angle",
-    "pixel_of",
-    "published",
-    "turn",
-]
-
 #: A float, or an array of them.
 _Number = TypeVar("_Number", float, "NDArray[np.float64]")
 #: A function of the numbers' type: Python's or NumPy's.

@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from turtlesim.crowd import CrowdTick
     from turtlesim.model import Stroke, Turtle, TurtleTick
 
-__all__ = ["FieldPicture", "Scene", "pen_of"]
-
 
 class Scene(NamedTuple):
     """The part of the picture that changes rarely.

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from rclpy.node import Node
     from turtlesim.model import Rotation, Turtle
 
-__all__ = ["RotateAction"]
-
 
 class _Goal:
     """A goal, its rotation, and the future that its execution awaits."""

@@ -28,8 +28,6 @@ if TYPE_CHECKING:
     from turtlesim.picture import Scene
     from turtlesim.transform_view import TransformView
 
-__all__ = ["Screen"]
-
 _PAGE = Path(__file__).parent / "page"
 #: With a crowd, a page gets every second tick and interpolates: drawing takes its time.
 _CROWD_TICKS = 2

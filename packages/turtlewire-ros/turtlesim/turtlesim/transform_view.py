@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 
     from turtlewire.wire import base
 
-__all__ = ["MOST_AXES", "Frame", "TransformView", "field_frames"]
-
 #: How many frames are drawn on the field.
 MOST_AXES = 40
 #: Hidden in `ros2 node list`, as names that begin with an underscore are.

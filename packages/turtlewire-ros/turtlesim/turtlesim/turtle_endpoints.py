@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from turtlesim.model import Turtle, TurtleTick
     from turtlesim.path import PathImage
 
-__all__ = ["QUEUE_DEPTH", "TurtleEndpoints", "are_finite"]
-
 #: History depth of all topics of a turtle; reliable and volatile, as a mere depth says.
 QUEUE_DEPTH = 7
 #: Commands must fit into single precision, in which velocities are published.

@@ -26,8 +26,6 @@ from turtlewire.terminal.keyboard import (
 if TYPE_CHECKING:
     from rclpy.task import Future
 
-__all__ = ["BANNER", "NO_TERMINAL", "NO_TERMINAL_HINT", "TeleopTurtle", "main"]
-
 BANNER = """\
 Reading from keyboard
 ---------------------------

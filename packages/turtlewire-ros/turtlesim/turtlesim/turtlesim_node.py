@@ -32,8 +32,6 @@ if TYPE_CHECKING:
     from turtlesim.model import Pen, Turtle, TurtlePose
     from turtlesim.screen import Screen
 
-__all__ = ["TurtlesimNode", "main"]
-
 #: From this number of turtles on, moving them together pays for loading NumPy.
 _CROWD = 100
 _BACKGROUND = {"r": ("Red", 0x45), "g": ("Green", 0x56), "b": ("Blue", 0xFF)}

@@ -16,8 +16,6 @@ from rclpy.node import Node
 from rclpy.task import Future
 from std_msgs.msg import String
 
-__all__ = ["MatchedEventDetectNode", "MultiEndpointNode", "main"]
-
 _PUBLISHED, _SUBSCRIBED = "pub_topic_matched_event_detect", "sub_topic_matched_event_detect"
 
 

@@ -12,8 +12,6 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from std_msgs.msg import String
 
-__all__ = ["LoggerServiceNode", "TestNode", "main"]
-
 _LEVELS = {
     "debug": LoggerLevel.LOG_LEVEL_DEBUG,
     "info": LoggerLevel.LOG_LEVEL_INFO,

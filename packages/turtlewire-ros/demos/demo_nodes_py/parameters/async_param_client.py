@@ -14,8 +14,6 @@ from rclpy.parameter_client import AsyncParameterClient
 if TYPE_CHECKING:
     from rclpy.node import Node
 
-__all__ = ["main"]
-
 _PATIENCE = 3.0  # seconds
 
 

@@ -15,8 +15,6 @@ from rclpy.parameter import Parameter
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["SetParametersCallback", "main"]
-
 
 class SetParametersCallback(Node):
     """Sets ``param2`` to 4.0 whenever ``param1`` is set, which must be at most 5.0."""

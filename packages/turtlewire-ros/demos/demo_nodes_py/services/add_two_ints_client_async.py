@@ -8,8 +8,6 @@ import rclpy
 from example_interfaces.srv import AddTwoInts
 from rclpy.executors import ExternalShutdownException
 
-__all__ = ["main"]
-
 
 def main(args: list[str] | None = None) -> None:
     """Wait for the service, ask once and log the answer."""

@@ -6,8 +6,6 @@ from demo_nodes_py.spin import spin
 from example_interfaces.srv import AddTwoInts
 from rclpy.node import Node
 
-__all__ = ["AddTwoIntsServer", "main"]
-
 
 class AddTwoIntsServer(Node):
     """Adds the two integers of each request."""

@@ -11,8 +11,6 @@ from rclpy.service_introspection import ServiceIntrospectionState
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-__all__ = ["check", "state_of"]
-
 _STATES = {
     "disabled": ServiceIntrospectionState.OFF,
     "metadata": ServiceIntrospectionState.METADATA,

@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 
     from rclpy.parameter import Parameter
 
-__all__ = ["IntrospectionClientNode", "main"]
-
 _PARAMETER = "client_configure_introspection"
 
 

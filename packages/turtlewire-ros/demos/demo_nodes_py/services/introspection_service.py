@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 
     from rclpy.parameter import Parameter
 
-__all__ = ["IntrospectionServiceNode", "main"]
-
 _PARAMETER = "service_configure_introspection"
 
 

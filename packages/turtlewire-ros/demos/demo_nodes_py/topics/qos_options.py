@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
     from rclpy.node import Node
 
-__all__ = ["profile", "run_cycles"]
-
 
 def profile(*, reliable: bool) -> QoSProfile:
     """Return a queue of ten messages, reliable or best effort."""

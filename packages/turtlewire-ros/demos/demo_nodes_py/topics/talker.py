@@ -6,8 +6,6 @@ from demo_nodes_py.spin import spin
 from rclpy.node import Node
 from std_msgs.msg import String
 
-__all__ = ["Talker", "main"]
-
 
 class Talker(Node):
     """Publishes a counted greeting every second."""

@@ -6,8 +6,6 @@ from demo_nodes_py.topics.qos_options import profile, run_cycles
 from rclpy.node import Node
 from std_msgs.msg import String
 
-__all__ = ["TalkerQos", "main"]
-
 
 class TalkerQos(Node):
     """Publishes a counted greeting every second.

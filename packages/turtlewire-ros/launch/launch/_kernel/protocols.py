@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 
     from launch.event import Event
 
-__all__ = ["EventHandling", "Performable", "ProcessRunner", "Visitable"]
-
 Context_contra = TypeVar("Context_contra", contravariant=True)
 
 

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from launch._kernel.protocols import EventHandling
     from launch.event import Event
 
-__all__ = ["Run"]
-
 C = TypeVar("C")
 
 

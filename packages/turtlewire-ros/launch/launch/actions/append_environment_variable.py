@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution
 
-__all__ = ["AppendEnvironmentVariable"]
-
 
 @expose_action("append_env")
 class AppendEnvironmentVariable(SetVariableAction):

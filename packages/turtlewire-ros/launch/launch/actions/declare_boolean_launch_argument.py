@@ -11,8 +11,6 @@ if TYPE_CHECKING:
     from launch.frontend import Entity, Parser
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["DeclareBooleanLaunchArgument"]
-
 _CHOICES = ("true", "false", "True", "False", "TRUE", "FALSE")
 
 

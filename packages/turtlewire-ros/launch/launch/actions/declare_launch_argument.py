@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution
 
-__all__ = ["DeclareLaunchArgument"]
-
 
 @expose_action("arg")
 class DeclareLaunchArgument(Action):

@@ -11,8 +11,6 @@ from launch.utilities import ensure_argument_type
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
-__all__ = ["EmitEvent"]
-
 
 class EmitEvent(Action):
     """Emits an event.

@@ -37,8 +37,6 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution
 
-__all__ = ["ExecuteLocal"]
-
 
 class ExecuteLocal(ProcessAction):
     """Runs a process on this machine.

@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution
 
-__all__ = ["ExecuteProcess", "split_command_line"]
-
 # Stands for a substitution while a command line is split; private-use characters occur in no
 # command.
 _PLACEHOLDER = 0xE000

@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution
 
-__all__ = ["ForEach", "ForLoop"]
-
 
 @expose_action("for_each")
 class ForEach(Action):

@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from launch.launch_description_entity import LaunchDescriptionEntity
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["GroupAction"]
-
 
 @expose_action("group")
 class GroupAction(Action):

@@ -17,16 +17,6 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution
 
-__all__ = [
-    "Log",
-    "LogDebug",
-    "LogError",
-    "LogInfo",
-    "LogInterface",
-    "LogWarning",
-    "SharedLogSpecificParse",
-]
-
 #: Names of Python's levels, in the order in which launch lists them.
 _LEVELS = {
     "CRITICAL": 50,

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 
     from launch.launch_context import LaunchContext
 
-__all__ = ["OpaqueCoroutine"]
-
 
 class OpaqueCoroutine(Action):
     """Runs a coroutine on the loop of the launch; it is cancelled when the launch ends.

@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.launch_description_entity import LaunchDescriptionEntity
 
-__all__ = ["OpaqueFunction"]
-
 
 class OpaqueFunction(Action):
     """Calls a function with the context; entities that it returns are visited.

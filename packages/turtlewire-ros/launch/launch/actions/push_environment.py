@@ -11,8 +11,6 @@ if TYPE_CHECKING:
     from launch.frontend import Entity, Parser
     from launch.launch_context import LaunchContext
 
-__all__ = ["PushEnvironment"]
-
 
 @expose_action("push_env")
 class PushEnvironment(Action):

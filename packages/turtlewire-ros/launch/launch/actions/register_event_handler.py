@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.launch_description_entity import LaunchDescriptionEntity
 
-__all__ = ["RegisterEventHandler"]
-
 
 class RegisterEventHandler(Action):
     """Registers an event handler; it comes before the registered ones.

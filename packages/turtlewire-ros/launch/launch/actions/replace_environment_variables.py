@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution
 
-__all__ = ["ReplaceEnvironmentVariables"]
-
 
 @expose_action("rep_env")
 class ReplaceEnvironmentVariables(Action):

@@ -12,8 +12,6 @@ if TYPE_CHECKING:
 
     from launch.launch_context import LaunchContext
 
-__all__ = ["SetEnvironmentVariable"]
-
 
 @expose_action("set_env")
 class SetEnvironmentVariable(SetVariableAction):

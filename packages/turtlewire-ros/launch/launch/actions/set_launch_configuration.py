@@ -12,8 +12,6 @@ if TYPE_CHECKING:
 
     from launch.launch_context import LaunchContext
 
-__all__ = ["SetLaunchConfiguration"]
-
 
 @expose_action("let")
 class SetLaunchConfiguration(SetVariableAction):

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from launch.frontend import Entity, Parser
     from launch.launch_context import LaunchContext
 
-__all__ = ["Shutdown"]
-
 
 @expose_action("shutdown")
 class Shutdown(EmitEvent):

@@ -10,8 +10,6 @@ if TYPE_CHECKING:
     from launch.event_handler import BaseEventHandler
     from launch.launch_context import LaunchContext
 
-__all__ = ["UnregisterEventHandler"]
-
 
 class UnregisterEventHandler(Action):
     """Unregisters an event handler.

@@ -12,8 +12,6 @@ if TYPE_CHECKING:
 
     from launch.launch_context import LaunchContext
 
-__all__ = ["UnsetEnvironmentVariable"]
-
 
 @expose_action("unset_env")
 class UnsetEnvironmentVariable(UnsetVariableAction):

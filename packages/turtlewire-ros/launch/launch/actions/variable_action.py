@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution
 
-__all__ = ["SetVariableAction", "UnsetVariableAction", "VariableAction"]
-
 
 class VariableAction(Action):
     """Base of the actions that change one named text.

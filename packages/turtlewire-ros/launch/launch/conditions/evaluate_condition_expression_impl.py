@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.substitution import Substitution
 
-__all__ = ["VALID_FALSE_EXPRESSIONS", "VALID_TRUE_EXPRESSIONS", "evaluate_condition_expression"]
-
 VALID_TRUE_EXPRESSIONS = ["true", "1"]
 VALID_FALSE_EXPRESSIONS = ["false", "0"]
 

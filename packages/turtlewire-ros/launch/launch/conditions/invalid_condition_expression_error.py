@@ -9,8 +9,6 @@ if TYPE_CHECKING:
 
     from launch.substitution import Substitution
 
-__all__ = ["InvalidConditionExpressionError"]
-
 
 class InvalidConditionExpressionError(Exception):
     """The text of a condition is neither true nor false.

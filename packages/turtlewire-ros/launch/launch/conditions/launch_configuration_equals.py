@@ -11,8 +11,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["LaunchConfigurationEquals"]
-
 
 class LaunchConfigurationEquals(Condition):
     """True when a launch configuration has a value.

@@ -9,8 +9,6 @@ from launch.conditions.launch_configuration_equals import LaunchConfigurationEqu
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
-__all__ = ["LaunchConfigurationNotEquals"]
-
 
 class LaunchConfigurationNotEquals(LaunchConfigurationEquals):
     """True when a launch configuration has another value. Deprecated in ROS 2."""

@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["UnlessCondition"]
-
 
 class UnlessCondition(Condition):
     """True when a text is false.

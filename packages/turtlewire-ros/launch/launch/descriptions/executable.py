@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution
 
-__all__ = ["Executable"]
-
 # As in ROS 2, counted over all launches of this process.
 _process_numbers = itertools.count(1)
 

@@ -9,8 +9,6 @@ if TYPE_CHECKING:
 
     from launch.event import Event
 
-__all__ = ["event_named"]
-
 
 def event_named(name: str) -> Callable[[Event], bool]:
     """A matcher of events whose class has this name, for example ``launch.events.Shutdown``."""

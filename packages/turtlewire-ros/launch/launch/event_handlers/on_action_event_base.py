@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_entities_type import SomeEntitiesType
 
-__all__ = ["OnActionEventBase"]
-
 # Names of classes in ROS 2's texts.
 _ROS_NAMES: dict[type[Action], str] = {ProcessAction: "ExecuteLocal"}
 

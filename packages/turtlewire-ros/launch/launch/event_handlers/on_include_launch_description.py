@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_entities_type import SomeEntitiesType
 
-__all__ = ["OnIncludeLaunchDescription"]
-
 
 class OnIncludeLaunchDescription(EventHandler):
     """Returns the included description, which is then visited.

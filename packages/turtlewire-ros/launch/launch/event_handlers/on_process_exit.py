@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_entities_type import SomeEntitiesType
 
-__all__ = ["OnProcessExit"]
-
 
 class OnProcessExit(OnActionEventBase):
     """Handles the end of a process.

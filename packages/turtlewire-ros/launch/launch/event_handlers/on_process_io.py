@@ -13,8 +13,6 @@ if TYPE_CHECKING:
 
     from launch.some_entities_type import SomeEntitiesType
 
-__all__ = ["OnProcessIO"]
-
 
 class OnProcessIO(OnActionEventBase):
     """Handles what a process writes.

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_entities_type import SomeEntitiesType
 
-__all__ = ["OnShutdown", "gen_handler"]
-
 
 def gen_handler(entities: SomeEntitiesType) -> Callable[[Event, LaunchContext], SomeEntitiesType]:
     """Return a function of event and context that returns fixed entities."""

@@ -9,8 +9,6 @@ from launch.event import Event
 if TYPE_CHECKING:
     from launch.launch_description import LaunchDescription
 
-__all__ = ["IncludeLaunchDescription"]
-
 
 class IncludeLaunchDescription(Event):
     """A request to visit a launch description.

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from launch.event import Event
 
-__all__ = ["Shutdown"]
-
 
 class Shutdown(Event):
     """A request to end the launch.

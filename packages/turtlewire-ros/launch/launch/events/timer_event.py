@@ -9,8 +9,6 @@ from launch.event import Event
 if TYPE_CHECKING:
     from launch.launch_description_entity import LaunchDescriptionEntity
 
-__all__ = ["TimerEvent"]
-
 
 class TimerEvent(Event):
     """The time of a timer is over.

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-__all__ = ["Entity"]
-
 
 class Entity:
     """One element of a launch file; each language has its own class.

@@ -10,15 +10,6 @@ if TYPE_CHECKING:
     from launch.frontend.entity import Entity
     from launch.substitution import Substitution
 
-__all__ = [
-    "action_parse_methods",
-    "expose_action",
-    "expose_substitution",
-    "instantiate_action",
-    "instantiate_substitution",
-    "substitution_parse_methods",
-]
-
 _Exposed = TypeVar("_Exposed")
 
 #: Name of an action to the function that reads it: ``(entity, parser) -> (class, keyword

@@ -17,14 +17,6 @@ from launch.utilities.text import TextSubstitution
 if TYPE_CHECKING:
     from launch.substitution import Substitution
 
-__all__ = [
-    "ExtractSubstitution",
-    "get_grammar_path",
-    "parse_if_substitutions",
-    "parse_substitution",
-    "replace_escaped_characters",
-]
-
 _ESCAPABLE = "$'\"\\"
 
 

@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from launch.launch_description_entity import LaunchDescriptionEntity
     from launch.substitution import Substitution
 
-__all__ = ["InvalidFrontendLaunchFileError", "Parser"]
-
 
 class InvalidFrontendLaunchFileError(InvalidLaunchFileError):
     """No parser can read the file."""

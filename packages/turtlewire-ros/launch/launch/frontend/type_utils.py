@@ -7,14 +7,6 @@ from typing import Any
 
 from launch.frontend.entity import Entity
 
-__all__ = [
-    "check_is_list_entity",
-    "coerce",
-    "get_data_type_from_identifier",
-    "list_item_type",
-    "may_become",
-]
-
 _TRUE = ("yes", "true", "on")
 _FALSE = ("no", "false", "off")
 _SCALARS: dict[str, Any] = {"str": str, "int": int, "float": float, "bool": bool}

@@ -21,8 +21,6 @@ if TYPE_CHECKING:
 
     from launch.launch_description import LaunchDescription
 
-__all__ = ["get_launch_description_from_any_launch_file"]
-
 
 def get_launch_description_from_any_launch_file(
     launch_file_path: str, *, parser: type[Parser] = Parser

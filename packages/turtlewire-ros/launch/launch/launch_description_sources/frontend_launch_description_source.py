@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from launch.launch_description import LaunchDescription
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["FrontendLaunchDescriptionSource"]
-
 
 class FrontendLaunchDescriptionSource(LaunchDescriptionSource):
     """A launch file in XML or YAML.

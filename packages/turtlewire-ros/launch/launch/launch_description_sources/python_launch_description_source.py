@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from launch.launch_description import LaunchDescription
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["PythonLaunchDescriptionSource"]
-
 
 class PythonLaunchDescriptionSource(LaunchDescriptionSource):
     """A launch file in Python.

@@ -13,12 +13,6 @@ if TYPE_CHECKING:
 
     from launch.launch_description import LaunchDescription
 
-__all__ = [
-    "InvalidPythonLaunchFileError",
-    "get_launch_description_from_python_launch_file",
-    "load_python_launch_file_as_module",
-]
-
 
 class InvalidPythonLaunchFileError(Exception):
     """A Python file that defines no launch description."""

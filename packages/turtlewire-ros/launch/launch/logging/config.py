@@ -15,15 +15,6 @@ from launch.logging.directory import default_log_dir, make_launch_log_dir
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = [
-    "LaunchConfig",
-    "get_logger",
-    "get_output_loggers",
-    "launch_config",
-    "log_launch_config",
-    "reset",
-]
-
 _Style = Literal["%", "{", "$"]
 #: Name of the main log file, unless a launch chooses another.
 _MAIN_LOG_FILE = "launch.log"

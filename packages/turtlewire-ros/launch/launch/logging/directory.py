@@ -8,8 +8,6 @@ import socket
 import time
 from pathlib import Path
 
-__all__ = ["default_log_dir", "make_launch_log_dir"]
-
 
 def default_log_dir() -> str:
     """Return the parent of launch folders: ``ROS_LOG_DIR``, ``$ROS_HOME/log``, ``~/.ros/log``."""

@@ -11,8 +11,6 @@ import logging
 import logging.handlers
 from typing import Any, TypeVar
 
-__all__ = ["with_per_logger_formatting"]
-
 _Handler = TypeVar("_Handler", bound=logging.Handler)
 
 

@@ -17,17 +17,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = [
-    "AllSubstitution",
-    "AndSubstitution",
-    "AnySubstitution",
-    "ContainerSubstitution",
-    "LeftRightLogicalSubstitution",
-    "NotSubstitution",
-    "OrSubstitution",
-    "as_bool",
-]
-
 
 def as_bool(context: LaunchContext, expression: Iterable[Substitution]) -> bool:
     """Read an expression as true or false, by YAML's rules: ``yes`` and ``on`` are true.

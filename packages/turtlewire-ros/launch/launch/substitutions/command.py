@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["Command"]
-
 
 @expose_substitution("command")
 class Command(Substitution):

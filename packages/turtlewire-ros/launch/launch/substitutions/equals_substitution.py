@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 
     from launch.launch_context import LaunchContext
 
-__all__ = ["EqualsSubstitution"]
-
 
 @expose_substitution("equals")
 class EqualsSubstitution(Substitution):

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["FileContent"]
-
 
 @expose_substitution("file-content")
 class FileContent(Substitution):

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["ForEachVar", "ForLoopIndex"]
-
 
 @expose_substitution("for-var")
 class ForEachVar(Substitution):

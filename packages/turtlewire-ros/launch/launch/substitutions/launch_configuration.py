@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["LaunchConfiguration"]
-
 
 @expose_substitution("var")
 class LaunchConfiguration(Substitution):

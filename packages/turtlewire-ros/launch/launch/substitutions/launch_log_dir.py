@@ -13,8 +13,6 @@ if TYPE_CHECKING:
 
     from launch.launch_context import LaunchContext
 
-__all__ = ["LaunchLogDir"]
-
 
 @expose_substitution("launch_log_dir")
 @expose_substitution("log_dir")

@@ -10,8 +10,6 @@ from launch.substitutions.substitution_failure import SubstitutionFailure
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
-__all__ = ["LocalSubstitution"]
-
 
 class LocalSubstitution(Substitution):
     """A value of the current event, for example ``LocalSubstitution("event.reason")``.

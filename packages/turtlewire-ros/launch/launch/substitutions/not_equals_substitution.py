@@ -10,8 +10,6 @@ from launch.substitutions.equals_substitution import EqualsSubstitution
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
-__all__ = ["NotEqualsSubstitution"]
-
 
 @expose_substitution("not-equals")
 class NotEqualsSubstitution(EqualsSubstitution):

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["PathJoinSubstitution", "PathSubstitution"]
-
 
 @expose_substitution("path-join")
 class PathJoinSubstitution(Substitution):

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["PythonExpression"]
-
 
 @expose_substitution("eval")
 class PythonExpression(Substitution):

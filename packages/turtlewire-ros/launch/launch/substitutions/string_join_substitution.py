@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["StringJoinSubstitution"]
-
 
 @expose_substitution("string-join")
 class StringJoinSubstitution(Substitution):

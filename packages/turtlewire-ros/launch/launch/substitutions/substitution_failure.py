@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-__all__ = ["SubstitutionFailure"]
-
 
 class SubstitutionFailure(RuntimeError):
     """A substitution has no text here; the message says why.

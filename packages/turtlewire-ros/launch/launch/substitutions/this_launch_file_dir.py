@@ -13,8 +13,6 @@ if TYPE_CHECKING:
 
     from launch.launch_context import LaunchContext
 
-__all__ = ["ThisLaunchFileDir"]
-
 
 @expose_substitution("dirname")
 class ThisLaunchFileDir(PathSubstitution):

@@ -5,8 +5,6 @@ from __future__ import annotations
 import inspect
 from typing import Any, TypeGuard, TypeVar
 
-__all__ = ["is_a", "is_a_subclass", "isclassinstance"]
-
 _T = TypeVar("_T")
 
 

@@ -9,8 +9,6 @@ if TYPE_CHECKING:
 
     from launch.launch_argument import LaunchArgument
 
-__all__ = ["describe_arguments", "parse_arguments"]
-
 
 def parse_arguments(words: Iterable[str]) -> list[tuple[str, str]]:
     """Return the ``name:=value`` pairs, the last one of each name.

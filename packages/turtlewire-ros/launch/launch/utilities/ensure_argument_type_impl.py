@@ -6,8 +6,6 @@ from typing import Any
 
 from launch.utilities.class_tools_impl import is_a_subclass
 
-__all__ = ["ensure_argument_type"]
-
 
 def ensure_argument_type(
     argument: Any,

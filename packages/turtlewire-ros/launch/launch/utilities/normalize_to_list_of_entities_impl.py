@@ -7,8 +7,6 @@ from typing import Any
 
 from launch.launch_description_entity import LaunchDescriptionEntity
 
-__all__ = ["normalize_to_list_of_entities"]
-
 
 def normalize_to_list_of_entities(
     entities: LaunchDescriptionEntity | Iterable[Any],

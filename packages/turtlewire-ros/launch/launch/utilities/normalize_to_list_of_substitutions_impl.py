@@ -11,8 +11,6 @@ from launch.utilities.text import TextSubstitution
 if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["normalize_to_list_of_substitutions"]
-
 
 def normalize_to_list_of_substitutions(subs: SomeSubstitutionsType) -> list[Substitution]:
     """Return text, a path, a substitution or several of them as a list of substitutions.

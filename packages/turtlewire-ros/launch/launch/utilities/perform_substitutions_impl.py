@@ -10,8 +10,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.substitution import Substitution
 
-__all__ = ["perform_substitutions"]
-
 
 def perform_substitutions(context: LaunchContext, subs: Iterable[Substitution]) -> str:
     """Return the joined texts of the substitutions."""

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-__all__ = ["MODULE_NAME", "raised_in"]
-
 #: Name under which Python launch files are run.
 MODULE_NAME = "python_launch_file"
 

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-__all__ = ["AsyncSafeSignalManager"]
-
 
 class AsyncSafeSignalManager:
     """Calls handlers of signals in a loop, where they may do anything; a context manager.

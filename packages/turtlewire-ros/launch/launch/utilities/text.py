@@ -9,8 +9,6 @@ from launch.substitution import Substitution
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
-__all__ = ["TextSubstitution"]
-
 
 class TextSubstitution(Substitution):
     """Plain text.

@@ -14,24 +14,6 @@ from launch.utilities.perform_substitutions_impl import perform_substitutions
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
-__all__ = [
-    "AllowedTypesTuple",
-    "ListTypesTuple",
-    "ScalarTypesTuple",
-    "coerce_list",
-    "coerce_to_type",
-    "extract_type",
-    "get_typed_value",
-    "is_instance_of",
-    "is_instance_of_valid_type",
-    "is_normalized_substitution",
-    "is_substitution",
-    "is_typing_list",
-    "is_valid_scalar_type",
-    "normalize_typed_substitution",
-    "perform_typed_substitution",
-]
-
 ScalarTypesTuple = (int, float, bool, str)
 ListTypesTuple = (
     list[int],

@@ -10,8 +10,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.launch_description_entity import LaunchDescriptionEntity
 
-__all__ = ["visit_all_entities_and_collect_futures"]
-
 
 def visit_all_entities_and_collect_futures(
     entity: LaunchDescriptionEntity, context: LaunchContext

@@ -23,22 +23,6 @@ if TYPE_CHECKING:
 
     Validate = Callable[[str], Any]
 
-__all__ = [
-    "assert_output",
-    "assert_output_sync",
-    "assert_stderr",
-    "assert_stderr_sync",
-    "register_event_handler",
-    "wait_for_exit",
-    "wait_for_exit_sync",
-    "wait_for_output",
-    "wait_for_output_sync",
-    "wait_for_start",
-    "wait_for_start_sync",
-    "wait_for_stderr",
-    "wait_for_stderr_sync",
-]
-
 
 @contextlib.contextmanager
 def register_event_handler(

@@ -6,8 +6,6 @@ from typing import Any
 
 from launch_testing.actions.test import Test
 
-__all__ = ["GTest"]
-
 
 class GTest(Test):
     """Runs a test program of GoogleTest.

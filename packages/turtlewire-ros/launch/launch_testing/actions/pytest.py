@@ -7,8 +7,6 @@ from typing import Any
 
 from launch_testing.actions.test import Test
 
-__all__ = ["PyTest"]
-
 
 class PyTest(Test):
     """Runs tests of pytest in a separate process.

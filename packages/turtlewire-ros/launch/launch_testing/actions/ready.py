@@ -11,8 +11,6 @@ if TYPE_CHECKING:
 
     from launch import LaunchContext
 
-__all__ = ["ReadyToTest"]
-
 
 class ReadyToTest(Action):
     """Lets the tests begin as soon as it is visited; each description of a test needs one."""

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from launch import LaunchContext
     from launch.launch_description_entity import LaunchDescriptionEntity
 
-__all__ = ["Test"]
-
 
 class Test(ExecuteProcess):
     """Runs a test program, for a limited time.

@@ -12,16 +12,6 @@ if TYPE_CHECKING:
 
     from launch_testing.proc_info_handler import ActiveProcInfoHandler, ProcInfoHandler
 
-__all__ = [
-    "EXIT_FORCED",
-    "EXIT_OK",
-    "EXIT_SIGINT",
-    "EXIT_SIGKILL",
-    "EXIT_SIGQUIT",
-    "EXIT_SIGSEGV",
-    "assertExitCodes",
-]
-
 __unittest = True  # unittest leaves this module out of the tracebacks of failures
 
 # ROS 2's numbers: a signal's number plus 128, as a shell reports it.

@@ -10,8 +10,6 @@ from launch_testing.util.proc_lookup import resolveProcesses
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-__all__ = ["SequentialTextChecker", "assertSequentialStdout"]
-
 __unittest = True  # unittest leaves this module out of the tracebacks of failures
 
 

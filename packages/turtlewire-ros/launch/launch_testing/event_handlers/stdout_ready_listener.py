@@ -10,8 +10,6 @@ if TYPE_CHECKING:
     from launch import SomeActionsType
     from launch.events.process import ProcessIO
 
-__all__ = ["StdoutReadyListener"]
-
 
 class StdoutReadyListener(OnProcessIO):
     """Visits actions when a process writes a text to stdout.

@@ -11,15 +11,6 @@ from launch_testing.tools.text import build_line_match, build_text_match, normal
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-__all__ = [
-    "basic_output_filter",
-    "expect_output",
-    "expected_output_from_file",
-    "expected_text_matches",
-    "get_default_filtered_patterns",
-    "get_default_filtered_prefixes",
-]
-
 _ESCAPE_SEQUENCE = re.compile(r"\x1b(?:[@-Z\\-_]|\[[0-?]*[ -/]*[@-~])")
 
 

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 
     from launch import LaunchService
 
-__all__ = ["ProcessProxy", "launch_process"]
-
 
 class ProcessProxy:
     """A test's view of a process.

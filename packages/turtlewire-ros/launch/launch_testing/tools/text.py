@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["build_line_match", "build_text_match", "normalize_lineseps"]
-
 _Span = tuple[int, int]
 
 

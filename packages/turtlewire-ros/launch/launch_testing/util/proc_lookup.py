@@ -9,8 +9,6 @@ from launch.action import Action
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["NO_CMD_ARGS", "NoMatchingProcessException", "resolveProcesses"]
-
 
 class _NoArguments:
     """The type of `NO_CMD_ARGS`, which matches a command line without arguments."""

@@ -10,8 +10,6 @@ from launch_xml.parser import Parser
 if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["XMLLaunchDescriptionSource"]
-
 
 class XMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
     """A launch file in XML.

@@ -10,8 +10,6 @@ from launch_yaml.parser import Parser
 if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["YAMLLaunchDescriptionSource"]
-
 
 class YAMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
     """A launch file in YAML.

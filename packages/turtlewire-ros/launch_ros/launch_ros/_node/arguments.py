@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from launch_ros.parameters_type import SomeParameters
     from launch_ros.remap_rule_type import SomeRemapRules
 
-__all__ = ["NodeArguments"]
-
 
 class NodeArguments:
     """Name, namespace, parameters and remappings of one node.

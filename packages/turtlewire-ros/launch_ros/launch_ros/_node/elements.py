@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from launch.frontend import Parser
     from launch.substitution import Substitution
 
-__all__ = ["parse_parameter_elements", "parse_parameters", "parse_remappings", "parse_value"]
-
 
 def parse_remappings(
     entity: Entity, parser: Parser

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from turtlewire.plugins import Entry
 
-__all__ = ["NodeActionExtension", "get_extensions", "instantiate_extension", "prepared_by"]
-
 _GROUP = "launch_ros.node_action"
 
 

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution
 
-__all__ = ["TO_ACTIVE", "Autostart", "change_states"]
-
 #: Configure and activate, by the numbers of `lifecycle_msgs`, whose import would slow each launch.
 TO_ACTIVE = (1, 3)
 

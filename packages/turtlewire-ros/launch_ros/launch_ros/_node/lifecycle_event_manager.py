@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from launch.event import Event
     from launch.launch_context import LaunchContext
 
-__all__ = ["LifecycleEventManager"]
-
 
 class LifecycleEventManager:
     """Makes events of a managed node's transitions, and transitions of ``ChangeState`` events.

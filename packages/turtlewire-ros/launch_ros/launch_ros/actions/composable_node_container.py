@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch_ros.descriptions.composable_node import ComposableNode
 
-__all__ = ["ComposableNodeContainer"]
-
 
 @expose_action("node_container")
 class ComposableNodeContainer(Node):

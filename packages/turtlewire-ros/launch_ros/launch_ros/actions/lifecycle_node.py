@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution
 
-__all__ = ["LifecycleNode"]
-
 
 @expose_action("lifecycle_node")
 class LifecycleNode(Node):

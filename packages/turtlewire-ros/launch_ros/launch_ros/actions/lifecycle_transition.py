@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["LifecycleTransition", "match_node_name_goal", "match_node_name_start_goal"]
-
 
 def match_node_name_goal(node_name: str, goal_state: str) -> Callable[[Event], bool]:
     """Return a matcher of the events with which a managed node reaches a state.

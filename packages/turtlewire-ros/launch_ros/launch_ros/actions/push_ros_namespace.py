@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution
 
-__all__ = ["PushROSNamespace", "PushRosNamespace"]
-
 
 @expose_action("push_ros_namespace")
 @expose_action("push-ros-namespace")

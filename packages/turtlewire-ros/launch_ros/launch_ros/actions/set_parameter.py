@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution
 
-__all__ = ["SetParameter"]
-
 
 @expose_action("set_parameter")
 class SetParameter(Action):

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["SetParametersFromFile"]
-
 
 @expose_action("set_parameters_from_file")
 class SetParametersFromFile(Action):

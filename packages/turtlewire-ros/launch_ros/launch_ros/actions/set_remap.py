@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution
 
-__all__ = ["SetRemap"]
-
 
 @expose_action("set_remap")
 class SetRemap(Action):

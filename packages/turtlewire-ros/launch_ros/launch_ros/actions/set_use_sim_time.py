@@ -11,8 +11,6 @@ if TYPE_CHECKING:
     from launch.frontend import Entity, Parser
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["SetUseSimTime"]
-
 
 @expose_action("set_use_sim_time")
 class SetUseSimTime(SetParameter):

@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from launch_ros.parameters_type import SomeParameters
     from launch_ros.remap_rule_type import SomeRemapRules
 
-__all__ = ["ComposableNode"]
-
 
 class ComposableNode:
     """A node that runs in the process of a container.

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from launch.some_entities_type import SomeEntitiesType
     from launch_ros.events.matchers.matches_node_name import NamedNode
 
-__all__ = ["OnStateTransition"]
-
 
 class OnStateTransition(EventHandler):
     """Handles a change of the state of a managed node.

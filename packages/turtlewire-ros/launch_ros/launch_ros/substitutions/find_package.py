@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution
 
-__all__ = ["FindPackage", "FindPackagePrefix", "FindPackageShare"]
-
 
 class FindPackage(PathSubstitution):
     """A folder of a package; ``/`` extends it: ``FindPackageShare("turtlesim") / "launch"``.

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
 
     from launch.launch_context import LaunchContext
 
-__all__ = ["evaluate_parameter_dict", "evaluate_parameters", "evaluate_value", "typed"]
-
 _SCALARS = (str, bool, int, float, bytes)
 
 

@@ -2,13 +2,6 @@
 
 from __future__ import annotations
 
-__all__ = [
-    "is_namespace_absolute",
-    "is_root_namespace",
-    "make_namespace_absolute",
-    "prefix_namespace",
-]
-
 
 def is_root_namespace(ns: str) -> bool:
     """Return True if it is ``/``."""

@@ -11,8 +11,6 @@ if TYPE_CHECKING:
 
     from launch.substitution import Substitution
 
-__all__ = ["normalize_remap_rule", "normalize_remap_rules"]
-
 _Rule = tuple[tuple["Substitution", ...], tuple["Substitution", ...]]
 
 

@@ -10,8 +10,6 @@ from typing import TYPE_CHECKING, Any, cast
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
-__all__ = ["add_global_parameter", "add_remap", "global_parameters", "remaps"]
-
 
 def global_parameters(context: LaunchContext) -> list[Any]:
     """``(name, value)`` pairs and paths of parameter files, in the order of their setting."""

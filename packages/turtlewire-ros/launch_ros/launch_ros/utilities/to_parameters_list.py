@@ -11,8 +11,6 @@ if TYPE_CHECKING:
 
     from launch.launch_context import LaunchContext
 
-__all__ = ["is_node_name_matched", "to_parameters_list"]
-
 
 def to_parameters_list(
     context: LaunchContext, node_name: str, namespace: str, evaluated_parameters: Iterable[Any]

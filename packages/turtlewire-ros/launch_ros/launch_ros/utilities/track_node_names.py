@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
-__all__ = ["add_node_name", "get_node_name_count"]
-
 _KEY = "unique_ros_node_names"
 
 

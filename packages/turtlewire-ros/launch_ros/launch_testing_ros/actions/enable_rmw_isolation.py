@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from launch.event import Event
     from launch.launch_context import LaunchContext
 
-__all__ = ["EnableRmwIsolation"]
-
 _VARIABLE = "ROS_DOMAIN_ID"
 
 

@@ -12,8 +12,6 @@ if TYPE_CHECKING:
 
     import pytest
 
-__all__ = ["LaunchROSTestItem", "LaunchROSTestModule", "pytest_launch_collect_makemodule"]
-
 
 class LaunchROSTestItem(LaunchTestItem):
     """The tests of one module."""

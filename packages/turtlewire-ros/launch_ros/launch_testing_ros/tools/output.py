@@ -11,8 +11,6 @@ from launch_testing.tools import output
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-__all__ = ["basic_output_filter", "get_rmw_output_filter"]
-
 
 def get_rmw_output_filter(rmw_implementation: str, filter_type: str) -> list[str]:
     """Return the lines that a middleware is known to write.

@@ -14,19 +14,6 @@ if TYPE_CHECKING:
     from launch import LaunchDescription
     from ros2launch.option import OptionExtension
 
-__all__ = [
-    "LaunchFileNameCompleter",
-    "MultipleLaunchFilesError",
-    "get_launch_file_paths",
-    "get_share_file_path_from_package",
-    "is_launch_file",
-    "launch_a_launch_file",
-    "parse_launch_arguments",
-    "print_a_launch_file",
-    "print_arguments_of_launch_description",
-    "print_arguments_of_launch_file",
-]
-
 
 class MultipleLaunchFilesError(Exception):
     """A package has several files of one name.

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     import argparse
     from typing import Any
 
-__all__ = ["ARGUMENTS", "PASSES_COLOURS_ON", "TestCommand", "main"]
-
 PASSES_COLOURS_ON = True
 
 

@@ -20,8 +20,6 @@ from turtlewire.wire.environment import compares_qos
 if TYPE_CHECKING:
     from rclpy.duration import Duration
 
-__all__ = ["check"]
-
 # Not set, and ROS 2's infinite duration.
 _UNLIMITED_NS = (0, 2**63 - 1)
 

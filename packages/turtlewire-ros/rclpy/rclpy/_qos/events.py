@@ -14,25 +14,6 @@ from turtlewire.wire.base import EventKind, EventStatus
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = [
-    "IncompatibleTypeInfo",
-    "QoSDeadlineOfferedInfo",
-    "QoSDeadlineRequestedInfo",
-    "QoSLivelinessChangedInfo",
-    "QoSLivelinessLostInfo",
-    "QoSMessageLostInfo",
-    "QoSOfferedDeadlineMissedInfo",
-    "QoSOfferedIncompatibleQoSInfo",
-    "QoSPublisherEventType",
-    "QoSPublisherMatchedInfo",
-    "QoSRequestedDeadlineMissedInfo",
-    "QoSRequestedIncompatibleQoSInfo",
-    "QoSSubscriptionEventType",
-    "QoSSubscriptionMatchedInfo",
-    "Report",
-    "report",
-]
-
 
 class QoSPublisherEventType(IntEnum):
     """The events of a publisher."""

@@ -7,20 +7,6 @@ from __future__ import annotations
 
 from enum import IntEnum
 
-__all__ = [
-    "DurabilityPolicy",
-    "HistoryPolicy",
-    "LivelinessPolicy",
-    "QoSDurabilityPolicy",
-    "QoSHistoryPolicy",
-    "QoSLivelinessPolicy",
-    "QoSPolicyEnum",
-    "QoSPolicyKind",
-    "QoSReliabilityPolicy",
-    "ReliabilityPolicy",
-    "qos_policy_name_from_kind",
-]
-
 
 class QoSPolicyKind(IntEnum):
     """The policies, as events name them."""

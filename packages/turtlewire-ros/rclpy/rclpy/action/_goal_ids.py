@@ -8,8 +8,6 @@ from typing import Any
 from turtlewire.msg import get_message
 from turtlewire.msg.values import array_content
 
-__all__ = ["goal_key", "random_goal_id"]
-
 
 def goal_key(goal_id: Any) -> bytes:
     """Return the 16 bytes of a ``unique_identifier_msgs/msg/UUID``, without NumPy."""

@@ -17,8 +17,6 @@ from ._goal_ids import goal_key
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable
 
-__all__ = ["GoalStatuses", "read_statuses"]
-
 _HEADER = Struct("<4sI")
 _LITTLE_ENDIAN = b"\x00\x01\x00\x00"
 #: UUID, what aligns the next field, seconds and nanoseconds of the acceptance, state.

@@ -16,8 +16,6 @@ from .goal_state import ACTIVE_STATES, GoalEvent, next_state
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-__all__ = ["Goal", "Goals"]
-
 _ACCEPTED = 1
 
 

@@ -9,8 +9,6 @@ if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
     from rclpy.service_introspection import IntrospectedEndpoint, ServiceIntrospectionState
 
-__all__ = ["IntrospectedAction"]
-
 
 class IntrospectedAction:
     """An action client or server.

@@ -37,8 +37,6 @@ if TYPE_CHECKING:
     from rclpy.subscription import MessageInfo
     from turtlewire.msg import Action
 
-__all__ = ["ActionClient", "ClientGoalHandle"]
-
 __getattr__ = reexports(
     __name__,
     {

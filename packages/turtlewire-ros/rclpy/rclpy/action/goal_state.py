@@ -6,8 +6,6 @@ from enum import Enum
 
 from rclpy._rclpy_pybind11 import RCLError
 
-__all__ = ["ACTIVE_STATES", "GoalEvent", "next_state", "state_name"]
-
 # the numbers of action_msgs/msg/GoalStatus
 _ACCEPTED, _EXECUTING, _CANCELING, _SUCCEEDED, _CANCELED, _ABORTED = 1, 2, 3, 4, 5, 6
 _NAMES = ("UNKNOWN", "ACCEPTED", "EXECUTING", "CANCELING", "SUCCEEDED", "CANCELED", "ABORTED")

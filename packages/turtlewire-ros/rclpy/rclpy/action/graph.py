@@ -7,13 +7,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from rclpy.node import Node
 
-__all__ = [
-    "NamesAndTypes",
-    "get_action_client_names_and_types_by_node",
-    "get_action_names_and_types",
-    "get_action_server_names_and_types_by_node",
-]
-
 NamesAndTypes = list[tuple[str, list[str]]]
 
 

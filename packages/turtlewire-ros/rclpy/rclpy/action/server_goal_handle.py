@@ -14,9 +14,6 @@ if TYPE_CHECKING:
 
     from .server import ActionServer
 
-__all__ = ["ServerGoalHandle"]
-
-
 _EXECUTING = 2
 _IGNORED_FEEDBACK = "publish_feedback() called on a goal handle not in executing state, ignoring"
 

@@ -21,8 +21,6 @@ if TYPE_CHECKING:
 
     from ._async_entity import TaskGroup
 
-__all__ = ["AsyncClient", "wait_for_graph"]
-
 
 class AsyncClient(AsyncEndpoint, BaseClient[SrvT_co]):
     """Calls a service; made by :meth:`AsyncNode.create_client`.

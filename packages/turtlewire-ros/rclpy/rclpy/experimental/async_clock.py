@@ -11,8 +11,6 @@ from rclpy.duration import Duration
 from rclpy.exceptions import TimeSourceChangedError
 from turtlewire.wake_up import LoopWakeUp
 
-__all__ = ["AsyncClock"]
-
 
 class AsyncClock(BaseClock):
     """A clock whose sleeps are awaited."""

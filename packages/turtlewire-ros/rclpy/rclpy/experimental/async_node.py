@@ -40,8 +40,6 @@ if TYPE_CHECKING:
     from rclpy.subscription import MessageInfo
     from rclpy.subscription_content_filter_options import ContentFilterOptions
 
-__all__ = ["AsyncNode"]
-
 _NOT_IN_ASYNCIO = (
     "An AsyncNode has no executor and no callback groups, and so no actions, rates, guard "
     "conditions and waitables: use an rclpy.node.Node and an executor for these"

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from rclpy._execution.handle import EndpointImpl
     from rclpy.qos import QoSProfile
 
-__all__ = ["AsyncPublisher"]
-
 
 class AsyncPublisher(BasePublisher[MsgT]):
     """Sends messages to a topic; :meth:`publish` does not block, so nothing has to be awaited.

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
     from ._async_entity import TaskGroup
 
-__all__ = ["AsyncService"]
-
 
 class AsyncService(AsyncEndpoint, BaseService[SrvT_co]):
     """Answers requests; made by :meth:`AsyncNode.create_service`.

@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
     from turtlewire.wire import base
 
-__all__ = ["AsyncSubscription"]
-
 
 class AsyncSubscription(AsyncEndpoint, BaseSubscription[MsgT]):
     """Receives the messages of a topic; made by :meth:`AsyncNode.create_subscription`.

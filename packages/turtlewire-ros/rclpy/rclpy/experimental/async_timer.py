@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
     from ._async_entity import TaskGroup
 
-__all__ = ["AsyncTimer"]
-
 
 class AsyncTimer(AsyncEntity, BaseTimer):
     """Calls ``callback`` once per period; made by :meth:`AsyncNode.create_timer`.

@@ -7,8 +7,6 @@ from __future__ import annotations
 
 from rclpy.executors import SingleThreadedExecutor
 
-__all__ = ["EventsExecutor"]
-
 
 class EventsExecutor(SingleThreadedExecutor):
     """Runs callbacks in the thread that spins, woken by events."""

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from rclpy.impl.rcl_remap import RemapRule
     from rclpy.impl.rcl_yaml_param_parser import ParameterValue
 
-__all__ = ["Arguments", "matches_node"]
-
 _BEGIN = "--ros-args"
 _END = "--"
 

@@ -24,8 +24,6 @@ from turtlewire.package_sources import explain_missing_modules
 if TYPE_CHECKING:
     from types import TracebackType
 
-__all__ = ["install", "note_signal", "take_dropped"]
-
 _previous_hook = sys.excepthook
 _previous_thread_hook = threading.excepthook
 _previous_unraisable_hook = sys.unraisablehook

@@ -13,8 +13,6 @@ from typing import NamedTuple
 
 from turtlewire.errors import TransformException
 
-__all__ = ["WHOLE", "FailedLookups", "Shown"]
-
 _PERIOD_NS = 1_000_000_000
 #: Errors that one line of a program reported, above which the oldest are forgotten.
 _MOST_ERRORS = 100

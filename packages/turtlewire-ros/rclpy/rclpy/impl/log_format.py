@@ -11,8 +11,6 @@ if TYPE_CHECKING:
 
     from .log_output import LogRecord
 
-__all__ = ["DEFAULT_FORMAT", "LineFormat"]
-
 DEFAULT_FORMAT = "[{severity}] [{time}] [{name}]: {message}"
 
 _SEVERITY_NAMES = {severity.value: severity.name for severity in LoggingSeverity}

@@ -10,8 +10,6 @@ import threading
 
 from .logging_severity import LoggingSeverity
 
-__all__ = ["effective", "own", "reset", "set_level"]
-
 _lock = threading.Lock()
 #: The level of the empty name is the default of all loggers.
 _own: dict[str, int] = {"": LoggingSeverity.INFO.value}

@@ -22,16 +22,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-__all__ = [
-    "LogRecord",
-    "add_rosout_sink",
-    "configure",
-    "emit",
-    "logging_directory",
-    "remove_rosout_sink",
-    "shutdown",
-]
-
 _COLOURS = {10: "\033[32m", 20: "\033[0m", 30: "\033[33m", 40: "\033[31m", 50: "\033[31m"}
 _RESET = "\033[0m"
 _STDOUT_FD, _STDERR_FD = 1, 2

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from enum import IntEnum
 
-__all__ = ["LoggingSeverity"]
-
 
 class LoggingSeverity(IntEnum):
     """The severity of a message; UNSET means that the parent logger's level applies."""

@@ -5,8 +5,6 @@ from __future__ import annotations
 import re
 from enum import IntEnum
 
-__all__ = ["Lexeme", "Lexer", "RuleError"]
-
 
 class RuleError(ValueError):
     """A rule of ``--ros-args`` is malformed; the text is ROS 2's."""

@@ -11,8 +11,6 @@ from .rcl_yaml_param_parser import parse_value
 if TYPE_CHECKING:
     from .rcl_yaml_param_parser import ParameterValue
 
-__all__ = ["parse_parameter_rule"]
-
 
 def parse_parameter_rule(text: str) -> tuple[str, str, ParameterValue]:
     """Read a rule.

@@ -9,8 +9,6 @@ from turtlewire.wire import names
 
 from .rcl_lexer import Lexeme, Lexer, RuleError
 
-__all__ = ["RemapKind", "RemapRule", "parse_node_prefix", "parse_remap_rule", "remap"]
-
 
 class RemapKind(Flag):
     """The kinds of names that rules rename."""

@@ -22,8 +22,6 @@ from .rcl_lexer import RuleError
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["ParameterValue", "parse_file", "parse_value"]
-
 ParameterValue = (
     bool | int | float | str | list[bytes] | list[bool] | list[int] | list[float] | list[str]
 )

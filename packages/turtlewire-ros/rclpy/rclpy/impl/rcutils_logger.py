@@ -20,17 +20,6 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-__all__ = [
-    "CallerId",
-    "LoggingFilter",
-    "Once",
-    "RcutilsLogger",
-    "SkipFirst",
-    "Throttle",
-    "get_filters_from_kwargs",
-    "supported_filters",
-]
-
 _DEBUG, _INFO, _WARN, _ERROR, _FATAL = 10, 20, 30, 40, 50
 _DEPRECATED_WARN = "Deprecated in favor of :py:classmethod:RcutilsLogger.warning:."
 

@@ -13,9 +13,6 @@ if TYPE_CHECKING:
     from rclpy.node import Node
     from rclpy.publisher import Publisher
 
-
-__all__ = ["warn_if_silent", "warn_if_unheard"]
-
 #: Time for discovery [s]; it usually takes less.
 _PATIENCE_S = 2.0
 

@@ -10,8 +10,6 @@ from .state_machine import LifecycleState, TransitionCallbackReturn
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["ManagedEntity", "SimpleManagedEntity"]
-
 
 class ManagedEntity:
     """An entity that takes part in the transitions of its node, and may reject them."""

@@ -8,8 +8,6 @@ from rclpy.publisher import Publisher
 
 from .managed_entity import SimpleManagedEntity
 
-__all__ = ["LifecyclePublisher"]
-
 
 class LifecyclePublisher(SimpleManagedEntity, Publisher):
     """Publishes while its node is active; messages at other times are dropped."""

@@ -7,15 +7,6 @@ from typing import NamedTuple
 
 from rclpy._rclpy_pybind11 import RCLError
 
-__all__ = [
-    "STATES",
-    "TRANSITIONS",
-    "LifecycleState",
-    "StateMachine",
-    "Transition",
-    "TransitionCallbackReturn",
-]
-
 
 class TransitionCallbackReturn(Enum):
     """The result of a transition callback."""

@@ -14,8 +14,6 @@ from ros2cli.listing import count_argument, print_names_of_type
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "FindVerb", "main"]
-
 ARGUMENTS = (
     argument(
         "action_type",

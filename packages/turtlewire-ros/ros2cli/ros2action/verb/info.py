@@ -16,9 +16,6 @@ if TYPE_CHECKING:
 
     from ros2cli.graph import NamesAndTypes
 
-__all__ = ["ARGUMENTS", "InfoVerb", "main"]
-
-
 ARGUMENTS = (
     argument(
         "action_name",

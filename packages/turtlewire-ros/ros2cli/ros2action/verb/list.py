@@ -13,8 +13,6 @@ from ros2cli.listing import SHOW_TYPES, count_argument, print_names_and_types
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "ListVerb", "main"]
-
 ARGUMENTS = (SHOW_TYPES, count_argument("action"), JSON_ARGUMENT)
 
 

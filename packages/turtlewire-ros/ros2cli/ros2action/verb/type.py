@@ -14,8 +14,6 @@ from ros2cli.listing import print_types
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "TypeVerb", "main"]
-
 ARGUMENTS = (
     argument(
         "action_name",

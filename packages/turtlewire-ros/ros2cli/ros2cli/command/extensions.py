@@ -12,9 +12,6 @@ from ros2cli.installed import EXTENSION_POINT_GROUP_NAME, described, first_line
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "ExtensionsCommand", "main"]
-
-
 ARGUMENTS = (
     argument(
         "-a",

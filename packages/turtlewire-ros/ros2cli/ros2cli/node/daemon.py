@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     import argparse
     from types import TracebackType
 
-__all__ = ["DaemonNode", "add_arguments", "is_daemon_running", "shutdown_daemon", "spawn_daemon"]
-
 
 class DaemonNode:
     """A connection to the daemon; its other attributes are the daemon's functions.

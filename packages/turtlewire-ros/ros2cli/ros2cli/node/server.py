@@ -16,17 +16,6 @@ from ros2cli.xmlrpc.local_server import LocalXMLRPCServer
 if TYPE_CHECKING:
     from rclpy.context import Context
 
-__all__ = [
-    "IDLE_S",
-    "RequestHandler",
-    "get_address",
-    "get_port",
-    "get_xmlrpc_server_url",
-    "make_xmlrpc_server",
-    "serve",
-    "serve_and_close",
-]
-
 _BASE_PORT = 11511
 _PATH = "/ros2cli/"
 #: Seconds without a call after which the daemon ends.

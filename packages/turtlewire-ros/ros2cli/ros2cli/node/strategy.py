@@ -11,8 +11,6 @@ if TYPE_CHECKING:
     import argparse
     from types import TracebackType
 
-__all__ = ["NodeStrategy", "add_arguments"]
-
 
 class NodeStrategy:
     """Asks the daemon what it knows; otherwise it has all attributes of a `DirectNode`.

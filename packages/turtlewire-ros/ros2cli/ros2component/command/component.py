@@ -5,8 +5,6 @@ from __future__ import annotations
 from ros2cli.builtin import command_of_module
 from ros2cli.command import CommandExtension
 
-__all__ = ["VERB_GROUP", "ComponentCommand"]
-
 VERB_GROUP = "ros2component.verb"
 
 

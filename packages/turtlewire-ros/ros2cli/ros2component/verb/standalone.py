@@ -12,9 +12,6 @@ from ros2component.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "StandaloneVerb", "main"]
-
-
 ARGUMENTS = (
     argument(
         "-c", "--container-node-name", default="standalone_container", help="Name of the container"

@@ -12,8 +12,6 @@ from ros2component.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "TypesVerb", "main"]
-
 _RESOURCE = "rclcpp_components"
 
 

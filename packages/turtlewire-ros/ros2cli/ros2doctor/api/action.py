@@ -5,8 +5,6 @@ from __future__ import annotations
 from ros2doctor.api.graph_snapshot import list_report, snapshot
 from ros2doctor.api.reporting import DoctorReport, Report
 
-__all__ = ["ActionReport"]
-
 
 class ActionReport(DoctorReport):
     """Reports how many servers and clients each action has."""

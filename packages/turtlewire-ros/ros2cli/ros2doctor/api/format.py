@@ -10,15 +10,6 @@ if TYPE_CHECKING:
     from collections.abc import Collection
     from types import TracebackType
 
-__all__ = [
-    "CustomWarningFormat",
-    "compute_padding",
-    "custom_warning_format",
-    "doctor_error",
-    "doctor_warn",
-    "format_print",
-]
-
 
 def format_print(report: Any) -> None:
     """Print title and lines of a `ros2doctor.api.Report`."""

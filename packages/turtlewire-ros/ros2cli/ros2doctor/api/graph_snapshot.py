@@ -12,8 +12,6 @@ if TYPE_CHECKING:
 
     from turtlewire.wire.base import EndpointInfo
 
-__all__ = ["SKIP_TOPICS", "Counts", "GraphSnapshot", "list_report", "one_snapshot", "snapshot"]
-
 #: Every node has them, including the one that asks.
 SKIP_TOPICS = ["/parameter_events", "/rosout"]
 

@@ -10,8 +10,6 @@ from typing import ClassVar
 
 from ros2doctor.api.reporting import DoctorCheck, DoctorReport, Report, Result, result_of
 
-__all__ = ["InterfaceFlags", "NetworkCheck", "NetworkReport"]
-
 _OF_INTERFACES = Path("/sys/class/net")
 #: The request of Linux for an interface's IPv4 address, from `ioctls.h`.
 _SIOCGIFADDR = 0x8915

@@ -19,14 +19,6 @@ from ros2doctor.api.reporting import DoctorCheck, DoctorReport, Report, Result
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = [
-    "PackageCheck",
-    "PackageReport",
-    "compare_versions",
-    "get_distro_package_versions",
-    "get_local_package_versions",
-]
-
 #: The index of ROS 2's releases, unless ``ROSDISTRO_INDEX_URL`` names another one.
 _INDEX = "https://raw.githubusercontent.com/ros/rosdistro/master/index-v4.yaml"
 _TIMEOUT_S = 30.0

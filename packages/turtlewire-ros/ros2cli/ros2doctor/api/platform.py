@@ -8,8 +8,6 @@ import sys
 
 from ros2doctor.api.reporting import DoctorCheck, DoctorReport, Report, Result, result_of
 
-__all__ = ["PlatformCheck", "PlatformReport", "RosdistroReport"]
-
 
 class PlatformCheck(DoctorCheck):
     """Checks the installation and the environment variables."""

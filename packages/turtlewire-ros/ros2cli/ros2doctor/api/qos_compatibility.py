@@ -13,8 +13,6 @@ if TYPE_CHECKING:
 
     from rclpy.qos import QoSCompatibility
 
-__all__ = ["QoSCompatibilityCheck", "QoSCompatibilityReport"]
-
 
 class _Pair(NamedTuple):
     topic: str

@@ -11,8 +11,6 @@ if TYPE_CHECKING:
 
     from turtlewire.doctor.finding import Finding
 
-__all__ = ["DoctorCheck", "DoctorReport", "Report", "Result", "result_of"]
-
 
 class DoctorCheck:
     """Base of checks."""

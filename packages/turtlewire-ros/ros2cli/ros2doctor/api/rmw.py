@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from ros2doctor.api.reporting import DoctorReport, Report
 
-__all__ = ["RMWReport"]
-
 
 class RMWReport(DoctorReport):
     """Reports the middleware and its library."""

@@ -12,8 +12,6 @@ from turtlewire.terminal.parser import seconds
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "VERB_GROUP", "DoctorCommand", "WtfCommand", "main"]
-
 VERB_GROUP = "ros2doctor.verb"
 
 

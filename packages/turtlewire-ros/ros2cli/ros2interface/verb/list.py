@@ -11,17 +11,6 @@ from ros2interface.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = [
-    "ARGUMENTS",
-    "TITLES",
-    "ListVerb",
-    "main",
-    "print_actions",
-    "print_kind",
-    "print_messages",
-    "print_services",
-]
-
 TITLES = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 
 

@@ -12,9 +12,6 @@ from ros2interface.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "PackageVerb", "main"]
-
-
 ARGUMENTS = (
     argument("package_name", help="Name of the package", completer=interface_packages),
     argument("-m", "--only-msgs", action="store_true", help="Only messages"),

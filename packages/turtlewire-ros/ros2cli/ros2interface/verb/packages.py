@@ -12,9 +12,6 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Iterable
 
-__all__ = ["ARGUMENTS", "PackagesVerb", "main", "print_packages"]
-
-
 ARGUMENTS = (
     argument("-m", "--only-msgs", action="store_true", help="Only packages with messages"),
     argument("-s", "--only-srvs", action="store_true", help="Only packages with services"),

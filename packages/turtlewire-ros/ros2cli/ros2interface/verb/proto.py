@@ -12,9 +12,6 @@ from ros2interface.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "ProtoVerb", "main"]
-
-
 ARGUMENTS = (
     argument(
         "type",

@@ -20,16 +20,6 @@ if TYPE_CHECKING:
 
     from turtlewire.msg.definition import Field, MessageDefinition
 
-__all__ = [
-    "ACTION_REQUEST_RESPONSE_SEPARATOR",
-    "ARGUMENTS",
-    "SERVICE_REQUEST_RESPONSE_SEPARATOR",
-    "InterfaceTextLine",
-    "ReadStdinPipe",
-    "ShowVerb",
-    "main",
-]
-
 #: The line between the parts of a service or action.
 SERVICE_REQUEST_RESPONSE_SEPARATOR = ACTION_REQUEST_RESPONSE_SEPARATOR = "---"
 _SEPARATORS = (SERVICE_REQUEST_RESPONSE_SEPARATOR, ACTION_REQUEST_RESPONSE_SEPARATOR)

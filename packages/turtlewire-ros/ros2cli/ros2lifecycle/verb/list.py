@@ -14,9 +14,6 @@ from ros2lifecycle.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "ListVerb", "main"]
-
-
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
     HIDDEN_ARGUMENT,

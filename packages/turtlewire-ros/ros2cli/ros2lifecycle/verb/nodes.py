@@ -13,9 +13,6 @@ from ros2lifecycle.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "NodesVerb", "main"]
-
-
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
     argument(

@@ -15,9 +15,6 @@ from ros2lifecycle.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "SetVerb", "main"]
-
-
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
     HIDDEN_ARGUMENT,

@@ -11,9 +11,6 @@ from ros2multicast.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "ReceiveVerb", "main"]
-
-
 ARGUMENTS = (*GROUP_ARGUMENTS,)
 
 

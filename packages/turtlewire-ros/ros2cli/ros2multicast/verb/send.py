@@ -13,9 +13,6 @@ from ros2multicast.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "SendVerb", "main"]
-
-
 ARGUMENTS = (
     *GROUP_ARGUMENTS,
     argument(

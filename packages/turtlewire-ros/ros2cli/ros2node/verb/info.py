@@ -20,14 +20,6 @@ if TYPE_CHECKING:
     from ros2cli.graph import NamesAndTypes
     from turtlewire.wire.base import Graph
 
-__all__ = [
-    "ARGUMENTS",
-    "INFO_NONUNIQUE_WARNING_TEMPLATE",
-    "InfoVerb",
-    "main",
-    "print_names_and_types",
-]
-
 INFO_NONUNIQUE_WARNING_TEMPLATE = (
     'There are {num_nodes} nodes in the graph with the exact name "{node_name}". '
     "You are seeing information about only one of them."

@@ -15,9 +15,6 @@ from ros2node.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "ListVerb", "main"]
-
-
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
     argument("-a", "--all", action="store_true", help=HIDDEN_NODES),

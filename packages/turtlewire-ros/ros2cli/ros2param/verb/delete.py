@@ -14,9 +14,6 @@ from ros2param.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "DeleteVerb", "main"]
-
-
 ARGUMENTS = (*node_arguments(), NAME_ARGUMENT)
 
 

@@ -15,9 +15,6 @@ from ros2param.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "DescribeVerb", "main"]
-
-
 ARGUMENTS = (
     *node_arguments(),
     argument(

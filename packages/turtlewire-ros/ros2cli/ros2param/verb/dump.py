@@ -14,8 +14,6 @@ from ros2param.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "PARAMETER_SEPARATOR_STRING", "DumpVerb", "insert", "main"]
-
 PARAMETER_SEPARATOR_STRING = "."
 
 ARGUMENTS = (*node_arguments(), JSON_ARGUMENT)

@@ -17,8 +17,6 @@ from ros2param.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "GetVerb", "main"]
-
 _LABELS = {
     1: "Boolean value is:",
     2: "Integer value is:",

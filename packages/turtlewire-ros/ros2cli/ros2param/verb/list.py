@@ -18,9 +18,6 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Callable, Sequence
 
-__all__ = ["ARGUMENTS", "ListVerb", "main"]
-
-
 ARGUMENTS = (
     *node_arguments(nargs="?"),
     argument(

@@ -16,9 +16,6 @@ from ros2param.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "LoadVerb", "main"]
-
-
 ARGUMENTS = (
     *node_arguments(),
     argument("parameter_file", help="Path of the parameter file", completer=files),

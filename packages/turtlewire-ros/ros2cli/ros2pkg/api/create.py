@@ -12,19 +12,6 @@ from typing import Any
 
 from ros2pkg import compiled_template, package_template
 
-__all__ = [
-    "create_package_environment",
-    "populate_ament_cargo",
-    "populate_ament_cmake",
-    "populate_ament_python",
-    "populate_cmake",
-    "populate_cpp_library",
-    "populate_cpp_node",
-    "populate_python_libary",
-    "populate_python_node",
-    "populate_rust_node",
-]
-
 #: The folders of the sources by the type of the build; other types get none.
 _SOURCES = {"ament_python": "{name}", "ament_cmake": "src", "cmake": "src", "ament_cargo": "src"}
 

@@ -15,8 +15,6 @@ from ros2pkg.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "CreateVerb", "main"]
-
 _NAME = re.compile(r"[a-z](?:[a-z0-9]|_(?!_))*")
 _NODE_NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 

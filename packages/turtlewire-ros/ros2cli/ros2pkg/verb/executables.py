@@ -13,9 +13,6 @@ from ros2pkg.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "ExecutablesVerb", "main"]
-
-
 ARGUMENTS = (
     argument(
         "package_name",

@@ -10,8 +10,6 @@ from ros2pkg.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ListVerb", "main"]
-
 
 def main(_args: argparse.Namespace) -> None:
     """Print the names, sorted."""

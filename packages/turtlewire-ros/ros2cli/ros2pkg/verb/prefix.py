@@ -12,8 +12,6 @@ from ros2pkg.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "PACKAGE_NOT_FOUND", "PrefixVerb", "main"]
-
 PACKAGE_NOT_FOUND = "Package not found"
 
 ARGUMENTS = (

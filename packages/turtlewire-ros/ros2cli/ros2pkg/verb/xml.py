@@ -13,15 +13,6 @@ from ros2pkg.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = [
-    "ARGUMENTS",
-    "PACKAGE_NOT_FOUND",
-    "PACKAGE_XML_NOT_FOUND",
-    "PACKAGE_XML_TAG_NOT_FOUND",
-    "XmlVerb",
-    "main",
-]
-
 PACKAGE_NOT_FOUND = "Package not found"
 PACKAGE_XML_NOT_FOUND = "Package XML manifest not found"
 PACKAGE_XML_TAG_NOT_FOUND = "XML tag not found"

@@ -14,9 +14,6 @@ from ros2service.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "InfoVerb", "main"]
-
-
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
     argument(

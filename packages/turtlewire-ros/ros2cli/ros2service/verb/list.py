@@ -13,8 +13,6 @@ from ros2service.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "ListVerb", "main"]
-
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
     SHOW_TYPES,

@@ -15,8 +15,6 @@ from ros2service.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "TypeVerb", "main"]
-
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
     argument(

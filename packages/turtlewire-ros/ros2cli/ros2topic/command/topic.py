@@ -6,8 +6,6 @@ from ros2cli.builtin import command_of_module
 from ros2cli.command import CommandExtension
 from ros2cli.listing import hidden_argument
 
-__all__ = ["ARGUMENTS", "VERB_GROUP", "TopicCommand"]
-
 VERB_GROUP = "ros2topic.verb"
 
 

@@ -22,17 +22,6 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Callable, Sequence
 
-__all__ = [
-    "ARGUMENTS",
-    "DEFAULT_WINDOW_SIZE",
-    "BwVerb",
-    "ROSTopicBandwidth",
-    "main",
-    "str_bytes",
-    "str_kilobytes",
-    "str_megabytes",
-]
-
 DEFAULT_WINDOW_SIZE = 100
 
 _COLUMNS = ("topic", "bandwidth", "window", "mean", "min", "max")

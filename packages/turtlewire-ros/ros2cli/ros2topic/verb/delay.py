@@ -19,8 +19,6 @@ from ros2topic.verb.hz import spread
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "DEFAULT_WINDOW_SIZE", "DelayVerb", "ROSTopicDelay", "main"]
-
 DEFAULT_WINDOW_SIZE = 10000
 
 _KEYS = ("topic", "average", "min", "max", "std_dev", "window")

@@ -14,8 +14,6 @@ from ros2topic.verb import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "FindVerb", "main"]
-
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
     argument(

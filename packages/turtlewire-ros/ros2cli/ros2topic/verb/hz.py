@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Callable, Collection, Sequence
 
-__all__ = ["ARGUMENTS", "DEFAULT_WINDOW_SIZE", "HzVerb", "ROSTopicHz", "main", "spread"]
-
 DEFAULT_WINDOW_SIZE = 10000
 
 _COLUMNS = ("topic", "rate", "min_delta", "max_delta", "std_dev", "window")

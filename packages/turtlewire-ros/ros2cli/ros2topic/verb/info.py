@@ -17,9 +17,6 @@ if TYPE_CHECKING:
 
     from turtlewire.wire.base import Graph
 
-__all__ = ["ARGUMENTS", "InfoVerb", "main"]
-
-
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
     argument(

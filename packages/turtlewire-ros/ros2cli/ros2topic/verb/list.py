@@ -23,9 +23,6 @@ if TYPE_CHECKING:
     from ros2cli.graph import NamesAndTypes
     from turtlewire.wire.base import Graph
 
-__all__ = ["ARGUMENTS", "ListVerb", "main"]
-
-
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
     SHOW_TYPES,

@@ -13,9 +13,6 @@ from ros2cli.completion import files
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "ConvertVerb", "main"]
-
-
 ARGUMENTS = (
     exclusive(
         INPUT,

@@ -12,9 +12,6 @@ from ros2cli.builtin import verb_of_module
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "InfoVerb", "main"]
-
-
 ARGUMENTS = (
     BAG_PATH,
     STORAGE,

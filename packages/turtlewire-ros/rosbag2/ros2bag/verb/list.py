@@ -11,8 +11,6 @@ from ros2cli.builtin import verb_of_module
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "ListVerb", "main"]
-
 _PLUGINS = {
     "storage": {
         "mcap": "the default: a file in chunks, compressed or not, with an index",

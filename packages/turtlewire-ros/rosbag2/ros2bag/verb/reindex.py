@@ -15,9 +15,6 @@ from ros2cli.completion import folders
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "ReindexVerb", "main"]
-
-
 ARGUMENTS = (
     argument("bag_path", type=bag_path, help="Folder of the bag", completer=folders),
     STORAGE,

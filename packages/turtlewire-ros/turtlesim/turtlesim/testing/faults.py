@@ -30,18 +30,6 @@ if TYPE_CHECKING:
     from turtlewire.wire.local.bus import Bus, LocalSender
     from turtlewire.wire.local.endpoint import Message
 
-__all__ = [
-    "Delay",
-    "Fault",
-    "FaultyTransforms",
-    "Loss",
-    "MissingStatic",
-    "Nodes",
-    "TwoPublishers",
-    "WrongFrame",
-    "WrongTime",
-]
-
 _TF_TYPE = "tf2_msgs/msg/TFMessage"
 _STATIC = "/tf_static"
 _TOPICS = {"/tf", _STATIC}

@@ -11,8 +11,6 @@ from turtlesim.testing.simulation import Simulation
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["simulation"]
-
 
 @pytest.fixture
 def simulation() -> Iterator[Simulation]:

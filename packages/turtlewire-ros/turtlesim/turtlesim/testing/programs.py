@@ -15,8 +15,6 @@ if TYPE_CHECKING:
 
     from rclpy.node import Node
 
-__all__ = ["ProgramError", "nodes_of", "rclpy_in_step"]
-
 
 class ProgramError(RuntimeError):
     """A program cannot take part in a simulation.

@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from turtlesim.model import TurtlePose
     from turtlesim.testing.faults import Fault
 
-__all__ = ["Simulation"]
-
 
 class Simulation(Stage):
     """A simulator without a page, on the ``local`` middleware, with its clock on ``/clock``.

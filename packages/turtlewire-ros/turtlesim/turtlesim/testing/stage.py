@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 
     from rclpy.node import Node
 
-__all__ = ["Stage"]
-
 _MIDDLEWARE = "RMW_IMPLEMENTATION"
 #: A node that keeps publishing to itself would never become idle.
 _MOST_CALLBACKS = 100_000

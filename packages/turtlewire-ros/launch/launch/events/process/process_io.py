@@ -6,8 +6,6 @@ from typing import Any
 
 from launch.events.process.running_process_event import RunningProcessEvent
 
-__all__ = ["ProcessIO"]
-
 
 class ProcessIO(RunningProcessEvent):
     """Bytes that a process reads or writes.

@@ -10,8 +10,6 @@ if TYPE_CHECKING:
 
     from launch._kernel.protocols import ProcessRunner
 
-__all__ = ["matches_executable", "matches_name", "matches_pid"]
-
 
 def matches_pid(pid: int) -> Callable[[ProcessRunner], bool]:
     """Matches the process with this id."""

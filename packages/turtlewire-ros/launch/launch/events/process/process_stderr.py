@@ -6,8 +6,6 @@ from typing import Any
 
 from launch.events.process.process_io import ProcessIO
 
-__all__ = ["ProcessStderr"]
-
 
 class ProcessStderr(ProcessIO):
     """A process has written to stderr.

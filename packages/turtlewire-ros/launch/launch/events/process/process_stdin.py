@@ -6,8 +6,6 @@ from typing import Any
 
 from launch.events.process.process_io import ProcessIO
 
-__all__ = ["ProcessStdin"]
-
 
 class ProcessStdin(ProcessIO):
     """Input that is sent to a process by emitting this event.

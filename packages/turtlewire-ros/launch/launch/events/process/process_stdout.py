@@ -6,8 +6,6 @@ from typing import Any
 
 from launch.events.process.process_io import ProcessIO
 
-__all__ = ["ProcessStdout"]
-
 
 class ProcessStdout(ProcessIO):
     """A process has written to stdout.

@@ -11,8 +11,6 @@ if TYPE_CHECKING:
 
     from launch._kernel.protocols import ProcessRunner
 
-__all__ = ["ProcessTargetedEvent"]
-
 
 class ProcessTargetedEvent(Event):
     """A request to each process whose action fulfils a predicate.

@@ -11,8 +11,6 @@ if TYPE_CHECKING:
 
     from launch._kernel.protocols import ProcessRunner
 
-__all__ = ["RunningProcessEvent"]
-
 
 class RunningProcessEvent(Event):
     """An event of a process of the launch.

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from launch.events.process.process_targeted_event import ProcessTargetedEvent
 
-__all__ = ["ShutdownProcess"]
-
 
 class ShutdownProcess(ProcessTargetedEvent):
     """A request to end a process: it gets SIGINT, then SIGTERM, then SIGKILL."""

@@ -12,8 +12,6 @@ if TYPE_CHECKING:
 
     from launch._kernel.protocols import ProcessRunner
 
-__all__ = ["SignalProcess"]
-
 
 class SignalProcess(ProcessTargetedEvent):
     """A request to send a signal to a process.

@@ -11,9 +11,6 @@ if TYPE_CHECKING:
 
     from launch_ros.events.matchers.matches_node_name import NamedNode
 
-__all__ = ["ChangeState"]
-
-
 # The numbers of `lifecycle_msgs`, whose import would slow each launch; a test compares them.
 _STATES = {
     0: "unknown",

@@ -11,8 +11,6 @@ if TYPE_CHECKING:
 
     from launch_ros.events.matchers.matches_node_name import NamedNode
 
-__all__ = ["matches_node_name"]
-
 
 def matches_node_name(node_name: str) -> Callable[[NamedNode], bool]:
     """Matches the managed node with this full name."""

@@ -9,8 +9,6 @@ from launch.event import Event
 if TYPE_CHECKING:
     from launch_ros.events.matchers.matches_node_name import NamedNode
 
-__all__ = ["StateTransition"]
-
 
 class StateTransition(Event):
     """A managed node has changed its state.

@@ -9,8 +9,6 @@ from launch_ros.utilities.namespace_utils import make_namespace_absolute
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["NamedNode", "matches_node_name"]
-
 
 class NamedNode(Protocol):
     """The attributes of a ``Node`` or ``LifecycleNode`` that matchers read."""

@@ -11,8 +11,6 @@ from ros2cli.verb.daemon import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "StartVerb", "main"]
-
 _START_S = 10.0
 
 

@@ -10,8 +10,6 @@ from ros2cli.verb.daemon import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["StatusVerb", "main"]
-
 
 def main(args: argparse.Namespace) -> None:
     """Say if the daemon runs."""

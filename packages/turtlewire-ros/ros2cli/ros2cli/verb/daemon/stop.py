@@ -10,8 +10,6 @@ from ros2cli.verb.daemon import VerbExtension
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["StopVerb", "main"]
-
 _END_S = 10.0
 
 

@@ -11,14 +11,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from enum import Enum
 
-__all__ = [
-    "dump_any_enum",
-    "dump_any_with_slots",
-    "end_any_enum",
-    "end_any_with_slots",
-    "fullname",
-]
-
 
 def fullname(klass: type[Any]) -> str:
     """Return module and name of a class, joined by a dot."""

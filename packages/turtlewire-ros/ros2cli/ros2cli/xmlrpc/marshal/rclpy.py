@@ -30,8 +30,6 @@ from ros2cli.xmlrpc.marshal.generic import (
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["dump_duration", "end_duration", "end_type_hash", "policy_types"]
-
 #: The policies of which a `QoSProfile` consists.
 policy_types = (
     QoSDurabilityPolicy,
