@@ -11,8 +11,6 @@ module          contents
 ==============  =======================================
 """
 
-from __future__ import annotations
-
 from ament_index_python.constants import AMENT_PREFIX_PATH_ENV_VAR, RESOURCE_INDEX_SUBFOLDER
 from ament_index_python.packages import (
     PackageNotFoundError,

@@ -1,7 +1,5 @@
 """The location of the index."""
 
-from __future__ import annotations
-
 #: Name of the environment variable that lists the prefixes of sourced workspaces.
 AMENT_PREFIX_PATH_ENV_VAR = "AMENT_PREFIX_PATH"
 

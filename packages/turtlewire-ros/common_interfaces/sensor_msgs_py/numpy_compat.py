@@ -1,7 +1,5 @@
 """Between structured arrays and plain ones; in ROS 2 for old versions of NumPy."""
 
-from __future__ import annotations
-
 from numpy.lib.recfunctions import structured_to_unstructured, unstructured_to_structured
 
 __all__ = ["structured_to_unstructured", "unstructured_to_structured"]

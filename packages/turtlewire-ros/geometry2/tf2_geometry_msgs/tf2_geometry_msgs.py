@@ -1,7 +1,5 @@
 """The names of ROS 2's module of this name; new code imports them from the package."""
 
-from __future__ import annotations
-
 from tf2_geometry_msgs import (
     do_transform_point,
     do_transform_polygon_stamped,

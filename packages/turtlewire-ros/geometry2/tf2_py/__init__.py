@@ -9,8 +9,6 @@ module         contents
 =============  ===============================
 """
 
-from __future__ import annotations
-
 from tf2_py.buffer_core import BufferCore
 from turtlewire.errors import (
     ConnectivityException,

@@ -10,8 +10,6 @@ module             contents
 =================  ===========================
 """
 
-from __future__ import annotations
-
 import tf2_ros
 from sensor_msgs.msg import PointCloud2
 from tf2_geometry_msgs import from_msg_msg, to_msg_msg

@@ -30,8 +30,6 @@ module                             contents
 =================================  ========================================================
 """
 
-from __future__ import annotations
-
 from launch import (
     actions,
     conditions,

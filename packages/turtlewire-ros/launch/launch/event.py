@@ -1,7 +1,5 @@
 """Something that happened."""
 
-from __future__ import annotations
-
 
 class Event:
     """Base of all events."""

@@ -1,7 +1,5 @@
 """The type of arguments that are actions."""
 
-from __future__ import annotations
-
 from launch.some_entities_type import SomeEntitiesType
 
 __all__ = ["SomeActionsType"]

@@ -1,7 +1,5 @@
 """The type of arguments that are entities of a launch description."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 from launch.launch_description_entity import LaunchDescriptionEntity

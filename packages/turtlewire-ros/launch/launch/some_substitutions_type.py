@@ -1,7 +1,5 @@
 """The type of arguments that are text or substitutions."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from pathlib import Path
 

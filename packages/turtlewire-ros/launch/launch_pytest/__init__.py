@@ -11,8 +11,6 @@ module           contents
 ===============  ==============================================================
 """
 
-from __future__ import annotations
-
 from launch_pytest import actions, tools
 from launch_pytest.fixture import fixture
 

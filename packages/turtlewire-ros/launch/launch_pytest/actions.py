@@ -1,7 +1,5 @@
 """Actions of launch descriptions for tests."""
 
-from __future__ import annotations
-
 from launch_testing.actions.ready import ReadyToTest as _ReadyToTest
 
 

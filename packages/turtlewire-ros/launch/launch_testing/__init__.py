@@ -25,8 +25,6 @@ module                            contents
 ================================  ==============================================================
 """
 
-from __future__ import annotations
-
 from launch_testing import tools, util
 from launch_testing.decorator import post_shutdown_test
 from launch_testing.io_handler import ActiveIoHandler, IoHandler

@@ -9,8 +9,6 @@ module                        contents
 ============================  ====================
 """
 
-from __future__ import annotations
-
 from launch_xml.entity import Entity
 from launch_xml.parser import Parser
 

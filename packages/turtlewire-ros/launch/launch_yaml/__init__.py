@@ -9,8 +9,6 @@ module                        contents
 ============================  ====================
 """
 
-from __future__ import annotations
-
 from launch_yaml.entity import Entity
 from launch_yaml.parser import Parser
 

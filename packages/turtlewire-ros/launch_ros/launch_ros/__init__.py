@@ -15,8 +15,6 @@ module                                       contents
 ===========================================  =====================================================
 """
 
-from __future__ import annotations
-
 from launch_ros import (
     actions,
     descriptions,

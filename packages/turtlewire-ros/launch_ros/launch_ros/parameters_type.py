@@ -1,7 +1,5 @@
 """The type of arguments that are parameters of a node."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any

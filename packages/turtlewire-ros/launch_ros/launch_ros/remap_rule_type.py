@@ -1,7 +1,5 @@
 """The type of arguments that are remapping rules."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 
 from launch.some_substitutions_type import SomeSubstitutionsType

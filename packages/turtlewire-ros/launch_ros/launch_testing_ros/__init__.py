@@ -13,8 +13,6 @@ module              contents
 ==================  =========================================================
 """
 
-from __future__ import annotations
-
 from launch_testing_ros import actions, tools
 from launch_testing_ros.data_republisher import DataRepublisher
 from launch_testing_ros.message_pump import MessagePump

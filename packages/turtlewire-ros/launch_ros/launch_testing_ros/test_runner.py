@@ -1,7 +1,5 @@
 """Runs launches of ROS nodes with their tests."""
 
-from __future__ import annotations
-
 from launch_testing.test_runner import LaunchTestRunner as _LaunchTestRunner
 
 

@@ -15,8 +15,6 @@ module                contents
 ====================  =================================================
 """
 
-from __future__ import annotations
-
 from .cache import Cache
 from .chain import Chain
 from .simple_filter import SimpleFilter

@@ -4,8 +4,6 @@ Each has a default, so that ``Publisher`` without brackets stays a valid annotat
 import some of them from the public modules by ROS 2's names: ``MsgType``, ``SrvType`` …
 """
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:

@@ -1,7 +1,5 @@
 """The kinds of time of clocks and time stamps."""
 
-from __future__ import annotations
-
 from enum import IntEnum
 
 

@@ -3,8 +3,6 @@
 Lyrical no longer has it.
 """
 
-from __future__ import annotations
-
 import warnings
 
 from turtlewire.distro import LYRICAL, since

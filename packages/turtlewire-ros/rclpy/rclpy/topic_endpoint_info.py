@@ -3,8 +3,6 @@
 In Lyrical, they are in :mod:`rclpy.endpoint_info`.
 """
 
-from __future__ import annotations
-
 from turtlewire.distro import LYRICAL, since
 
 from .endpoint_info import EndpointTypeEnum as TopicEndpointTypeEnum

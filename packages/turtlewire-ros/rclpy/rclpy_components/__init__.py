@@ -8,8 +8,6 @@ module                 contents
 =====================  ====================================================
 """
 
-from __future__ import annotations
-
 from rclpy_components.component_manager import ComponentManager
 
 __all__ = ["ComponentManager"]

@@ -11,8 +11,6 @@ module                   contents
 =======================  ======================================================
 """
 
-from __future__ import annotations
-
 from robot_state_publisher.node import RobotStatePublisher
 
 __all__ = ["RobotStatePublisher"]

@@ -1,7 +1,5 @@
 """Recorder, player and their options under the name of rosbag2's compiled module."""
 
-from __future__ import annotations
-
 from rosbag2_py._player import Player
 from rosbag2_py._recorder import Recorder
 from rosbag2_py._rewrite import bag_rewrite

@@ -7,8 +7,6 @@ module                    contents
 ========================  ===========================================
 """
 
-from __future__ import annotations
-
 from rosidl_pycommon.interface_base_classes import BaseAction, BaseImpl, BaseMessage, BaseService
 
 __all__ = ["BaseAction", "BaseImpl", "BaseMessage", "BaseService"]

@@ -1,7 +1,5 @@
 """Bases of messages, services and actions: for ``isinstance``, ``issubclass`` and annotations."""
 
-from __future__ import annotations
-
 from turtlewire.msg import Action as BaseAction
 from turtlewire.msg import ActionImpl as BaseImpl
 from turtlewire.msg import Message as BaseMessage

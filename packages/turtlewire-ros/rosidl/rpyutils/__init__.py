@@ -8,8 +8,6 @@ module                 contents
 =====================  ===================================
 """
 
-from __future__ import annotations
-
 from rpyutils.add_dll_directories import add_dll_directories_from_env
 from rpyutils.import_c_library import import_c_library
 

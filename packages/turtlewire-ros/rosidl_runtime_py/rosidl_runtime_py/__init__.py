@@ -10,8 +10,6 @@ module                         contents
 =============================  ======================================
 """
 
-from __future__ import annotations
-
 from rosidl_runtime_py.convert import (
     get_message_slot_types,
     message_to_csv,

@@ -1,7 +1,5 @@
 """The index of installed packages."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Point clouds to NumPy and back."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

@@ -1,7 +1,5 @@
 """Transforms of messages, and their equivalents in SciPy."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation

@@ -1,7 +1,5 @@
 """The types as tf2_ros.Buffer.transform takes them."""
 
-from __future__ import annotations
-
 import pytest
 from tests.programs import run_python
 

@@ -1,7 +1,5 @@
 """Contexts and nodes of the in-process middleware, fresh for each test."""
 
-from __future__ import annotations
-
 import pytest
 
 from geometry_msgs.msg import TransformStamped

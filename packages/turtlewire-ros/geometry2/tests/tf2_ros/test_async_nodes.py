@@ -1,7 +1,5 @@
 """Transforms of asynchronous nodes."""
 
-from __future__ import annotations
-
 import asyncio
 
 import pytest

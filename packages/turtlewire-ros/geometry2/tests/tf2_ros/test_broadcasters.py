@@ -1,7 +1,5 @@
 """Both broadcasters; static transforms are never lost."""
 
-from __future__ import annotations
-
 import contextlib
 import gc
 import random

@@ -3,8 +3,6 @@
 Answers, waiting in callbacks, futures, the frames service, jumps of the clock.
 """
 
-from __future__ import annotations
-
 import asyncio
 import gc
 import sys

@@ -1,7 +1,5 @@
 """Registrations, conversions and transform()."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 

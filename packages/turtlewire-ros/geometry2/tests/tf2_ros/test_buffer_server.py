@@ -1,7 +1,5 @@
 """BufferServer and BufferClient: the answers and the errors of the buffer, from another node."""
 
-from __future__ import annotations
-
 import threading
 import time
 

@@ -3,8 +3,6 @@
 The server, the client, filters and tools, each in its own process.
 """
 
-from __future__ import annotations
-
 import contextlib
 import signal
 import sys

@@ -3,8 +3,6 @@
 A `text` block is what the block before it prints.
 """
 
-from __future__ import annotations
-
 import re
 import sys
 import time

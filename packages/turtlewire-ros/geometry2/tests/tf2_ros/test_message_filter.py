@@ -3,8 +3,6 @@
 What can be transformed passes, what never can is dropped with a reason.
 """
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st

@@ -3,8 +3,6 @@
 As processes over Cyclone DDS, and their parts.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import math

@@ -1,7 +1,5 @@
 """tf2_ros.TransformListener on nodes: its arguments, its thread, its end."""
 
-from __future__ import annotations
-
 import threading
 
 import pytest

@@ -1,7 +1,5 @@
 """The PDF by its structure, and by poppler's reading of it where that is installed."""
 
-from __future__ import annotations
-
 import re
 import shutil
 import subprocess

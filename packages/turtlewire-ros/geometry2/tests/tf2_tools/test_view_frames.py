@@ -1,7 +1,5 @@
 """view_frames as a separate process over DDS, and as a node in this one."""
 
-from __future__ import annotations
-
 import json
 import shutil
 import signal

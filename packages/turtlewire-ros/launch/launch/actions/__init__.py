@@ -1,7 +1,5 @@
 """Actions of launch descriptions."""
 
-from __future__ import annotations
-
 from launch.actions.append_environment_variable import AppendEnvironmentVariable
 from launch.actions.declare_boolean_launch_argument import DeclareBooleanLaunchArgument
 from launch.actions.declare_launch_argument import DeclareLaunchArgument

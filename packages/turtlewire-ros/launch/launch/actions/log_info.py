@@ -1,7 +1,5 @@
 """The old module of :class:`launch.actions.LogInfo`; in Lyrical, importing it warns."""
 
-from __future__ import annotations
-
 import warnings
 
 from launch.actions.log import LogInfo

@@ -1,7 +1,5 @@
 """Conditions of actions."""
 
-from __future__ import annotations
-
 from launch.conditions.evaluate_condition_expression_impl import evaluate_condition_expression
 from launch.conditions.if_condition import IfCondition
 from launch.conditions.invalid_condition_expression_error import InvalidConditionExpressionError

@@ -1,7 +1,5 @@
 """Handlers for the events of a launch."""
 
-from __future__ import annotations
-
 from launch.event_handlers.event_named import event_named
 from launch.event_handlers.on_action_event_base import OnActionEventBase
 from launch.event_handlers.on_execution_complete import OnExecutionComplete

@@ -1,7 +1,5 @@
 """Events of a launch."""
 
-from __future__ import annotations
-
 from launch.events import matchers, process
 from launch.events.execution_complete import ExecutionComplete
 from launch.events.include_launch_description import IncludeLaunchDescription

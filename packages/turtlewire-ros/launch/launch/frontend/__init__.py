@@ -1,7 +1,5 @@
 """The parsers of launch files in XML, YAML and other languages."""
 
-from __future__ import annotations
-
 from launch.frontend.entity import Entity
 from launch.frontend.expose import expose_action, expose_substitution
 from launch.frontend.parser import InvalidFrontendLaunchFileError, Parser

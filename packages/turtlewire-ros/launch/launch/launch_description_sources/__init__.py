@@ -1,7 +1,5 @@
 """Launch descriptions from files."""
 
-from __future__ import annotations
-
 from launch.invalid_launch_file_error import InvalidLaunchFileError
 from launch.launch_description_sources.any_launch_description_source import (
     AnyLaunchDescriptionSource,

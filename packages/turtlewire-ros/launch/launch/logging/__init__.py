@@ -3,8 +3,6 @@
 Built on the standard library's ``logging``; its level names and constants are available from here.
 """
 
-from __future__ import annotations
-
 from logging import CRITICAL, DEBUG, ERROR, INFO, NOTSET, WARNING, Logger, getLevelName
 from logging import getLogger as getLogger
 

@@ -1,7 +1,5 @@
 """Text that is known only when the launch runs."""
 
-from __future__ import annotations
-
 from launch.substitutions.anon_name import AnonName
 from launch.substitutions.boolean_substitution import (
     AllSubstitution,

@@ -1,7 +1,5 @@
 """Plain text."""
 
-from __future__ import annotations
-
 from launch.utilities.text import TextSubstitution
 
 __all__ = ["TextSubstitution"]

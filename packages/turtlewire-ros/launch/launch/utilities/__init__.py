@@ -3,8 +3,6 @@
 The modules ``…_impl`` are ROS 2's: programs also import from them.
 """
 
-from __future__ import annotations
-
 from launch.utilities.class_tools_impl import is_a, is_a_subclass, isclassinstance
 from launch.utilities.ensure_argument_type_impl import ensure_argument_type
 from launch.utilities.normalize_to_list_of_entities_impl import normalize_to_list_of_entities

@@ -1,7 +1,5 @@
 """Waits for starts, ends and output of processes."""
 
-from __future__ import annotations
-
 from launch_pytest.tools import process
 from launch_pytest.tools.process import (
     assert_output,

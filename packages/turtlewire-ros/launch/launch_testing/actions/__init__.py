@@ -1,7 +1,5 @@
 """Actions of launch descriptions for tests."""
 
-from __future__ import annotations
-
 from launch_testing.actions.gtest import GTest
 from launch_testing.actions.pytest import PyTest
 from launch_testing.actions.ready import ReadyToTest

@@ -1,7 +1,5 @@
 """Assertions about the output and the exit codes of the processes of a launch."""
 
-from __future__ import annotations
-
 from launch_testing.asserts.assert_exit_codes import (
     EXIT_OK,
     EXIT_SIGINT,

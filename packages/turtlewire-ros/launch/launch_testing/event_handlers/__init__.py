@@ -1,7 +1,5 @@
 """Reactions to events of processes under test."""
 
-from __future__ import annotations
-
 from launch_testing.event_handlers.stdout_ready_listener import StdoutReadyListener
 
 __all__ = ["StdoutReadyListener"]

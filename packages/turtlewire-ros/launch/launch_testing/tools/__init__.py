@@ -1,7 +1,5 @@
 """Patterns of expected output, and processes that a single test starts."""
 
-from __future__ import annotations
-
 from launch_testing.tools.output import (
     basic_output_filter,
     expect_output,

@@ -1,7 +1,5 @@
 """Launch descriptions from files in XML."""
 
-from __future__ import annotations
-
 from launch_xml.launch_description_sources.xml_launch_description_source import (
     XMLLaunchDescriptionSource,
 )

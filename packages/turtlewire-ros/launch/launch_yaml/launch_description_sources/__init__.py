@@ -1,7 +1,5 @@
 """Launch descriptions from files in YAML."""
 
-from __future__ import annotations
-
 from launch_yaml.launch_description_sources.yaml_launch_description_source import (
     YAMLLaunchDescriptionSource,
 )

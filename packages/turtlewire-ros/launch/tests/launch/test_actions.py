@@ -1,7 +1,5 @@
 """The effect of each action on the launch."""
 
-from __future__ import annotations
-
 import asyncio
 import os
 

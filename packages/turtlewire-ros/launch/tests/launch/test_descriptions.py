@@ -1,7 +1,5 @@
 """Descriptions and properties of entities and substitutions that do not run."""
 
-from __future__ import annotations
-
 import pytest
 
 from launch import LaunchContext, LaunchDescription, LaunchIntrospector, Substitution

@@ -1,7 +1,5 @@
 """Event handlers and the events of processes, without a running launch."""
 
-from __future__ import annotations
-
 import signal
 
 import pytest

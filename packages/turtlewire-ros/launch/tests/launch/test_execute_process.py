@@ -1,7 +1,5 @@
 """Processes: their output, their end, how they are stopped."""
 
-from __future__ import annotations
-
 import os
 import re
 import signal

@@ -1,7 +1,5 @@
 """XML and YAML launch files: equivalent files in both languages have the same effects."""
 
-from __future__ import annotations
-
 import pytest
 from tests.distros import lines_in
 

@@ -1,7 +1,5 @@
 """Ctrl-C and other signals, at `ros2 launch` in a separate process or terminal."""
 
-from __future__ import annotations
-
 import os
 import signal
 

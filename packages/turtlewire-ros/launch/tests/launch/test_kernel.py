@@ -1,7 +1,5 @@
 """The kernel below entities and loop: the state of one launch, scopes, and their guarantees."""
 
-from __future__ import annotations
-
 import asyncio
 import os
 import threading

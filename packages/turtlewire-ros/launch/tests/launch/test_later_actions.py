@@ -1,7 +1,5 @@
 """Actions and substitutions that came with Kilted and Lyrical: loops, levels of logs, others."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

@@ -1,7 +1,5 @@
 """Launch files in Python, and the errors for files that are not launch files."""
 
-from __future__ import annotations
-
 import pytest
 
 from launch import LaunchDescription, LaunchDescriptionSource, LaunchIntrospector, LaunchService

@@ -1,7 +1,5 @@
 """The order of events and handlers, failures, and the end."""
 
-from __future__ import annotations
-
 import signal
 import threading
 

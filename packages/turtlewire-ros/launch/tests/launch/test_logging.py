@@ -1,7 +1,5 @@
 """Destinations and formats of log lines."""
 
-from __future__ import annotations
-
 import os
 import re
 import sys

@@ -1,7 +1,5 @@
 """The result, the description and the error of each substitution."""
 
-from __future__ import annotations
-
 import operator
 import os
 import sys

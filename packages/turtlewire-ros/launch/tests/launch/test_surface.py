@@ -1,7 +1,5 @@
 """Parts of launch's API that programs use outside launch files."""
 
-from __future__ import annotations
-
 import asyncio
 import sys
 from typing import List  # noqa: UP035  as ROS 2's callers write it

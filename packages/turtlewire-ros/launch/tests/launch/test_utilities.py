@@ -1,7 +1,5 @@
 """Lists of substitutions, type checks, lines of output, and the place of an error."""
 
-from __future__ import annotations
-
 import asyncio
 import signal
 import sys

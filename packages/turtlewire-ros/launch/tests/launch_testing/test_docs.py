@@ -1,7 +1,5 @@
 """The how-to page about launch tests, run."""
 
-from __future__ import annotations
-
 import os
 import shlex
 import subprocess

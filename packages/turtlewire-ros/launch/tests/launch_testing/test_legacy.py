@@ -1,7 +1,5 @@
 """Tests as actions of a launch."""
 
-from __future__ import annotations
-
 import sys
 
 import pytest

@@ -1,7 +1,5 @@
 """Launch tests as a user runs them: with pytest and with `launch_test`."""
 
-from __future__ import annotations
-
 import asyncio
 import shutil
 import subprocess

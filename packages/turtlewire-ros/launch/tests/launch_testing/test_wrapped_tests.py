@@ -1,7 +1,5 @@
 """Functions of `launch_pytest.plugin` that make tests run while a loop runs, and pytest's hooks."""
 
-from __future__ import annotations
-
 import asyncio
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Launch files in XML."""
 
-from __future__ import annotations
-
 import pytest
 
 from launch import LaunchDescription

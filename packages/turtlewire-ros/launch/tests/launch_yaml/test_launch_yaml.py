@@ -1,7 +1,5 @@
 """Launch files in YAML."""
 
-from __future__ import annotations
-
 import pytest
 
 from launch import LaunchDescription

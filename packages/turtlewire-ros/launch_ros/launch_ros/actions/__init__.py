@@ -1,7 +1,5 @@
 """Actions for ROS nodes."""
 
-from __future__ import annotations
-
 from launch_ros.actions.composable_node_container import ComposableNodeContainer
 from launch_ros.actions.lifecycle_node import LifecycleNode
 from launch_ros.actions.lifecycle_transition import LifecycleTransition

@@ -1,7 +1,5 @@
 """Events of ROS nodes."""
 
-from __future__ import annotations
-
 from launch_ros.events import lifecycle
 from launch_ros.events.matchers import matches_node_name
 

@@ -1,7 +1,5 @@
 """Substitutions for packages, executables and parameters."""
 
-from __future__ import annotations
-
 from launch_ros.substitutions.executable_in_package import ExecutableInPackage
 from launch_ros.substitutions.find_package import FindPackage, FindPackagePrefix, FindPackageShare
 from launch_ros.substitutions.parameter import Parameter

@@ -8,8 +8,6 @@ is installed, as :class:`launch_ros.actions.node.NodeActionExtension` does:
 An extension whose check fails is left out with a warning, and the nodes start without it.
 """
 
-from __future__ import annotations
-
 from turtlewire.plugins import (
     PluginException,
     get_upper_bound_caret_version,

@@ -7,8 +7,6 @@ module                  contents
 ======================  =============================================================
 """
 
-from __future__ import annotations
-
 from .enable_rmw_isolation import EnableRmwIsolation
 
 __all__ = ["EnableRmwIsolation"]

@@ -7,8 +7,6 @@ module contents
 =====  ================================
 """
 
-from __future__ import annotations
-
 from launch.frontend.parser import InvalidFrontendLaunchFileError
 from launch.invalid_launch_file_error import InvalidLaunchFileError
 from launch.launch_description_sources import InvalidPythonLaunchFileError

@@ -1,7 +1,5 @@
 """Fixtures and helpers of the tests of launch_ros."""
 
-from __future__ import annotations
-
 import pytest
 
 from launch import LaunchContext

@@ -1,7 +1,5 @@
 """Nodes in the process of a container."""
 
-from __future__ import annotations
-
 import pytest
 
 from launch.actions import (

@@ -1,7 +1,5 @@
 """The launch files in examples/, and a launched teleop, with the real nodes."""
 
-from __future__ import annotations
-
 import os
 import re
 import signal

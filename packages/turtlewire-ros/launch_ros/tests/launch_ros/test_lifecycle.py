@@ -1,7 +1,5 @@
 """Managed nodes, and timers of ROS."""
 
-from __future__ import annotations
-
 import sys
 from types import SimpleNamespace
 

@@ -1,7 +1,5 @@
 """Starting nodes: names, parameters, remappings and additions of the scope."""
 
-from __future__ import annotations
-
 import os
 import sys
 

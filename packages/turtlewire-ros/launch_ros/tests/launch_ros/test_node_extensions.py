@@ -1,7 +1,5 @@
 """Extensions of `Node`, which other packages add by entry points."""
 
-from __future__ import annotations
-
 import logging
 
 import pytest

@@ -1,7 +1,5 @@
 """A launch in a separate domain."""
 
-from __future__ import annotations
-
 import os
 import sys
 

@@ -1,7 +1,5 @@
 """Parameters, remappings and names: what programs import from launch_ros besides actions."""
 
-from __future__ import annotations
-
 import importlib
 import os
 import threading

@@ -1,7 +1,5 @@
 """``WaitForTopics`` of launch_testing_ros, apart from waiting."""
 
-from __future__ import annotations
-
 import pytest
 
 from launch_testing_ros import WaitForTopics

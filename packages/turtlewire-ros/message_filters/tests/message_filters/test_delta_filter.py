@@ -1,7 +1,5 @@
 """Messages in which fields have changed."""
 
-from __future__ import annotations
-
 from operator import attrgetter
 
 import pytest

@@ -1,7 +1,5 @@
 """Differences between distributions, each in its own process."""
 
-from __future__ import annotations
-
 import pytest
 from tests.distros import OUTCOME, lines_in
 

@@ -1,7 +1,5 @@
 """Messages of several inputs in the order of their stamps."""
 
-from __future__ import annotations
-
 import pytest
 
 from geometry_msgs.msg import PointStamped

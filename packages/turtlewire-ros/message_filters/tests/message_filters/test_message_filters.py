@@ -1,7 +1,5 @@
 """The filters by themselves, and on topics."""
 
-from __future__ import annotations
-
 import random
 
 import pytest

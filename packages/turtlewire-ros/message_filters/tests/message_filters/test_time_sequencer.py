@@ -1,7 +1,5 @@
 """Messages in the order of their stamps, by a clock that the tests set."""
 
-from __future__ import annotations
-
 import gc
 import weakref
 

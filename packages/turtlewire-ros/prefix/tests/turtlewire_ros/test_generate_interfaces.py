@@ -1,7 +1,5 @@
 """Generating the Python modules of interfaces in a build: silently, or with the faulty line."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 

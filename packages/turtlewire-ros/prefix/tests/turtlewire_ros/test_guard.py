@@ -1,7 +1,5 @@
 """`ros2` where another ROS 2 was sourced."""
 
-from __future__ import annotations
-
 import os
 
 import pytest

@@ -1,7 +1,5 @@
 """Errors in package.xml files."""
 
-from __future__ import annotations
-
 import pytest
 
 from ros2cli.main import main

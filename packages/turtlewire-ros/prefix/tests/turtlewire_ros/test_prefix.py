@@ -1,7 +1,5 @@
 """Finding packages and their executables."""
 
-from __future__ import annotations
-
 import json
 import os
 import stat

@@ -1,7 +1,5 @@
 """The guardian ends its family; tests/chaos/test_processes.py shows it behind real commands."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

@@ -1,7 +1,5 @@
 """The tests that pytest finds in packages created by `ros2 pkg create` of a real ROS 2."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 

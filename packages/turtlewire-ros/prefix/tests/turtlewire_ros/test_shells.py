@@ -4,8 +4,6 @@ Fish gets the same environment as bash, and bash, zsh and fish complete words, t
 frames.
 """
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """The files of the wheel for ament, colcon, rosdep and shells."""
 
-from __future__ import annotations
-
 import hashlib
 import subprocess
 import sys

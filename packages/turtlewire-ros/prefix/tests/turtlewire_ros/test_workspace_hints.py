@@ -1,7 +1,5 @@
 """Hints about packages and files of a workspace that are not found."""
 
-from __future__ import annotations
-
 from importlib.metadata import entry_points
 
 import pytest

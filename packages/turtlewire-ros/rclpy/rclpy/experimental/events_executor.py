@@ -3,8 +3,6 @@
 All executors here are driven by events; this one is the single-threaded one under its name.
 """
 
-from __future__ import annotations
-
 from rclpy.executors import SingleThreadedExecutor
 
 

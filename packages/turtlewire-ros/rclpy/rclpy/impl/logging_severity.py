@@ -1,7 +1,5 @@
 """The severities of log messages."""
 
-from __future__ import annotations
-
 from enum import IntEnum
 
 

@@ -1,7 +1,5 @@
 """Events of action clients and servers, on both middlewares."""
 
-from __future__ import annotations
-
 import pytest
 
 from example_interfaces.action import Fibonacci

@@ -1,7 +1,5 @@
 """Action clients and servers, on both middlewares."""
 
-from __future__ import annotations
-
 import threading
 
 import pytest

@@ -1,7 +1,5 @@
 """The grammar of --ros-args, against the texts of a real ROS 2 and against its laws."""
 
-from __future__ import annotations
-
 import re
 import shlex
 

@@ -1,7 +1,5 @@
 """Asynchronous nodes: start, failure and end. The outcomes are those of ROS 2 Lyrical."""
 
-from __future__ import annotations
-
 import asyncio
 import gc
 import threading

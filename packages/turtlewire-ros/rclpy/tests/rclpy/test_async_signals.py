@@ -1,7 +1,5 @@
 """Ctrl-C and SIGTERM beside asynchronous nodes, in separate processes."""
 
-from __future__ import annotations
-
 import signal
 
 import pytest

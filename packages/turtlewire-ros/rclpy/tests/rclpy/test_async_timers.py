@@ -1,7 +1,5 @@
 """Timers and clocks of asynchronous nodes. The outcomes are those of ROS 2 Lyrical."""
 
-from __future__ import annotations
-
 import asyncio
 import time
 

@@ -1,7 +1,5 @@
 """Messages that the wire's threads handle: they end a ``spin_once``, and do not wake a ``spin``."""
 
-from __future__ import annotations
-
 import threading
 
 import pytest

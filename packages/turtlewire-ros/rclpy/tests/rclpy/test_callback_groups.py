@@ -1,7 +1,5 @@
 """Callback groups alone; test_executors.py checks that executors respect them."""
 
-from __future__ import annotations
-
 import gc
 
 import pytest

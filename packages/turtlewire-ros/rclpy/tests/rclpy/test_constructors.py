@@ -3,8 +3,6 @@
 Each program runs in a process of a distribution, because the order of the arguments changed.
 """
 
-from __future__ import annotations
-
 import asyncio
 
 import pytest

@@ -1,7 +1,5 @@
 """Entities that are destroyed or change their executor while one serves them: it keeps spinning."""
 
-from __future__ import annotations
-
 import asyncio
 import contextlib
 import threading

@@ -1,7 +1,5 @@
 """Changes of rclpy in Kilted and Lyrical; each program runs in a process of a distribution."""
 
-from __future__ import annotations
-
 import pytest
 from tests.distros import OUTCOME, lines_in
 

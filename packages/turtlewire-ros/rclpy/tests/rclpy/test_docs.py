@@ -1,7 +1,5 @@
 """The programs of docs/how-to/asyncio.md print what the page says."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 

@@ -1,7 +1,5 @@
 """Events of QoS and overrides of QoS by parameters, over both middlewares."""
 
-from __future__ import annotations
-
 import importlib
 import sys
 

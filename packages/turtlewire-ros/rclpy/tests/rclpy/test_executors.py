@@ -1,7 +1,5 @@
 """Executors: order, waits, callback groups, threads, shutdown."""
 
-from __future__ import annotations
-
 import gc
 import math
 import os

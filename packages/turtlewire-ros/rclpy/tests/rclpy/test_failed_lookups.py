@@ -1,7 +1,5 @@
 """Log lines about failed lookups on the console: with the hint, and without a flood."""
 
-from __future__ import annotations
-
 import pytest
 
 import turtlewire

@@ -1,7 +1,5 @@
 """init, ok, shutdown and contexts."""
 
-from __future__ import annotations
-
 import math
 import threading
 

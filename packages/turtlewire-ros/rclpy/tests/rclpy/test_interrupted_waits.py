@@ -4,8 +4,6 @@ An exception at the wrong moment once left the lock of a `threading.Event`: the 
 signals blocked in it, and the program that was to end joined that thread.
 """
 
-from __future__ import annotations
-
 import gc
 import random
 import signal

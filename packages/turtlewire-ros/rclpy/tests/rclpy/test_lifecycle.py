@@ -1,7 +1,5 @@
 """Managed nodes: their states, callbacks, publishers and services."""
 
-from __future__ import annotations
-
 import pytest
 
 from lifecycle_msgs.msg import Transition, TransitionEvent

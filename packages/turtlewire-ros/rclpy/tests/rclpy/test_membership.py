@@ -1,7 +1,5 @@
 """Nodes that leave an executor and come back, as in a loop of ``rclpy.spin_once``."""
 
-from __future__ import annotations
-
 import gc
 import threading
 import time

@@ -1,7 +1,5 @@
 """Mistakes of beginners: the error is raised at the mistake, and says what to do."""
 
-from __future__ import annotations
-
 import contextlib
 import threading
 import time

@@ -1,7 +1,5 @@
 """Name checks and the errors that they raise."""
 
-from __future__ import annotations
-
 import pytest
 
 from rclpy import exceptions

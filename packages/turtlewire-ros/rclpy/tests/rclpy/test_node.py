@@ -1,7 +1,5 @@
 """The node: names, remapping, its entities, and its properties in the graph."""
 
-from __future__ import annotations
-
 import gc
 import threading
 

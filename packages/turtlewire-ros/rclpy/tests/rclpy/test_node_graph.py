@@ -1,7 +1,5 @@
 """A node's view of the graph, on both middlewares."""
 
-from __future__ import annotations
-
 import math
 import threading
 from functools import partial

@@ -1,7 +1,5 @@
 """Parameters between two nodes: services, client, events; and the other services of a node."""
 
-from __future__ import annotations
-
 import json
 from types import SimpleNamespace
 

@@ -1,7 +1,5 @@
 """Tags in parameter files, which choose the type of a value in Lyrical."""
 
-from __future__ import annotations
-
 from tests.distros import lines_in
 
 VALUES = {

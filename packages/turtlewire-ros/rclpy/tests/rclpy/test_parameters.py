@@ -1,7 +1,5 @@
 """The parameters of a node, without a node."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

@@ -2,8 +2,6 @@
 Cyclone DDS.
 """
 
-from __future__ import annotations
-
 import signal
 
 PUBLISHER = """

@@ -1,7 +1,5 @@
 """Clients and services, on both middlewares."""
 
-from __future__ import annotations
-
 import math
 import threading
 

@@ -1,7 +1,5 @@
 """Ctrl-C and SIGTERM, in separate processes."""
 
-from __future__ import annotations
-
 import os
 import re
 import signal

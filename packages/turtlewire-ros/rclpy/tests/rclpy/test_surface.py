@@ -4,8 +4,6 @@ Values of enumerations of ROS 2's C extension, base classes of errors, aliases, 
 attributes that constructors set.
 """
 
-from __future__ import annotations
-
 import ast
 import importlib
 import json

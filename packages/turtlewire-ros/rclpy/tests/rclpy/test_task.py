@@ -1,7 +1,5 @@
 """Futures and tasks, on an executor and in asyncio."""
 
-from __future__ import annotations
-
 import asyncio
 import gc
 import sys

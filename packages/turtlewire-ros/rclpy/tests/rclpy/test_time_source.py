@@ -1,7 +1,5 @@
 """use_sim_time and /clock."""
 
-from __future__ import annotations
-
 import pytest
 
 from builtin_interfaces.msg import Time as TimeMsg

@@ -1,7 +1,5 @@
 """Timers and rates. Their clock is moved by hand where it matters."""
 
-from __future__ import annotations
-
 import threading
 import time
 

@@ -1,7 +1,5 @@
 """Publishers and subscriptions, on both middlewares."""
 
-from __future__ import annotations
-
 import time
 
 import pytest

@@ -1,7 +1,5 @@
 """Programs with type hints, checked by a type checker."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -3,8 +3,6 @@
 Teleop on another domain than the simulator was silent.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import signal

@@ -1,7 +1,5 @@
 """Waitables that programs make."""
 
-from __future__ import annotations
-
 import pytest
 
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup

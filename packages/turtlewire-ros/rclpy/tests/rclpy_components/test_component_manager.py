@@ -1,7 +1,5 @@
 """Nodes that are loaded into a running process."""
 
-from __future__ import annotations
-
 import sys
 import threading
 import types

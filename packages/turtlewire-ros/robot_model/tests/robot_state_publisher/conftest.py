@@ -1,7 +1,5 @@
 """A robot_state_publisher in this process, and what it sends."""
 
-from __future__ import annotations
-
 import gc
 import time
 

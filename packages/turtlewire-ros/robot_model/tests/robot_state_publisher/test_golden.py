@@ -4,8 +4,6 @@ Kinematics, parameters, descriptions, refusals and exit codes are equal. Log lin
 ours adds some (see `docs/compatibility.md`), and the tests check that they are there.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import math

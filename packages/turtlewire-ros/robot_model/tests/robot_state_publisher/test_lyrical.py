@@ -1,7 +1,5 @@
 """Changes of Lyrical's robot_state_publisher: the description from a topic, and frequencies."""
 
-from __future__ import annotations
-
 from tests.distros import lines_in
 
 START = """

@@ -1,7 +1,5 @@
 """Differences from a real robot_state_publisher: fixed faults, and log lines that explain."""
 
-from __future__ import annotations
-
 import re
 import signal
 

@@ -1,7 +1,5 @@
 """Joint states that native code answers, without Python, on the thread that receives them."""
 
-from __future__ import annotations
-
 import signal
 
 import pytest

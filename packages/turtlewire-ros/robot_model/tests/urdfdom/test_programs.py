@@ -1,7 +1,5 @@
 """`check_urdf` and `urdf_to_graphviz`."""
 
-from __future__ import annotations
-
 import io
 import subprocess
 import sys

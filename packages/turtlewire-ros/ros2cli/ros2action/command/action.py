@@ -1,7 +1,5 @@
 """``ros2 action``."""
 
-from __future__ import annotations
-
 from ros2cli.builtin import command_of_module
 from ros2cli.command import CommandExtension
 

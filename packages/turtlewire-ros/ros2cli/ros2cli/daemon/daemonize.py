@@ -9,8 +9,6 @@ The tags stand on the command line of the process, where a list of processes sho
 process belongs to no launch and no terminal: neither Ctrl-C nor the end of either ends it.
 """
 
-from __future__ import annotations
-
 from ros2cli.background import PicklerForProcess, daemonize, main
 
 __all__ = ["PicklerForProcess", "daemonize", "main"]

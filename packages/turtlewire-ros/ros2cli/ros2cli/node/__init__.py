@@ -1,7 +1,5 @@
 """Nodes with which commands query the graph."""
 
-from __future__ import annotations
-
 __all__ = ["HIDDEN_NODE_PREFIX", "NODE_NAME_PREFIX"]
 
 HIDDEN_NODE_PREFIX = "_"

@@ -1,7 +1,5 @@
 """Verbs of ``ros2 doctor``; entry points in the group ``ros2doctor.verb``."""
 
-from __future__ import annotations
-
 from ros2cli import verb
 from ros2cli.plugin_system import PLUGIN_SYSTEM_VERSION
 

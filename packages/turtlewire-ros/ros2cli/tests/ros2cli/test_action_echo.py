@@ -1,7 +1,5 @@
 """`ros2 action find` and `ros2 action echo` with a server and a client."""
 
-from __future__ import annotations
-
 import sys
 
 import pytest

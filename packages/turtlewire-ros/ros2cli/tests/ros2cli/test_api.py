@@ -1,7 +1,5 @@
 """The functions and classes that programs import from ros2cli's packages."""
 
-from __future__ import annotations
-
 import argparse
 import subprocess
 import sys

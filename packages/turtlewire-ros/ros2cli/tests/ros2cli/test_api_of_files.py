@@ -1,7 +1,5 @@
 """`ros2bag.api`, `ros2run.api`, `ros2pkg.api` and `ros2launch.api`."""
 
-from __future__ import annotations
-
 import argparse
 import io
 

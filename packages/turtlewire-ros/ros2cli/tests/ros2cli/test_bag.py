@@ -1,7 +1,5 @@
 """``ros2 bag``: texts and exit codes of the real one."""
 
-from __future__ import annotations
-
 import json
 import shutil
 

@@ -1,7 +1,5 @@
 """Completions of the next word for a shell."""
 
-from __future__ import annotations
-
 import os
 import sys
 

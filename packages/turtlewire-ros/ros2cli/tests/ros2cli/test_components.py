@@ -1,7 +1,5 @@
 """`ros2 component` with a container of Python nodes."""
 
-from __future__ import annotations
-
 import sys
 
 import pytest

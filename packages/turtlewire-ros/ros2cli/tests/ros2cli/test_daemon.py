@@ -1,7 +1,5 @@
 """The daemon: it answers programs, is started and stopped, and ends by itself."""
 
-from __future__ import annotations
-
 import argparse
 import functools
 import http.client

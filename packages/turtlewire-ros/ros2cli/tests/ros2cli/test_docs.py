@@ -1,7 +1,5 @@
 """The commands of docs/reference/ros2_json.md."""
 
-from __future__ import annotations
-
 import os
 import re
 from functools import partial

@@ -1,7 +1,5 @@
 """`ros2doctor.api`: checks and reports, including other packages'."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 

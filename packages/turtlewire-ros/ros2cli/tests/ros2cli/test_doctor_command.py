@@ -1,7 +1,5 @@
 """`ros2 doctor`: findings and the report."""
 
-from __future__ import annotations
-
 import os
 
 import pytest

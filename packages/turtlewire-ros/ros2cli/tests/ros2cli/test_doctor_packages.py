@@ -1,7 +1,5 @@
 """Versions of packages, compared with an index of releases in local files."""
 
-from __future__ import annotations
-
 import re
 from contextlib import nullcontext
 

@@ -1,7 +1,5 @@
 """Fields and filters of `ros2 topic echo`."""
 
-from __future__ import annotations
-
 import functools
 import sys
 from types import SimpleNamespace

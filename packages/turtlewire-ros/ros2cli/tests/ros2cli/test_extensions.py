@@ -1,7 +1,5 @@
 """`ros2 extensions`, `ros2 extension_points` and `ros2 doctor hello`."""
 
-from __future__ import annotations
-
 import re
 import socket
 import sys

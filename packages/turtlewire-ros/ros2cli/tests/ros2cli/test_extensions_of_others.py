@@ -1,7 +1,5 @@
 """Commands, verbs and options that other packages add by entry points, as ROS 2's do."""
 
-from __future__ import annotations
-
 import sys
 import textwrap
 

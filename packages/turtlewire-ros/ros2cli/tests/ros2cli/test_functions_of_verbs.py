@@ -1,7 +1,5 @@
 """The functions and classes with which programs run verbs, and those inside of ros2cli."""
 
-from __future__ import annotations
-
 import argparse
 import importlib.metadata
 import io

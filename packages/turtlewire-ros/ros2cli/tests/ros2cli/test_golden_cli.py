@@ -3,8 +3,6 @@
 What deviates is listed here with its reason.
 """
 
-from __future__ import annotations
-
 import sys
 from concurrent.futures import ThreadPoolExecutor
 

@@ -1,7 +1,5 @@
 """Queries of the graph."""
 
-from __future__ import annotations
-
 import argparse
 import contextlib
 import math

@@ -1,7 +1,5 @@
 """The option `--json`."""
 
-from __future__ import annotations
-
 import json
 import math
 import subprocess

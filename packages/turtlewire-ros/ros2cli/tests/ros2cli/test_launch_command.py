@@ -1,7 +1,5 @@
 """The command line of `ros2 launch`."""
 
-from __future__ import annotations
-
 import pytest
 
 from ros2cli.main import main, make_parser

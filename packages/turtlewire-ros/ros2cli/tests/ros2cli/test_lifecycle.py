@@ -1,7 +1,5 @@
 """`ros2 lifecycle` with a managed node."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 

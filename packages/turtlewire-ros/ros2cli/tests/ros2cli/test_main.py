@@ -1,7 +1,5 @@
 """The ros2 command itself."""
 
-from __future__ import annotations
-
 import importlib
 import os
 import signal

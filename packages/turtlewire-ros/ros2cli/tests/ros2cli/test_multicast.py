@@ -1,7 +1,5 @@
 """`ros2 multicast`: one datagram from a sender to a receiver."""
 
-from __future__ import annotations
-
 import shlex
 import subprocess
 import sys

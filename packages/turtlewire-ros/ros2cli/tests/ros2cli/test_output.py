@@ -1,7 +1,5 @@
 """The output of verbs with text of other processes."""
 
-from __future__ import annotations
-
 import io
 import sys
 from contextlib import nullcontext

@@ -1,7 +1,5 @@
 """`ros2 pkg create`: packages that can be built and installed."""
 
-from __future__ import annotations
-
 import ast
 import zipfile
 

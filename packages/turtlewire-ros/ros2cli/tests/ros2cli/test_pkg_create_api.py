@@ -1,7 +1,5 @@
 """The steps by which programs make packages; tools build the packages where they are installed."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 from types import SimpleNamespace

@@ -1,7 +1,5 @@
 """`ros2 topic pub --yaml-file` with a subscription."""
 
-from __future__ import annotations
-
 import sys
 
 import pytest

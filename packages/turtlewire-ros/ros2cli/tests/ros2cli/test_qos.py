@@ -1,7 +1,5 @@
 """QoS on the command lines of extensions."""
 
-from __future__ import annotations
-
 import argparse
 
 import pytest

@@ -1,7 +1,5 @@
 """`ros2 run`: finding executables, and exit status."""
 
-from __future__ import annotations
-
 import signal
 import sys
 

@@ -1,7 +1,5 @@
 """Arguments that the user chooses from a list, in Lyrical."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

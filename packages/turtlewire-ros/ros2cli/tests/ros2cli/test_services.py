@@ -1,7 +1,5 @@
 """`ros2 service call` with times, and `ros2 service info -v`."""
 
-from __future__ import annotations
-
 import re
 import sys
 

@@ -1,7 +1,5 @@
 """`ros2 param get` and `set` of several parameters, and of all nodes."""
 
-from __future__ import annotations
-
 import sys
 
 import pytest

@@ -1,7 +1,5 @@
 """`ros2 topic hz` and `bw` of several topics, and of all."""
 
-from __future__ import annotations
-
 import sys
 import threading
 

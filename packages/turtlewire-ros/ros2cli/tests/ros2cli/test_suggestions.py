@@ -3,8 +3,6 @@
 The error line is that of ROS 2, and the nearest names follow on a separate line.
 """
 
-from __future__ import annotations
-
 import signal
 import sys
 

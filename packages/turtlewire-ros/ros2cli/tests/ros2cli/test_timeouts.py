@@ -1,7 +1,5 @@
 """The option `--timeout` of verbs that wait for the answer of a node which does not spin."""
 
-from __future__ import annotations
-
 import sys
 
 import pytest

@@ -1,7 +1,5 @@
 """Rates, sizes and delays, with the texts of ROS 2."""
 
-from __future__ import annotations
-
 import time
 
 import pytest

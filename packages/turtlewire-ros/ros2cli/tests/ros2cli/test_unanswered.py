@@ -1,7 +1,5 @@
 """Servers that end while a command waits for them, and names and types that are not there."""
 
-from __future__ import annotations
-
 import sys
 
 import pytest

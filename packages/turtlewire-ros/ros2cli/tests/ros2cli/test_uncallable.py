@@ -1,7 +1,5 @@
 """Commands end with the reason when a server would misread their requests."""
 
-from __future__ import annotations
-
 import threading
 
 import pytest

@@ -1,7 +1,5 @@
 """Values on the command line, and near names."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 

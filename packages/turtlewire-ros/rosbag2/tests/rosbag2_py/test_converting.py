@@ -1,7 +1,5 @@
 """Converting bags of ROS 1 and of other definitions, with `rosbags` as the oracle."""
 
-from __future__ import annotations
-
 import random
 
 import pytest

@@ -1,7 +1,5 @@
 """Presets and configuration files of the storages, seen in the files that they make."""
 
-from __future__ import annotations
-
 import pytest
 from mcap.reader import make_reader
 

@@ -1,7 +1,5 @@
 """Reading bags through rosbag2's classes gives what the real one gives."""
 
-from __future__ import annotations
-
 import gzip
 import json
 import zlib

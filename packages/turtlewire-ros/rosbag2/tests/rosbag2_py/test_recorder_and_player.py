@@ -1,7 +1,5 @@
 """Recorder, Player and bag_rewrite as scripts use them: in a thread, ended by `cancel`."""
 
-from __future__ import annotations
-
 import threading
 
 import pytest

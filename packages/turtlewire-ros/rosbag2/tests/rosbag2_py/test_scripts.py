@@ -1,7 +1,5 @@
 """Programs as ROS 2's tutorials and users write them with rosbag2_py."""
 
-from __future__ import annotations
-
 import datetime as dt
 import threading
 

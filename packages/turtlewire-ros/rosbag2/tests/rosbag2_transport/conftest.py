@@ -1,7 +1,5 @@
 """A node of the test's own, and recorders and players in processes."""
 
-from __future__ import annotations
-
 import contextlib
 import signal
 import threading

@@ -1,7 +1,5 @@
 """Actions in bags: recorded, shown and played as such."""
 
-from __future__ import annotations
-
 import sys
 
 import pytest

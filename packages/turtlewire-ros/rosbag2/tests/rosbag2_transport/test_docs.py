@@ -1,7 +1,5 @@
 """The commands of the how-to page about recording and playing, run."""
 
-from __future__ import annotations
-
 import sys
 
 import pytest

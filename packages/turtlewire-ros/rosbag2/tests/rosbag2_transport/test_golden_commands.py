@@ -1,7 +1,5 @@
 """Command lines of `ros2 bag`: exit codes, texts and files of the real one."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

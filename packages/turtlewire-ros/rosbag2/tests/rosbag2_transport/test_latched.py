@@ -1,7 +1,5 @@
 """Latched messages that are missing after a seek of a playback."""
 
-from __future__ import annotations
-
 import pytest
 
 from rosbag2_transport.latched import Latched

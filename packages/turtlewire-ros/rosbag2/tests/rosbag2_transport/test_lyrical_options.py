@@ -1,7 +1,5 @@
 """Options of `ros2 bag` that Lyrical added, and one that it dropped."""
 
-from __future__ import annotations
-
 import argparse
 import time
 

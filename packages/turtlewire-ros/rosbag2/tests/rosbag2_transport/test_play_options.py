@@ -1,7 +1,5 @@
 """Every option of `ros2 bag play`: words, names that the bag does not have, clocks, requests."""
 
-from __future__ import annotations
-
 import argparse
 import dataclasses
 import signal

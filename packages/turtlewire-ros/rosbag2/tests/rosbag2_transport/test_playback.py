@@ -1,7 +1,5 @@
 """The clock of a playback, and reading ahead."""
 
-from __future__ import annotations
-
 import threading
 
 import pytest

@@ -1,7 +1,5 @@
 """Several bags in one playback, and the order in which their messages are played."""
 
-from __future__ import annotations
-
 import argparse
 
 import pytest

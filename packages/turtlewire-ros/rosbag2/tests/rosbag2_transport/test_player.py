@@ -1,7 +1,5 @@
 """`ros2 bag play`: the messages of a real player, and latched messages at any start."""
 
-from __future__ import annotations
-
 import json
 import re
 

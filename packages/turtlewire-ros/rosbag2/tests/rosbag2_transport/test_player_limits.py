@@ -1,7 +1,5 @@
 """The end of a playback, and the time of its clock after each command."""
 
-from __future__ import annotations
-
 import threading
 from types import SimpleNamespace
 

@@ -1,7 +1,5 @@
 """The progress line of a recording, a playback or a conversion."""
 
-from __future__ import annotations
-
 import fcntl
 import io
 import os

@@ -1,7 +1,5 @@
 """QoS of recorder and player: it matches all publishers, and is deep enough."""
 
-from __future__ import annotations
-
 import pytest
 
 from rosbag2_transport.player_outputs import publisher_qos

@@ -1,7 +1,5 @@
 """Every option of `ros2 bag record`: topics, messages, splitting, compression, storage."""
 
-from __future__ import annotations
-
 import argparse
 import dataclasses
 import re

@@ -1,7 +1,5 @@
 """`ros2 bag record`: published messages are in the bag, whatever happens to the recorder."""
 
-from __future__ import annotations
-
 import random
 import re
 import signal

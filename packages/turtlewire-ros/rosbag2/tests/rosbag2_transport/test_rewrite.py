@@ -1,7 +1,5 @@
 """Converting bags: no files remain after an early end."""
 
-from __future__ import annotations
-
 import pytest
 from tests.places import GOLDEN
 

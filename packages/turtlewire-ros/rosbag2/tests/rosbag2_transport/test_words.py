@@ -1,7 +1,5 @@
 """Completions of `ros2 bag`, and errors of wrong words."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The start of comments: the engine's parser, `rosidl_adapter` and `interface show` agree."""
 
-from __future__ import annotations
-
 import pytest
 
 from ros2cli.main import main

@@ -1,7 +1,5 @@
 """Interfaces as IDL: the text, and that another parser reads the same types out of it."""
 
-from __future__ import annotations
-
 import json
 import math
 import pathlib

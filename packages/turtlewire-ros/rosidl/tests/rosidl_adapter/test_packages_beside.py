@@ -1,7 +1,5 @@
 """`rosidl_parser`, `rpyutils` and `osrf_pycommon`, which launch files and tools import."""
 
-from __future__ import annotations
-
 import pathlib
 import sys
 

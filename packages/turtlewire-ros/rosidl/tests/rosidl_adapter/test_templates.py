@@ -1,7 +1,5 @@
 """Templates of EmPy, and the steps of reading values."""
 
-from __future__ import annotations
-
 from pathlib import PurePath
 
 import pytest

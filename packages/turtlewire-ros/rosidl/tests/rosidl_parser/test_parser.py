@@ -1,7 +1,5 @@
 """Files in IDL as objects, as generators and documentation tools of others read them."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """Syntax trees of IDL: they give the same content as the engine's reader."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path, PurePath
 

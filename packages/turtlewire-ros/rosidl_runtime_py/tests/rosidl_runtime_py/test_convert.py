@@ -1,7 +1,5 @@
 """Messages as text: what a real `ros2 topic echo` printed for the same messages."""
 
-from __future__ import annotations
-
 import json
 import re
 

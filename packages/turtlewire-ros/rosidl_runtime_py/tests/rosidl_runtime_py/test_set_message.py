@@ -1,7 +1,5 @@
 """Messages from dictionaries, with the errors that `ros2 topic pub` shows."""
 
-from __future__ import annotations
-
 from array import array
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Every public function against transforms3d, SciPy, or the law that defines it."""
 
-from __future__ import annotations
-
 import inspect
 import itertools
 import math

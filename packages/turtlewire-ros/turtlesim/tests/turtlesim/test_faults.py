@@ -1,7 +1,5 @@
 """Faults of transforms in a simulation, programs started by their main, and late beginnings."""
 
-from __future__ import annotations
-
 import re
 import sys
 from types import SimpleNamespace

@@ -2,8 +2,6 @@
 way through ROS).
 """
 
-from __future__ import annotations
-
 import json
 import math
 import time

@@ -3,8 +3,6 @@
 Words, the time between two frames, the camera, the drawing's memory.
 """
 
-from __future__ import annotations
-
 import itertools
 
 import pytest

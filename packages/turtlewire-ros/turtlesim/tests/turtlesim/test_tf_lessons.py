@@ -3,8 +3,6 @@
 Carrots, time travel and awaiting, in lock-step.
 """
 
-from __future__ import annotations
-
 import math
 import re
 

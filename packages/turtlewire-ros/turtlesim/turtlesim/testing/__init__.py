@@ -23,8 +23,6 @@ module        contents
 ============  ===================================================================
 """
 
-from __future__ import annotations
-
 from turtlesim.testing.simulation import Simulation
 
 __all__ = ["Simulation"]

@@ -1,7 +1,5 @@
 """Events of processes."""
 
-from __future__ import annotations
-
 from launch.events.process.process_exited import ProcessExited
 from launch.events.process.process_io import ProcessIO
 from launch.events.process.process_matchers import (

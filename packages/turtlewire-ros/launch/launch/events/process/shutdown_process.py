@@ -1,7 +1,5 @@
 """A request to end a process."""
 
-from __future__ import annotations
-
 from launch.events.process.process_targeted_event import ProcessTargetedEvent
 
 

@@ -1,7 +1,5 @@
 """Events of managed nodes."""
 
-from __future__ import annotations
-
 from launch_ros.events.lifecycle.change_state import ChangeState
 from launch_ros.events.lifecycle.lifecycle_node_matchers import matches_node_name
 from launch_ros.events.lifecycle.state_transition import StateTransition

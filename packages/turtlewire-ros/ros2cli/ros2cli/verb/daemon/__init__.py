@@ -1,7 +1,5 @@
 """Verbs of ``ros2 daemon``; entry points in the group ``ros2cli.daemon.verb``."""
 
-from __future__ import annotations
-
 from ros2cli import verb
 from ros2cli.plugin_system import PLUGIN_SYSTEM_VERSION, satisfies_version
 
