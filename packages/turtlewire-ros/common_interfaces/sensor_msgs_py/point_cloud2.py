@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from array import array
 from collections import namedtuple
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,8 +15,6 @@ from sensor_msgs.msg import PointCloud2, PointField
 from .numpy_compat import structured_to_unstructured, unstructured_to_structured
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
     from std_msgs.msg import Header
 
 DUMMY_FIELD_PREFIX = "unnamed_field"

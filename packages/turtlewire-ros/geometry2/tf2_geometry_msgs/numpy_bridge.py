@@ -12,6 +12,7 @@ ValueError.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,8 +21,6 @@ from geometry_msgs.msg import Point, Pose, Quaternion, Transform, Vector3
 from turtlewire import geometry
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from numpy.typing import ArrayLike, NDArray
 
     Array = NDArray[np.float64]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from geometry_msgs.msg import (
@@ -22,8 +23,6 @@ from tf2_geometry_msgs.motion import Motion
 from tf2_geometry_msgs.vectors import copy_of, header_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from numpy.typing import ArrayLike, NDArray
 
 

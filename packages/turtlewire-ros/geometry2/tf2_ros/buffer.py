@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rclpy.clock import Clock, JumpThreshold
@@ -15,8 +16,6 @@ from .buffer_interface import NO_TIMEOUT, BufferInterface
 from .transform_futures import TransformFutures
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     import turtlewire
     from geometry_msgs.msg import TransformStamped
     from rclpy.clock import BaseClock, TimeJump

@@ -3,14 +3,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from copy import deepcopy
 from typing import TYPE_CHECKING, Any
 
 from rclpy.duration import Duration
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from geometry_msgs.msg import TransformStamped
 
 #: The import that registers a type.

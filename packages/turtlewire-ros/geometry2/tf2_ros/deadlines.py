@@ -6,12 +6,9 @@ import heapq
 import itertools
 import threading
 import time
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 from turtlewire.guarded import call_guarded
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 
 class Deadlines:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections import deque
+from collections.abc import Callable, Iterable
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any
 
@@ -14,8 +15,6 @@ from turtlewire.errors import TransformException
 from .buffer import JUMP_BACK
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
     from rclpy.clock import TimeJump
     from rclpy.duration import Duration
     from rclpy.node import Node

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Iterable
 from contextlib import suppress
 from copy import deepcopy
 from typing import TYPE_CHECKING
@@ -15,8 +16,6 @@ from tf2_msgs.msg import TFMessage
 from .transform_broadcaster import as_list
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from geometry_msgs.msg import TransformStamped
     from rclpy.context import Context
     from rclpy.experimental import AsyncNode

@@ -6,7 +6,8 @@ import math
 import random
 import string
 import sys
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import rclpy
 from geometry_msgs.msg import TransformStamped
@@ -19,9 +20,6 @@ from tf_transformations import quaternion_from_euler
 from turtlewire.distro import KILTED, LYRICAL, since
 
 from .static_transform_broadcaster import StaticTransformBroadcaster
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 _USAGE = """usage: static_transform_publisher --frame-id FRAME_ID --child-frame-id CHILD_FRAME_ID
            [--x X] [--y Y] [--z Z] [--qx QX] [--qy QY] [--qz QZ] [--qw QW]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 import threading
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import rclpy
@@ -25,7 +26,6 @@ from .spinning import spin_in_thread
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Callable
 
     from turtlewire.tf.frame_tree import FrameLink
     from turtlewire.wire.base import MessageInfo

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from rclpy.qos import QoSProfile
 from tf2_msgs.msg import TFMessage
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from geometry_msgs.msg import TransformStamped
     from rclpy.experimental import AsyncNode
     from rclpy.node import Node

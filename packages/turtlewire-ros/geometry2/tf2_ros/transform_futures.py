@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from rclpy.task import Future
@@ -11,7 +12,6 @@ from turtlewire.errors import TransformException
 from .deadlines import Deadlines
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from typing import Protocol
 
     import turtlewire

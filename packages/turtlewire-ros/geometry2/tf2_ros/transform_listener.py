@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from threading import current_thread
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +15,6 @@ from .buffer import JUMP_BACK, Buffer
 from .spinning import spin_in_thread
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from threading import Thread
 
     from rclpy.clock import JumpHandle

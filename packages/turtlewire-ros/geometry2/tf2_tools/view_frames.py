@@ -7,7 +7,8 @@ import json
 import os
 import sys
 import time
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import Any
 
 import rclpy
 from rclpy.exceptions import InvalidTopicNameException
@@ -22,9 +23,6 @@ from turtlewire.terminal.printable import printable
 from turtlewire.tf.drawing import svg_from_drawing
 from turtlewire.tf.frame_tree import FrameTree, read_frame_tree
 from turtlewire.tf.tree_drawing import draw_tree
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 __all__ = [
     "DEFAULT_STATIC_TF_TOPIC",

@@ -8,10 +8,10 @@ import os
 import signal
 import subprocess
 import sys
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any, cast
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
     from logging import Logger
 
 # A grandchild may hold the pipes open; the child's own output has already arrived.

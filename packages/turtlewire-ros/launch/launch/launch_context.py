@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable, Mapping, MutableMapping
 from typing import TYPE_CHECKING, Any
 
 from launch import logging
@@ -11,7 +12,6 @@ from launch._kernel.scopes import Scopes
 
 if TYPE_CHECKING:
     import asyncio
-    from collections.abc import Iterable, Mapping, MutableMapping
 
     from launch._kernel.protocols import EventHandling, Performable
     from launch.event import Event

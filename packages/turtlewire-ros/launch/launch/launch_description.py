@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from launch import logging
 from launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from launch.launch_argument import LaunchArgument
     from launch.launch_context import LaunchContext
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
@@ -9,8 +10,6 @@ from launch.actions import EmitEvent, ExecuteProcess, LogInfo, RegisterEventHand
 from launch.utilities import is_a
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from launch.event_handler import BaseEventHandler
     from launch.launch_description_entity import LaunchDescriptionEntity
     from launch.substitution import Substitution

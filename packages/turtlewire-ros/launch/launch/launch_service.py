@@ -7,7 +7,7 @@ import contextlib
 import signal
 import threading
 import traceback
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from launch import logging
@@ -20,8 +20,6 @@ from turtlewire.terminal.signal_watch import watched
 from turtlewire_ros.workspace_hints import path_hint
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from launch._kernel.protocols import Visitable
     from launch.event import Event
     from launch.launch_description import LaunchDescription

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import sys
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 
 from launch import LaunchContext, LaunchService
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
 
 _SCOPES = ("function", "class", "module", "package", "session")
 

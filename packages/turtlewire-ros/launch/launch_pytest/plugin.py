@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import functools
 import inspect
+from collections.abc import Callable, Generator, Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -28,8 +29,6 @@ from launch_pytest.wrapped_tests import (
 from launch_testing.actions.ready import ReadyToTest
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator, Iterable, Iterator
-
     from launch.launch_description_entity import LaunchDescriptionEntity
     from launch_pytest.fixture import FixtureOptions
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, TypeVar
 
 if TYPE_CHECKING:
     import unittest
-    from collections.abc import Callable
 
 T = TypeVar("T", bound="type[unittest.TestCase]")
 

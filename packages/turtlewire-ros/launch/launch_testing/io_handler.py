@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable, Iterator, KeysView
 from typing import TYPE_CHECKING, Any
 
 from launch_testing.asserts.assert_output import assertInStream
 from launch_testing.util.proc_lookup import NoMatchingProcessException, resolveProcesses
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, KeysView
-
     from launch.events.process import ProcessIO
 
 __unittest = True  # unittest leaves this module out of the tracebacks of failures

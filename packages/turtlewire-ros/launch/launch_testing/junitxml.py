@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree as ET
 
 if TYPE_CHECKING:
     import unittest
-    from collections.abc import Mapping
 
 
 def unittestResultsToXml(  # noqa: N802  ROS 2's name

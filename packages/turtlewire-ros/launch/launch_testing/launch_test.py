@@ -7,16 +7,14 @@ import importlib.util
 import os
 import sys
 import traceback
-from typing import TYPE_CHECKING, Any
+from types import ModuleType
+from typing import Any
 
 from launch_testing.junitxml import unittestResultsToXml
 from launch_testing.loader import LoadTestsFromPythonModule
 from launch_testing.print_arguments import print_arguments_of_launch_description
 from launch_testing.test_runner import LaunchTestRunner
 from turtlewire.program import program
-
-if TYPE_CHECKING:
-    from types import ModuleType
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

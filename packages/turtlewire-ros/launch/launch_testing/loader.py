@@ -5,15 +5,14 @@ from __future__ import annotations
 import functools
 import inspect
 import unittest
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from launch import LaunchDescription
 from launch_testing.actions.ready import ReadyToTest
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping
-    from types import ModuleType
-
     from launch.launch_description_entity import LaunchDescriptionEntity
 
 _Description = tuple[LaunchDescription, dict[str, Any]]

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
 
 from launch.utilities.command_line import parse_arguments
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
 
 def parse_launch_arguments(launch_arguments: Iterable[str]) -> list[tuple[str, str]]:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, TypeVar
 
 from launch_testing.markers import mark
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from typing import Any
 
 F = TypeVar("F", bound="Callable[..., Any]")

@@ -7,6 +7,7 @@ import io
 import threading
 import time
 import unittest
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from launch import LaunchDescription, LaunchDescriptionSource, LaunchService
@@ -17,8 +18,6 @@ from launch_testing.parse_arguments import parse_launch_arguments
 from launch_testing.proc_info_handler import ActiveProcInfoHandler
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
     from launch.launch_description_entity import LaunchDescriptionEntity
     from launch_testing.loader import TestRun
 

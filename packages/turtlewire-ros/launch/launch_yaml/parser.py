@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +12,6 @@ from launch_yaml.entity import Entity
 
 if TYPE_CHECKING:
     import io
-    from collections.abc import Iterator
 
 # With aliases, a few lines can expand to billions of elements; real launch files have far fewer.
 _MOST_ELEMENTS = 100_000

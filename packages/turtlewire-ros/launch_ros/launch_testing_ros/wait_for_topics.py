@@ -5,6 +5,8 @@ from __future__ import annotations
 import collections
 import threading
 import uuid
+from collections.abc import Callable, Iterable
+from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 import rclpy
@@ -12,9 +14,6 @@ from launch_testing_ros.message_pump import MessagePump
 from rclpy.context import Context
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-    from types import TracebackType
-
     from typing_extensions import Self
 
     from rclpy.qos import QoSProfile

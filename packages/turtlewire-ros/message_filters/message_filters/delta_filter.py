@@ -7,13 +7,11 @@ from that of the previous message. For other comparisons, derive from `Compariso
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from .simple_filter import SimpleFilter
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
 
 
 class ComparisonHandler(ABC):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from bisect import insort_right
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from operator import itemgetter
 from typing import TYPE_CHECKING, Any
@@ -14,8 +15,6 @@ from rclpy.time import Time
 from .simple_filter import SimpleFilter
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
     from rclpy.node import Node
     from rclpy.timer import Timer
 

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Generic, overload
 
 from rclpy._typing import MsgT
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 
 class SimpleFilter:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Sequence
 from itertools import product
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rclpy.clock import Clock, ClockType
 from rclpy.duration import Duration
@@ -12,9 +13,6 @@ from turtlewire.distro import KILTED, since
 
 from .simple_filter import SimpleFilter
 from .stamps import stamp_of
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 _LOGGER = "message_filters_synchronizer"
 

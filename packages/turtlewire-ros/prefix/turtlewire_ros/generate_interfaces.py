@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from turtlewire.errors import InterfaceError
 from turtlewire.msg.generate import generate_package
@@ -17,9 +17,6 @@ from turtlewire.msg.parser import parse_type, without_comment
 from turtlewire.msg.registry import KINDS, interface_path
 from turtlewire.msg.types import AbstractNestedType, NamespacedType
 from turtlewire.package_sources import source_hint
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 _SEPARATOR = "---"
 

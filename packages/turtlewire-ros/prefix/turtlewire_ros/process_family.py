@@ -12,12 +12,9 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
 
 from turtlewire_ros import process_guardian
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 
 class ProcessFamily:

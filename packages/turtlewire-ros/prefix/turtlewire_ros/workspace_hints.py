@@ -5,17 +5,15 @@ from __future__ import annotations
 import os
 import re
 import shlex
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from turtlewire import package_sources
 from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire_ros.executables import executable_paths
 from turtlewire_ros.prefix import MARKERS, compiled_targets, package_names, package_prefix
 from turtlewire_ros.rqt import equivalent
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 #: colcon leaves this file in the folder of what it installs.
 _LAYOUT = ".colcon_install_layout"

@@ -60,6 +60,7 @@ module                                      contents
 
 from __future__ import annotations
 
+from types import ModuleType, TracebackType
 from typing import TYPE_CHECKING, Any
 
 # First, so that an early Ctrl-C also ends without a traceback.
@@ -70,8 +71,6 @@ from .utilities import shutdown as _shutdown
 from .utilities import try_shutdown as _try_shutdown
 
 if TYPE_CHECKING:
-    from types import ModuleType, TracebackType
-
     from .context import Context
     from .executors import Executor
     from .node import Node

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Generic, overload
 
 from turtlewire.distro import KILTED, since
@@ -23,8 +24,6 @@ from .service_introspection import EventType, IntrospectedEndpoint
 from .task import Future
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.msg import Service as ServiceClass
     from turtlewire.wire import base
 

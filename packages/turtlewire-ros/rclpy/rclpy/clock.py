@@ -9,7 +9,9 @@ from __future__ import annotations
 import threading
 import time
 import warnings
+from collections.abc import Callable
 from enum import Enum
+from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.distro import LYRICAL, since
@@ -25,9 +27,6 @@ from .impl.hints import with_hint
 from .time import Time
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-    from types import TracebackType
-
     from typing_extensions import Self
 
     from .context import Context

@@ -7,8 +7,10 @@ import sys
 import threading
 import time
 import weakref
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from functools import partial
+from types import TracebackType
 from typing import TYPE_CHECKING, Any, Protocol
 
 from turtlewire.distro import KILTED, since
@@ -19,9 +21,6 @@ from ._rclpy_pybind11 import RCLError
 from .exceptions import NotInitializedException
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from types import TracebackType
-
     from typing_extensions import Self
 
     from turtlewire.wire import base

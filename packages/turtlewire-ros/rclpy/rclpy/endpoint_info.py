@@ -6,6 +6,7 @@ covers topics.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any
 
@@ -16,8 +17,6 @@ from .qos import HistoryPolicy, QoSProfile, qos_profile_unknown
 from .type_hash import TypeHash
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
     from turtlewire.wire import base
 
 _PROCESS_OF_GID = 12

@@ -5,6 +5,7 @@ The event types, and ROS 2's default warnings about endpoints that do not match.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any
 
@@ -36,8 +37,6 @@ from .qos import qos_policy_name_from_kind
 from .waitable import NumberOfEntities, Waitable, WaitSet
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.wire import base
 
     from ._execution.handle import Handle

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
@@ -10,8 +11,6 @@ from ._execution.entity import Entity, EntityHost, Work
 from ._rclpy_pybind11 import InvalidHandle
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from .callback_groups import CallbackGroup
     from .context import Context
 

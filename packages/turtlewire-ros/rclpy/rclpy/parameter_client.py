@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from .parameter import Parameter, parameter_dict_from_yaml_file
 from .qos import QoSProfile, qos_profile_parameter_events, qos_profile_services_default
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
     import rcl_interfaces.msg
 
     from .callback_groups import CallbackGroup

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.wire import names
@@ -9,8 +10,6 @@ from turtlewire.wire import names
 from .qos import QoSProfile, qos_profile_parameter_events
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
     import rcl_interfaces.msg
     from rcl_interfaces.msg import ParameterEvent
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Generic, Protocol
 
 from turtlewire.errors import WireError
@@ -17,8 +18,6 @@ from ._typing import MsgT as MsgType
 from .duration import Duration
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from typing_extensions import Self
 
     from turtlewire.wire import base

@@ -5,6 +5,7 @@ They are called ``qos_overrides.<topic>.<publisher or subscription>.<policy>``.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from .duration import Duration
@@ -12,8 +13,6 @@ from .exceptions import ParameterAlreadyDeclaredException
 from .qos import QoSPolicyEnum, QoSPolicyKind
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
     from rcl_interfaces.msg import SetParametersResult
 
     from ._node.parameters import NodeParameters

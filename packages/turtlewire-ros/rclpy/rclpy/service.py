@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any, Generic
 
@@ -18,8 +19,6 @@ from .impl.hints import described
 from .service_introspection import EventType, IntrospectedEndpoint
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.wire import base
 
     from ._execution.entity import Work

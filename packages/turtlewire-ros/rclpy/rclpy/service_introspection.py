@@ -5,6 +5,7 @@ The events go to ``<service>/_service_event``.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -14,8 +15,6 @@ from ._execution.entity import ClosingEntity, EntityHost
 from .type_support import type_id
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.wire import base
 
     from ._node.state import NodeState

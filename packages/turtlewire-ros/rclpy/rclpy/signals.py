@@ -19,7 +19,8 @@ import time
 import weakref
 from contextlib import suppress
 from enum import IntEnum
-from typing import TYPE_CHECKING, Any, Protocol
+from types import FrameType
+from typing import Any, Protocol
 
 from turtlewire.guarded import call_guarded
 from turtlewire.platforms import in_browser
@@ -27,9 +28,6 @@ from turtlewire.platforms import in_browser
 from ._execution.asyncio_loop import interrupted_loop
 from .impl import excepthooks
 from .impl.reexports import reexports
-
-if TYPE_CHECKING:
-    from types import FrameType
 
 __all__ = [
     "REPEATED_INTERRUPT_S",

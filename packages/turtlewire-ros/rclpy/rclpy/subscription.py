@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from enum import Enum
 from typing import TYPE_CHECKING, Any, Generic, Protocol
 
@@ -16,8 +17,6 @@ from ._typing import MsgT as MsgType
 from .impl.hints import with_hint
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.wire import base
 
     from ._execution.handle import EndpointImpl

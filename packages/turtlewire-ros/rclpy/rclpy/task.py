@@ -11,17 +11,15 @@ import contextlib
 import sys
 import threading
 import weakref
+from collections.abc import Callable, Generator
 from enum import Enum
 from types import CoroutineType
-from typing import TYPE_CHECKING, Any, Generic, Protocol
+from typing import Any, Generic, Protocol
 
 from turtlewire.wake_up import WakeUp
 
 from ._execution.asyncio_loop import running_loop
 from ._typing import T
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Generator
 
 
 class FutureState(Enum):

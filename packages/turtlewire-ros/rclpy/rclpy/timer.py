@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -16,8 +17,6 @@ from .exceptions import ROSInterruptException
 from .impl.hints import with_hint
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from .callback_groups import CallbackGroup
     from .clock import BaseClock, TimeJump
     from .context import Context

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 from xml.etree.ElementTree import ParseError
 
@@ -10,7 +11,6 @@ from joint_state_publisher.joints import FreeJoint, JointSet, MimicRule
 from turtlewire.urdf.faults import XACRO_LEFT
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
     from xml.etree.ElementTree import Element
 
 # As in ROS 2, left out: they do not move, or need more than one number.

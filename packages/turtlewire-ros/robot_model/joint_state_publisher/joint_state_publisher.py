@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 import contextlib
 import sys
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 import rclpy
 from joint_state_publisher.description import DescriptionError, JointOptions, read_joints
@@ -17,9 +18,6 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.utilities import remove_ros_args
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 _DEPTH = 10
 _ALLOWED = ("parent", "factor", "offset")

@@ -6,6 +6,7 @@ A browser gets ``joints`` when the description changes, and ``state`` when posit
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,8 +15,6 @@ from turtlewire.web import CommandSession, Server
 from turtlewire.web.desktop import wanted_port
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from joint_state_publisher_gui.page_commands import Command
     from joint_state_publisher_gui.sliders import Sliders, Snapshot
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from turtlewire.urdf import Robot, UrdfError
 from turtlewire.urdf.faults import log_lines
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from turtlewire.urdf import Joint
 
 

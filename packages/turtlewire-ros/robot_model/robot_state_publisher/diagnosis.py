@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from turtlewire.terminal.printable import printable
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from rclpy.node import Node
     from rclpy.timer import Timer
     from turtlewire.urdf import Joint, Robot

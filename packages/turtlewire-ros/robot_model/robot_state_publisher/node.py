@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from geometry_msgs.msg import TransformStamped
@@ -35,8 +36,6 @@ from turtlewire.urdf.joint_messages import JointMessages, stamp_of
 from turtlewire.urdf.joints import followers_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from builtin_interfaces.msg import Time
     from rclpy.clock import TimeJump
     from rclpy.parameter import Parameter

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from turtlewire.program import program
@@ -11,8 +12,6 @@ from turtlewire.urdf import UrdfError
 from urdfdom.reading import read_robot
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from turtlewire.urdf import Robot
 
 _USAGE = "Expect URDF xml file to parse. Use - for stdin"

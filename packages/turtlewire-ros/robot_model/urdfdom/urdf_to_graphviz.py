@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from tf2_tools.pdf import pdf_from_drawing
@@ -14,8 +15,6 @@ from turtlewire.urdf import UrdfError
 from urdfdom.reading import read_robot
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from turtlewire.tf.drawing import Shape
     from turtlewire.urdf import Joint, Robot
 

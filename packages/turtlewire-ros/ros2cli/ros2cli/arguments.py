@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
+import argparse
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.values import positive_float
 
 if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Callable, Iterable
-
     Completer = Callable[..., list[str]]
 
 

@@ -10,12 +10,10 @@ import socket
 import subprocess
 import sys
 import threading
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Mapping
+from typing import Any
 
 from turtlewire_ros.process_guardian import FAMILIES
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
 
 _READY = b"ready\n"
 

@@ -6,12 +6,11 @@ command line calls the module. These decorators give programs and extensions ROS
 
 from __future__ import annotations
 
+import argparse
 import sys
 from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
-    import argparse
-
     Class = TypeVar("Class", bound=type[Any])
 
 

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import sys
 from collections import OrderedDict
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ros2cli.interface_names import interface_names
-
-if TYPE_CHECKING:
-    import argparse
 
 _TAKES_FRAMES = {("tf2_ros", "tf2_echo"), ("tf2_ros", "tf2_monitor")}
 

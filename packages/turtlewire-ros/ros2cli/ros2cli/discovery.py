@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import time
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -14,8 +15,6 @@ from turtlewire.wake_up import WakeUp
 from turtlewire.wire.environment import Range, discovery
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from turtlewire.wire.base import Graph
 
 # Other hosts have this much time to answer; participants of this host are counted. Measured on

@@ -6,12 +6,12 @@ command by one in ``ros2cli.command``.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.installed import EXTENSION_POINT_GROUP_NAME, declared, first_line, load
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
     from importlib.metadata import Distribution, EntryPoint
 
 __all__ = [

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
+import argparse
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.installed import declared
 
 if TYPE_CHECKING:
-    import argparse
-
     from turtlewire.plugins import Entry
 
 

@@ -6,6 +6,7 @@ that a peer whose names hold line feeds cannot forge lines of the output.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from turtlewire.terminal.printable import printable
@@ -13,8 +14,6 @@ from turtlewire.wire import names
 from turtlewire.wire.base import NodeInfo
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
-
     from turtlewire.wire.base import EndpointInfo, Graph
 
 NamesAndTypes = list[tuple[str, list[str]]]

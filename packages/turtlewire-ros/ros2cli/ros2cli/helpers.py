@@ -6,12 +6,10 @@ import functools
 import os
 import sys
 import time
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable
+from typing import Any
 
 from ros2cli.values import unsigned_int as _unsigned_int
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
 
 _NO_DISCOVERY = """\
 Warning: ROS_AUTOMATIC_DISCOVERY_RANGE=OFF with no ROS_STATIC_PEERS configured.

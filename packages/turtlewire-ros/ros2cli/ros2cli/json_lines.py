@@ -5,15 +5,14 @@ docs/reference/ros2_json.md lists the keys of each verb.
 
 from __future__ import annotations
 
+import argparse
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
 from ros2cli.output import tell
 
 if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Callable, Mapping, Sequence
-
     from ros2cli.graph import NamesAndTypes
 
 JSON_ARGUMENT = argument("--json", action="store_true", help="Print one JSON object per line")

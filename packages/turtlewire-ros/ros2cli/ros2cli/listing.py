@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
+import argparse
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
 from ros2cli.json_lines import print_json, print_json_list, with_types
 
 if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Mapping
-
     from ros2cli.arguments import Argument
     from ros2cli.graph import NamesAndTypes
 

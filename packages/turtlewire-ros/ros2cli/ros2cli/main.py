@@ -3,12 +3,15 @@
 
 from __future__ import annotations
 
+import argparse
 import io
 import os
 import signal
 import sys
+from collections.abc import Container
 from contextlib import nullcontext, suppress
 from importlib import import_module
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 from ros2cli.installed import declared, first_line, summary
@@ -16,9 +19,6 @@ from turtlewire.program import program
 from turtlewire.terminal.parser import INVALID_CHOICE, SuggestingParser
 
 if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Container
-    from types import ModuleType
     from typing import NoReturn
 
 _EXIT_INTERRUPTED = 2  # the number of SIGINT

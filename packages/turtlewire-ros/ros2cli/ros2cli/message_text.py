@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import argparse
+from typing import Any
 
 from ros2cli.arguments import argument
 from ros2cli.values import unsigned_int
-
-if TYPE_CHECKING:
-    import argparse
 
 DEFAULT_TRUNCATE_LENGTH = 128
 

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import contextlib
 import sys
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Iterator
+from typing import Any
 
 from turtlewire.errors import UncallableServiceError
 from turtlewire.terminal.printable import printable_lines
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
 
 
 def tell(text: str) -> None:

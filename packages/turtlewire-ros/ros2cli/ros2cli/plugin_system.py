@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import argparse
+from collections.abc import Callable, Iterable
+from typing import Any
 
 from ros2cli.entry_points import load_entry_points
 from turtlewire.plugins import (
@@ -10,10 +12,6 @@ from turtlewire.plugins import (
     get_upper_bound_caret_version,
     satisfies_version,
 )
-
-if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Callable, Iterable
 
 __all__ = [
     "PLUGIN_SYSTEM_VERSION",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import argparse
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import add_arguments, argument
@@ -9,9 +11,6 @@ from ros2cli.json_lines import remark_printer
 from ros2cli.values import positive_float, unsigned_int
 
 if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Callable
-
     from rclpy.qos import QoSProfile
     from turtlewire.wire.base import Graph
 

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Collection, Iterable, Mapping
 
 from ros2cli.output import tell
 from turtlewire.terminal import suggestion
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Mapping
 
 _MOST_NAMES = 12
 #: Packages of the services that every node has.

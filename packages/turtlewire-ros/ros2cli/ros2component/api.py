@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+import argparse
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros2cli.node.direct import DirectNode
 from ros2component.containers import LIST_TIMEOUT_S
 
 if TYPE_CHECKING:
-    import argparse
     import subprocess
-    from collections.abc import Iterator, Sequence
 
     from ros2node.api import NodeName
 

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import argparse
+from typing import Any
 
 from ros2cli.arguments import argument
 from ros2cli.completion import packages
 from ros2cli.values import assignment
-
-if TYPE_CHECKING:
-    import argparse
 
 _LEVELS = ("unknown", "debug", "info", "warn", "error", "fatal")
 

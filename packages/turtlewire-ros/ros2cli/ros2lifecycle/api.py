@@ -6,6 +6,7 @@ that failed to answer is the exception.
 
 from __future__ import annotations
 
+from collections.abc import Collection, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.node.direct import DirectNode
@@ -13,8 +14,6 @@ from ros2lifecycle import managed_nodes
 from ros2node.api import parse_node_name
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Mapping
-
     from ros2node.api import NodeName
 
 

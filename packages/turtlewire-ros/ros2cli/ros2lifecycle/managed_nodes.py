@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
+import argparse
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
 from ros2cli.listing import HIDDEN_NODES
 
 if TYPE_CHECKING:
-    import argparse
-
     from ros2cli.node.direct import DirectNode
     from turtlewire.wire.base import Graph
 

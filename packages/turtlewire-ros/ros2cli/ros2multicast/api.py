@@ -7,15 +7,12 @@ import ipaddress
 import socket
 import sys
 from argparse import ArgumentTypeError
+from collections.abc import Iterator
 from contextlib import suppress
 from functools import cache
-from typing import TYPE_CHECKING
+from types import TracebackType
 
 from ros2cli.arguments import argument
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from types import TracebackType
 
 # ROS 2's group and port.
 DEFAULT_GROUP = "225.0.0.1"

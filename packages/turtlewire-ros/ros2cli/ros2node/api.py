@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import argparse
+from collections.abc import Callable, Collection
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros2cli import graph
@@ -10,9 +12,6 @@ from ros2cli.node.direct import DirectNode
 from ros2node.verb.info import INFO_NONUNIQUE_WARNING_TEMPLATE
 
 if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Callable, Collection
-
     from ros2cli.graph import NamesAndTypes
 
 __all__ = [

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
+import argparse
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.node.direct import DirectNode
 
 if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Sequence
-
     from rclpy.parameter_client import AsyncParameterClient
 
 # ROS 2's time.

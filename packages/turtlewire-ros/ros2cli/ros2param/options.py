@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import argparse
+from typing import Any
 
 from ros2cli.arguments import Argument, argument
 from ros2cli.completion import node_names
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.listing import HIDDEN_NODES
-
-if TYPE_CHECKING:
-    import argparse
 
 _TIMEOUT_S = 5.0
 

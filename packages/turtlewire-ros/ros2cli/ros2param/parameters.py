@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
+import argparse
 import time
+from collections.abc import Collection, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.output import tell, tell_failed_call
 
 if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Collection, Mapping
-
     from ros2cli.node.direct import DirectNode
 
 #: By the numbers of ``rcl_interfaces/msg/ParameterType``.

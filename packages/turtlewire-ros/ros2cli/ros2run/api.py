@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
+import argparse
 import shlex
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import Any
 
 from ros2cli import completion
 from ros2pkg.api import get_executable_paths
 from ros2run.command.run import named, run_and_tell
-
-if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Sequence
 
 ROS2RUN_MSG_PREFIX = "[ros2run]:"
 

@@ -8,13 +8,10 @@ import signal
 import subprocess
 import sys
 import threading
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from turtlewire.distro import KILTED, since
 from turtlewire_ros.process_family import ProcessFamily
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 #: Windows has no SIGHUP.
 _PASSED_ON = {

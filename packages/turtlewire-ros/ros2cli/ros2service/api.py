@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import argparse
+from typing import Any
 
 from ros2cli import completion
 from ros2cli.interface_names import interface_names
 from ros2cli.node.direct import DirectNode
-
-if TYPE_CHECKING:
-    import argparse
 
 
 def get_service_names_and_types(

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import argparse
+from typing import Any
 
 from ros2cli import completion, qos
 from ros2cli.json_lines import remark_printer
@@ -16,9 +17,6 @@ from ros2cli.qos import (
 )
 from ros2cli.values import positive_float, positive_int
 from turtlewire.distro import KILTED, since
-
-if TYPE_CHECKING:
-    import argparse
 
 __all__ = [
     "TopicMessagePrototypeCompleter",

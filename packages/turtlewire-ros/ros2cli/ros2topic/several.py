@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import argparse
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
@@ -11,9 +13,6 @@ from ros2cli.qos import asked_for, with_options
 from ros2cli.selection import OPTIONAL, select_topic
 
 if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Callable, Sequence
-
     from ros2cli.node.direct import DirectNode
 
 _BLANKS = 3

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import argparse
 import os
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ros2bag import options as bag_options
 from ros2bag.options import STORAGES
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
     from rclpy.duration import Duration
     from rclpy.qos import QoSProfile
     from rosbag2_py import StorageOptions

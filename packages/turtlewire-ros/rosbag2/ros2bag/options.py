@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
@@ -11,8 +12,6 @@ from ros2cli.completion import files
 from ros2cli.values import unsigned_int
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from rclpy.qos import QoSProfile
     from rosbag2_py import StorageOptions
 

@@ -7,6 +7,7 @@ import queue
 import sqlite3
 import threading
 import weakref
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from rclpy.logging import get_logging_severity_from_string, set_logger_level
@@ -15,8 +16,6 @@ from rosbag2_transport.play import burst, play, served_player
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
     from rosbag2_py._storage import StorageOptions
     from rosbag2_transport.player import BagPlayer
 

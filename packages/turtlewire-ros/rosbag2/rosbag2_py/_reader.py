@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
+from collections.abc import Iterator
 from itertools import chain
 from typing import TYPE_CHECKING
 
@@ -26,8 +27,6 @@ from turtlewire.bag.encodings import not_in_cdr
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from rosbag2_py._metadata import BagMetadata, TopicMetadata
     from turtlewire.bag import BagMessage, TopicInfo
 

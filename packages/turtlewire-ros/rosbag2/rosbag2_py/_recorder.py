@@ -5,6 +5,7 @@ from __future__ import annotations
 import queue
 import threading
 import weakref
+from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, ClassVar
 
@@ -16,8 +17,6 @@ from rosbag2_transport.options import RecordOptions
 from rosbag2_transport.record import record
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from rosbag2_py._storage import StorageOptions
     from rosbag2_transport.recorder import BagRecorder
 

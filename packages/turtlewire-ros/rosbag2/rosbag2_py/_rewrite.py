@@ -5,9 +5,10 @@ from __future__ import annotations
 import contextlib
 import shutil
 import sqlite3
+from collections.abc import Iterable
 from dataclasses import fields
 from datetime import timedelta
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosbag2_py._open_writer import make_writer
 from rosbag2_py._recorder import compression_mode_of
@@ -20,9 +21,6 @@ from turtlewire.bag.qos_yaml import load_yaml
 from turtlewire.distro import KILTED, since
 from turtlewire.errors import BagError
 from turtlewire.terminal.suggestion import did_you_mean
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
 _EXAMPLES = {
     "input_bags": """

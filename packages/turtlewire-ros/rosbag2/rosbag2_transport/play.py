@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import sqlite3
 import threading
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from rosbag2_transport.player import BagPlayer
@@ -16,7 +17,6 @@ from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
     import queue
-    from collections.abc import Callable, Iterator, Sequence
 
     from rosbag2_transport.options import PlayOptions
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from rosbag2_transport.action_topics import action_topic
@@ -11,8 +12,6 @@ from turtlewire.distro import KILTED, since
 from turtlewire.terminal.suggestion import did_you_mean
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from rosbag2_transport.options import PlayOptions
     from rosbag2_transport.played_bags import PlayedBags
 

@@ -5,14 +5,13 @@ from __future__ import annotations
 import heapq
 import itertools
 import os
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
 from turtlewire.bag import Bag
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
-
     from turtlewire.bag import BagMessage, TopicInfo
 
 

@@ -10,6 +10,7 @@ import contextlib
 import sqlite3
 import threading
 import time
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from rosbag2_transport.latched import Latched
@@ -21,8 +22,6 @@ from turtlewire.bag.playback import PlayClock, ReadAhead
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
-
     from rclpy.node import Node
     from rosbag2_transport.options import PlayOptions
     from turtlewire.bag import BagMessage

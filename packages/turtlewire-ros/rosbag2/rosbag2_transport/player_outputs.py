@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable, Container, Iterable
 from typing import TYPE_CHECKING
 
 from rosbag2_transport.action_topics import action_topic
@@ -15,8 +16,6 @@ from turtlewire.wire.qos import Durability, History, Liveliness, QoS, Reliabilit
 from turtlewire.wire.services import require_callable
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Container, Iterable
-
     from rclpy.node import Node
     from rosbag2_transport.options import PlayOptions
     from rosbag2_transport.played_bags import PlayedBags

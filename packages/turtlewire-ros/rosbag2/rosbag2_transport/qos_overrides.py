@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any
 
 from rclpy.duration import Duration
 from rclpy.qos import (
@@ -15,9 +16,6 @@ from rclpy.qos import (
 from turtlewire.bag.qos_yaml import load_yaml
 from turtlewire.errors import BagError
 from turtlewire.terminal.suggestion import did_you_mean
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 _POLICIES = {
     "history": HistoryPolicy,

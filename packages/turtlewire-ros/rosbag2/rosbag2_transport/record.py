@@ -6,6 +6,7 @@ import contextlib
 import os
 import sqlite3
 import time
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from rclpy.logging import get_logger
@@ -23,7 +24,6 @@ from turtlewire.wire.names import validate_node_name, validate_topic_name
 
 if TYPE_CHECKING:
     import queue
-    from collections.abc import Callable
 
     from rosbag2_transport.options import RecordOptions
     from turtlewire.bag.writer import BagWriter

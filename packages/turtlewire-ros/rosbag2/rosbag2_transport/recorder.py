@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
 from rclpy.clock import JumpThreshold
@@ -20,8 +21,6 @@ from turtlewire.wire.base import Subscription, TypeId
 from turtlewire.wire.qos import Durability
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
     from rclpy.clock import TimeJump
     from rclpy.node import Node
     from rosbag2_transport.options import RecordOptions

@@ -5,6 +5,7 @@ rosbag2 waits in silence for topics that never appear.
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from rosbag2_transport.action_topics import action_topic
@@ -13,8 +14,6 @@ from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire.wire.names import is_hidden
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator, Mapping
-
     from rosbag2_transport.options import RecordOptions
     from turtlewire.wire.base import Graph
 

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Sequence
 
 from rclpy.qos import QoSCompatibility, QoSProfile, qos_check_compatible
 from turtlewire.wire.qos import Durability, History, QoS, Reliability
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
 
 #: How many messages of a topic may wait for the recorder. rosbag2 takes rmw's default of 10, which
 #: loses messages of a fast topic when the computer is busy for a moment; peers do not see it.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import heapq
 import shutil
 import time
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -16,8 +17,6 @@ from turtlewire.terminal.printable import printable
 from turtlewire.terminal.suggestion import did_you_mean
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
     from rosbag2_transport.options import RecordOptions
     from turtlewire.bag import Bag, BagMessage, BagWriter
 

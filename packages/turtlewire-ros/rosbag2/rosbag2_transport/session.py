@@ -7,6 +7,8 @@ import os
 import signal
 import sys
 import threading
+from collections.abc import Callable, Iterator, Mapping
+from types import TracebackType
 from typing import TYPE_CHECKING
 
 from rclpy.context import Context
@@ -18,8 +20,6 @@ from turtlewire.terminal.signal_watch import watched
 
 if TYPE_CHECKING:
     import queue
-    from collections.abc import Callable, Iterator, Mapping
-    from types import TracebackType
 
     from typing_extensions import Self
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from rosbag2_transport.action_topics import action_topic
@@ -10,8 +11,6 @@ from turtlewire.distro import KILTED, since
 from turtlewire.wire.names import is_hidden
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
     from rosbag2_transport.action_topics import ActionTopic
     from rosbag2_transport.options import RecordOptions
 

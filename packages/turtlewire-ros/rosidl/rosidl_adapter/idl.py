@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from rosidl_adapter.parser import (
@@ -14,7 +15,6 @@ from rosidl_adapter.parser import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
     from pathlib import PurePath
 
     from rosidl_adapter.parser import Constant, Field

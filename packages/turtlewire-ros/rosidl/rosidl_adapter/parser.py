@@ -10,7 +10,8 @@ import itertools
 import os
 import re
 import textwrap
-from typing import TYPE_CHECKING, Any
+from collections.abc import Collection
+from typing import Any
 
 from rosidl_adapter.specification import (
     PRIMITIVE_TYPES,
@@ -35,9 +36,6 @@ from rosidl_adapter.specification import (
     parse_value_string,
 )
 from turtlewire.msg.parser import without_comment
-
-if TYPE_CHECKING:
-    from collections.abc import Collection
 
 __all__ = [
     "ACTION_FEEDBACK_MESSAGE_SUFFIX",

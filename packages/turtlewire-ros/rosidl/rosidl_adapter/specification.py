@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import Any
 
 from turtlewire.msg import parser
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 PRIMITIVE_TYPES = [
     *("bool", "byte", "char", "float32", "float64", "int8", "uint8", "int16", "uint16"),

@@ -5,7 +5,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable
+from typing import Any
 
 from rosidl_parser.idl_file import IdlContent, IdlFile, IdlLocator, Include
 from turtlewire.msg.types import (
@@ -27,9 +28,6 @@ from turtlewire.msg.types import (
     UnboundedString,
     UnboundedWString,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
 __all__ = [
     "ACTION_FEEDBACK_MESSAGE_SUFFIX",

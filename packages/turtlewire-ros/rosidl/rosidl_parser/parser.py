@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from rosidl_parser.definition import (
@@ -59,8 +60,6 @@ from turtlewire.errors import InterfaceError
 from turtlewire.msg.idl_reader import IdlConstant, IdlMember, IdlReader, IdlStructure
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-
     from lark import Tree
 
     from turtlewire.msg.idl_reader import Notes

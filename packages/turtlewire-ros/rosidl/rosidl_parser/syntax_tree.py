@@ -8,6 +8,7 @@ from __future__ import annotations
 import functools
 import os
 import re
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from rosidl_parser.definition import Annotation
@@ -27,8 +28,6 @@ from turtlewire.msg.types import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
     from lark import Lark, Tree
 
 __all__ = [

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import importlib
 import os
-from typing import TYPE_CHECKING
+from types import ModuleType
 
 from rpyutils.add_dll_directories import add_dll_directories_from_env
-
-if TYPE_CHECKING:
-    from types import ModuleType
 
 _HELP = "https://docs.ros.org/en/jazzy/How-To-Guides/Installation-Troubleshooting.html"
 

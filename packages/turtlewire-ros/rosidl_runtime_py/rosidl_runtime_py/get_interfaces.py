@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
+from collections.abc import Collection
 
 from turtlewire import msg
 from turtlewire.msg.registry import interface_path
-
-if TYPE_CHECKING:
-    from collections.abc import Collection
 
 _KINDS = ("msg", "srv", "action")
 

@@ -6,7 +6,8 @@ import contextlib
 import signal
 import sys
 import threading
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 import rclpy
 from geometry_msgs.msg import Twist, TwistStamped
@@ -21,9 +22,6 @@ from turtlewire.terminal.keyboard import (
     foreground_terminal,
     signals_for_this_thread,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 BANNER = """
 This node takes keypresses from the keyboard and publishes them

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from turtlewire.geometry import quaternions
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from turtlewire.geometry.quaternions import Quaternion
 
     #: ``"sxyz"``, or the numbers (inner axis, parity, repetition, frame) that stand for it.

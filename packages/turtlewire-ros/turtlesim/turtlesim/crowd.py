@@ -6,6 +6,7 @@ For swarms: with NumPy, a tick costs two thirds of the time.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -14,8 +15,6 @@ from turtlesim.looks import shown_pen
 from turtlesim.physics import FIELD_SIZE, PIXELS_PER_METRE, clamp, move, pixel_of, published, turn
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from numpy.typing import NDArray
 
     from turtlesim.model import Pen, Turtle

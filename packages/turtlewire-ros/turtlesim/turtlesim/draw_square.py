@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import contextlib
 import math
+from collections.abc import Callable
 from enum import Enum
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import rclpy
 from geometry_msgs.msg import Twist
@@ -13,9 +14,6 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from std_srvs.srv import Empty
 from turtlesim.msg import Pose
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 # All numbers are the original's.
 SIDE = 2.0

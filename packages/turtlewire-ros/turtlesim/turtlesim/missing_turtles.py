@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Collection, Iterable
 from typing import TYPE_CHECKING
 
 from rclpy.clock import Clock
@@ -12,8 +13,6 @@ from turtlesim.srv import Spawn
 from turtlewire.msg import type_name
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterable
-
     from rclpy.node import Node
     from turtlewire.wire.base import EndpointInfo
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from turtlesim.model import TurtleTick
 from turtlesim.physics import TICK_NS, pixel_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from turtlesim.model import Turtle
 
 #: The highest speed that can be set.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
 from geometry_msgs.msg import Twist
@@ -13,8 +14,6 @@ from turtlesim.model import Pen
 from turtlesim.turtle_endpoints import QUEUE_DEPTH
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from rclpy.node import Node
     from rclpy.publisher import Publisher
     from rclpy.task import Future

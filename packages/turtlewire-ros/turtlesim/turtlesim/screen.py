@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,8 +21,6 @@ from turtlewire.web import CommandSession, Server
 from turtlewire.web.desktop import wanted_port
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlesim.crowd import CrowdTick
     from turtlesim.model import TurtleTick
     from turtlesim.page_commands import Command

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 import threading
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtlewire import Buffer
@@ -12,8 +13,6 @@ from turtlewire.errors import TransformException
 from turtlewire.tf.listener import TransformListener
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
     from turtlewire.wire import base
 
 #: How many frames are drawn on the field.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from geometry_msgs.msg import Twist
@@ -12,8 +13,6 @@ from turtlesim.rotate_action import RotateAction
 from turtlesim.srv import SetPen, TeleportAbsolute, TeleportRelative
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
     from rclpy.node import Node
     from turtlesim.model import Turtle, TurtleTick
     from turtlesim.path import PathImage

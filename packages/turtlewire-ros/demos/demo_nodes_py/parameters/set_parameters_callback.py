@@ -5,15 +5,12 @@ Try ``ros2 param set /set_parameters_callback param1 1.0``, and a value above 5.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 from demo_nodes_py.spin import spin
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 
 class SetParametersCallback(Node):

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Sequence
 
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.parameter import Parameter
 from rclpy.service_introspection import ServiceIntrospectionState
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
 
 _STATES = {
     "disabled": ServiceIntrospectionState.OFF,

@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from demo_nodes_py.services.introspection import check, state_of
@@ -15,8 +16,6 @@ from rclpy.node import Node
 from rclpy.qos import qos_profile_system_default
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from rclpy.parameter import Parameter
 
 _PARAMETER = "client_configure_introspection"

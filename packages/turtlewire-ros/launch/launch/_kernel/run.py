@@ -5,13 +5,12 @@ from __future__ import annotations
 import asyncio
 import collections
 import contextlib
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from turtlewire_ros.process_family import ProcessFamily
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from launch._kernel.protocols import EventHandling
     from launch.event import Event
 

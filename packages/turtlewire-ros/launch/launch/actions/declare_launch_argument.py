@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from launch import logging
@@ -12,8 +13,6 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 from launch.utilities.text import TextSubstitution
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from launch.frontend import Parser
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType

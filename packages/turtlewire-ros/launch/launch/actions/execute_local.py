@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import signal
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from launch import logging
@@ -27,8 +28,6 @@ from launch.substitutions import LaunchConfiguration
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
     from launch.descriptions import Executable
     from launch.event import Event
     from launch.events import Shutdown

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shlex
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from launch.actions.execute_local import ExecuteLocal
@@ -13,8 +14,6 @@ from launch.frontend.expose import expose_action
 from launch.substitutions import TextSubstitution
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
     from launch.frontend import Parser
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution

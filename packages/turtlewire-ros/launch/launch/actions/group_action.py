@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
@@ -18,8 +19,6 @@ from launch.actions.set_launch_configuration import SetLaunchConfiguration
 from launch.frontend.expose import expose_action
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
     from launch.frontend import Entity, Parser
     from launch.launch_context import LaunchContext
     from launch.launch_description_entity import LaunchDescriptionEntity

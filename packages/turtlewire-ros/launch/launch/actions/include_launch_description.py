@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
@@ -17,8 +18,6 @@ from launch.launch_description_sources.any_launch_description_source import (
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from launch.frontend import Parser
     from launch.launch_context import LaunchContext
     from launch.launch_description import LaunchDescription

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+from collections.abc import Callable, Coroutine, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
@@ -10,7 +11,6 @@ from launch.event_handlers import OnShutdown
 
 if TYPE_CHECKING:
     import asyncio
-    from collections.abc import Callable, Coroutine, Iterable, Mapping
 
     from launch.launch_context import LaunchContext
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from launch.event_handler import BaseEventHandler
     from launch.launch_context import LaunchContext
     from launch.launch_description_entity import LaunchDescriptionEntity

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import MutableMapping
 from typing import TYPE_CHECKING
 
 from launch.actions.variable_action import SetVariableAction
 from launch.frontend.expose import expose_action
 
 if TYPE_CHECKING:
-    from collections.abc import MutableMapping
-
     from launch.launch_context import LaunchContext
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from launch import logging
@@ -25,7 +26,6 @@ from launch.utilities import (
 
 if TYPE_CHECKING:
     import asyncio
-    from collections.abc import Iterable
 
     from launch.event import Event
     from launch.frontend import Entity, Parser

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from launch.conditions.invalid_condition_expression_error import InvalidConditionExpressionError
 from launch.utilities import perform_substitutions
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from launch.launch_context import LaunchContext
     from launch.substitution import Substitution
 

@@ -6,14 +6,13 @@ import itertools
 import os
 import re
 import shlex
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from launch.substitutions import LaunchConfiguration
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
     from launch.action import Action
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from launch.action import Action, ProcessAction
 from launch.event_handler import BaseEventHandler, entity_list
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from launch.event import Event
     from launch.launch_context import LaunchContext
     from launch.some_entities_type import SomeEntitiesType

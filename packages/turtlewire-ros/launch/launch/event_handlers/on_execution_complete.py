@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
@@ -9,8 +10,6 @@ from launch.event_handlers.on_action_event_base import OnActionEventBase
 from launch.events.execution_complete import ExecutionComplete
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from launch.launch_context import LaunchContext
     from launch.some_entities_type import SomeEntitiesType
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from launch.events.process.process_matchers import (
@@ -11,8 +12,6 @@ from launch.events.process.process_matchers import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from launch._kernel.protocols import ProcessRunner
 
 __all__ = ["matches_action", "matches_executable", "matches_name", "matches_pid"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -17,8 +18,6 @@ from launch.launch_description_sources.python_launch_file_utilities import (
 from turtlewire_ros.workspace_hints import path_hint
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from launch.launch_description import LaunchDescription
 
 

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from importlib.machinery import SourceFileLoader
 from importlib.util import module_from_spec, spec_from_loader
+from types import ModuleType
 from typing import TYPE_CHECKING, cast
 
 from launch.utilities.raised_in import MODULE_NAME
 
 if TYPE_CHECKING:
-    from types import ModuleType
-
     from launch.launch_description import LaunchDescription
 
 

@@ -8,12 +8,10 @@ import logging
 import os
 import signal
 import sys
-from typing import TYPE_CHECKING, Any, Literal
+from collections.abc import Mapping
+from typing import Any, Literal
 
 from launch.logging.directory import default_log_dir, make_launch_log_dir
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 _Style = Literal["%", "{", "$"]
 #: Name of the main log file, unless a launch chooses another.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from launch import logging
@@ -9,8 +10,6 @@ from launch.frontend.expose import expose_substitution
 from launch.substitutions.path_join_substitution import PathSubstitution
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from launch.launch_context import LaunchContext
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
@@ -9,8 +10,6 @@ from launch.substitutions.path_join_substitution import PathSubstitution
 from launch.substitutions.substitution_failure import SubstitutionFailure
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from launch.launch_context import LaunchContext
 
 

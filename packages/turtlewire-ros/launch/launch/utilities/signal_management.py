@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import signal
+from collections.abc import Callable
+from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.terminal.signal_watch import watched
 
 if TYPE_CHECKING:
     import asyncio
-    from collections.abc import Callable
-    from types import TracebackType
 
     from typing_extensions import Self
 

@@ -10,13 +10,12 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+from collections.abc import Callable, Coroutine, Iterator
 from typing import TYPE_CHECKING, Any
 
 from launch.event_handlers import OnProcessExit, OnProcessIO, OnProcessStart
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Coroutine, Iterator
-
     from launch import LaunchContext
     from launch.actions import ExecuteProcess
     from launch.event_handler import BaseEventHandler

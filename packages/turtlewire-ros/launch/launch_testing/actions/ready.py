@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from launch.action import Action
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from launch import LaunchContext
 
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from launch.events.process import ProcessExited
 from launch_testing.util.proc_lookup import resolveProcesses
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from launch_testing.proc_info_handler import ActiveProcInfoHandler, ProcInfoHandler
 
 __unittest = True  # unittest leaves this module out of the tracebacks of failures

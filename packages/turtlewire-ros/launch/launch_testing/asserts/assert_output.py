@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 from launch_testing.tools.output import expected_text_matches
 from launch_testing.util.proc_lookup import resolveProcesses
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 __unittest = True  # unittest leaves this module out of the tracebacks of failures
 

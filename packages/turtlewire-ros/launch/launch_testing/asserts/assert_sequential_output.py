@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import contextlib
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Iterator
+from typing import Any
 
 from launch_testing.util.proc_lookup import resolveProcesses
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
 
 __unittest = True  # unittest leaves this module out of the tracebacks of failures
 

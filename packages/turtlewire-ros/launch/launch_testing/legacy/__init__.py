@@ -18,6 +18,7 @@ module    contents
 
 from __future__ import annotations
 
+from collections.abc import Callable, Collection
 from typing import TYPE_CHECKING, Any
 
 from launch.actions import EmitEvent, ExecuteProcess, OpaqueCoroutine, RegisterEventHandler
@@ -25,8 +26,6 @@ from launch.event_handlers import OnExecutionComplete, OnProcessExit, OnProcessI
 from launch.events import Shutdown
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection
-
     from launch import Action, LaunchContext, LaunchDescription, LaunchService
     from launch.events.process import ProcessExited, ProcessIO
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterable
 
 from ament_index_python.resources import get_resource
 from launch_testing.tools.output import (
@@ -12,9 +12,6 @@ from launch_testing.tools.output import (
     get_default_filtered_patterns,
     get_default_filtered_prefixes,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
 
 __all__ = [
     "create_output_lines_filter",

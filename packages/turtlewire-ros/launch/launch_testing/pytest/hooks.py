@@ -7,7 +7,9 @@ file mentions launch tests. Its hooks for the options and markers are also here.
 from __future__ import annotations
 
 import runpy
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -19,8 +21,6 @@ from turtlewire_ros.pytest_plugin import pytest_addhooks, pytest_addoption, pyte
 
 if TYPE_CHECKING:
     import unittest
-    from collections.abc import Iterator, Mapping, Sequence
-    from types import ModuleType
 
     from _pytest._io import TerminalWriter
     from typing_extensions import Self

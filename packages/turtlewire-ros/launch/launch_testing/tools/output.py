@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import os
 import re
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable
+from typing import Any
 
 from launch_testing.tools.text import build_line_match, build_text_match, normalize_lineseps
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
 
 _ESCAPE_SEQUENCE = re.compile(r"\x1b(?:[@-Z\\-_]|\[[0-?]*[ -/]*[@-~])")
 

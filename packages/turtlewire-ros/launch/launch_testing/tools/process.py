@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from launch import LaunchDescription
@@ -12,8 +13,6 @@ from launch.events.process import ProcessExited, ShutdownProcess
 from launch.utilities import ensure_argument_type
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
     from launch import LaunchService
 
 

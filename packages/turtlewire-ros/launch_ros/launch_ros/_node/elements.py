@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend import Entity
@@ -10,8 +11,6 @@ from launch.substitutions import TextSubstitution
 from launch_ros.parameter_descriptions import ParameterFile, ParameterValue
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from launch.frontend import Parser
     from launch.substitution import Substitution
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from launch import logging
@@ -10,8 +11,6 @@ from launch.utilities import normalize_to_list_of_substitutions
 from launch_ros.ros_adapters import call_service
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend import expose_action
@@ -9,8 +10,6 @@ from launch_ros.actions.load_composable_nodes import LoadComposableNodes, parse_
 from launch_ros.actions.node import Node
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from launch.frontend import Entity, Parser
     from launch.launch_context import LaunchContext
     from launch.launch_description_entity import LaunchDescriptionEntity

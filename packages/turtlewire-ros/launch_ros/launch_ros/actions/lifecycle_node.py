@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from launch.event_handlers import OnProcessExit
@@ -12,7 +13,6 @@ from launch_ros.actions.node import Node
 
 if TYPE_CHECKING:
     import asyncio
-    from collections.abc import Iterable
 
     from launch.frontend import Entity, Parser
     from launch.launch_context import LaunchContext

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from launch.action import Action
@@ -13,8 +14,6 @@ from launch_ros.ros_adapters import get_ros_node
 from launch_ros.utilities.namespace_utils import make_namespace_absolute
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
     from launch.event import Event
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType

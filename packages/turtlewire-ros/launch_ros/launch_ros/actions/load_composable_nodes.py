@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from launch import logging
@@ -24,7 +25,6 @@ from launch_ros.utilities.track_node_names import add_node_name
 
 if TYPE_CHECKING:
     import asyncio
-    from collections.abc import Iterable
 
     from launch.frontend import Parser
     from launch.launch_context import LaunchContext

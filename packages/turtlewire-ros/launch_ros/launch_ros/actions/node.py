@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from launch.actions import ExecuteProcess
@@ -25,8 +26,6 @@ from launch_ros.utilities.track_node_names import add_node_name
 from turtlewire_ros.executables import argv_for
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from launch.frontend import Entity, Parser
     from launch.launch_context import LaunchContext
     from launch.launch_description_entity import LaunchDescriptionEntity

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from launch.conditions import IfCondition, UnlessCondition
@@ -14,8 +15,6 @@ from launch_ros.utilities.normalize_parameters import normalize_parameters
 from launch_ros.utilities.to_parameters_list import to_parameters_list
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from launch.condition import Condition
     from launch.frontend import Parser
     from launch.launch_context import LaunchContext

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from ament_index_python.packages import get_package_prefix
@@ -13,8 +14,6 @@ from turtlewire_ros.executables import executable_paths, libexec_directory
 from turtlewire_ros.workspace_hints import executable_hint
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.type_utils import coerce, list_item_type
@@ -9,8 +10,6 @@ from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
     from launch.launch_context import LaunchContext
 
 _SCALARS = (str, bool, int, float, bytes)

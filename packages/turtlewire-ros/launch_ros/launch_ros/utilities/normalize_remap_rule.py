@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from launch.utilities import ensure_argument_type, normalize_to_list_of_substitutions
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
     from launch.substitution import Substitution
 
 _Rule = tuple[tuple["Substitution", ...], tuple["Substitution", ...]]

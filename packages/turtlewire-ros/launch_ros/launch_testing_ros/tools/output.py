@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterable
 
 from ament_index_python.resources import get_resource
 from launch_testing.tools import output
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
 
 
 def get_rmw_output_filter(rmw_implementation: str, filter_type: str) -> list[str]:

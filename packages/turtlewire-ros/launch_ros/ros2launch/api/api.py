@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import argparse
 import os
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ros2launch.command import launch as command
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
     from launch import LaunchDescription
     from ros2launch.option import OptionExtension
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import argparse
 import contextlib
 import os
 import re
 import sys
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument, exclusive
@@ -14,9 +16,6 @@ from ros2cli.command import CommandExtension
 from ros2cli.completion import files, packages
 
 if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Iterator, Mapping
-
     from launch import LaunchContext, LaunchDescription, LaunchDescriptionSource
 
 __all__ = [

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import argparse
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.plugin_system import (
@@ -11,9 +13,6 @@ from ros2cli.plugin_system import (
 )
 
 if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Iterable
-
     from launch import LaunchDescription
 
 __all__ = ["OptionExtension", "get_option_extensions"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import contextlib
 import os
 from typing import TYPE_CHECKING
@@ -12,7 +13,6 @@ from ros2cli.command import CommandExtension
 from ros2cli.completion import files
 
 if TYPE_CHECKING:
-    import argparse
     from typing import Any
 
 PASSES_COLOURS_ON = True

@@ -5,14 +5,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from enum import IntEnum
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from rclpy._rclpy_pybind11 import rmw_qos_policy_kind_t
 from turtlewire.wire.base import EventKind, EventStatus
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 
 class QoSPublisherEventType(IntEnum):

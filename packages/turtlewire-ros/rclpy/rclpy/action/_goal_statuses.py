@@ -7,15 +7,13 @@ so neither side has to make message objects of all of them for the one that has 
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterable
 from struct import Struct
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from turtlewire.msg import deserialize, get_message
 
 from ._goal_ids import goal_key
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable
 
 _HEADER = Struct("<4sI")
 _LITTLE_ENDIAN = b"\x00\x01\x00\x00"

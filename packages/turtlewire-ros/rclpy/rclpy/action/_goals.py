@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable, Iterable
 from heapq import heappop, heappush
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.task import Future
@@ -12,9 +13,6 @@ from rclpy.task import Future
 from ._goal_ids import goal_key
 from ._goal_statuses import GoalStatuses
 from .goal_state import ACTIVE_STATES, GoalEvent, next_state
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
 
 _ACCEPTED = 1
 

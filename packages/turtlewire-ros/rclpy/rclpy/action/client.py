@@ -6,6 +6,7 @@ import math
 import threading
 import time
 import weakref
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Generic
 
 from rclpy._execution.blocking import limit_ns
@@ -28,8 +29,6 @@ from ._introspection import IntrospectedAction
 from .goal_state import ACTIVE_STATES
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from rclpy._typing import FeedbackT, GoalT, ResultT
     from rclpy.callback_groups import CallbackGroup
     from rclpy.client import Client

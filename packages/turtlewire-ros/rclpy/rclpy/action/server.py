@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from enum import Enum
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -27,8 +28,6 @@ from .goal_state import GoalEvent
 from .server_goal_handle import ServerGoalHandle
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from rclpy._execution.entity import EntityHost
     from rclpy.callback_groups import CallbackGroup
     from rclpy.node import Node

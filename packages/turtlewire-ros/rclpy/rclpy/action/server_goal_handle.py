@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.distro import LYRICAL, since
@@ -10,8 +11,6 @@ from ._goals import Goal
 from .goal_state import GoalEvent
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from .server import ActionServer
 
 _EXECUTING = 2

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import inspect
 import sys
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from rclpy._execution.entity import Entity, Work
@@ -17,8 +18,6 @@ else:
     from taskgroup import TaskGroup
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from rclpy._node.state import NodeState
 
 __all__ = ["AsyncEndpoint", "AsyncEntity", "TaskGroup"]

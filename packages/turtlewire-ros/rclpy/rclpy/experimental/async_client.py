@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from rclpy._typing import RequestT, ResponseT, SrvT_co
@@ -12,8 +13,6 @@ from turtlewire.wake_up import LoopWakeUp
 from ._async_entity import AsyncEndpoint
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from rclpy._execution.handle import EndpointImpl
     from rclpy.context import Context
     from rclpy.qos import QoSProfile

@@ -5,7 +5,9 @@ from __future__ import annotations
 import asyncio
 import signal
 import threading
+from collections.abc import Callable
 from contextlib import suppress
+from types import TracebackType
 from typing import TYPE_CHECKING, Any, Literal, TypeVar, overload
 
 from rclpy._execution.asyncio_loop import loops_of_nodes, running_loop
@@ -27,9 +29,6 @@ from .async_subscription import AsyncSubscription
 from .async_timer import AsyncTimer
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-    from types import TracebackType
-
     from typing_extensions import Self
 
     from rcl_interfaces.msg import ParameterDescriptor

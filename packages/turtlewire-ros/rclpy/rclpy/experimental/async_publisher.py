@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from rclpy._typing import MsgT
 from rclpy.publisher import BasePublisher
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from rclpy._execution.handle import EndpointImpl
     from rclpy.qos import QoSProfile
 

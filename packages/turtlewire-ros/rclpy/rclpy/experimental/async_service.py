@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from rclpy._typing import SrvT_co
@@ -11,8 +12,6 @@ from rclpy.service import BaseService
 from ._async_entity import AsyncEndpoint
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from rclpy._execution.handle import EndpointImpl
     from rclpy.qos import QoSProfile
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from rclpy._typing import MsgT
@@ -12,8 +13,6 @@ from rclpy.utilities import get_rmw_implementation_identifier
 from ._async_entity import AsyncEndpoint, TaskGroup
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from typing_extensions import Self
 
     from rclpy._execution.handle import EndpointImpl

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from rclpy.timer import BaseTimer
@@ -10,8 +11,6 @@ from rclpy.timer import BaseTimer
 from ._async_entity import AsyncEntity
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from rclpy._execution.entity import Work
     from rclpy.clock import BaseClock
     from rclpy.context import Context

@@ -8,13 +8,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rclpy._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from rclpy.impl.rcl_remap import RemapRule
     from rclpy.impl.rcl_yaml_param_parser import ParameterValue
 

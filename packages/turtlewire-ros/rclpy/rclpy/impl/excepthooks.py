@@ -17,12 +17,9 @@ import sys
 import threading
 import weakref
 from signal import SIGINT
-from typing import TYPE_CHECKING
+from types import TracebackType
 
 from turtlewire.package_sources import explain_missing_modules
-
-if TYPE_CHECKING:
-    from types import TracebackType
 
 _previous_hook = sys.excepthook
 _previous_thread_hook = threading.excepthook

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from .logging_severity import LoggingSeverity
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from .log_output import LogRecord
 
 DEFAULT_FORMAT = "[{severity}] [{time}] [{name}]: {message}"

@@ -11,6 +11,7 @@ from __future__ import annotations
 import os
 import sys
 import time
+from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 from . import log_levels
@@ -19,7 +20,6 @@ from .log_format import LineFormat
 from .logging_severity import LoggingSeverity
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from pathlib import Path
 
 _COLOURS = {10: "\033[32m", 20: "\033[0m", 30: "\033[33m", 40: "\033[31m", 50: "\033[31m"}

@@ -10,17 +10,14 @@ from __future__ import annotations
 
 import re
 from base64 import b64decode
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING
 
 import yaml
 
 from turtlewire.distro import LYRICAL, since
 
 from .rcl_lexer import RuleError
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 ParameterValue = (
     bool | int | float | str | list[bytes] | list[bool] | list[int] | list[float] | list[str]

@@ -7,6 +7,7 @@ import threading
 import time
 import warnings
 from collections import OrderedDict
+from types import FrameType
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from turtlewire.distro import KILTED, LYRICAL, since
@@ -16,8 +17,6 @@ from .failed_lookups import FailedLookups, Shown
 from .logging_severity import LoggingSeverity
 
 if TYPE_CHECKING:
-    from types import FrameType
-
     from typing_extensions import Self
 
 _DEBUG, _INFO, _WARN, _ERROR, _FATAL = 10, 20, 30, 40, 50

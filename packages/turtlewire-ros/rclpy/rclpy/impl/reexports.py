@@ -5,11 +5,9 @@ They are loaded at their first use, as most programs need none of them.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Mapping
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+from typing import Any
 
 
 def reexports(module: str, homes: Mapping[str, Iterable[str]]) -> Callable[[str], Any]:

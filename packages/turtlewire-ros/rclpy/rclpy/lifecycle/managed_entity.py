@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import wraps
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from .state_machine import LifecycleState, TransitionCallbackReturn
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 
 class ManagedEntity:

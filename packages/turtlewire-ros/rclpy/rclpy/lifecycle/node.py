@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from rclpy._rclpy_pybind11 import RCLError
@@ -19,8 +20,6 @@ from .state_machine import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from rclpy.callback_groups import CallbackGroup
     from rclpy.publisher import Publisher
 

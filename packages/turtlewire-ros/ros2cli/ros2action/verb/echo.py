@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
@@ -19,8 +20,6 @@ from ros2cli.output import tell
 from ros2cli.qos import QOS_ARGUMENTS, asked_for, matching_publishers, with_options
 
 if TYPE_CHECKING:
-    import argparse
-
     from rclpy.qos import QoSProfile
     from ros2cli.node.direct import DirectNode
 

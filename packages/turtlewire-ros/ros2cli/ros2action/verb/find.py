@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import argparse
 
 from ros2action.api import action_type_completer
 from ros2action.verb import VerbExtension
@@ -10,9 +10,6 @@ from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import discovered_graph
 from ros2cli.listing import count_argument, print_names_of_type
-
-if TYPE_CHECKING:
-    import argparse
 
 ARGUMENTS = (
     argument(

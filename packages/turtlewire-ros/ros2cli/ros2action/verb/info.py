@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 from typing import TYPE_CHECKING, Any
 
 from ros2action.verb import VerbExtension
@@ -12,8 +13,6 @@ from ros2cli.discovery import discovered_graph
 from ros2cli.json_lines import JSON_ARGUMENT, print_json, with_types
 
 if TYPE_CHECKING:
-    import argparse
-
     from ros2cli.graph import NamesAndTypes
 
 ARGUMENTS = (

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import argparse
 
 from ros2action.verb import VerbExtension
 from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import discovered_graph
 from ros2cli.json_lines import JSON_ARGUMENT
 from ros2cli.listing import SHOW_TYPES, count_argument, print_names_and_types
-
-if TYPE_CHECKING:
-    import argparse
 
 ARGUMENTS = (SHOW_TYPES, count_argument("action"), JSON_ARGUMENT)
 

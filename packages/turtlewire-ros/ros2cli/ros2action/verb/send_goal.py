@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import argparse
 import sys
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from ros2action.verb import VerbExtension
@@ -15,9 +17,6 @@ from ros2cli.values import read_values, shortened
 from turtlewire.distro import LYRICAL, since
 
 if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Callable
-
     from ros2cli.node.direct import DirectNode
 
 __all__ = ["ARGUMENTS", "NODE_NAME_PREFIX", "SendGoalVerb", "main", "non_negative_int", "send_goal"]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import argparse
 
 from ros2action.verb import VerbExtension
 from ros2cli.arguments import argument
@@ -10,9 +10,6 @@ from ros2cli.builtin import verb_of_module
 from ros2cli.completion import action_names
 from ros2cli.discovery import discovered_graph
 from ros2cli.listing import print_types
-
-if TYPE_CHECKING:
-    import argparse
 
 ARGUMENTS = (
     argument(

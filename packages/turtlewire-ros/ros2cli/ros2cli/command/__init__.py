@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import argparse
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.entry_points import get_entry_points, get_first_line_doc
@@ -14,9 +16,6 @@ from ros2cli.plugin_system import (
 )
 
 if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Iterable, Iterator
-
     from typing_extensions import Self
 
 __all__ = [

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import argparse
+from typing import Any
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import command_of_module
 from ros2cli.command import CommandExtension
 from ros2cli.installed import EXTENSION_POINT_GROUP_NAME, described, first_line
-
-if TYPE_CHECKING:
-    import argparse
 
 __all__ = ["ARGUMENTS", "EXTENSION_POINT_GROUP_NAME", "ExtensionPointsCommand", "main"]
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import argparse
 import os
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 from ros2cli.helpers import before_invocation, bind, get_ros_domain_id, pretty_print_call
 from ros2cli.node.network_aware import NetworkAwareNode
@@ -23,9 +23,6 @@ from ros2cli.node.server import (
     serve_and_close,
 )
 from ros2cli.xmlrpc.local_server import LocalXMLRPCServer
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 __all__ = [
     "LocalXMLRPCServer",

@@ -6,16 +6,14 @@ nodes in about the time in which it would answer.
 
 from __future__ import annotations
 
+import argparse
 import errno
 import functools
 import os
-from typing import TYPE_CHECKING, Any
+from types import TracebackType
+from typing import Any
 
 from ros2cli.helpers import get_ros_domain_id, wait_for
-
-if TYPE_CHECKING:
-    import argparse
-    from types import TracebackType
 
 
 class DaemonNode:

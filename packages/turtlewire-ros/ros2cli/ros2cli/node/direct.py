@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import argparse
+from collections.abc import Callable
 from contextlib import nullcontext, suppress
+from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.discovery import hidden_node_name, wait_until_discovered
@@ -10,10 +13,6 @@ from ros2cli.node import NODE_NAME_PREFIX
 from turtlewire.wire.lingering import leaving_at_once
 
 if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Callable
-    from types import TracebackType
-
     from rclpy.node import Node
     from turtlewire.wire.base import Graph
 

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
+import argparse
 import functools
 import inspect
-from typing import TYPE_CHECKING, Any
+from types import TracebackType
+from typing import Any
 
 from ros2cli.node.direct import DirectNode
 from turtlewire.web.lan import interface_addresses as get_interfaces_ip_addresses
-
-if TYPE_CHECKING:
-    import argparse
-    from types import TracebackType
 
 __all__ = ["NetworkAwareNode", "get_interfaces_ip_addresses"]
 

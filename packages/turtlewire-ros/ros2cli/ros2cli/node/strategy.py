@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import argparse
+from types import TracebackType
+from typing import Any
 
 from ros2cli.node.daemon import DaemonNode, is_daemon_running
 from ros2cli.node.direct import DirectNode
-
-if TYPE_CHECKING:
-    import argparse
-    from types import TracebackType
 
 
 class NodeStrategy:

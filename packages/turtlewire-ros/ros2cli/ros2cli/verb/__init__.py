@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import argparse
+from typing import Any
 
 from ros2cli.plugin_system import (
     PLUGIN_SYSTEM_VERSION,
@@ -10,9 +11,6 @@ from ros2cli.plugin_system import (
     named_extensions,
     satisfies_version,
 )
-
-if TYPE_CHECKING:
-    import argparse
 
 __all__ = [
     "PLUGIN_SYSTEM_VERSION",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import argparse
 
 from ros2cli.arguments import argument, timeout_argument
 from ros2cli.builtin import verb_of_module
@@ -12,9 +12,6 @@ from ros2cli.output import tell_failed_call
 from ros2component.containers import LIST_TIMEOUT_S
 from ros2component.options import container_node_names
 from ros2component.verb import VerbExtension
-
-if TYPE_CHECKING:
-    import argparse
 
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,

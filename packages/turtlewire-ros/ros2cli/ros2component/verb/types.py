@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import argparse
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.completion import packages
 from ros2component.verb import VerbExtension
-
-if TYPE_CHECKING:
-    import argparse
 
 _RESOURCE = "rclcpp_components"
 

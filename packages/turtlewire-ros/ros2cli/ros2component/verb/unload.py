@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import argparse
 
 from ros2cli.arguments import argument, timeout_argument
 from ros2cli.builtin import verb_of_module
@@ -12,9 +12,6 @@ from ros2cli.output import tell
 from ros2cli.values import unsigned_int
 from ros2component.options import container_node_names
 from ros2component.verb import VerbExtension
-
-if TYPE_CHECKING:
-    import argparse
 
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,

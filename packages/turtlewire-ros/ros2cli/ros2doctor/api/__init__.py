@@ -26,7 +26,8 @@ module               contents
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypeVar
+from collections.abc import Callable, Collection, Iterator
+from typing import Any, TypeVar
 
 from ros2doctor.api.environment import (
     ALL_ENVIRONMENT_VARIABLES,
@@ -40,9 +41,6 @@ from ros2doctor.api.environment import (
 )
 from ros2doctor.api.format import doctor_warn
 from ros2doctor.api.reporting import DoctorCheck, DoctorReport, Report, Result, result_of
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterator
 
 __all__ = [
     "ALL_ENVIRONMENT_VARIABLES",

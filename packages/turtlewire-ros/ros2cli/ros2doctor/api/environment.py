@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
 
 from ros2doctor.api.reporting import DoctorReport, Report
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
 ROS_ENVIRONMENT_VARIABLES = [
     "RCL_LOGGING_SPDLOG_EXPERIMENTAL_OLD_FLUSHING_BEHAVIOR",

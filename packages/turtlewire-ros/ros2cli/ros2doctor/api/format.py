@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import sys
 import warnings
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from collections.abc import Collection
-    from types import TracebackType
+from collections.abc import Collection
+from types import TracebackType
+from typing import Any
 
 
 def format_print(report: Any) -> None:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros2doctor.api.reporting import Report
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
     from turtlewire.wire.base import EndpointInfo
 
 #: Every node has them, including the one that asks.

@@ -8,16 +8,14 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from urllib.parse import urljoin
 
 from ros2doctor.api.format import doctor_error, doctor_warn
 from ros2doctor.api.reporting import DoctorCheck, DoctorReport, Report, Result
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 #: The index of ROS 2's releases, unless ``ROSDISTRO_INDEX_URL`` names another one.
 _INDEX = "https://raw.githubusercontent.com/ros/rosdistro/master/index-v4.yaml"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros2doctor.api.format import doctor_error, doctor_warn
@@ -9,8 +10,6 @@ from ros2doctor.api.graph_snapshot import snapshot
 from ros2doctor.api.reporting import DoctorCheck, DoctorReport, Report, Result
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from rclpy.qos import QoSCompatibility
 
 

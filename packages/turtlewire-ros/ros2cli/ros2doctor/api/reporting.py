@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from ros2doctor.api.format import doctor_error, doctor_warn
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from turtlewire.doctor.finding import Finding
 
 

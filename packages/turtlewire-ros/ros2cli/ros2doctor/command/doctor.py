@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import argparse
 
 from ros2cli.arguments import argument, exclusive
 from ros2cli.builtin import command_of_module
 from ros2cli.command import CommandExtension
 from turtlewire.terminal.parser import seconds
-
-if TYPE_CHECKING:
-    import argparse
 
 VERB_GROUP = "ros2doctor.verb"
 

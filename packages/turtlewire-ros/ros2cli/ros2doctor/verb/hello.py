@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import re
 import socket
@@ -18,8 +19,6 @@ from ros2doctor.verb import VerbExtension
 from ros2multicast.api import DEFAULT_GROUP, DEFAULT_PORT, GROUP_ARGUMENTS, MulticastSocket
 
 if TYPE_CHECKING:
-    import argparse
-
     from rclpy.node import Node
 
 __all__ = [

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import argparse
+from collections.abc import Iterable
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2interface.verb import VerbExtension
-
-if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Iterable
 
 ARGUMENTS = (
     argument("-m", "--only-msgs", action="store_true", help="Only packages with messages"),

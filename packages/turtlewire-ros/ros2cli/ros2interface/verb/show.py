@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument, exclusive
@@ -16,8 +17,6 @@ from ros2interface.verb import VerbExtension
 from turtlewire.msg.parser import without_comment
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
     from turtlewire.msg.definition import Field, MessageDefinition
 
 #: The line between the parts of a service or action.

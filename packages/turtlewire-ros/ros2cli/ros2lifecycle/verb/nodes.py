@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import argparse
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
 from ros2cli.listing import HIDDEN_NODES, count_argument, print_names
 from ros2lifecycle.verb import VerbExtension
-
-if TYPE_CHECKING:
-    import argparse
 
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,

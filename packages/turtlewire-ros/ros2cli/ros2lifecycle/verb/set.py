@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import argparse
 
 from ros2cli.arguments import argument, timeout_argument
 from ros2cli.builtin import verb_of_module
@@ -11,9 +11,6 @@ from ros2cli.node.direct import DirectNode
 from ros2cli.output import tell
 from ros2lifecycle.managed_nodes import HIDDEN_ARGUMENT, managed_node_names
 from ros2lifecycle.verb import VerbExtension
-
-if TYPE_CHECKING:
-    import argparse
 
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import argparse
 
 from ros2cli import verb
 from ros2cli.arguments import add_arguments
 from ros2cli.plugin_system import PLUGIN_SYSTEM_VERSION
 from ros2cli.values import positive_int
 from ros2multicast.api import DEFAULT_GROUP, DEFAULT_PORT, GROUP_ARGUMENTS
-
-if TYPE_CHECKING:
-    import argparse
 
 __all__ = [
     "DEFAULT_GROUP",

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import argparse
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.values import unsigned_int
 from ros2multicast.api import GROUP_ARGUMENTS, MulticastSocket
 from ros2multicast.verb import VerbExtension
-
-if TYPE_CHECKING:
-    import argparse
 
 ARGUMENTS = (
     *GROUP_ARGUMENTS,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import argparse
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
@@ -14,9 +16,6 @@ from ros2cli.selection import OPTIONAL, select_node
 from ros2node.verb import VerbExtension
 
 if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Iterable
-
     from ros2cli.graph import NamesAndTypes
     from turtlewire.wire.base import Graph
 

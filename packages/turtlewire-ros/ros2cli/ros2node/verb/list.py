@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import argparse
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
@@ -11,9 +11,6 @@ from ros2cli.json_lines import JSON_ARGUMENT, print_json_list
 from ros2cli.listing import HIDDEN_NODES, count_argument, print_names
 from ros2cli.output import tell
 from ros2node.verb import VerbExtension
-
-if TYPE_CHECKING:
-    import argparse
 
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,

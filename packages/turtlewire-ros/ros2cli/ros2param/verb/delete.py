@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import argparse
 
 from ros2cli.builtin import verb_of_module
 from ros2cli.node.direct import DirectNode
@@ -10,9 +10,6 @@ from ros2cli.output import tell
 from ros2param.options import NAME_ARGUMENT, node_arguments
 from ros2param.parameters import RemoteParameters
 from ros2param.verb import VerbExtension
-
-if TYPE_CHECKING:
-    import argparse
 
 ARGUMENTS = (*node_arguments(), NAME_ARGUMENT)
 

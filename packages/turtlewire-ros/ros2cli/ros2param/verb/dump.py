@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import argparse
+from typing import Any
 
 from ros2cli.builtin import verb_of_module
 from ros2cli.json_lines import JSON_ARGUMENT, print_json
@@ -10,9 +11,6 @@ from ros2cli.node.direct import DirectNode
 from ros2param.options import node_arguments
 from ros2param.parameters import RemoteParameters
 from ros2param.verb import VerbExtension
-
-if TYPE_CHECKING:
-    import argparse
 
 PARAMETER_SEPARATOR_STRING = "."
 

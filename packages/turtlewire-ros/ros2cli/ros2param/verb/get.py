@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import argparse
+from typing import Any
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
@@ -13,9 +14,6 @@ from ros2cli.selection import OPTIONAL, select_node
 from ros2param.options import node_arguments, parameter_names
 from ros2param.parameters import TYPE_NAMES, RemoteParameters, ask_all
 from ros2param.verb import VerbExtension
-
-if TYPE_CHECKING:
-    import argparse
 
 _LABELS = {
     1: "Boolean value is:",

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import argparse
 import re
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Sequence
+from typing import Any
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
@@ -13,10 +15,6 @@ from ros2cli.values import regular_expression
 from ros2param.options import node_arguments
 from ros2param.parameters import TYPE_NAMES, ask_all
 from ros2param.verb import VerbExtension
-
-if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Callable, Sequence
 
 ARGUMENTS = (
     *node_arguments(nargs="?"),

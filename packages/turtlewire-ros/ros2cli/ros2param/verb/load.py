@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import argparse
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
@@ -12,9 +12,6 @@ from ros2cli.output import print_set_results
 from ros2param.options import node_arguments
 from ros2param.parameters import RemoteParameters
 from ros2param.verb import VerbExtension
-
-if TYPE_CHECKING:
-    import argparse
 
 ARGUMENTS = (
     *node_arguments(),

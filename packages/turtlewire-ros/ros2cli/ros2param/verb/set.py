@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import argparse
+from typing import Any
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
@@ -11,9 +12,6 @@ from ros2cli.output import tell
 from ros2param.options import NAME_ARGUMENT, node_arguments, parameter_names
 from ros2param.parameters import RemoteParameters
 from ros2param.verb import VerbExtension
-
-if TYPE_CHECKING:
-    import argparse
 
 ARGUMENTS = (
     *node_arguments(),

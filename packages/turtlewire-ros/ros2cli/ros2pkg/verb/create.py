@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import re
-from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.completion import files
 from ros2pkg import package_template
 from ros2pkg.verb import VerbExtension
-
-if TYPE_CHECKING:
-    import argparse
 
 _NAME = re.compile(r"[a-z](?:[a-z0-9]|_(?!_))*")
 _NODE_NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
+import argparse
 import os
-from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.completion import packages
 from ros2pkg.verb import VerbExtension
-
-if TYPE_CHECKING:
-    import argparse
 
 ARGUMENTS = (
     argument(

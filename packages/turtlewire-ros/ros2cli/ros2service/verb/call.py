@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import argparse
 import sys
+from collections.abc import Callable
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
@@ -16,9 +18,6 @@ from ros2cli.values import positive_float, read_values, shortened
 from ros2service.verb import VerbExtension
 
 if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Callable
-
     from rclpy.qos import QoSProfile
     from ros2cli.node.direct import DirectNode
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
@@ -12,8 +13,6 @@ from ros2cli.qos import QOS_ARGUMENTS, with_options
 from ros2service.verb import VerbExtension
 
 if TYPE_CHECKING:
-    import argparse
-
     from turtlewire.wire.base import Graph
 
 __all__ = ["ARGUMENTS", "DEFAULT_TRUNCATE_LENGTH", "EchoVerb", "main"]

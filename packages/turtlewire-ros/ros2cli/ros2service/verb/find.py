@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import argparse
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
@@ -10,9 +10,6 @@ from ros2cli.completion import interfaces
 from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
 from ros2cli.listing import count_argument, hidden_argument, print_names_of_type
 from ros2service.verb import VerbExtension
-
-if TYPE_CHECKING:
-    import argparse
 
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import argparse
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
@@ -11,9 +11,6 @@ from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
 from ros2cli.json_lines import JSON_ARGUMENT
 from ros2cli.listing import print_types
 from ros2service.verb import VerbExtension
-
-if TYPE_CHECKING:
-    import argparse
 
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import argparse
 import functools
 import statistics
 import threading
 import time
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Sequence
+from typing import Any
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
@@ -17,10 +19,6 @@ from ros2cli.qos import QOS_ARGUMENTS
 from ros2cli.values import positive_int
 from ros2topic.several import SEVERAL_TOPICS, choose, print_table, refused, subscribe
 from ros2topic.verb import VerbExtension
-
-if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Callable, Sequence
 
 DEFAULT_WINDOW_SIZE = 100
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import argparse
 import collections
 import threading
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
@@ -15,9 +16,6 @@ from ros2cli.qos import QOS_ARGUMENTS, with_options
 from ros2cli.values import positive_int
 from ros2topic.verb import VerbExtension
 from ros2topic.verb.hz import spread
-
-if TYPE_CHECKING:
-    import argparse
 
 DEFAULT_WINDOW_SIZE = 10000
 

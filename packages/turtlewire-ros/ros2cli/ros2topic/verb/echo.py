@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import argparse
 import re
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
@@ -23,9 +25,6 @@ from ros2cli.values import positive_float
 from ros2topic.verb import VerbExtension
 
 if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Callable
-
     from rclpy.qos import QoSProfile
     from ros2cli.node.direct import DirectNode
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import argparse
 import functools
 import math
 import statistics
 import threading
 import time
+from collections.abc import Callable, Collection, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
@@ -18,10 +20,6 @@ from ros2cli.values import positive_int
 from ros2topic.several import SEVERAL_TOPICS, choose, print_table, refused, subscribe
 from ros2topic.verb import VerbExtension
 from turtlewire.distro import KILTED, since
-
-if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Callable, Collection, Sequence
 
 DEFAULT_WINDOW_SIZE = 10000
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
@@ -13,8 +14,6 @@ from ros2cli.selection import OPTIONAL, select_topic
 from ros2topic.verb import VerbExtension
 
 if TYPE_CHECKING:
-    import argparse
-
     from turtlewire.wire.base import Graph
 
 ARGUMENTS = (

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import argparse
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
@@ -17,9 +19,6 @@ from ros2cli.listing import (
 from ros2topic.verb import VerbExtension
 
 if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Iterable, Sequence
-
     from ros2cli.graph import NamesAndTypes
     from turtlewire.wire.base import Graph
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import argparse
 import sys
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -19,9 +21,6 @@ from ros2topic.verb import VerbExtension
 from turtlewire.distro import KILTED, since
 
 if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Iterator
-
     from rclpy.qos import QoSProfile
     from ros2cli.node.direct import DirectNode
 

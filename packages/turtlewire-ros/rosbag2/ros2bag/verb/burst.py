@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import argparse
 
 from ros2bag.options import (
     BAGS_TO_PLAY,
@@ -22,9 +22,6 @@ from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.node import NODE_NAME_PREFIX
 from ros2cli.values import unsigned_int
-
-if TYPE_CHECKING:
-    import argparse
 
 __all__ = ["ARGUMENTS", "NODE_NAME_PREFIX", "BurstVerb", "main"]
 

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import argparse
 
 from ros2bag.options import INPUT, existing_file
 from ros2bag.verb import VerbExtension
 from ros2cli.arguments import argument, exclusive
 from ros2cli.builtin import verb_of_module
 from ros2cli.completion import files
-
-if TYPE_CHECKING:
-    import argparse
 
 ARGUMENTS = (
     exclusive(

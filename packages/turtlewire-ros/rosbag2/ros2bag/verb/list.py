@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import argparse
 
 from ros2bag.verb import VerbExtension
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
-
-if TYPE_CHECKING:
-    import argparse
 
 _PLUGINS = {
     "storage": {

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import time
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from ros2bag.options import (
@@ -26,9 +28,6 @@ from ros2cli.values import positive_int, unsigned_int
 from turtlewire.distro import KILTED, LYRICAL, since
 
 if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Iterable
-
     from rosbag2_py import RecordOptions, StorageOptions
 
 __all__ = [

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import time
-from typing import TYPE_CHECKING
 
 from ros2bag.options import STORAGE, bag_path
 from ros2bag.verb import VerbExtension
 from ros2cli.arguments import argument
 from ros2cli.builtin import verb_of_module
 from ros2cli.completion import folders
-
-if TYPE_CHECKING:
-    import argparse
 
 ARGUMENTS = (
     argument("bag_path", type=bag_path, help="Folder of the bag", completer=folders),

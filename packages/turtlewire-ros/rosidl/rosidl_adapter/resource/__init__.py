@@ -10,12 +10,10 @@ import functools
 import importlib.util
 import io
 import pathlib
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any
 
 from rosidl_adapter.parser import ActionSpecification, MessageSpecification, ServiceSpecification
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 __all__ = [
     "ActionSpecification",

@@ -17,6 +17,7 @@ from __future__ import annotations
 import heapq
 import itertools
 import random
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
 from geometry_msgs.msg import TransformStamped
@@ -25,8 +26,6 @@ from tf2_ros import TransformBroadcaster
 from turtlewire import msg
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.wire.local.bus import Bus, LocalSender
     from turtlewire.wire.local.endpoint import Message
 

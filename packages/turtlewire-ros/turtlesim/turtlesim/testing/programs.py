@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import sys
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, NoReturn
 from unittest.mock import patch
 
@@ -11,8 +12,6 @@ import rclpy
 from rclpy.executors import Executor
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
-
     from rclpy.node import Node
 
 

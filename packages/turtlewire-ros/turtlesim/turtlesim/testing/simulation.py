@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from geometry_msgs.msg import Twist
@@ -14,8 +15,6 @@ from turtlesim.testing.stage import Stage
 from turtlesim.turtlesim_node import TurtlesimNode
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from typing_extensions import Self
 
     from rclpy.publisher import Publisher

@@ -6,6 +6,7 @@ import contextlib
 import json
 import os
 from collections import deque
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 import rclpy
@@ -15,8 +16,6 @@ from turtlesim.testing.programs import nodes_of, rclpy_in_step
 from turtlewire.wire.local.context import LocalContext
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
     from rclpy.node import Node
 
 _MIDDLEWARE = "RMW_IMPLEMENTATION"

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from launch.event import Event
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from launch._kernel.protocols import ProcessRunner
 
 

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import signal as signal_module
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from launch.events.process.process_targeted_event import ProcessTargetedEvent
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from launch._kernel.protocols import ProcessRunner
 
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, ClassVar
 
 from launch.event import Event
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from launch_ros.events.matchers.matches_node_name import NamedNode
 
 # The numbers of `lifecycle_msgs`, whose import would slow each launch; a test compares them.

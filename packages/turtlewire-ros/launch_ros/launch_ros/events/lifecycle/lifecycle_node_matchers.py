@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from launch_ros.utilities.namespace_utils import make_namespace_absolute
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from launch_ros.events.matchers.matches_node_name import NamedNode
 
 

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from collections.abc import Callable
+from typing import Protocol
 
 from launch_ros.utilities.namespace_utils import make_namespace_absolute
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 
 class NamedNode(Protocol):

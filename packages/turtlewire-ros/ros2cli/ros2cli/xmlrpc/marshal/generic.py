@@ -5,10 +5,10 @@ A value is written as an element that has the full name of its class.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from enum import Enum
 
 

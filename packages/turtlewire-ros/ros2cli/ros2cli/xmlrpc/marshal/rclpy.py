@@ -6,7 +6,8 @@ Importing the module enters its functions in the tables of :mod:`xmlrpc.client`.
 from __future__ import annotations
 
 import functools
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 from xmlrpc.client import Marshaller, Unmarshaller
 
 from rclpy.duration import Duration
@@ -26,9 +27,6 @@ from ros2cli.xmlrpc.marshal.generic import (
     end_any_with_slots,
     fullname,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 #: The policies of which a `QoSProfile` consists.
 policy_types = (
