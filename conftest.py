@@ -2,13 +2,16 @@
 
 Every test process gets its own domain, log directory and loopback-only range; children
 inherit them. The fixture ``run`` starts programs in separate processes; ``ros2_launch`` does so
-with launch files, ``launch`` runs entities of launch files in the test's process.
+with launch files, ``launch`` runs entities of launch files in the test's process. A test may be a
+coroutine function.
 """
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import gc
+import inspect
 import os
 import re
 import select
@@ -83,6 +86,16 @@ def pytest_collection_modifyitems(config, items):
                 item.add_marker(pytest.mark.skip(reason=CYCLONE_DDS))
     if hasattr(config, "workerinput"):
         items.sort(key=lambda item: zlib.crc32(item.location[0].encode()))
+
+
+def pytest_pyfunc_call(pyfuncitem):
+    """Run a test that is a coroutine function in its own loop, for a minute at most."""
+    if not inspect.iscoroutinefunction(pyfuncitem.obj):
+        return None
+    names = inspect.signature(pyfuncitem.obj).parameters
+    arguments = {name: pyfuncitem.funcargs[name] for name in names}
+    asyncio.run(asyncio.wait_for(pyfuncitem.obj(**arguments), 60))
+    return True
 
 
 def pytest_collection_finish():

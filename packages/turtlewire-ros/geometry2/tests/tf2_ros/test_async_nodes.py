@@ -41,33 +41,27 @@ def test_a_lookup_is_awaited(monkeypatch, stamped, middleware):
         assert run(main(context)) == 2.5
 
 
-def test_a_lookup_is_cancelled(context):
-    async def main():
-        async with AsyncNode("tested", context=context) as node:
-            buffer = Buffer()
-            TransformListener(buffer, node)
-            with pytest.raises(asyncio.TimeoutError):
-                await asyncio.wait_for(buffer.lookup_transform_async("a", "b", Time()), 0.01)
-            from rclpy.duration import Duration
-
-            limit = Duration(nanoseconds=1)
-            with pytest.raises(TransformException):
-                await buffer.lookup_transform_async("a", "b", Time(), timeout=limit)
-
-    run(main())
-
-
-def test_the_listener_ends_with_its_node(context, make_node, stamped):
-    async def main():
-        node = AsyncNode("tested", context=context)
+async def test_a_lookup_is_cancelled(context):
+    async with AsyncNode("tested", context=context) as node:
         buffer = Buffer()
-        async with node:
-            TransformListener(buffer, node)
-            assert node.count_subscribers("/tf") == 1
-        other = make_node("other")
-        assert other.count_subscribers("/tf") == 0
+        TransformListener(buffer, node)
+        with pytest.raises(asyncio.TimeoutError):
+            await asyncio.wait_for(buffer.lookup_transform_async("a", "b", Time()), 0.01)
+        from rclpy.duration import Duration
 
-    run(main())
+        limit = Duration(nanoseconds=1)
+        with pytest.raises(TransformException):
+            await buffer.lookup_transform_async("a", "b", Time(), timeout=limit)
+
+
+async def test_the_listener_ends_with_its_node(context, make_node, stamped):
+    node = AsyncNode("tested", context=context)
+    buffer = Buffer()
+    async with node:
+        TransformListener(buffer, node)
+        assert node.count_subscribers("/tf") == 1
+    other = make_node("other")
+    assert other.count_subscribers("/tf") == 0
 
 
 def test_the_buffer_of_a_node_answers(context, stamped):
@@ -81,17 +75,14 @@ def test_the_buffer_of_a_node_answers(context, stamped):
     assert "robot" in run(main())
 
 
-def test_the_buffer_follows_simulated_time_of_the_node(context, stamped):
-    async def main():
-        async with AsyncNode("tested", context=context) as node:
-            buffer = Buffer()
-            TransformListener(buffer, node)
-            buffer.set_transform(stamped(), "test")
-            clock = node.get_clock()
-            clock._set_ros_time_is_active(True)
-            return buffer.can_transform("world", "robot", Time())
-
-    assert run(main()) == 0
+async def test_the_buffer_follows_simulated_time_of_the_node(context, stamped):
+    async with AsyncNode("tested", context=context) as node:
+        buffer = Buffer()
+        TransformListener(buffer, node)
+        buffer.set_transform(stamped(), "test")
+        clock = node.get_clock()
+        clock._set_ros_time_is_active(True)
+        assert buffer.can_transform("world", "robot", Time()) == 0
 
 
 def test_a_listener_does_not_spin_an_asynchronous_node(context):

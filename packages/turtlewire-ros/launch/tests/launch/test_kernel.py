@@ -58,22 +58,19 @@ def test_an_event_that_came_before_the_wait_is_not_waited_for():
     running(wait)
 
 
-def test_events_before_the_start_and_after_the_end_are_kept():
+async def test_events_before_the_start_and_after_the_end_are_kept():
     run = Run()
     early, late = Event(), Event()
     run.emit(early)
 
-    async def main():
-        run.begin()
-        await run.wait()
-        assert run.take_events() == [early]
-        run.end()
-        run.emit(late)
-        run.begin()
-        await run.wait()
-        assert run.take_events() == [late]
-
-    asyncio.run(main())
+    run.begin()
+    await run.wait()
+    assert run.take_events() == [early]
+    run.end()
+    run.emit(late)
+    run.begin()
+    await run.wait()
+    assert run.take_events() == [late]
 
 
 def test_a_future_that_is_done_ends_the_wait_and_gives_its_error():

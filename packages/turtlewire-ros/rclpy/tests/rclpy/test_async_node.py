@@ -20,14 +20,11 @@ from .asyncio_nodes import failure, failure_of, in_groups, run, tree, turns, unt
 DESTROYED = "cannot use Destroyable because destruction was requested"
 
 
-def test_run_ends_when_the_node_is_destroyed(context):
-    async def main():
-        node = AsyncNode("tested", context=context)
-        asyncio.get_running_loop().call_soon(node.destroy_node)
-        await node.run()
-        node.destroy_node()
-
-    run(main())
+async def test_run_ends_when_the_node_is_destroyed(context):
+    node = AsyncNode("tested", context=context)
+    asyncio.get_running_loop().call_soon(node.destroy_node)
+    await node.run()
+    node.destroy_node()
 
 
 def test_an_exception_of_the_block_comes_in_a_group(context):
@@ -51,14 +48,11 @@ def test_an_exception_of_the_block_comes_in_a_group(context):
     assert run(failure(node.run())) == again
 
 
-def test_a_node_runs_once_at_a_time(context):
-    async def main():
-        async with AsyncNode("tested", context=context) as node:
-            twice = ("RuntimeError", "Node is already running")
-            assert await failure(node.__aenter__()) == twice
-            assert await failure(node.run()) == twice
-
-    run(main())
+async def test_a_node_runs_once_at_a_time(context):
+    async with AsyncNode("tested", context=context) as node:
+        twice = ("RuntimeError", "Node is already running")
+        assert await failure(node.__aenter__()) == twice
+        assert await failure(node.run()) == twice
 
 
 @pytest.mark.parametrize(
@@ -240,98 +234,86 @@ def test_a_node_without_a_reference_leaves_the_graph(context):
     node.destroy_node()
 
 
-def test_a_node_starts_no_thread(context):
+async def test_a_node_starts_no_thread(context):
     node = AsyncNode("tested", context=context)
     before = set(threading.enumerate())
 
-    async def main():
-        heard = asyncio.Event()
-        async with node:
-            node.create_subscription(String, "chatter", lambda _message: heard.set(), 10)
-            node.create_publisher(String, "chatter", 10).publish(String())
-            await heard.wait()
-            assert set(threading.enumerate()) == before
-
-    run(main())
+    heard = asyncio.Event()
+    async with node:
+        node.create_subscription(String, "chatter", lambda _message: heard.set(), 10)
+        node.create_publisher(String, "chatter", 10).publish(String())
+        await heard.wait()
+        assert set(threading.enumerate()) == before
 
 
-def test_nodes_in_a_browser_tab_need_no_thread(monkeypatch):
+async def test_nodes_in_a_browser_tab_need_no_thread(monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
     monkeypatch.setattr("turtlewire.wire.local.context.in_browser", lambda: True)
 
     def start(thread):
         raise RuntimeError("can't start new thread")
 
-    async def main():
-        monkeypatch.setattr(threading.Thread, "start", start)
-        with Context() as context:
-            node, peer = AsyncNode("one", context=context), AsyncNode("two", context=context)
-            peer.create_service(SetBool, "switch", lambda _request, response: response)
-            async with node, peer:
-                client = node.create_client(SetBool, "switch")
-                await client.wait_for_service()
-                assert await client.call(SetBool.Request()) == SetBool.Response()
-                waiting = asyncio.ensure_future(node.wait_for_node("late"))
-                await turns()
-                async with AsyncNode("late", context=context):
-                    await waiting
-
-    run(main())
-
-
-def test_waiting_for_a_node(context):
-    async def main():
-        async with AsyncNode("tested", context=context) as node:
-            waiting = asyncio.ensure_future(node.wait_for_node("peer"))
+    monkeypatch.setattr(threading.Thread, "start", start)
+    with Context() as context:
+        node, peer = AsyncNode("one", context=context), AsyncNode("two", context=context)
+        peer.create_service(SetBool, "switch", lambda _request, response: response)
+        async with node, peer:
+            client = node.create_client(SetBool, "switch")
+            await client.wait_for_service()
+            assert await client.call(SetBool.Request()) == SetBool.Response()
+            waiting = asyncio.ensure_future(node.wait_for_node("late"))
             await turns()
-            assert not waiting.done()
-            peer = AsyncNode("peer", context=context)
-            await waiting
-            await node.wait_for_node("/peer", check_interval=1.0)
-            missing = asyncio.wait_for(node.wait_for_node("/ns/peer"), 0.01)
-            assert (await failure(missing))[0] == "TimeoutError"
-            peer.destroy_node()
-            forever = asyncio.ensure_future(node.wait_for_node("/nobody"))
-            await turns()
-            node.destroy_node()
-            context.wake_waits()
-            assert await failure(forever) == ("InvalidHandle", DESTROYED)
-
-    run(main())
+            async with AsyncNode("late", context=context):
+                await waiting
 
 
-def test_a_node_has_parameters_and_a_clock_but_no_executor(context):
-    async def main():
-        async with AsyncNode("tested", namespace="/ns", context=context) as node:
-            assert isinstance(node, BaseNode)
-            assert node.declare_parameter("speed", 1.5).value == 1.5
-            assert node.get_fully_qualified_name() == "/ns/tested"
-            services = node.get_service_names_and_types_by_node("tested", "/ns")
-            assert sorted(name.rpartition("/")[2] for name, _ in services) == [
-                "describe_parameters",
-                "get_parameter_types",
-                "get_parameters",
-                "get_type_description",
-                "list_parameters",
-                "set_parameters",
-                "set_parameters_atomically",
-            ]
-            assert repr(node.get_clock()) == "AsyncClock(clock_type=ROS_TIME)"
-            for name in ("executor", "create_rate", "create_guard_condition", "subscriptions"):
-                assert not hasattr(node, name)
-            refused = failure_of(node.declare_parameter, "x")
-            assert refused == failure_of(node.declare_parameters, "", [("x",)])
-            assert refused[0] == "TypeError"
-            assert refused[1] == (
-                "when declaring parameter named 'x', declaring a parameter only providing its name "
-                "is not allowed. You have to either:\n"
-                '\t- Pass a name and a default value different to "PARAMETER NOT SET" (and '
-                "optionally a descriptor).\n"
-                "\t- Pass a name and a parameter type.\n"
-                "\t- Pass a name and a descriptor with `dynamic_typing=True"
-            )
+async def test_waiting_for_a_node(context):
+    async with AsyncNode("tested", context=context) as node:
+        waiting = asyncio.ensure_future(node.wait_for_node("peer"))
+        await turns()
+        assert not waiting.done()
+        peer = AsyncNode("peer", context=context)
+        await waiting
+        await node.wait_for_node("/peer", check_interval=1.0)
+        missing = asyncio.wait_for(node.wait_for_node("/ns/peer"), 0.01)
+        assert (await failure(missing))[0] == "TimeoutError"
+        peer.destroy_node()
+        forever = asyncio.ensure_future(node.wait_for_node("/nobody"))
+        await turns()
+        node.destroy_node()
+        context.wake_waits()
+        assert await failure(forever) == ("InvalidHandle", DESTROYED)
 
-    run(main())
+
+async def test_a_node_has_parameters_and_a_clock_but_no_executor(context):
+    async with AsyncNode("tested", namespace="/ns", context=context) as node:
+        assert isinstance(node, BaseNode)
+        assert node.declare_parameter("speed", 1.5).value == 1.5
+        assert node.get_fully_qualified_name() == "/ns/tested"
+        services = node.get_service_names_and_types_by_node("tested", "/ns")
+        assert sorted(name.rpartition("/")[2] for name, _ in services) == [
+            "describe_parameters",
+            "get_parameter_types",
+            "get_parameters",
+            "get_type_description",
+            "list_parameters",
+            "set_parameters",
+            "set_parameters_atomically",
+        ]
+        assert repr(node.get_clock()) == "AsyncClock(clock_type=ROS_TIME)"
+        for name in ("executor", "create_rate", "create_guard_condition", "subscriptions"):
+            assert not hasattr(node, name)
+        refused = failure_of(node.declare_parameter, "x")
+        assert refused == failure_of(node.declare_parameters, "", [("x",)])
+        assert refused[0] == "TypeError"
+        assert refused[1] == (
+            "when declaring parameter named 'x', declaring a parameter only providing its name "
+            "is not allowed. You have to either:\n"
+            '\t- Pass a name and a default value different to "PARAMETER NOT SET" (and '
+            "optionally a descriptor).\n"
+            "\t- Pass a name and a parameter type.\n"
+            "\t- Pass a name and a descriptor with `dynamic_typing=True"
+        )
 
 
 def test_actions_and_executors_reject_an_asynchronous_node(context):
@@ -359,14 +341,11 @@ def test_a_node_whose_constructor_forgets_its_base(context):
         Forgetful()
 
 
-def test_parameters_are_served(context):
+async def test_parameters_are_served(context):
     from rcl_interfaces.srv import GetParameters
 
-    async def main():
-        async with AsyncNode("tested", context=context) as node:
-            node.declare_parameter("speed", 1.5)
-            client = node.create_client(GetParameters, "tested/get_parameters")
-            response = await client.call(GetParameters.Request(names=["speed"]))
-            assert [value.double_value for value in response.values] == [1.5]
-
-    run(main())
+    async with AsyncNode("tested", context=context) as node:
+        node.declare_parameter("speed", 1.5)
+        client = node.create_client(GetParameters, "tested/get_parameters")
+        response = await client.call(GetParameters.Request(names=["speed"]))
+        assert [value.double_value for value in response.values] == [1.5]

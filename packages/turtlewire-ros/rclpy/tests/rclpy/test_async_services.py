@@ -67,69 +67,55 @@ def test_several_calls_at_once(context, concurrent):
     assert most == (4 if concurrent else 1)
 
 
-def test_limits_of_time_and_the_end_of_a_client(context):
-    async def main():
-        async with AsyncNode("tested", context=context) as node:
-            client = node.create_client(SetBool, "nobody")
-            waiting = asyncio.wait_for(client.wait_for_service(), 0.01)
-            assert (await failure(waiting))[0] == "TimeoutError"
-            calling = asyncio.wait_for(client.call(SetBool.Request()), 0.01)
-            assert (await failure(calling))[0] == "TimeoutError"
-            call = asyncio.ensure_future(client.call(SetBool.Request()))
-            wait = asyncio.ensure_future(client.wait_for_service())
-            await turns()
-            client.destroy()
-            assert await failure(call) == ("CancelledError", "")
-            assert (await failure(wait))[0] == "InvalidHandle"
-            assert await failure(client.call(SetBool.Request())) == (
-                "RuntimeError",
-                "Calling a destroyed client is forbidden",
-            )
-
-    run(main())
-
-
-def test_a_cancelled_call_forgets_its_request(context):
-    async def main():
-        may_answer = asyncio.Event()
-
-        async def answer(_request, response):
-            await may_answer.wait()
-            return response
-
-        async with AsyncNode("tested", context=context) as node:
-            node.create_service(SetBool, "switch", answer)
-            client = node.create_client(SetBool, "switch")
-            call = asyncio.ensure_future(client.call(SetBool.Request(data=False)))
-            await turns()
-            assert len(client._pending) == 1
-            call.cancel()
-            assert await failure(call) == ("CancelledError", "")
-            assert not client._pending
-            may_answer.set()  # the late response is ignored
-            assert await client.call(SetBool.Request(data=True)) == SetBool.Response()
-
-    run(main())
-
-
-def test_a_request_of_another_class(context):
-    async def main():
-        async with AsyncNode("tested", context=context) as node:
-            client = node.create_client(SetBool, "switch")
-            name, text = await failure(client.call(SetBool.Response()))
-            assert (name, "SetBool.Request()" in text) == ("TypeError", True)
-
-    run(main())
-
-
-def test_the_end_of_the_node_cancels_calls(context):
-    async def main():
-        node = AsyncNode("tested", context=context)
-        async with node:
-            call = asyncio.ensure_future(
-                node.create_client(SetBool, "nobody").call(SetBool.Request())
-            )
-            await turns()
+async def test_limits_of_time_and_the_end_of_a_client(context):
+    async with AsyncNode("tested", context=context) as node:
+        client = node.create_client(SetBool, "nobody")
+        waiting = asyncio.wait_for(client.wait_for_service(), 0.01)
+        assert (await failure(waiting))[0] == "TimeoutError"
+        calling = asyncio.wait_for(client.call(SetBool.Request()), 0.01)
+        assert (await failure(calling))[0] == "TimeoutError"
+        call = asyncio.ensure_future(client.call(SetBool.Request()))
+        wait = asyncio.ensure_future(client.wait_for_service())
+        await turns()
+        client.destroy()
         assert await failure(call) == ("CancelledError", "")
+        assert (await failure(wait))[0] == "InvalidHandle"
+        assert await failure(client.call(SetBool.Request())) == (
+            "RuntimeError",
+            "Calling a destroyed client is forbidden",
+        )
 
-    run(main())
+
+async def test_a_cancelled_call_forgets_its_request(context):
+    may_answer = asyncio.Event()
+
+    async def answer(_request, response):
+        await may_answer.wait()
+        return response
+
+    async with AsyncNode("tested", context=context) as node:
+        node.create_service(SetBool, "switch", answer)
+        client = node.create_client(SetBool, "switch")
+        call = asyncio.ensure_future(client.call(SetBool.Request(data=False)))
+        await turns()
+        assert len(client._pending) == 1
+        call.cancel()
+        assert await failure(call) == ("CancelledError", "")
+        assert not client._pending
+        may_answer.set()  # the late response is ignored
+        assert await client.call(SetBool.Request(data=True)) == SetBool.Response()
+
+
+async def test_a_request_of_another_class(context):
+    async with AsyncNode("tested", context=context) as node:
+        client = node.create_client(SetBool, "switch")
+        name, text = await failure(client.call(SetBool.Response()))
+        assert (name, "SetBool.Request()" in text) == ("TypeError", True)
+
+
+async def test_the_end_of_the_node_cancels_calls(context):
+    node = AsyncNode("tested", context=context)
+    async with node:
+        call = asyncio.ensure_future(node.create_client(SetBool, "nobody").call(SetBool.Request()))
+        await turns()
+    assert await failure(call) == ("CancelledError", "")

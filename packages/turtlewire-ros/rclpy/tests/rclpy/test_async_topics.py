@@ -73,19 +73,16 @@ def test_the_middleware_drops_what_a_slow_callback_leaves(monkeypatch, middlewar
     assert heard == ["1", "5", "6"]
 
 
-def test_endpoints_that_are_made_before_the_node_runs(context):
-    async def main():
-        heard = asyncio.Event()
-        node = AsyncNode("tested", context=context)
-        publisher = node.create_publisher(String, "chatter", 10)
-        node.create_subscription(String, "chatter", lambda _message: heard.set(), 10)
-        publisher.publish(String())
-        await turns()
-        assert not heard.is_set()
-        async with node:
-            await heard.wait()
-
-    run(main())
+async def test_endpoints_that_are_made_before_the_node_runs(context):
+    heard = asyncio.Event()
+    node = AsyncNode("tested", context=context)
+    publisher = node.create_publisher(String, "chatter", 10)
+    node.create_subscription(String, "chatter", lambda _message: heard.set(), 10)
+    publisher.publish(String())
+    await turns()
+    assert not heard.is_set()
+    async with node:
+        await heard.wait()
 
 
 def test_a_subscription_that_is_destroyed_cancels_its_callback(context):
@@ -164,34 +161,28 @@ def test_a_callback_of_a_wrong_shape(context):
     node.destroy_node()
 
 
-def test_raw_messages(context):
-    async def main():
-        heard = asyncio.Queue()
-        async with AsyncNode("tested", context=context) as node:
-            node.create_subscription(String, "chatter", heard.put, 10, raw=True)
-            node.create_publisher(String, "chatter", 10).publish(String(data="x"))
-            assert await heard.get() == serialize_message(String(data="x"))
-
-    run(main())
+async def test_raw_messages(context):
+    heard = asyncio.Queue()
+    async with AsyncNode("tested", context=context) as node:
+        node.create_subscription(String, "chatter", heard.put, 10, raw=True)
+        node.create_publisher(String, "chatter", 10).publish(String(data="x"))
+        assert await heard.get() == serialize_message(String(data="x"))
 
 
-def test_callbacks_without_await_leave_the_loop_to_others(context):
-    async def main():
-        node = AsyncNode("tested", context=context)
-        publisher = node.create_publisher(String, "chatter", 10)
-        heard = []
+async def test_callbacks_without_await_leave_the_loop_to_others(context):
+    node = AsyncNode("tested", context=context)
+    publisher = node.create_publisher(String, "chatter", 10)
+    heard = []
 
-        def again(message):
-            heard.append(message)
-            publisher.publish(message)
+    def again(message):
+        heard.append(message)
+        publisher.publish(message)
 
-        async with node:
-            node.create_subscription(String, "chatter", again, 10)
-            publisher.publish(String())
-            await asyncio.sleep(0.01)
-        assert heard
-
-    run(main())
+    async with node:
+        node.create_subscription(String, "chatter", again, 10)
+        publisher.publish(String())
+        await asyncio.sleep(0.01)
+    assert heard
 
 
 def test_a_malformed_message_is_skipped(context, capfd):
@@ -235,27 +226,21 @@ def test_iterating_over_messages(monkeypatch, middleware):
         assert run(main(context)) == ["1", "2", "3"]
 
 
-def test_an_iteration_that_is_cancelled_loses_nothing(context):
-    async def main():
-        async with AsyncNode("tested", context=context) as node:
-            publisher = node.create_publisher(String, "chatter", 10)
-            subscription = node.create_subscription(String, "chatter", None, 10)
-            with pytest.raises(asyncio.TimeoutError):
-                await asyncio.wait_for(subscription.__anext__(), 0.01)
-            publisher.publish(String(data="kept"))
-            assert (await subscription.__anext__()).data == "kept"
-
-    run(main())
+async def test_an_iteration_that_is_cancelled_loses_nothing(context):
+    async with AsyncNode("tested", context=context) as node:
+        publisher = node.create_publisher(String, "chatter", 10)
+        subscription = node.create_subscription(String, "chatter", None, 10)
+        with pytest.raises(asyncio.TimeoutError):
+            await asyncio.wait_for(subscription.__anext__(), 0.01)
+        publisher.publish(String(data="kept"))
+        assert (await subscription.__anext__()).data == "kept"
 
 
-def test_the_end_of_the_node_ends_an_iteration(context):
-    async def main():
-        async with AsyncNode("tested", context=context) as node:
-            subscription = node.create_subscription(String, "chatter", None, 10)
-            asyncio.get_running_loop().call_later(0.01, node.destroy_node)
-            assert [message async for message in subscription] == []
-
-    run(main())
+async def test_the_end_of_the_node_ends_an_iteration(context):
+    async with AsyncNode("tested", context=context) as node:
+        subscription = node.create_subscription(String, "chatter", None, 10)
+        asyncio.get_running_loop().call_later(0.01, node.destroy_node)
+        assert [message async for message in subscription] == []
 
 
 def test_a_subscription_with_a_callback_is_not_iterated(context):

@@ -226,41 +226,35 @@ def test_an_exception_in_a_task_leaves_spin(executor):
         executor.spin_once(timeout_sec=60)
 
 
-def test_a_future_can_be_awaited_in_asyncio():
+async def test_a_future_can_be_awaited_in_asyncio():
     future = Future()
 
-    async def main():
-        setter = threading.Thread(target=future.set_result, args=("from a thread",))
-        waiting = asyncio.ensure_future(_await(future))
-        await asyncio.sleep(0)
-        setter.start()
-        result = await asyncio.wait_for(waiting, 60)
-        setter.join()
-        return result, await future
-
-    assert asyncio.run(main()) == ("from a thread", "from a thread")
+    setter = threading.Thread(target=future.set_result, args=("from a thread",))
+    waiting = asyncio.ensure_future(_await(future))
+    await asyncio.sleep(0)
+    setter.start()
+    result = await asyncio.wait_for(waiting, 60)
+    setter.join()
+    assert (result, await future) == ("from a thread", "from a thread")
 
 
 async def _await(future):
     return await future
 
 
-def test_a_future_forgets_what_no_longer_awaits_it_in_asyncio():
+async def test_a_future_forgets_what_no_longer_awaits_it_in_asyncio():
     future = Future()
 
     async def forward():
         await future
 
-    async def main():
-        awaiting = asyncio.ensure_future(forward())
-        await asyncio.sleep(0)
-        assert len(future._waiters) == 1
-        awaiting.cancel()
-        with pytest.raises(asyncio.CancelledError):
-            await awaiting
-        assert future._waiters == []
-
-    asyncio.run(main())
+    awaiting = asyncio.ensure_future(forward())
+    await asyncio.sleep(0)
+    assert len(future._waiters) == 1
+    awaiting.cancel()
+    with pytest.raises(asyncio.CancelledError):
+        await awaiting
+    assert future._waiters == []
 
 
 def test_a_future_whose_construction_was_interrupted_is_forgotten_silently(capsys):
