@@ -76,20 +76,20 @@ launch, in Lyrical
 bags, in Lyrical
   bag/test_writer.py test_files_of_lyrical_have_the_number_in_front_and_the_time_behind
 `ros2 topic`
-  ros2cli/test_several_topics.py test_two_topics test_all_topics test_qos_of_the_subscription
+  ros2cli/test_several.py test_two_topics test_all_topics test_qos_of_the_subscription
   ros2cli/test_pub_of_a_file.py test_each_document_is_a_message
 `ros2 service`
   ros2cli/test_services.py test_a_call_waits_no_longer_than_it_is_told test_stamps_have_the_time_of_each_call test_clients_and_servers_in_detail
 `ros2 action`
   ros2cli/test_action_echo.py test_names_of_a_type test_messages_of_all_interfaces
 `ros2 lifecycle`, `ros2 component`
-  ros2cli/test_timeouts.py test_verbs_end_in_time
+  ros2cli/test_unanswered.py test_verbs_end_in_time
 `ros2` without a name, in Lyrical
   ros2cli/test_selection.py test_verbs_use_the_chosen_name test_without_a_terminal
 `ros2 action send_goal`, in Lyrical
-  ros2cli/test_timeouts.py test_a_goal_ends_in_time_in_lyrical
+  ros2cli/test_unanswered.py test_a_goal_ends_in_time_in_lyrical
 `ros2 param`
-  ros2cli/test_several_parameters.py test_several_parameters_of_a_node test_a_parameter_of_all_nodes test_several_parameters_are_set test_all_parameters_are_set_or_none
+  ros2cli/test_several.py test_several_parameters_of_a_node test_a_parameter_of_all_nodes test_several_parameters_are_set test_all_parameters_are_set_or_none
 `ros2 bag record`, in Lyrical
   rosbag2_transport/test_lyrical_options.py test_topics_without_their_option_are_gone_in_lyrical
 `ros2 bag`
@@ -104,9 +104,9 @@ URDF, in Lyrical
 `ros2topic.api.add_qos_arguments`, from Kilted on
   ros2cli/test_qos.py test_the_parameters_of_ros2topic_follow_the_distribution
 robot_state_publisher, in Lyrical
-  robot_state_publisher/test_lyrical.py test_the_description_from_a_topic test_frequencies_are_more_than_zero_in_lyrical test_a_file_is_no_description_in_lyrical
+  robot_state_publisher/test_node.py test_the_description_from_a_topic test_frequencies_are_more_than_zero_in_lyrical test_a_file_is_no_description_in_lyrical
 `ros2 doctor --report`
-  ros2cli/test_doctor_command.py test_the_report_has_facts
+  ros2cli/test_doctor.py test_the_report_has_facts
 Python errors have a message
   rclpy/test_mistakes.py test_hints_are_notes
 a service with a server on Fast DDS is called, and nothing answers
@@ -556,7 +556,8 @@ def table():
 @functools.cache
 def functions_of(file):
     tree = ast.parse(module_of_tests(file).read_text(encoding="utf-8"))
-    return {node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)}
+    functions = (ast.FunctionDef, ast.AsyncFunctionDef)
+    return {node.name for node in ast.walk(tree) if isinstance(node, functions)}
 
 
 def test_every_entry_has_its_tests():
