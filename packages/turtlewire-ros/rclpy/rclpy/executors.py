@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 import threading
 import time
+from collections.abc import Callable
 from contextlib import nullcontext
 from functools import cache
-from types import CoroutineType
+from types import CoroutineType, TracebackType
 from typing import TYPE_CHECKING, Any
 
 from ._execution.exceptions import (
@@ -25,9 +26,7 @@ from .signals import rearm
 from .task import Future, Task
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from contextlib import AbstractContextManager
-    from types import TracebackType
 
     from typing_extensions import Self
 

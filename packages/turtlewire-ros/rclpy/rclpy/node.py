@@ -13,6 +13,7 @@ class does not have (it has ``_logger``, ``_clock`` …) begin with two undersco
 from __future__ import annotations
 
 import weakref
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 from ._node.base import BaseNode, component_arguments
@@ -31,8 +32,6 @@ from .subscription import MessageInfo, Subscription
 from .timer import Rate, Timer
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
     from typing_extensions import Self
 
     from ._typing import MsgT, SrvT

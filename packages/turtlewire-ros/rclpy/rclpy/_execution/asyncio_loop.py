@@ -4,12 +4,8 @@ from __future__ import annotations
 
 import sys
 import weakref
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from types import FrameType
-
-__all__ = ["interrupted_loop", "loops_of_nodes", "running_loop"]
+from types import FrameType
+from typing import Any
 
 #: The loops that serve, or have served, asynchronous nodes.
 loops_of_nodes: weakref.WeakSet[Any] = weakref.WeakSet()

@@ -3,15 +3,10 @@
 from __future__ import annotations
 
 import weakref
-from typing import TYPE_CHECKING, Protocol
+from collections.abc import Callable
+from typing import Protocol
 
 from rclpy._execution.entity import HANDLED, Entity, EntityHost, Work
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-
-__all__ = ["Arrivals", "BackgroundEvents"]
 
 
 class Arrivals(Protocol):

@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 
     from .entity import EntityHost
 
-__all__ = ["BlockingCall", "limit_ns", "wait_for_response"]
-
 #: Time after which a wait that probably never ends is logged.
 _PATIENCE_S = 1.0
 

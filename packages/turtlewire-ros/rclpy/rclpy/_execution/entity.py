@@ -6,13 +6,13 @@ with an underscore, although the scheduler uses them.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
 from rclpy._execution.handle import Handle
 from rclpy._rclpy_pybind11 import InvalidHandle
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from contextlib import AbstractContextManager
 
     from rclpy.callback_groups import CallbackGroup
@@ -21,8 +21,6 @@ if TYPE_CHECKING:
 
     from .membership import Membership
     from .wait import ExecutorWait
-
-__all__ = ["HANDLED", "ClosingEntity", "Entity", "EntityHost", "Work"]
 
 #: A callback and its arguments; the callback may be, or return, a coroutine.
 Work = tuple["Callable[..., Any]", "tuple[Any, ...]"]

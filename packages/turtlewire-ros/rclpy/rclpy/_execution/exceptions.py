@@ -5,13 +5,6 @@ from __future__ import annotations
 #: Where they can be imported from, and what tracebacks say.
 _MODULE = "rclpy.executors"
 
-__all__ = [
-    "ConditionReachedException",
-    "ExternalShutdownException",
-    "ShutdownException",
-    "TimeoutException",
-]
-
 
 class TimeoutException(Exception):
     """The time of a wait was over."""

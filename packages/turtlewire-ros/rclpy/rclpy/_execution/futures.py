@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
     from rclpy.task import Future
 
     from .entity import EntityHost
-
-__all__ = ["call_when_done", "calling_when_done", "run_callbacks_on"]
 
 
 def call_when_done(future: Future[Any], call: Callable[[], object]) -> None:

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from typing_extensions import Self
 
     from rclpy._node.state import NodeState
-
-__all__ = ["EndpointImpl", "Handle", "closed_on_error"]
 
 
 class EndpointImpl(NamedTuple):

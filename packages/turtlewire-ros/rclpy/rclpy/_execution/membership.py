@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from turtlewire.wire import base
 
-__all__ = ["Membership"]
-
 
 class Membership:
     """The entities of one node that an executor serves, or its entities without a node.

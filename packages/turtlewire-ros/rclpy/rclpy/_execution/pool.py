@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 
     from .entity import Work
 
-__all__ = ["PoolScheduler"]
-
 #: What a callback may raise without ending the spin.
 _QUIET = (ExternalShutdownException, ShutdownException, TimeoutException, ConditionReachedException)
 

@@ -7,8 +7,6 @@ import time
 
 from turtlewire.wake_up import WakeUp
 
-__all__ = ["RunningCallbacks"]
-
 
 class RunningCallbacks:
     """Counts the callbacks that run, thread by thread: ``with running: callback()``.

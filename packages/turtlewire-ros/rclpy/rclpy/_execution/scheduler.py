@@ -16,6 +16,7 @@ import threading
 import time
 import weakref
 from collections import deque
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any
@@ -37,14 +38,10 @@ from .self_waits import SelfWaits
 from .wait import ExecutorWait
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
     from rclpy.context import Context
     from turtlewire.wake_up import WakeUp
 
     from .entity import Entity, EntityHost, Work
-
-__all__ = ["Scheduler"]
 
 #: Idle time after which a spin within a callback logs a warning.
 _PATIENCE_NS = 1_000_000_000

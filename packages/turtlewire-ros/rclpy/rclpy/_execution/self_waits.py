@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Collection, Iterable
 from typing import TYPE_CHECKING
 
 from rclpy.service import Service
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable
-
     from .entity import Entity
-
-__all__ = ["SelfWaits"]
 
 _PATIENCE_NS = 1_000_000_000
 

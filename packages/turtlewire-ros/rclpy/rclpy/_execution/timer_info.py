@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 from rclpy.clock_type import ClockType
 from rclpy.time import Time
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-__all__ = ["TimerInfo", "parameter_for_info"]
 
 
 class TimerInfo:

@@ -7,13 +7,8 @@ import itertools
 import math
 import threading
 import time
-from typing import TYPE_CHECKING, Generic, TypeVar
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-__all__ = ["TimerQueue"]
-
+from collections.abc import Callable
+from typing import Generic, TypeVar
 
 T = TypeVar("T")
 

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 
     from .membership import Membership
 
-__all__ = ["ExecutorWait"]
-
 
 class _Ranked(Protocol):
     """An object that the wait can report as ready."""

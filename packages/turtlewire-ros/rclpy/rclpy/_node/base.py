@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextvars import ContextVar
 from typing import TYPE_CHECKING, Any
 
@@ -28,8 +29,6 @@ from rclpy.type_description_service import TypeDescriptionService
 from turtlewire.wire import names
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from rcl_interfaces.msg import ListParametersResult, ParameterDescriptor, SetParametersResult
     from rclpy.clock import BaseClock
     from rclpy.context import Context
@@ -42,8 +41,6 @@ if TYPE_CHECKING:
     from rclpy.subscription import BaseSubscription
     from turtlewire.wire import base
     from turtlewire.wire.qos import QoS
-
-__all__ = ["BaseNode", "component_arguments"]
 
 #: Command line for the next node of this thread, whose class need not know that it is loaded as a
 #: component.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -11,11 +12,7 @@ from rclpy.qos import QoSProfile
 from turtlewire.errors import WireError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from rclpy.context import Context
-
-__all__ = ["check_callable", "check_valid", "in_open_context", "validate_qos"]
 
 _INVALID = "rcl node's context is invalid"
 

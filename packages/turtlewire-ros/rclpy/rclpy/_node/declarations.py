@@ -13,15 +13,6 @@ from turtlewire.distro import LYRICAL, since
 if TYPE_CHECKING:
     from rcl_interfaces.msg import ParameterDescriptor
 
-__all__ = [
-    "default",
-    "name_alone_text",
-    "new_descriptor",
-    "override",
-    "read_declaration",
-    "yaml_hint",
-]
-
 
 def new_descriptor() -> ParameterDescriptor:
     """Return an empty descriptor."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from rclpy._node.declarations import new_descriptor
@@ -10,11 +10,7 @@ from rclpy.exceptions import ParameterNotDeclaredException, ParameterUninitializ
 from rclpy.parameter import PARAMETER_SEPARATOR_STRING, Parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
     from rcl_interfaces.msg import ListParametersResult, ParameterDescriptor
-
-__all__ = ["DeclaredParameters"]
 
 
 class DeclaredParameters(Mapping[str, Parameter]):

@@ -13,8 +13,6 @@ from rclpy.parameter import Parameter
 if TYPE_CHECKING:
     import rcl_interfaces.msg
 
-__all__ = ["PARAMETER_REL_TOL", "READ_ONLY", "WRONG_TYPE", "refusal"]
-
 #: ROS 2's relative tolerance of comparisons with the ends and steps of a range of doubles.
 PARAMETER_REL_TOL = 1e-6
 #: How the reason of a type conflict begins.

@@ -7,6 +7,7 @@ them, and closes them.
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from rclpy._execution.entity import Entity
@@ -31,8 +32,6 @@ from rclpy.type_support import (
 from turtlewire.msg import type_name
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from rclpy._execution.entity import EntityHost
     from rclpy._node.qos_overrides import QosOverrides
     from rclpy._node.state import NodeState
@@ -41,8 +40,6 @@ if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
     from rclpy.waitable import Waitable
     from turtlewire.wire import base
-
-__all__ = ["OwnEndpoints", "endpoints_of"]
 
 _Owned = TypeVar("_Owned")
 

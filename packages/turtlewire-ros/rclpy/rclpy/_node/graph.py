@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -14,13 +15,9 @@ from rclpy.validate_full_topic_name import validate_full_topic_name
 from turtlewire.wire import names
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from rclpy._node.state import NodeState
     from rclpy.endpoint_info import EndpointTypeEnum, ServiceEndpointInfo, TopicEndpointInfo
     from turtlewire.wire.base import EndpointInfo, Graph
-
-__all__ = ["NamesAndTypes", "NodeGraph", "actions_among"]
 
 NamesAndTypes = list[tuple[str, list[str]]]
 

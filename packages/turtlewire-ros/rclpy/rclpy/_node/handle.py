@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from rclpy._rclpy_pybind11 import rmw_qos_profile_t
     from turtlewire.wire import base
 
-__all__ = ["NodeHandle"]
-
 
 class NodeHandle(Handle):
     """Gives what the middleware's node has, and announces endpoints.

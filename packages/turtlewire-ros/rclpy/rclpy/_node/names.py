@@ -11,8 +11,6 @@ from turtlewire.wire import names
 if TYPE_CHECKING:
     from rclpy._node.state import NodeState
 
-__all__ = ["NameResolver"]
-
 
 class NameResolver:
     """Makes full names of what a program gives as names."""

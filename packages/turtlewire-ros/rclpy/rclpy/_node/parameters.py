@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from rclpy._node import descriptors as rules
@@ -23,8 +24,6 @@ from rclpy.parameter import PARAMETER_SEPARATOR_STRING, Parameter
 from rclpy.validate_parameter_name import validate_parameter_name
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
-
     import rcl_interfaces.msg
     from rcl_interfaces.msg import (
         ParameterDescriptor,
@@ -33,8 +32,6 @@ if TYPE_CHECKING:
         SetParametersResult,
     )
     from rclpy.time import Time
-
-__all__ = ["NodeParameters"]
 
 _EMPTY_LIST = (
     "parameter list cannot be empty, this might be due to pre_set_parameters_callback modifying "

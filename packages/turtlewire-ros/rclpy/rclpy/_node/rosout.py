@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from turtlewire.wire import base
     from turtlewire.wire.qos import QoS
 
-__all__ = ["RosoutPublisher"]
-
 _TYPE = "rcl_interfaces/msg/Log"
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import weakref
+from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -12,15 +13,11 @@ from rclpy.logging import get_logger
 from turtlewire.wire import names
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from rclpy.context import Context
     from rclpy.impl.arguments import Arguments
     from rclpy.impl.rcutils_logger import RcutilsLogger
     from turtlewire.wire import base
     from turtlewire.wire.qos import QoS
-
-__all__ = ["NodeState"]
 
 
 class NodeState:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from rcl_interfaces.msg import (
         ListParametersResult,
         ParameterDescriptor,
@@ -15,8 +14,6 @@ if TYPE_CHECKING:
     from rclpy.impl.rcutils_logger import RcutilsLogger
     from rclpy.parameter import Parameter
     from rclpy.qos import QoSProfile
-
-__all__ = ["ParameterOwner", "ServiceOwner", "TimeSourceOwner"]
 
 
 class ServiceOwner(Protocol):
