@@ -80,5 +80,5 @@ def rows() -> Iterator[Row]:
     yield Row(
         "memory per sample, full 10 s cache at 1 kHz",
         Figure(full.minimum, full.median, "B"),
-        budget="<= 80 B",
+        budget="<= 70 B",
     )

@@ -30,9 +30,9 @@ std::vector<Run> runs_of(const Tree& tree, const Link& link) {
     return {{std::string(tree.frames()[link.parent()]), {0}, {link.static_pose()}}};
   for (std::size_t i = 0; i < link.samples().size(); ++i) {
     const Sample& sample = link.samples()[i];
-    const std::string_view parent = tree.frames()[sample.parent];
+    const std::string_view parent = tree.frames()[link.samples().parent(i)];
     if (runs.empty() || runs.back().parent != parent) runs.push_back({std::string(parent), {}, {}});
-    runs.back().stamps.push_back(link.samples().stamp(i));
+    runs.back().stamps.push_back(sample.stamp);
     runs.back().poses.push_back(sample.pose);
   }
   return runs;

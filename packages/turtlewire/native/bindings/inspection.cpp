@@ -159,7 +159,7 @@ nb::list describe_links(BufferObject& self, std::size_t most) {
                        link.has_data() ? link.length() : 0,
                        link.oldest(),
                        link.newest(),
-                       link.parent_changes(),
+                       link.samples().parent_changes(),
                        link.samples().bytes(),
                        {}});
       for (const Sender& sender : link.senders()) {

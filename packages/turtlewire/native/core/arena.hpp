@@ -14,7 +14,7 @@ namespace turtlewire {
 class Arena {
  public:
   // Bytes of the smallest block; each further size is twice the size before it.
-  static constexpr std::size_t kSmallest = 8 * (64 + 8);
+  static constexpr std::size_t kSmallest = 8 * 64;
   static constexpr std::size_t kSizes = 3;
 
   static constexpr std::size_t bytes_of(std::size_t size_class) { return kSmallest << size_class; }

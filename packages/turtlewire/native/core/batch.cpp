@@ -21,11 +21,8 @@ void prefetch(const void* address) {
 // The two samples around a time that a link covers, looked for from index `guess` on; twice the
 // newest one at its own time.
 Samples::Pair pair_at(const Samples& samples, Stamp t, std::size_t guess) {
-  if (t == samples.newest()) return {&samples.back(), &samples.back(), t, t};
-  const Samples::Pair pair = t == samples.oldest() ? samples.pair(0) : samples.around(t, guess);
-  prefetch(pair.older);
-  prefetch(pair.newer);
-  return pair;
+  if (t == samples.newest()) return {&samples.back(), &samples.back()};
+  return t == samples.oldest() ? samples.pair(0) : samples.around(t, guess);
 }
 
 void find_in_order(const Samples& samples, const Stamp* times, std::size_t& hint,
@@ -36,12 +33,14 @@ void find_in_order(const Samples& samples, const Stamp* times, std::size_t& hint
   }
 }
 
-// The stamps of all guesses are fetched before the first one is read.
+// The samples of all guesses are fetched before the first one is read.
 void find_in_any_order(const Samples& samples, const Stamp* times, Samples::Pair* pairs) {
   std::size_t guesses[kLanes];
   for (std::size_t i = 0; i < kLanes; ++i) {
     guesses[i] = samples.guess(times[i]);
-    prefetch(samples.address_of_stamp(guesses[i]));
+    const Sample* guessed = &samples[guesses[i]];
+    prefetch(guessed);
+    prefetch(guessed + 1);
   }
   for (std::size_t i = 0; i < kLanes; ++i) pairs[i] = pair_at(samples, times[i], guesses[i]);
 }
@@ -170,11 +169,11 @@ void BatchLookup::read_link(const Link& link, const Stamp* stamps, std::size_t& 
   Lanes older, newer;
   double ratios[kLanes], spans[kLanes], cosines[kLanes];
   for (std::size_t i = 0; i < kLanes; ++i) {
-    const auto [first, second, begin, end] = pairs[i];
-    older.set(i, first->pose);
-    newer.set(i, second->pose);
-    ratios[i] = static_cast<double>(times[i] - begin);
-    spans[i] = static_cast<double>(end - begin + (end == begin));
+    const Sample &first = *pairs[i].older, &second = *pairs[i].newer;
+    older.set(i, first.pose);
+    newer.set(i, second.pose);
+    ratios[i] = static_cast<double>(times[i] - first.stamp);
+    spans[i] = static_cast<double>(second.stamp - first.stamp + (second.stamp == first.stamp));
   }
   for (std::size_t i = 0; i < kLanes; ++i) ratios[i] /= spans[i];
   kernels().interpolate(older, newer, ratios, result, cosines);

@@ -15,15 +15,15 @@ std::string Link::fault() const {
     const Sample& sample = samples_[i];
     if (!has_scaling_ && std::fabs(dot(sample.pose.rotation, sample.pose.rotation) - 1.0) > 1e-9)
       return "a rotation is not unit";
-    if (has_nan(sample.pose.translation) || sample.parent == 0) return "a sample is not valid";
+    if (has_nan(sample.pose.translation) || samples_.parent(i) == 0) return "a sample is not valid";
     if (!is_finite(sample.pose.translation) && !has_infinity_)
       return "an infinite sample is not known";
     if (i == 0) continue;
     if (samples_.stamp(i - 1) > samples_.stamp(i)) return "stamps are not in order";
-    changes += samples_[i - 1].parent != sample.parent;
+    changes += samples_.parent(i - 1) != samples_.parent(i);
   }
-  if (changes != parent_changes_) return "changes of the parent are miscounted";
-  if (!samples_.empty() && samples_.back().parent != parent_)
+  if (changes != samples_.parent_changes()) return "changes of the parent are miscounted";
+  if (!samples_.empty() && samples_.parent(samples_.size() - 1) != parent_)
     return "the parent is not that of the newest sample";
   if (samples_.size() > samples_.capacity()) return "more samples than room";
   return "";

@@ -58,7 +58,7 @@ class Link {
   // time of Lyrical's tf2 still goes that way.
   FrameId last_parent() const { return parent_ != 0 ? parent_ : cleared_parent_; }
   // Samples of different parents are in the history, so the tree depends on the time asked for.
-  bool reparented() const { return parent_changes_ > 0; }
+  bool reparented() const { return samples_.parent_changes() > 0; }
   // An infinite translation was accepted (tf2 does): it spoils every walk through this link.
   bool has_infinity() const { return has_infinity_; }
   // A rotation was stored that is not unit, as tf2 does since Kilted: poses on the way scale.
@@ -90,8 +90,7 @@ class Link {
   template <typename Visit>
   void for_parents(Visit visit) const {
     if (last_parent() != 0) visit(last_parent());
-    for (std::size_t i = 0; parent_changes_ > 0 && i < samples_.size(); ++i)
-      visit(samples_[i].parent);
+    for (std::size_t i = 0; reparented() && i < samples_.size(); ++i) visit(samples_.parent(i));
   }
 
   // Everything that a path between two frames depends on, except the samples: equal shapes have
@@ -122,41 +121,40 @@ class Link {
 
   // tf2's order of steps: drop samples that are too old by the newest stamp so far, refuse older
   // ones than that, and insert a sample with a repeated stamp after the earlier ones.
-  InsertStatus insert(Stamp stamp, const Sample& sample, Stamp keep) {
+  InsertStatus insert(const Sample& sample, FrameId parent, Stamp keep) {
     if (samples_.empty()) {
-      append(stamp, sample);
+      append(sample, parent);
       return InsertStatus::added;
     }
-    if (append_newer(stamp, sample, keep)) [[likely]]
+    if (append_newer(sample, parent, keep)) [[likely]]
       return InsertStatus::added;
-    if (stamp < earlier(samples_.newest(), keep)) return InsertStatus::too_old;
-    return insert_late(stamp, sample);
+    if (sample.stamp < earlier(samples_.newest(), keep)) return InsertStatus::too_old;
+    return insert_late(sample, parent);
   }
 
   // Inserts a sample that is newer than all others; false if it is not, and then only the samples
   // that are too old are gone. Needs a sample.
-  bool append_newer(Stamp stamp, const Sample& sample, Stamp keep) {
+  bool append_newer(const Sample& sample, FrameId parent, Stamp keep) {
     prune(earlier(samples_.newest(), keep));
-    if (stamp <= samples_.newest()) return false;
-    append(stamp, sample);
+    if (sample.stamp <= samples_.newest()) return false;
+    append(sample, parent);
     return true;
   }
 
   // Inserts further samples, up to the first that is not newer than all before, but no more than
-  // fit into one block; returns their number. `write` gets the memory for their poses, and returns
-  // how many it has written, one at least. Needs a sample.
+  // fit into one block; returns their number. `write` gets the memory for them, and returns how
+  // many it has written, one at least. Needs a sample.
   template <typename Write>
   std::size_t append_newer(std::span<const Stamp> stamps, FrameId parent, Stamp keep, Write write) {
     Stamp newest = samples_.newest();
     prune(earlier(newest, keep));
     if (stamps.empty() || stamps.front() <= newest) return 0;
-    const Samples::Room room = samples_.room();
+    const std::span<Sample> room = samples_.room();
     std::size_t count = 0;
-    for (; count < std::min(room.size, stamps.size()) && stamps[count] > newest; ++count)
-      room.stamps[count] = newest = stamps[count];
-    count = write(std::span(room.samples, count));
-    parent_changes_ += samples_.back().parent != parent;
-    samples_.add_written(count);
+    for (; count < std::min(room.size(), stamps.size()) && stamps[count] > newest; ++count)
+      newest = stamps[count];
+    count = write(room.first(count));
+    samples_.add_written(count, parent);
     parent_ = parent;
     if (count > 1) prune(earlier(stamps[count - 2], keep));
     return count;
@@ -182,8 +180,6 @@ class Link {
     if (sender_.samples > 0) all.push_back(sender_);
     return all;
   }
-  // How often the parent changes in the history kept.
-  std::size_t parent_changes() const { return parent_changes_; }
 
   // Forgets everything but the follower.
   void reset() {
@@ -208,16 +204,14 @@ class Link {
   Reading read(Stamp t) const {
     if (!has_data()) return {};
     if (is_static()) return {ReadStatus::ok, parent_, static_pose_};
-    if (t == kLatest) return sample_reading(samples_.back());
-    if (samples_.size() == 1)
-      return samples_.newest() == t ? sample_reading(samples_.back()) : Reading{};
-    if (t >= samples_.newest())
-      return t == samples_.newest() ? sample_reading(samples_.back()) : Reading{ReadStatus::future};
+    const std::size_t last = samples_.size() - 1;
+    if (t == kLatest || t == samples_.newest()) return stored(last);
+    if (last == 0) return {};
+    if (t > samples_.newest()) return {ReadStatus::future};
     if (t <= samples_.oldest())
-      return t == samples_.oldest() ? sample_reading(samples_.front()) : Reading{ReadStatus::past};
-    const Samples::Pair pair = samples_.around(t);
-    if (pair.older->parent != pair.newer->parent) return sample_reading(*pair.older);
-    return {ReadStatus::ok, pair.older->parent, interpolated(pair, t)};
+      return t == samples_.oldest() ? stored(0) : Reading{ReadStatus::past};
+    const std::size_t i = samples_.last_at_or_before(t);
+    return samples_.parent(i) == samples_.parent(i + 1) ? between(i, t) : stored(i);
   }
 
   // As read, but up to `limit` before the oldest and after the newest sample: extrapolates the
@@ -228,11 +222,10 @@ class Link {
     const bool after = reading.status == ReadStatus::future;
     const std::size_t i = after ? samples_.size() - 2 : 0;
     const Stamp gap = after ? t - samples_.newest() : samples_.oldest() - t;
-    const Samples::Pair pair = samples_.pair(i);
-    if (gap > limit || pair.older->parent != pair.newer->parent ||
-        pair.older_stamp == pair.newer_stamp)
+    if (gap > limit || samples_.parent(i) != samples_.parent(i + 1) ||
+        samples_.stamp(i) == samples_.stamp(i + 1))
       return reading;
-    return {ReadStatus::ok, pair.older->parent, interpolated(pair, t)};
+    return between(i, t);
   }
 
   // Whether a dynamic link of one parent has a pose at `t`, without computing it.
@@ -258,8 +251,13 @@ class Link {
     std::size_t dropped;
   };
 
-  static Reading sample_reading(const Sample& sample) {
-    return {ReadStatus::ok, sample.parent, sample.pose};
+  // The pose of one sample.
+  Reading stored(std::size_t i) const {
+    return {ReadStatus::ok, samples_.parent(i), samples_[i].pose};
+  }
+  // The pose at `t` by the motion between a sample and the next.
+  Reading between(std::size_t i, Stamp t) const {
+    return {ReadStatus::ok, samples_.parent(i), interpolated(samples_.pair(i), t)};
   }
 
   Pose interpolated(const Samples::Pair& pair, Stamp t) const {
@@ -268,34 +266,35 @@ class Link {
                         : interpolate(older, newer, pair.ratio(t));
   }
 
-  void append(Stamp stamp, const Sample& sample) {
-    if (!samples_.empty() && samples_.back().parent != sample.parent) ++parent_changes_;
-    samples_.push_back(stamp, sample);
-    note(sample);
+  void append(const Sample& sample, FrameId parent) {
+    samples_.push_back(sample, parent);
+    parent_ = parent;
+    note_infinity(sample.pose.translation);
   }
 
-  InsertStatus insert_late(Stamp stamp, const Sample& sample) {
+  InsertStatus insert_late(const Sample& sample, FrameId parent) {
+    const Stamp stamp = sample.stamp;
     std::size_t end = samples_.size();
     if (stamp < samples_.newest())
       end = stamp < samples_.oldest() ? 0 : samples_.last_at_or_before(stamp) + 1;
     std::size_t begin = end;
     while (begin > 0 && samples_.stamp(begin - 1) == stamp) {
       --begin;
-      if (samples_[begin].parent == sample.parent && samples_[begin].pose == sample.pose)
+      if (samples_.parent(begin) == parent && samples_[begin].pose == sample.pose)
         return InsertStatus::duplicate;
     }
     if (end - begin >= kMostPerStamp) {
-      replace_last_of_flood(end - 1, stamp, sample);
+      samples_.replace(end - 1, sample, parent);
+      count_dropped(stamp);
     } else {
-      samples_.insert(end, stamp, sample);
+      samples_.insert(end, sample, parent);
     }
-    if (parent_changes_ > 0 || sample.parent != parent_) count_parent_changes();
-    note(sample);
+    parent_ = samples_.parent(samples_.size() - 1);
+    note_infinity(sample.pose.translation);
     return InsertStatus::added;
   }
 
-  void replace_last_of_flood(std::size_t i, Stamp stamp, const Sample& sample) {
-    samples_[i] = sample;
+  void count_dropped(Stamp stamp) {
     const auto known = std::find_if(floods_.begin(), floods_.end(),
                                     [&](const Flood& f) { return f.stamp == stamp; });
     if (known != floods_.end()) {
@@ -318,30 +317,15 @@ class Link {
                          [](const Sender& a, const Sender& b) { return a.newest < b.newest; }));
   }
 
-  void note(const Sample& sample) {
-    parent_ = samples_.back().parent;
-    note_infinity(sample.pose.translation);
-  }
-
   void prune(Stamp limit) {
     if (samples_.oldest() >= limit) return;
-    while (samples_.oldest() < limit) {
-      if (parent_changes_ > 0 && samples_[0].parent != samples_[1].parent) --parent_changes_;
-      samples_.pop_front();
-    }
+    while (samples_.oldest() < limit) samples_.pop_front();
     std::erase_if(floods_, [&](const Flood& flood) { return flood.stamp < limit; });
-  }
-
-  void count_parent_changes() {
-    parent_changes_ = 0;
-    for (std::size_t i = 1; i < samples_.size(); ++i)
-      parent_changes_ += samples_[i].parent != samples_[i - 1].parent;
   }
 
   void clear_samples() {
     samples_.clear();
     floods_.clear();
-    parent_changes_ = 0;
     parent_ = cleared_parent_ = 0;
   }
 
@@ -351,7 +335,6 @@ class Link {
   FrameId parent_ = 0;
   FrameId cleared_parent_ = 0;
   Sender sender_;
-  std::size_t parent_changes_ = 0;
   Samples samples_;
   Pose static_pose_;
   std::vector<Flood> floods_;

@@ -1,19 +1,20 @@
-// The history of one link: samples in order of time, stamps apart from poses.
+// The history of one link: samples in order of time.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "arena.hpp"
+#include "parents.hpp"
 #include "pose.hpp"
 
 namespace turtlewire {
 
-using FrameId = std::uint32_t;   // 0 is "NO_PARENT"
 using Stamp = std::int64_t;      // nanoseconds
 using SourceId = std::uint32_t;  // who sent it
 
@@ -34,12 +35,10 @@ inline double seconds(Stamp t) {
   return static_cast<double>(t / second) + 1e-9 * static_cast<double>(t % second);
 }
 
-// One cache line. The stamps, which a search reads, are kept apart, so that a search touches 8
-// bytes of a sample.
+// One cache line.
 struct alignas(64) Sample {
+  Stamp stamp = 0;
   Pose pose;
-  FrameId parent = 0;
-  SourceId source = 0;
 };
 static_assert(sizeof(Sample) == 64);
 
@@ -58,85 +57,82 @@ class Samples {
   std::size_t capacity() const { return room_ - head_; }
   // What the samples take, with the room for more.
   std::size_t bytes() const {
-    return room_ * (sizeof(Stamp) + sizeof(Sample)) + blocks_.capacity() * sizeof(Block);
+    return room_ * sizeof(Sample) + blocks_.capacity() * sizeof(Block) + parents_.bytes();
   }
 
-  Stamp stamp(std::size_t i) const { return stamp_at(head_ + i); }
-  const Sample& operator[](std::size_t i) const { return sample_at(head_ + i); }
-  Sample& operator[](std::size_t i) { return sample_at(head_ + i); }
+  const Sample& operator[](std::size_t i) const { return at(head_ + i); }
+  Stamp stamp(std::size_t i) const { return at(head_ + i).stamp; }
+  FrameId parent(std::size_t i) const { return parents_[i]; }
+  // How often the parent changes from one sample to the next.
+  std::size_t parent_changes() const { return parents_.changes(); }
   // Both are 0 if there are no samples.
   Stamp oldest() const { return oldest_; }
   Stamp newest() const { return newest_; }
-  const Sample& front() const { return sample_at(head_); }
+  const Sample& front() const { return at(head_); }
   const Sample& back() const { return *back_; }
 
-  void push_back(Stamp stamp, const Sample& sample) {
+  void push_back(const Sample& sample, FrameId parent) {
     if (head_ + size_ == room_) grow();
-    const std::size_t at = head_ + size_;
-    const Block& block = block_at(at);
-    block.stamps[at % kBlock] = newest_ = stamp;
-    back_ = block.samples + at % kBlock;
-    *back_ = sample;
-    if (size_ == 0) oldest_ = stamp;
-    ++size_;
-    if (size_ < 64 || at % kBlock == 0) measure_rate();
+    parents_.insert(size_, 1, parent);
+    append(sample);
   }
 
   // Memory for further samples, to be written in place; one at least.
-  struct Room {
-    Stamp* stamps;
-    Sample* samples;
-    std::size_t size;
-  };
-  Room room() {
+  std::span<Sample> room() {
     if (head_ + size_ == room_) grow();
-    const std::size_t at = head_ + size_, place = at % kBlock;
-    const Block& block = block_at(at);
-    return {block.stamps + place, block.samples + place, std::min(kBlock - place, room_ - at)};
+    const std::size_t end = head_ + size_;
+    return {&at(end), std::min(kBlock - end % kBlock, room_ - end)};
   }
   // Adds the first `count` samples of the room, one at least.
-  void add_written(std::size_t count) {
+  void add_written(std::size_t count, FrameId parent) {
+    parents_.insert(size_, count, parent);
+    const std::size_t begin = head_ + size_;
     size_ += count;
+    note_first_stamps(begin);
     note_ends();
     measure_rate();
   }
 
-  void insert(std::size_t i, Stamp stamp, const Sample& sample) {
-    push_back(stamp, sample);
-    for (std::size_t at = head_ + size_ - 1; at > head_ + i; --at) {
-      stamp_at(at) = stamp_at(at - 1);
-      sample_at(at) = sample_at(at - 1);
-    }
-    stamp_at(head_ + i) = stamp;
-    sample_at(head_ + i) = sample;
+  void insert(std::size_t i, const Sample& sample, FrameId parent) {
+    if (head_ + size_ == room_) grow();
+    parents_.insert(i, 1, parent);
+    append(sample);
+    for (std::size_t last = head_ + size_ - 1; last > head_ + i; --last) at(last) = at(last - 1);
+    at(head_ + i) = sample;
+    note_first_stamps(head_ + i);
     note_ends();
     measure_rate();
+  }
+
+  // Puts another sample of the same stamp in the place of one.
+  void replace(std::size_t i, const Sample& sample, FrameId parent) {
+    parents_.insert(i + 1, 1, parent);
+    parents_.erase(i);
+    at(head_ + i) = sample;
   }
 
   void pop_front() {
+    parents_.erase(0);
     ++head_;
     --size_;
     if (head_ == kBlock) drop_first_block();
-    oldest_ = size_ > 0 ? stamp_at(head_) : 0;
+    oldest_ = size_ > 0 ? at(head_).stamp : 0;
   }
 
   void clear() {
     for (std::size_t i = first_; i < first_ + (room_ + kBlock - 1) / kBlock; ++i)
       give_back(blocks_[i]);
     blocks_ = {};
+    parents_ = {};
     back_ = nullptr;
     oldest_ = newest_ = 0;
     first_ = size_class_ = room_ = head_ = size_ = 0;
     per_ns_ = 0.0;
   }
 
-  // The last sample at or before `t`; needs oldest() <= t. The place is guessed from the mean rate,
-  // so that its cost depends on how regular the stamps are and not on how old `t` is.
+  // The last sample at or before `t`; needs oldest() <= t.
   std::size_t last_at_or_before(Stamp t) const {
-    if (t >= newest()) return size_ - 1;
-    const std::size_t i = guess(t);
-    if (stamp(i) > t) return gallop_down(i, t);
-    return stamp(i + 1) > t ? i : gallop_up(i, t);
+    return t >= newest() ? size_ - 1 : search(t, guess(t));
   }
 
   // The same, tried first at `hint` and its successor: for stamps that come in order.
@@ -151,27 +147,24 @@ class Samples {
   // Two samples that follow each other.
   struct Pair {
     const Sample *older, *newer;
-    Stamp older_stamp, newer_stamp;
 
     double ratio(Stamp t) const {
-      return static_cast<double>(t - older_stamp) / static_cast<double>(newer_stamp - older_stamp);
+      return static_cast<double>(t - older->stamp) /
+             static_cast<double>(newer->stamp - older->stamp);
     }
   };
   Pair pair(std::size_t i) const {
-    const std::size_t at = head_ + i, place = at % kBlock;
-    const Block& block = block_at(at);
-    const Block& next = place + 1 < kBlock ? block : block_at(at + 1);
-    const std::size_t next_place = (place + 1) % kBlock;
-    return {block.samples + place, next.samples + next_place, block.stamps[place],
-            next.stamps[next_place]};
+    const Sample* older = &at(head_ + i);
+    const bool last_of_block = (head_ + i + 1) % kBlock == 0;
+    return {older, last_of_block ? &at(head_ + i + 1) : older + 1};
   }
   // The pair around `t`; needs oldest() <= t < newest().
   Pair around(Stamp t) const { return around(t, guess(t)); }
   // The same, looked for from a guess on.
   Pair around(Stamp t, std::size_t guess) const {
     const Pair guessed = pair(guess);
-    if (guessed.older_stamp > t) return pair(gallop_down(guess, t));
-    return guessed.newer_stamp > t ? guessed : pair(gallop_up(guess, t));
+    const bool fits = guessed.older->stamp <= t && t < guessed.newer->stamp;
+    return fits ? guessed : pair(search(t, guess));
   }
 
   // Where `t` lies by the mean rate; never the last sample. Needs t <= newest().
@@ -180,41 +173,59 @@ class Samples {
     const double back = static_cast<double>(newest() - t) * per_ns_;
     return back < static_cast<double>(last) ? last - 1 - static_cast<std::size_t>(back) : 0;
   }
-  // What around() reads first.
-  const Stamp* address_of_stamp(std::size_t i) const { return &stamp_at(head_ + i); }
 
  private:
   static constexpr std::size_t kSmallestBlock = 8, kBlock = 32;  // samples
   static constexpr std::size_t kLargestClass = 2;
-  static_assert(Arena::kSmallest == kSmallestBlock * (sizeof(Stamp) + sizeof(Sample)));
+  static_assert(Arena::kSmallest == kSmallestBlock * sizeof(Sample));
   static_assert(Arena::kSizes == kLargestClass + 1 && kSmallestBlock << kLargestClass == kBlock);
 
-  // One piece of the arena's memory, which starts with the stamps.
+  // One piece of the arena's memory, and the stamp it starts with: a search that reads these first
+  // touches few samples.
   struct Block {
-    Stamp* stamps;
     Sample* samples;
+    Stamp begin;
   };
 
   // Samples of one block; only a link with a single block can have a smaller one.
   std::size_t per_block() const { return kSmallestBlock << size_class_; }
-  // `at` counts from the start of the first block.
-  const Block& block_at(std::size_t at) const { return blocks_[first_ + at / kBlock]; }
-  Stamp& stamp_at(std::size_t at) const { return block_at(at).stamps[at % kBlock]; }
-  Sample& sample_at(std::size_t at) const { return block_at(at).samples[at % kBlock]; }
+  // `i` counts from the start of the first block.
+  const Block& block_at(std::size_t i) const { return blocks_[first_ + i / kBlock]; }
+  Block& block_at(std::size_t i) { return blocks_[first_ + i / kBlock]; }
+  Sample& at(std::size_t i) const { return block_at(i).samples[i % kBlock]; }
 
-  Block take(std::size_t size_class) {
-    std::byte* memory = arena_->take(size_class);
-    const std::size_t bytes_of_stamps = (kSmallestBlock << size_class) * sizeof(Stamp);
-    return {reinterpret_cast<Stamp*>(memory), reinterpret_cast<Sample*>(memory + bytes_of_stamps)};
+  Sample* take(std::size_t size_class) {
+    return reinterpret_cast<Sample*>(arena_->take(size_class));
   }
   void give_back(const Block& block) {
-    arena_->give_back(reinterpret_cast<std::byte*>(block.stamps), size_class_);
+    arena_->give_back(reinterpret_cast<std::byte*>(block.samples), size_class_);
+  }
+
+  // Needs room.
+  void append(const Sample& sample) {
+    const std::size_t end = head_ + size_;
+    Block& block = block_at(end);
+    if (end % kBlock == 0) block.begin = sample.stamp;
+    back_ = block.samples + end % kBlock;
+    *back_ = sample;
+    newest_ = sample.stamp;
+    if (size_ == 0) oldest_ = newest_;
+    ++size_;
+    if (size_ < 64 || end % kBlock == 0) measure_rate();
   }
 
   void note_ends() {
-    oldest_ = stamp_at(head_);
-    newest_ = stamp_at(head_ + size_ - 1);
-    back_ = &sample_at(head_ + size_ - 1);
+    back_ = &at(head_ + size_ - 1);
+    newest_ = back_->stamp;
+    oldest_ = at(head_).stamp;
+  }
+
+  // After samples have changed from `i` on.
+  void note_first_stamps(std::size_t i) {
+    for (i -= i % kBlock; i < head_ + size_; i += kBlock) {
+      Block& block = block_at(i);
+      block.begin = block.samples->stamp;
+    }
   }
 
   void measure_rate() {
@@ -222,30 +233,37 @@ class Samples {
     per_ns_ = span > 0 ? static_cast<double>(size_ - 1) / static_cast<double>(span) : 0.0;
   }
 
-  // Both assume stamp(size_ - 1) > t.
-  std::size_t gallop_up(std::size_t low, Stamp t) const {
-    std::size_t step = 1;
-    while (low + step < size_ - 1 && stamp(low + step) <= t) {
-      low += step;
-      step *= 2;
+  // The last sample at or before `t`, looked for from a guess on: first its block, and in another
+  // block than the guess's by the mean rate again. So the cost depends on how regular the stamps
+  // are, and not on how old `t` is.
+  std::size_t search(Stamp t, std::size_t guess) const {
+    const std::size_t last = head_ + size_ - 1;
+    std::size_t at = head_ + guess;
+    const auto begin = [this](std::size_t block) { return blocks_[first_ + block].begin; };
+    const std::size_t block = gallop(t, at / kBlock, last / kBlock + 1, begin);
+    if (block != at / kBlock) {
+      const double after = static_cast<double>(t - begin(block)) * per_ns_;
+      at = block * kBlock + (after < kBlock ? static_cast<std::size_t>(after) : kBlock - 1);
+      at = std::clamp(at, head_, last);
     }
-    return bisect(low, std::min(low + step, size_ - 1), t);
+    return gallop(t, at - head_, size_, [this](std::size_t i) { return stamp(i); });
   }
 
-  std::size_t gallop_down(std::size_t high, Stamp t) const {
-    std::size_t step = 1;
-    while (high > step && stamp(high - step) > t) {
-      high -= step;
-      step *= 2;
+  // The last of the first `size` stamps that is not after `t`; needs stamp_of(0) <= t. It takes
+  // longer the farther the guess is off.
+  template <typename StampOf>
+  static std::size_t gallop(Stamp t, std::size_t guess, std::size_t size, StampOf stamp_of) {
+    std::size_t low = guess, high = guess, step = 1;
+    if (stamp_of(guess) <= t) {
+      for (; low + step < size && stamp_of(low + step) <= t; step *= 2) low += step;
+      high = std::min(low + step, size);
+    } else {
+      for (; high > step && stamp_of(high - step) > t; step *= 2) high -= step;
+      low = high > step ? high - step : 0;
     }
-    return bisect(high > step ? high - step : 0, high, t);
-  }
-
-  // stamp(low) <= t < stamp(high)
-  std::size_t bisect(std::size_t low, std::size_t high, Stamp t) const {
     while (high - low > 1) {
       const std::size_t middle = low + (high - low) / 2;
-      (stamp(middle) <= t ? low : high) = middle;
+      (stamp_of(middle) <= t ? low : high) = middle;
     }
     return low;
   }
@@ -257,7 +275,7 @@ class Samples {
     }
     const std::size_t used = first_ + room_ / kBlock;
     if (used == blocks_.size()) blocks_.push_back({});
-    blocks_[used] = take(size_class_);
+    blocks_[used] = {take(size_class_), 0};
     room_ += per_block();
   }
 
@@ -265,10 +283,9 @@ class Samples {
   // to a block of twice the size.
   void grow_only_block() {
     const std::size_t wanted = 2 * size_ <= room_ ? size_class_ : size_class_ + 1;
-    const Block block = take(wanted);
-    std::copy_n(&stamp_at(head_), size_, block.stamps);
-    std::copy_n(&sample_at(head_), size_, block.samples);
-    give_back(std::exchange(blocks_[first_], block));
+    Sample* samples = take(wanted);
+    std::copy_n(&at(head_), size_, samples);
+    give_back(std::exchange(blocks_[first_], Block{samples, oldest_}));
     size_class_ = wanted;
     room_ = per_block();
     head_ = 0;
@@ -288,6 +305,7 @@ class Samples {
 
   Arena* arena_;
   std::vector<Block> blocks_;  // from index first_ on, in order of time
+  Parents parents_;
   std::size_t first_ = 0;
   std::size_t size_class_ = 0;  // of all blocks
   std::size_t room_ = 0;        // samples that fit into the blocks

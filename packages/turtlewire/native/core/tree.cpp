@@ -87,7 +87,7 @@ Verdict Tree::set(std::string_view parent, std::string_view child, Stamp stamp, 
     const Verdict verdict = judge_names(parent, child);
     if (verdict != Verdict::accepted) return refuse(verdict, parent, child, stamp, pose, source);
   }
-  Sample sample{{pose.translation, stored(pose.rotation)}, parent_id, source};
+  const Sample sample{stamp, {pose.translation, stored(pose.rotation)}};
   if (const Verdict verdict = judge_stored(sample.pose); verdict != Verdict::accepted) [[unlikely]]
     return refuse(verdict, parent, child, stamp, pose, source);
   if (parent_id == 0) [[unlikely]] {
@@ -96,7 +96,7 @@ Verdict Tree::set(std::string_view parent, std::string_view child, Stamp stamp, 
       return refuse(Verdict::too_many_frames, parent, child, stamp, pose, source);
     }
     child_id = frame(child);
-    parent_id = sample.parent = frame(parent);
+    parent_id = frame(parent);
     last_link_->follower = child_id;
   }
   Link& link = *links_[child_id];
@@ -109,7 +109,7 @@ Verdict Tree::set(std::string_view parent, std::string_view child, Stamp stamp, 
     link.set_static(parent_id, sample.pose);
   } else {
     link.become(LinkKind::dynamic_link);
-    added = link.insert(stamp, sample, keep_) != InsertStatus::too_old;
+    added = link.insert(sample, parent_id, keep_) != InsertStatus::too_old;
   }
   if (rules_.keeps_rotations && added && !is_unit(sample.pose.rotation)) link.note_scaling();
   if (link.shape() != shape) [[unlikely]]
@@ -124,7 +124,6 @@ std::size_t Tree::append(std::span<const Stamp> stamps, std::span<const PoseRow>
   Link& link = *last_link_;
   const std::uint64_t shape = link.shape();
   const FrameId parent = link.parent_of_sender();
-  const SourceId sender = link.sender();
   std::size_t added = 0;
   const auto write = [&](std::span<Sample> room) {
     std::size_t count = 0;
@@ -135,7 +134,7 @@ std::size_t Tree::append(std::span<const Stamp> stamps, std::span<const PoseRow>
         link.note_infinity(pose.translation);
       }
       const Quat rotation = stored(pose.rotation);
-      room[count] = {{pose.translation, rotation}, parent, sender};
+      room[count] = {stamps[added + count], {pose.translation, rotation}};
       if (rules_.keeps_rotations && !is_unit(rotation)) link.note_scaling();
     }
     return count;

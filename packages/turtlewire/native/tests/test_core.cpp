@@ -185,11 +185,19 @@ void test_search() {
     std::vector<Stamp> known;
     for (std::size_t i = 0, n = 2 + below(random, 500); i < n; ++i) {
       t += static_cast<Stamp>(below(random, 4) == 0 ? below(random, 1000) : 10);
-      samples.push_back(t, Sample{});
+      samples.push_back({.stamp = t}, 1);
       known.push_back(t);
       if (below(random, 3) == 0 && known.size() > 2) {
         samples.pop_front();
         known.erase(known.begin());
+      }
+      if (below(random, 8) == 0) {
+        const Stamp late =
+            known.front() +
+            static_cast<Stamp>(below(random, static_cast<std::size_t>(t - known.front() + 1)));
+        const auto place = std::upper_bound(known.begin(), known.end(), late);
+        samples.insert(static_cast<std::size_t>(place - known.begin()), {.stamp = late}, 1);
+        known.insert(place, late);
       }
     }
     for (Stamp at = known.front(); at <= known.back() + 3; ++at) {
@@ -202,6 +210,40 @@ void test_search() {
   }
 }
 
+void test_parents() {
+  Random random(6);
+  for (int round = 0; round < 300; ++round) {
+    Parents parents;
+    std::vector<FrameId> known;
+    for (int step = 0; step < 200; ++step) {
+      const std::size_t i = below(random, known.size() + 1);
+      if (below(random, 3) == 0 && i < known.size()) {
+        parents.erase(i);
+        known.erase(known.begin() + static_cast<std::ptrdiff_t>(i));
+      } else {
+        const std::size_t count = 1 + below(random, 3);
+        const auto parent = static_cast<FrameId>(1 + below(random, step < 100 ? 3 : 1));
+        parents.insert(i, count, parent);
+        known.insert(known.begin() + static_cast<std::ptrdiff_t>(i), count, parent);
+      }
+      if (step == 100) {  // all of one parent again, as after others were dropped
+        for (std::size_t k = known.size(); k-- > 0;) {
+          if (known[k] == 1) continue;
+          parents.erase(k);
+          known.erase(known.begin() + static_cast<std::ptrdiff_t>(k));
+        }
+      }
+      std::size_t changes = 0;
+      for (std::size_t k = 0; k < known.size(); ++k) {
+        check(parents[k] == known[k], "the parent of a sample");
+        changes += k > 0 && known[k - 1] != known[k];
+      }
+      check(parents.changes() == changes, "changes of the parent");
+      check((parents.bytes() > 0) == (changes > 0), "one number for one parent");
+    }
+  }
+}
+
 void test_memory() {
   Tree buffer(10'000'000'000);
   const SourceId me = buffer.sender("me");
@@ -210,7 +252,7 @@ void test_memory() {
   const double bytes = static_cast<double>(samples.bytes()) / static_cast<double>(samples.size());
   std::printf("memory: %.1f bytes a sample in a full cache of %zu\n", bytes, samples.size());
   check(samples.size() == 10'002 || samples.size() == 10'001, "a full cache");
-  check(bytes <= 80.0, "80 bytes a sample, slack included");
+  check(bytes <= 70.0, "70 bytes a sample, slack included");
 }
 
 // ---------------------------------------------------------------- threads
@@ -649,6 +691,7 @@ int main(int count, char** arguments) {
   test_canonical();
   test_kernels_agree();
   test_search();
+  test_parents();
   test_random_operations();
   test_memory();
   test_threads();
