@@ -9,8 +9,8 @@ import re
 import pytest
 
 import turtlewire
-from turtlewire.attribute_hints import hint_at
 from turtlewire.bag import Bag, BagMessage, BagWriter
+from turtlewire.call_errors import hint_at
 from turtlewire.net.connection import Connection
 from turtlewire.trajectory import Trajectory
 from turtlewire.urdf import Robot

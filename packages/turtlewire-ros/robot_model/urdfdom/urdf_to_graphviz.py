@@ -10,7 +10,7 @@ from tf2_tools.pdf import pdf_from_drawing
 from turtlewire.program import program
 from turtlewire.terminal.printable import printable
 from turtlewire.tf.drawing import Drawing, FilledBox, Line, Text, text_width
-from turtlewire.tf.tidy_tree import tidy_positions
+from turtlewire.tf.tree_drawing import tidy_positions
 from turtlewire.urdf import UrdfError
 from urdfdom.reading import read_robot
 

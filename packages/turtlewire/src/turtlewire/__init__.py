@@ -3,9 +3,8 @@
 ===================  =====================================================================
 module               contents
 ===================  =====================================================================
-`attribute_hints`    AttributeErrors that say what to use, for names of other libraries
 `bag`                rosbag2 folders, MCAP and sqlite3, read and written
-`call_errors`        errors of calls with wrong arguments
+`call_errors`        errors of calls with wrong arguments, and of names of other libraries
 `cli`                the ``turtlewire`` command and its verbs
 `demo`               ``python -m turtlewire.demo``: one turtle follows another
 `distro`             the distribution of ROS 2 that ``ROS_DISTRO`` chooses

@@ -1,23 +1,25 @@
 """Errors of calls with wrong arguments: in Python's words, with the names that exist.
 
 The compiled core calls `call_error` when it reads arguments; `explain_calls` does the same for
-classes in Python, so that both cores raise the same texts.
+classes in Python, so that both cores raise the same texts. `hint_at` adds advice to the
+AttributeErrors of names that people know from other libraries.
 """
 
 from __future__ import annotations
 
 import functools
 from types import FunctionType
-from typing import TYPE_CHECKING, Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any, NoReturn, TypeVar, cast
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Sequence
+    from collections.abc import Callable, Collection, Mapping, Sequence
 
 __all__ = [
     "call_error",
     "explain_call",
     "explain_calls",
     "frame_error",
+    "hint_at",
     "near_name",
     "ros_time_error",
 ]
@@ -179,3 +181,47 @@ def _ros_time_for(what: str, value: object) -> str:
         return ": pass its stamp"
     latest = ": write rclpy.time.Time() for the latest transform"
     return f"{latest}, or rclpy.time.Time{number}" if number and value else latest
+
+
+class _Absent:
+    """An attribute that does not exist: getting it raises an AttributeError with advice."""
+
+    def __init__(self, name: str, instead: str) -> None:
+        self._name = name
+        self._instead = instead
+
+    def __get__(self, instance: object, owner: type) -> NoReturn:
+        name = repr(owner.__name__)
+        whose = f"type object {name}" if instance is None else f"{name} object"
+        raise AttributeError(f"{whose} has no attribute {self._name!r}; use {self._instead}")
+
+    def __repr__(self) -> str:
+        return f"<no attribute; use {self._instead}>"
+
+
+def hint_at(advice: Mapping[str, str]) -> Callable[[_Class], _Class]:
+    """Return a class decorator that adds advice to the AttributeErrors of some names.
+
+    ``__getattr__`` would do the same, but it slows all method calls of a compiled class.
+
+    Args:
+        advice: What to use instead of an attribute that does not exist. A key is a name, or
+            several names with spaces between them.
+    """
+
+    def decorate(cls: _Class) -> _Class:
+        for names, instead in advice.items():
+            for name in names.split():
+                setattr(cls, name, _Absent(name, instead))
+        setattr(cls, "__dir__", _existing_names)  # noqa: B010 (mypy refuses the assignment)
+        return cls
+
+    return decorate
+
+
+def _existing_names(instance: object) -> list[str]:
+    """Return what ``dir()`` lists, so that shells do not complete names that do not exist."""
+    from inspect import getattr_static
+
+    names = object.__dir__(instance)
+    return [name for name in names if type(getattr_static(instance, name, None)) is not _Absent]

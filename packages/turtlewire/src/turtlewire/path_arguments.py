@@ -1,14 +1,25 @@
-"""Checks paths that callers pass, and explains missing ones."""
+"""Checks paths that callers pass: missing files, and suffixes of other formats."""
 
 from __future__ import annotations
 
 import errno
 import os
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from turtlewire.call_errors import near_name
 
-__all__ = ["missing_file", "near_path", "path_text"]
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+__all__ = [
+    "BAGS",
+    "PICTURES",
+    "TRAJECTORIES",
+    "missing_file",
+    "near_path",
+    "path_text",
+    "refuse_other_formats",
+]
 
 
 def path_text(path: Any, argument: str = "path", what: str = "path") -> str:
@@ -60,3 +71,33 @@ def near_path(path: str) -> str:
     except OSError:  # a folder that may not be listed
         return ""
     return f"; did you mean {os.path.join(folder, near)!r}?" if near else ""
+
+
+PICTURES = (".svg", ".pdf", ".png", ".jpg", ".jpeg")
+BAGS = (".mcap", ".db3", ".bag")
+TRAJECTORIES = (".tum", ".kitti", ".euroc", ".csv")
+_OTHERS = (".json", ".yaml", ".yml", ".xml", ".urdf", ".npy", ".npz", ".pkl", ".pickle", ".h5")
+
+
+def refuse_other_formats(
+    path: str | os.PathLike[str],
+    own: tuple[str, ...],
+    written: str,
+    instead: Mapping[tuple[str, ...], str],
+) -> None:
+    """Raise ValueError for the suffix of a well-known format that is not written.
+
+    Names without a suffix, or with one that is not well known, are the user's choice.
+
+    Args:
+        path: The name of the file.
+        own: The suffixes of the formats that are written.
+        written: The start of the text: what is written, and how.
+        instead: By suffixes, what writes these.
+    """
+    suffix = os.path.splitext(os.fspath(path))[1].lower()
+    others = {*PICTURES, *BAGS, *TRAJECTORIES, *_OTHERS, *(s for key in instead for s in key)}
+    if suffix in own or suffix not in others:
+        return
+    advice = next((text for key, text in instead.items() if suffix in key), "")
+    raise ValueError(f"{os.fspath(path)}: {written}, not {suffix}{advice and f'; {advice}'}")

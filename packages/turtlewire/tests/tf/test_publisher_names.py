@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from turtlewire.tf.publisher_names import PublisherNames
+from turtlewire.tf.publishers import PublisherNames
 from turtlewire.wire.base import EndpointInfo, NodeInfo
 from turtlewire.wire.graph import GraphView
 from turtlewire.wire.qos import QoS

@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 
 from turtlewire.tf.drawing import Drawing, FilledBox, Line, Text, svg_from_drawing, text_width
 from turtlewire.tf.frame_tree import FrameLink, FrameTree, read_frame_tree
-from turtlewire.tf.tidy_tree import tidy_positions
-from turtlewire.tf.tree_drawing import draw_tree
+from turtlewire.tf.tree_drawing import draw_tree, tidy_positions
 
 SVG = "{http://www.w3.org/2000/svg}"
 

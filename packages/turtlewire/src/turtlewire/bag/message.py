@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
-from turtlewire.attribute_hints import hint_at
 from turtlewire.bag.mcap_records import Schema
+from turtlewire.call_errors import hint_at
 from turtlewire.errors import InterfaceError
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ import os
 from typing import TYPE_CHECKING
 
 from turtlewire.bag.times import date_text
-from turtlewire.tf.html_table import MOST_ROWS, counted, html_table, html_text
+from turtlewire.tf.notebook import MOST_ROWS, counted, html_table, html_text
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -9,7 +9,6 @@ import tempfile
 import weakref
 from typing import TYPE_CHECKING
 
-from turtlewire.attribute_hints import hint_at
 from turtlewire.bag.compression import unpack_file, unpacked
 from turtlewire.bag.definitions import has_interface, learn_types
 from turtlewire.bag.files import joined, open_storage, overlapping, storage_files
@@ -22,7 +21,7 @@ from turtlewire.bag.message_choice import (
 )
 from turtlewire.bag.metadata import BagMetadata, TopicInfo, read_metadata
 from turtlewire.bag.storage import messages_of_blocks
-from turtlewire.call_errors import explain_call, explain_calls
+from turtlewire.call_errors import explain_call, explain_calls, hint_at
 from turtlewire.errors import BagError, InterfaceError
 from turtlewire.path_arguments import near_path, path_text
 

@@ -9,7 +9,6 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 from weakref import WeakSet
 
-from turtlewire.attribute_hints import hint_at
 from turtlewire.bag.compression import write_zstd_file
 from turtlewire.bag.files import file_name
 from turtlewire.bag.mcap_writer import CHUNK_BYTES, McapWriter
@@ -34,6 +33,7 @@ from turtlewire.bag.writer_checks import (
     given,
     known_definition,
 )
+from turtlewire.call_errors import hint_at
 from turtlewire.errors import BagError, InterfaceError
 from turtlewire.msg import type_hash
 from turtlewire.path_arguments import path_text

@@ -7,8 +7,7 @@ import threading
 from typing import TYPE_CHECKING, TypeVar
 
 from turtlewire import msg, wire
-from turtlewire.attribute_hints import hint_at
-from turtlewire.call_errors import explain_call, explain_calls
+from turtlewire.call_errors import explain_call, explain_calls, hint_at
 from turtlewire.errors import WireError
 from turtlewire.net.publisher import Broadcaster, Publisher
 from turtlewire.net.subscription import Subscription

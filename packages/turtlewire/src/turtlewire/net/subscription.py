@@ -8,7 +8,7 @@ from collections import deque
 from typing import TYPE_CHECKING
 
 from turtlewire import msg
-from turtlewire.attribute_hints import hint_at
+from turtlewire.call_errors import hint_at
 from turtlewire.errors import InterfaceError
 from turtlewire.wake_up import LoopWakeUp, WakeUp
 from turtlewire.wire.base import TypeId

@@ -23,29 +23,24 @@ module                     contents
 `implementation`           chooses the compiled core or its plain twin
 `products`                 products of transforms, and interpolation
 `archive`                  a buffer as a file
-`file_names`               rejects file names with the suffix of another format
 `datetimes`                stamps given as ``datetime64``
 `plain`                    the plain-Python twin of the compiled core
 `answers`                  results of a buffer that have several parts
 `array_arguments`          stamps and points given as arrays
 `pose_rows`                poses given as an array of rows or of matrices
 `number_errors`            errors for values that are not vectors or quaternions
-`text_tree`                the tree as text
 `listener`                 `TransformListener`: puts the bytes of TF messages into buffers
 `refusal_warnings`         warnings about refused transforms and full buffers
 `tf_topics`                the topics of transforms, and their type
-`publisher_names`          the node that published a message
-`links`                    the links of a buffer with rates and ages
+`links`                    the links of a buffer with rates and ages; its tree as text
 `faults`                   rejected transforms, malformed messages, and conflicts
 `restarts`                 detects that a simulation has restarted
-`departures`               frames whose publisher has left the graph
+`publishers`               names of publishers; frames whose publisher has left the graph
 `arrays`                   a transform as an array
 `frame_tree`               the frames with statistics of their links, for diagrams
-`tidy_tree`                positions of the nodes of a drawn tree
 `tree_drawing`, `drawing`  the diagram of the tree; boxes, lines and text on a page
 `svg`                      elements of SVG documents
 `pdf`                      a PDF file of one page
-`notebook`                 the display of buffers and transforms in Jupyter
-`html_table`               tables for notebooks, with escaped names
+`notebook`                 the display of buffers and transforms in Jupyter, as tables
 =========================  =========================================================================
 """

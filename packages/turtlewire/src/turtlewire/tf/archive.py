@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from turtlewire.errors import LookupException
+from turtlewire.path_arguments import BAGS, PICTURES, TRAJECTORIES, refuse_other_formats
 from turtlewire.terminal.printable import printable
-from turtlewire.tf.file_names import BAGS, PICTURES, TRAJECTORIES, refuse_other_formats
 from turtlewire.tf.links import links
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ import os
 import warnings
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.attribute_hints import hint_at
+from turtlewire.call_errors import hint_at
 from turtlewire.terminal.printable import printable
 from turtlewire.tf.implementation import CORE, BaseBuffer, RecordWalk, Transform
 from turtlewire.wording import Wording, wording
@@ -252,7 +252,7 @@ class Buffer(BaseBuffer):
         return isinstance(frame, str) and self._knows(frame)
 
     def __str__(self) -> str:
-        from turtlewire.tf.text_tree import text_tree
+        from turtlewire.tf.links import text_tree
 
         return text_tree(self)
 

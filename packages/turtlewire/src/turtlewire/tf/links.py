@@ -9,13 +9,21 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
-__all__ = ["HasLinks", "Link", "Sender", "links"]
+from turtlewire.terminal.printable import printable
 
 if TYPE_CHECKING:
     from typing import TypeAlias
 
     SenderRow: TypeAlias = tuple[str, str, int, int]
     LinkRow: TypeAlias = tuple[str, str, bool, int, int, int, int, int, list[SenderRow]]
+
+__all__ = [
+    "HasLinks",
+    "Link",
+    "Sender",
+    "links",
+    "text_tree",
+]
 
 
 class HasLinks(Protocol):
@@ -78,3 +86,24 @@ def _senders(rows: list[tuple[str, str, int, int]]) -> tuple[Sender, ...]:
             name, parent, known.samples + samples, max(known.newest_ns, newest)
         )
     return tuple(merged.values())
+
+
+def text_tree(buffer: HasLinks) -> str:
+    """Return one line for each frame, indented below its parent; frames of a loop come last."""
+    parents = {link.child_frame: link.parent_frame for link in links(buffer)}
+    children: dict[str, list[str]] = {}
+    for child, parent in parents.items():
+        children.setdefault(parent, []).append(child)
+    lines: list[str] = []
+    seen: set[str] = set()
+    frames = buffer.frames()
+    for root in [*(frame for frame in frames if frame not in parents), *frames]:
+        waiting = [(root, 0)]
+        while waiting:
+            frame, depth = waiting.pop()
+            if frame in seen:
+                continue
+            seen.add(frame)
+            lines.append("  " * depth + printable(frame))
+            waiting += [(child, depth + 1) for child in reversed(children.get(frame, []))]
+    return "\n".join(lines)

@@ -20,8 +20,7 @@ from turtlewire import msg, wire
 from turtlewire.errors import CdrError, WireError
 from turtlewire.guarded import call_guarded
 from turtlewire.tf.buffer import CORE, Buffer
-from turtlewire.tf.departures import DepartureWatch, departed_frames
-from turtlewire.tf.publisher_names import PublisherNames
+from turtlewire.tf.publishers import DepartureWatch, PublisherNames, departed_frames
 from turtlewire.tf.refusal_warnings import RefusalWarnings
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import Durability, History, QoS
@@ -35,7 +34,7 @@ if TYPE_CHECKING:
     from types import TracebackType
     from typing import Protocol
 
-    from turtlewire.tf.departures import Forgetful
+    from turtlewire.tf.publishers import Forgetful
     from turtlewire.wire import base
 
     class Store(Forgetful, Protocol):

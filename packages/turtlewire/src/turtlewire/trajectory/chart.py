@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from turtlewire.attribute_hints import hint_at
+from turtlewire.call_errors import hint_at
 from turtlewire.terminal.printable import printable
 from turtlewire.tf import svg
 from turtlewire.tf.drawing import text_width

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from turtlewire.attribute_hints import hint_at
-from turtlewire.call_errors import explain_call, explain_calls
+from turtlewire.call_errors import explain_call, explain_calls, hint_at
 from turtlewire.tf.datetimes import as_nanoseconds
 from turtlewire.trajectory import alignment
 from turtlewire.trajectory.alignment import Alignment, AlignmentName, associate

@@ -17,8 +17,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from turtlewire.geometry import arrays
-from turtlewire.path_arguments import missing_file, path_text
-from turtlewire.tf.file_names import BAGS, PICTURES, refuse_other_formats
+from turtlewire.path_arguments import BAGS, PICTURES, missing_file, path_text, refuse_other_formats
 from turtlewire.trajectory.stamps import Gap, find_gaps
 
 if TYPE_CHECKING:

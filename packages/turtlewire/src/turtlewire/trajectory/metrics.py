@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
-from turtlewire.attribute_hints import hint_at
+from turtlewire.call_errors import hint_at
 from turtlewire.geometry import arrays
 
 if TYPE_CHECKING:

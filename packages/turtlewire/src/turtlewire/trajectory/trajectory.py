@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from turtlewire.attribute_hints import hint_at
-from turtlewire.call_errors import explain_calls
+from turtlewire.call_errors import explain_calls, hint_at
 from turtlewire.geometry import arrays
 from turtlewire.tf.array_arguments import number_array
 from turtlewire.trajectory.stamps import Gap, as_stamps

@@ -8,8 +8,7 @@ import numpy as np
 
 from turtlewire.errors import UrdfError
 from turtlewire.tf import svg
-from turtlewire.tf.html_table import MOST_ROWS, counted, html_table, html_text
-from turtlewire.tf.notebook import projected
+from turtlewire.tf.notebook import MOST_ROWS, counted, html_table, html_text, projected
 from turtlewire.urdf.kinematics import Kinematics
 
 if TYPE_CHECKING:

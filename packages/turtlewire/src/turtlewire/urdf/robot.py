@@ -9,8 +9,7 @@ from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from turtlewire.attribute_hints import hint_at
-from turtlewire.call_errors import explain_calls
+from turtlewire.call_errors import explain_calls, hint_at
 from turtlewire.errors import UrdfError
 from turtlewire.path_arguments import missing_file, path_text
 from turtlewire.urdf.faults import XACRO_LEFT

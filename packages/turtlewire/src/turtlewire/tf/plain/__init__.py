@@ -13,7 +13,7 @@ module                 contents
 `additions`            its methods that add transforms
 `batch`                its methods that take and return arrays
 `inspection`           its methods that show, remove and load samples
-`arguments`, `checks`  array arguments; all other arguments
+`checks`               checked arguments, arrays too
 `transform`            the result of a lookup
 `failure`              the errors of lookups, in tf2's words
 `status`               the outcomes of a lookup

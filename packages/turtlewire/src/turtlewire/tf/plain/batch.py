@@ -13,7 +13,7 @@ from turtlewire.errors import ExtrapolationException
 from turtlewire.geometry.poses import IDENTITY, Pose, compose
 from turtlewire.geometry.quaternions import Quaternion, Vector, conjugate, multiply, rotate
 from turtlewire.tf.answers import FramePoses
-from turtlewire.tf.plain import arguments
+from turtlewire.tf.plain import checks
 from turtlewire.tf.plain.checks import LIMIT, check_frames, moments, nanoseconds, numbers
 from turtlewire.tf.plain.failure import Failure
 from turtlewire.tf.plain.status import LookupStatus
@@ -43,12 +43,12 @@ def lookup_transforms(
 ) -> NDArray[np.float64]:
     """`lookup_transform` at many times: (N, 7), or (N, 4, 4) with ``matrices``."""
     check_frames(target_frame=target_frame, source_frame=source_frame)
-    nan = arguments.check_errors(errors)
+    nan = checks.check_errors(errors)
     (beyond,) = nanoseconds(extrapolate_ns=extrapolate_ns)
     if beyond < 0:
         raise ValueError("extrapolate_ns must not be negative")
-    times = arguments.stamp_list(stamps)
-    result = arguments.output_array(out, (len(times), 4, 4) if matrices else (len(times), 7))
+    times = checks.stamp_list(stamps)
+    result = checks.output_array(out, (len(times), 4, 4) if matrices else (len(times), 7))
     for i, pose in enumerate(_poses(self, target_frame, source_frame, times, nan, beyond)):
         result[i] = _matrix(pose) if matrices else pose
     return result
@@ -96,15 +96,15 @@ def transform_points(
     """
     own_target = target_frame if fixed_frame is None else fixed_frame
     check_frames(target_frame=target_frame, source_frame=source_frame, fixed_frame=own_target)
-    nan = arguments.check_errors(errors)
+    nan = checks.check_errors(errors)
     (target_stamp,) = moments(target_stamp_ns=target_stamp_ns)
     if fixed_frame is None and target_stamp is not None:
         raise ValueError("target_stamp_ns needs fixed_frame, the frame that joins the two times")
-    given, result = arguments.point_arrays(points, out)
+    given, result = checks.point_arrays(points, out)
     last = (
         _pose(self, target_frame, own_target, target_stamp) if fixed_frame is not None else IDENTITY
     )
-    times, single = arguments.times_of(stamps)
+    times, single = checks.times_of(stamps)
     if single:
         poses: Iterable[Pose] = [_pose(self, own_target, source_frame, times[0])] * len(given)
     else:
@@ -138,13 +138,13 @@ def lookup_velocity(
     Shape (6,), or (N, 6) for an array of stamps.
     """
     check_frames(target_frame=target_frame, source_frame=source_frame)
-    nan = arguments.check_errors(errors)
+    nan = checks.check_errors(errors)
     (interval_ns,) = nanoseconds(interval_ns=interval_ns)
     if interval_ns <= 0:
         raise ValueError("interval_ns must be positive")
     px, py, pz = numbers("point", point, 3)
-    times, single = arguments.times_of(stamps)
-    result = arguments.output_array(out, (6,) if single else (len(times), 6))
+    times, single = checks.times_of(stamps)
+    result = checks.output_array(out, (6,) if single else (len(times), 6))
     latest = _attempt(lambda: self._tree.latest_common_time(target_frame, source_frame))
     # Between static links, any time is as good as another.
     newest = 0 if latest is None or isinstance(latest, LookupStatus) else latest

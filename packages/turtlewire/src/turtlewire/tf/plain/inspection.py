@@ -9,7 +9,7 @@ from itertools import groupby, islice
 from typing import TYPE_CHECKING, Literal
 
 from turtlewire.tf.answers import Samples
-from turtlewire.tf.plain import arguments
+from turtlewire.tf.plain import checks
 from turtlewire.tf.plain.checks import check_frames, moments, nanoseconds
 from turtlewire.tf.plain.failure import Refusal, Verdict
 from turtlewire.tf.plain.transform import Transform
@@ -139,10 +139,10 @@ def set_transforms(
     from turtlewire.tf.pose_rows import pose_rows
 
     check_frames(parent_frame=parent_frame, child_frame=child_frame, sender=sender)
-    skip = arguments.check_errors(errors, "skip")
-    times = arguments.stamp_list(stamps)
+    skip = checks.check_errors(errors, "skip")
+    times = checks.stamp_list(stamps)
     rows = pose_rows(poses, skip=skip)
-    arguments.check_shape(rows, (len(times), 7), "poses")
+    checks.check_shape(rows, (len(times), 7), "poses")
     samples: list[tuple[int, Pose]] = [
         (stamp, (x, y, z, qx, qy, qz, qw))
         for stamp, (x, y, z, qx, qy, qz, qw) in zip(times, rows.tolist(), strict=True)

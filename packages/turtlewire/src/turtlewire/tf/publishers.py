@@ -1,4 +1,4 @@
-"""Moving frames whose publisher has left the graph: finding them, and forgetting them in time.
+"""The publishers of transforms: their names, and the frames of those that have left the graph.
 
 A static transform stays when its publisher leaves, as in tf2, and so do samples that did not come
 from the network.
@@ -15,6 +15,8 @@ from turtlewire.guarded import call_guarded
 from turtlewire.tf.links import links
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from turtlewire.tf.links import HasLinks
     from turtlewire.wire.base import Graph
 
@@ -26,7 +28,70 @@ if TYPE_CHECKING:
             ...
 
 
-__all__ = ["DepartureWatch", "departed_frames"]
+__all__ = [
+    "DepartureWatch",
+    "PublisherNames",
+    "departed_frames",
+]
+
+
+_MOST = 1000  # publishers come and go; beyond this many, all are looked up again
+
+
+class PublisherNames(dict[bytes, str]):
+    """Full names of the nodes that own publishers, by gid. Thread-safe.
+
+    The gid in hex stands for the name until the graph knows the node.
+
+    A name that is known costs the lookup in a dict.
+
+    Args:
+        graph: Where nodes and publishers are found.
+        on_name: Called with the hex text and the name when the graph has learnt whose publisher it
+            is, on the graph's thread.
+    """
+
+    def __init__(self, graph: Graph, on_name: Callable[[str, str], None]) -> None:
+        super().__init__()
+        self._graph = graph
+        self._on_name = on_name
+        self._lock = threading.Lock()
+        self._nameless: set[bytes] = set()
+        self._stop_listening = graph.add_listener(self._look_again)
+
+    def __missing__(self, gid: bytes) -> str:
+        with self._lock:
+            if len(self) >= _MOST:
+                self.clear()
+                self._nameless.clear()
+            name = self._find({gid}).get(gid)
+            if name is None:
+                self._nameless.add(gid)
+            self[gid] = name or gid.hex()
+            return self[gid]
+
+    def _look_again(self) -> None:
+        """After a change of the graph."""
+        if not self._nameless:
+            return
+        with self._lock:
+            found = self._find(self._nameless)
+            self._nameless -= found.keys()
+            self.update(found)
+        for gid, name in found.items():
+            self._on_name(gid.hex(), name)
+
+    def _find(self, gids: set[bytes]) -> dict[bytes, str]:
+        return {
+            end.gid: f"{end.node.namespace.rstrip('/')}/{end.node.name}"
+            for end in self._graph.endpoints()
+            if end.gid in gids and end.node is not None
+        }
+
+    def close(self) -> None:
+        """Stop listening to the graph."""
+        self._stop_listening()
+
 
 #: What a listener calls a sender: the node's full name, or the gid while no node is known.
 _OF_NETWORK = re.compile(r"/|[0-9a-f]{32,48}\Z")
