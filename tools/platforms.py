@@ -31,9 +31,8 @@ PREFIX = ROS / "prefix" / "turtlewire_ros"
 COLCON_CODE = COLCON / "src" / "turtlewire_colcon"
 #: Files in which such a string is right, and the reason.
 REASONS = {
-    ENGINE / "src/turtlewire/doctor/fast_dds_findings.py": "does without it elsewhere",
     ENGINE / "src/turtlewire/doctor/network.py": "does without where the file is missing",
-    ENGINE / "src/turtlewire/doctor/shared_memory.py": "finds nothing where they are missing",
+    ENGINE / "src/turtlewire/doctor/fast_dds_findings.py": "does without what is missing",
     ENGINE / "src/turtlewire/wire/loopback.py": "reads it on Linux only",
     ENGINE / "src/turtlewire/wire/cyclone/ports.py": "does without where the file is missing",
     ENGINE / "src/turtlewire/wire/libddsc.py": "looks for folders, and finds none",

@@ -164,7 +164,7 @@ def fingerprint() -> str:
         files += [path for path in folder.glob("prefix/**/*") if path.suffix not in other]
     files += ROS.glob("*/*/share/**/*")
     msg = ENGINE / "src" / "turtlewire" / "msg"
-    files += [msg / "generate.py", msg / "stubs.py", *msg.glob("interfaces/*")]
+    files += [msg / "generate.py", *msg.glob("interfaces/*")]
     names = [str(package.relative_to(ROOT)) for package in packages()]
     digest = hashlib.sha256(repr(names).encode())
     for path in sorted(files):

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from turtle_class import ClassError
 from turtlewire.terminal.file_arguments import reporting_errors
 from turtlewire.terminal.parser import seconds
-from turtlewire.web.options import add_page_options
+from turtlewire.web.desktop import add_page_options
 
 if TYPE_CHECKING:
     import argparse

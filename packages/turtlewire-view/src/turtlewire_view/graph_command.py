@@ -19,7 +19,7 @@ __all__ = ["add_graph_command"]
 def add_graph_command(commands: Any) -> None:
     """Add ``graph`` to the command's words."""
     from turtlewire.terminal.file_arguments import complete_files, reporting_errors
-    from turtlewire.web.options import add_page_options
+    from turtlewire.web.desktop import add_page_options
 
     summary = "Show nodes, topics and QoS mismatches in the browser, or save them as a picture"
     parser = commands.add_parser("graph", help=summary, description=summary)
@@ -70,7 +70,7 @@ def _save(path: str, selection: Selection) -> int:
     """Write a file."""
     from turtlewire import wire
     from turtlewire.doctor import network
-    from turtlewire.doctor.discovery import wait_for_graph
+    from turtlewire.doctor.setup_findings import wait_for_graph
     from turtlewire_view.graph.files import writer_for
     from turtlewire_view.graph.picture import read_graph
     from turtlewire_view.graph.selection import select

@@ -21,7 +21,7 @@ def add_view_command(commands: Any) -> None:
     """Add ``view`` to the command's words."""
     from turtlewire.terminal.file_arguments import complete_bags, reporting_errors
     from turtlewire.terminal.parser import add_robot_topics
-    from turtlewire.web.options import add_page_options
+    from turtlewire.web.desktop import add_page_options
     from turtlewire_view.package_folders import add_package_option
 
     summary = "Show live frames, a bag or a robot in 3D in the browser"

@@ -9,13 +9,13 @@ from contextlib import suppress
 
 import pytest
 
-from turtlewire.bag.new_folder import new_folder
+from turtlewire.bag.pieces import new_folder
 
 pytest.importorskip("fcntl")
 
 WRITER = """
 import os, sys
-from turtlewire.bag.new_folder import new_folder
+from turtlewire.bag.pieces import new_folder
 with new_folder(sys.argv[1]) as path:
     os.mkdir(path)
     print("ready", flush=True)

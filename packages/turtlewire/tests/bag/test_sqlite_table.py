@@ -9,8 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from turtlewire.bag import open_bag
-from turtlewire.bag.sqlite_reader import SqliteFile
-from turtlewire.bag.sqlite_table import BEFORE_ALL_IDS, table_blocks
+from turtlewire.bag.sqlite_reader import BEFORE_ALL_IDS, SqliteFile, table_blocks
 from turtlewire.errors import BagError
 
 pytest.importorskip("turtlewire._native", reason="the plain core reads by SQL")

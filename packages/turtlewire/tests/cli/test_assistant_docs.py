@@ -14,7 +14,7 @@ from mcp import Client, StdioServerParameters, stdio_client
 from tests.how_to import blocks_of
 from tests.places import HOW_TO, PATH
 
-from turtlewire.cli.assistant.limits import LONGEST_ANSWER
+from turtlewire.cli.assistant.permissions import LONGEST_ANSWER
 from turtlewire.cli.main import main
 
 PAGE = (HOW_TO / "assistant.md").read_text(encoding="utf-8")

@@ -7,8 +7,14 @@ import json
 import pytest
 
 from turtlewire import msg
-from turtlewire.cli.assistant.limits import LONGEST_ANSWER, RateLimit, bounded_json, seconds_within
-from turtlewire.cli.assistant.permissions import Permissions, RefusedCallError
+from turtlewire.cli.assistant.permissions import (
+    LONGEST_ANSWER,
+    Permissions,
+    RateLimit,
+    RefusedCallError,
+    bounded_json,
+    seconds_within,
+)
 from turtlewire.cli.assistant.plots import number_at
 
 

@@ -12,13 +12,17 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from tests.needs import needs_cyclone_dds
 
-from turtlewire.doctor import examination, fast_dds_search, shared_memory
+from turtlewire.doctor import examination, fast_dds_findings, fast_dds_search
 from turtlewire.doctor import fast_dds_findings as fast_dds
-from turtlewire.doctor.announcements import Participant, Question, read_participants
-from turtlewire.doctor.fast_dds_search import FastDdsSearch
+from turtlewire.doctor.fast_dds_findings import command_of, sharing_processes
+from turtlewire.doctor.fast_dds_search import (
+    FastDdsSearch,
+    Participant,
+    Question,
+    read_participants,
+)
 from turtlewire.doctor.graph_findings import graph_findings
 from turtlewire.doctor.network import udp_ports
-from turtlewire.doctor.shared_memory import command_of, sharing_processes
 from turtlewire.wire import open_context
 from turtlewire.wire.base import EndpointInfo, NodeInfo
 from turtlewire.wire.cyclone.ports import unicast_ports_of
@@ -194,8 +198,8 @@ def sockets():
 @pytest.fixture
 def host(monkeypatch, tmp_path):
     """Adds processes with the segments that they map, and their UDP ports."""
-    monkeypatch.setattr(shared_memory, "_SEGMENTS", tmp_path / "shm")
-    monkeypatch.setattr(shared_memory, "_PROCESSES", tmp_path / "proc")
+    monkeypatch.setattr(fast_dds_findings, "_SEGMENTS", tmp_path / "shm")
+    monkeypatch.setattr(fast_dds_findings, "_PROCESSES", tmp_path / "proc")
     (tmp_path / "shm").mkdir()
 
     def add(process, segment, *ports, command=b"talker\0--loud\0"):

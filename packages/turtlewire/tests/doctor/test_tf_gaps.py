@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.places import TURTLEWIRE
 
-from turtlewire.doctor.tf_gaps import find_gaps
+from turtlewire.doctor.tf_findings import find_gaps
 
 SEEDS = st.integers(0, 10_000)
 

@@ -11,7 +11,7 @@ from tests.needs import needs_cyclone_dds
 from tests.places import TURTLEWIRE
 
 from turtlewire import msg
-from turtlewire.relay.ends import End, parse_end
+from turtlewire.relay.side import End, parse_end
 from turtlewire.testing import reserved_domain
 from turtlewire.wire import open_context
 from turtlewire.wire.base import ServiceTypes, TypeId

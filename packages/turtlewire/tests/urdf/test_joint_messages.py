@@ -12,7 +12,7 @@ from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
 from turtlewire.errors import CdrError
 from turtlewire.msg.cdr import deserialize, serialize
-from turtlewire.urdf import Robot, frames_writer
+from turtlewire.urdf import Robot, joint_messages
 from turtlewire.urdf.joint_messages import JointMessages, stamp_of
 
 ROBOT = Robot.from_xml(
@@ -44,8 +44,8 @@ ROBOT = Robot.from_xml(
 def core(request, monkeypatch):
     """Each test runs with both."""
     if request.param == "python":
-        monkeypatch.setattr(frames_writer, "_native_frames", lambda: None)
-    elif frames_writer._native_frames() is None:
+        monkeypatch.setattr(joint_messages, "_native_frames", lambda: None)
+    elif joint_messages._native_frames() is None:
         pytest.skip(COMPILED_CORE)
 
 
@@ -211,4 +211,4 @@ def test_constants_that_change_while_they_are_read():
 
     constants = [Vanishing(), *(object() for _ in range(14))]
     with pytest.raises(TypeError):
-        frames_writer._native_frames()(bytes(100), [4], [20], constants, [0], [1.0], [0.0])
+        joint_messages._native_frames()(bytes(100), [4], [20], constants, [0], [1.0], [0.0])

@@ -10,7 +10,7 @@ from urllib.parse import urlsplit
 import pytest
 
 from turtlewire.web import Server, WebContent
-from turtlewire.web.encoding import takes_gzip
+from turtlewire.web.files import takes_gzip
 
 SCRIPT = "export const answer = 42;\n" * 100
 

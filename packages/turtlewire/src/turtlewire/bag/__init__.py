@@ -14,7 +14,6 @@ module              contents
 ==================  ========================================================================
 `reader`            `Bag`, `open_bag`: messages in order of time over all files
 `message_choice`    arguments that choose messages: topics, types and times
-`reindexing`        `reindex`: repairs the folder of a recorder that was cut off
 `transforms`        the TF of a bag read into a buffer, for `Buffer.from_bag`
 `transform_report`  `TransformReport`: the links of a bag, and their problems
 `trajectories`      odometry and poses of a topic, for `Trajectory.from_bag`
@@ -24,17 +23,14 @@ module              contents
 `sensor_arrays`     images and point clouds as arrays
 `overview`          `describe_bag`: the contents of a bag, topic by topic
 `notebook`          the display of bags in Jupyter
-`extents`           counts, sizes and times of the messages of a file
 `editing`           `copy_bag`, `merge_bags`, `split_bag`: new bags from others
-`selection`         the topics that go into a new bag, and their new names
 `times`             times, lengths of time and sizes as text
 `copying`           the messages of bags, or their chunks as bytes, in new bags
 `extra_records`     attachments and metadata records of MCAP files
-`output_channels`   the channels of a new bag
-`pieces`            the new bags, one after another
+`output_channels`   the topics and channels of a new bag
+`pieces`            the new bags, one after another; folders that appear when they are complete
 `latched`           latched messages before a given time
 `frame_renaming`    finds the fields that name frames, and renames the frames
-`new_folder`        a folder that appears when it is complete
 `message`           `BagMessage` and its channel, a topic with one definition of its type
 `written_types`     types as a bag defines them, ROS 1 too; converts their messages to ours
 `encodings`         topics whose messages are not in CDR
@@ -43,7 +39,7 @@ module              contents
 `writer`            `BagWriter`
 `writer_checks`     checks of a writer's options, types and messages
 `recording`         `Recording`: messages of several threads, written on a background thread
-`storage`           the interface of a file of a bag, common to all storages
+`storage`           the interface of a file of a bag, common to all storages; counts and times
 `mcap_storage`      that interface for MCAP files
 `sqlite_storage`    that interface for sqlite3 files
 `mcap_reader`       the MCAP format: summary, chunks, files without a summary
@@ -51,13 +47,12 @@ module              contents
 `record_messages`   the messages among the records of a chunk
 `mcap_records`      the records of MCAP as bytes and objects
 `mcap_writer`       writes MCAP files
-`sqlite_reader`     rosbag2's sqlite3 schema, versions 1 to 4
-`sqlite_table`      the rows of its messages, natively
+`sqlite_reader`     rosbag2's sqlite3 schema, versions 1 to 4; the rows of its messages, natively
 `ros1_storage`      that interface for bags of ROS 1
 `ros1_file`         the format of ROS 1's bags: connections, chunks, bags without an end
 `ros1_messages`     converts messages of ROS 1 to CDR
 `ros1_steps`        the steps of that conversion, for the compiled core
-`repair`            repairs a damaged file
+`repair`            `reindex`: repairs a damaged file, or the folder of a recorder that was cut off
 `sqlite_writer`     writes sqlite3 files
 `metadata`          ``metadata.yaml``, versions 1 to 9
 `qos_yaml`          the QoS of recorded topics as YAML
@@ -75,7 +70,7 @@ from turtlewire.bag.message import BagMessage
 from turtlewire.bag.metadata import TopicInfo
 from turtlewire.bag.overview import BagOverview, TopicOverview, describe_bag
 from turtlewire.bag.reader import Bag, open_bag
-from turtlewire.bag.reindexing import reindex
+from turtlewire.bag.repair import reindex
 from turtlewire.bag.writer import BagWriter
 
 if TYPE_CHECKING:

@@ -20,7 +20,7 @@ from turtlewire.msg.types import (
     BasicType,
     NamespacedType,
 )
-from turtlewire.msg.wide_text import UNIT_SIZE
+from turtlewire.msg.values import UNIT_SIZE
 from turtlewire.terminal.suggestion import did_you_mean
 
 if TYPE_CHECKING:

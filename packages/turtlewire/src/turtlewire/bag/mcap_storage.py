@@ -5,14 +5,13 @@ from __future__ import annotations
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from turtlewire.bag.extents import Extent, add_extent, extents_of_chunk
 from turtlewire.bag.mcap_reader import McapFile
 from turtlewire.bag.mcap_records import Schema
 from turtlewire.bag.message import BagChannel, channel_of_text
 from turtlewire.bag.metadata import BagMetadata, TopicInfo, full_type_name, parse_metadata
 from turtlewire.bag.qos_yaml import load_yaml, profiles_from_yaml
 from turtlewire.bag.ros1_messages import Ros1Messages, converted_blocks
-from turtlewire.bag.storage import class_of_channel, in_order
+from turtlewire.bag.storage import Extent, add_extent, class_of_channel, extents_of_chunk, in_order
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:

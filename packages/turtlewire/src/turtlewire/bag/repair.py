@@ -1,4 +1,4 @@
-"""Repairs a damaged file of a bag: copies the readable messages to a new file.
+"""Repairs the folder of a recorder that was cut off, and a damaged file of a bag.
 
 Other programs cannot read an MCAP file without its end, or a truncated database.
 """
@@ -12,18 +12,26 @@ from typing import TYPE_CHECKING
 from turtlewire.bag.extra_records import extra_records
 from turtlewire.bag.mcap_storage import McapStorage
 from turtlewire.bag.mcap_writer import McapWriter
-from turtlewire.bag.metadata import NEWEST_VERSION
+from turtlewire.bag.metadata import NEWEST_VERSION, write_metadata
 from turtlewire.bag.qos_yaml import profiles_to_text
+from turtlewire.bag.reader import Bag
 from turtlewire.bag.sqlite_storage import SqliteStorage
 from turtlewire.bag.sqlite_writer import SqliteWriter
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from turtlewire.bag.mcap_reader import McapFile
+    from turtlewire.bag.metadata import BagMetadata
     from turtlewire.bag.sqlite_reader import SqliteFile
     from turtlewire.bag.storage import StorageFile
 
-__all__ = ["DAMAGED", "repaired_copy"]
+__all__ = [
+    "DAMAGED",
+    "reindex",
+    "repaired_copy",
+]
 
 #: What is appended to the name of a file that was replaced.
 DAMAGED = ".damaged"
@@ -106,3 +114,41 @@ def _copy_sqlite(file: SqliteFile, path: str) -> None:
                     writer.write(topics[number], log_time, publish_time, data)
     finally:
         writer.close()
+
+
+def reindex(
+    path: str | os.PathLike[str], damaged: Callable[[str], None] | None = None
+) -> BagMetadata:
+    """Rebuild ``metadata.yaml`` of a folder, and repair the files that were not finished.
+
+    A file that was cut off, by a crash or a full disk, is replaced by a whole one with all that can
+    be read of it. The old file keeps the name with ``.damaged`` appended.
+
+    Args:
+        path: The folder.
+        damaged: Called with a sentence for each part that cannot be read.
+
+    Raises:
+        FileNotFoundError: The folder does not exist.
+        BagError: The folder contains no file of a bag, or an invalid one.
+    """
+    problems, copies = [], []
+    with Bag(path, trust_metadata=False) as bag:
+        for file in bag.files():
+            if file.path.startswith(bag.path):  # not a decompressed copy elsewhere
+                try:
+                    copies.append((file.path, repaired_copy(file)))
+                except OSError as error:
+                    problems.append(f"{file.path} is not repaired: {error}")
+        problems = bag.problems + problems
+    for name, copy in copies:
+        if copy:
+            os.replace(name, name + DAMAGED)
+            os.replace(copy, name)
+            problems.append(f"{name} is repaired; the damaged file is {name}{DAMAGED}")
+    with Bag(path, trust_metadata=False) as bag:
+        write_metadata(bag.path, bag.metadata)
+        if damaged is not None:
+            for problem in dict.fromkeys([*problems, *bag.problems]):
+                damaged(problem)
+        return bag.metadata

@@ -4,22 +4,21 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from turtlewire.bag.extents import extents_of_messages
 from turtlewire.bag.message import channel_of_text
 from turtlewire.bag.metadata import BagMetadata, TopicInfo
 from turtlewire.bag.ros1_file import Ros1File
 from turtlewire.bag.ros1_messages import Ros1Messages, converted_blocks
-from turtlewire.bag.storage import in_order
+from turtlewire.bag.storage import extents_of_messages, in_order
 from turtlewire.errors import BagError
 from turtlewire.wire.qos import Durability, QoS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from turtlewire.bag.extents import Extent
     from turtlewire.bag.mcap_records import ChunkIndex
     from turtlewire.bag.message import BagChannel, BagMessage
     from turtlewire.bag.record_messages import RawMessage
+    from turtlewire.bag.storage import Extent
 
 __all__ = ["Ros1Storage"]
 

@@ -4,11 +4,14 @@ Versions differ in missing tables: without the table ``schema`` it is version 2 
 column ``offered_qos_profiles`` version 1; definitions and embedded metadata exist since version 4.
 
 In a truncated file, the rows before the first lost one are read: they are stored in the order in
-which they were written, and sqlite3 can iterate over them without the index.
+which they were written, and sqlite3 can iterate over them without the index. The compiled core
+reads the pages of the table of messages: the module sqlite3 needs more time for a row than
+decoding its message takes.
 """
 
 from __future__ import annotations
 
+import mmap
 import os
 import sqlite3
 from collections import Counter
@@ -19,26 +22,99 @@ from urllib.parse import quote
 
 from turtlewire.bag.metadata import TopicInfo, full_type_name, parse_metadata
 from turtlewire.bag.qos_yaml import load_yaml, profiles_from_yaml
-from turtlewire.bag.sqlite_table import BEFORE_ALL_IDS, table_blocks
 from turtlewire.errors import BagError
+from turtlewire.platforms import asked_core
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
+    from collections.abc import Collection, Generator, Iterator
 
+    from turtlewire._native import MessageTable
     from turtlewire.bag.metadata import BagMetadata
     from turtlewire.bag.record_messages import LoggedBytes, RawMessage
 
-__all__ = ["SqliteFile"]
+__all__ = [
+    "BEFORE_ALL_IDS",
+    "SqliteFile",
+    "table_blocks",
+]
 
-_Row = TypeVar("_Row", bound="tuple[Any, ...]")
-
-#: What the sqlite3 module raises for damaged files: broken table names are not UTF-8.
-_DAMAGE = (sqlite3.Error, UnicodeDecodeError)
+BEFORE_ALL_IDS = -(1 << 63)
 
 #: Messages in the first block, the most in a later one, and the bytes that one should have.
 _FIRST_BLOCK = 64
 _LARGEST_BLOCK = 512
 _BLOCK_BYTES = 1 << 18
+_COLUMNS = [("id", "INTEGER", 1), ("topic_id", "INTEGER", 0), ("timestamp", "INTEGER", 0)]
+
+
+def table_blocks(
+    database: sqlite3.Connection, path: str, topics: Collection[int], window: tuple[int, int]
+) -> Generator[list[LoggedBytes], None, int | None]:
+    """Yield the messages of topics in the order of the table, some at a time.
+
+    Args:
+        database: The open file; while messages are read, other processes cannot change it.
+        path: Where it is.
+        topics: The ids of the topics.
+        window: The first and the last log time.
+
+    Returns:
+        None if all messages were read. Otherwise the id of the last row that was read: the rows
+        after it are for SQL, because they are damaged or not in rosbag2's form.
+    """
+    if asked_core() == "python" or os.path.exists(path + "-wal"):
+        return BEFORE_ALL_IDS
+    guard = database.cursor()
+    try:
+        root = _root_page(database)
+        guard.execute("SELECT id FROM messages").fetchone()  # an open statement locks the file
+    except (sqlite3.Error, UnicodeDecodeError):  # SQL will say what is damaged
+        return BEFORE_ALL_IDS
+    try:
+        table = root and _table(path, root)
+        if not table:
+            return BEFORE_ALL_IDS
+        is_more = True
+        while is_more:
+            block: list[LoggedBytes] = []
+            is_more = table.read(topics, *window, _BLOCK_BYTES, block)
+            yield block
+        return None if table.is_whole else table.last_id
+    finally:
+        guard.close()
+
+
+def _root_page(database: sqlite3.Connection) -> int | None:
+    """Return the first page of the table; None if its columns are not rosbag2's."""
+    columns = [
+        (name, kind.upper(), key)
+        for _, name, kind, _, _, key in database.execute("PRAGMA table_info(messages)")
+    ]
+    if columns != [*_COLUMNS, ("data", "BLOB", 0)]:
+        return None
+    query = "SELECT rootpage FROM sqlite_master WHERE type = 'table' AND name = 'messages'"
+    return next((root for (root,) in database.execute(query) if isinstance(root, int)), None)
+
+
+def _table(path: str, root: int) -> MessageTable | None:
+    try:
+        from turtlewire._native import MessageTable
+    except ImportError:
+        return None
+    with open(path, "rb") as file:
+        pages = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)  # the table keeps it
+    page = int.from_bytes(pages[16:18], "big")
+    page = 1 << 16 if page == 1 else page
+    try:
+        return MessageTable(pages, page, page - pages[20], root)
+    except ValueError:  # of a damaged header
+        return None
+
+
+_Row = TypeVar("_Row", bound="tuple[Any, ...]")
+
+#: What the sqlite3 module raises for damaged files: broken table names are not UTF-8.
+_DAMAGE = (sqlite3.Error, UnicodeDecodeError)
 
 
 class SqliteFile:

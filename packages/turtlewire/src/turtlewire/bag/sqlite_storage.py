@@ -7,20 +7,18 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from turtlewire.bag.compression import ZSTD_MAGIC
-from turtlewire.bag.extents import extents_of_messages
 from turtlewire.bag.message import channel_of_text
 from turtlewire.bag.metadata import BagMetadata, TopicInfo
 from turtlewire.bag.sqlite_reader import SqliteFile
-from turtlewire.bag.storage import class_of_channel
+from turtlewire.bag.storage import class_of_channel, extents_of_messages
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Container, Iterator
 
-    from turtlewire.bag.extents import Extent
     from turtlewire.bag.message import BagChannel, BagMessage
     from turtlewire.bag.record_messages import LoggedBytes, RawMessage
-    from turtlewire.bag.storage import TransformTarget
+    from turtlewire.bag.storage import Extent, TransformTarget
 
 __all__ = ["SqliteStorage"]
 

@@ -137,7 +137,7 @@ def _renaming(text: str) -> tuple[str, str]:
 
 
 def _info(args: argparse.Namespace) -> int:
-    from turtlewire.cli.bag_info import show_info
+    from turtlewire.cli.bag_edits import show_info
 
     print(show_info(args.bag, as_json=args.json))
     return 0

@@ -8,7 +8,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from turtlewire.relay.ends import End
+    from turtlewire.relay.side import End
 
 __all__ = ["add_relay"]
 
@@ -51,7 +51,7 @@ def add_relay(commands: Any) -> None:
 
 
 def _end(text: str) -> End:
-    from turtlewire.relay.ends import parse_end
+    from turtlewire.relay.side import parse_end
 
     try:
         return parse_end(text)

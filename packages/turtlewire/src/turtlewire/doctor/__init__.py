@@ -7,16 +7,12 @@ module               contents
 ===================  ============================================================
 `examination`        runs all checks, and prints the findings
 `finding`            one finding: what is wrong and what to do
-`fast_dds_findings`  nodes on Fast DDS, seen from Cyclone DDS
-`fast_dds_search`    asks participants on Fast DDS how they receive
-`announcements`      the packets of this query and of its answers
-`shared_memory`      processes of this host that share memory through Fast DDS
+`fast_dds_findings`  nodes on Fast DDS, seen from Cyclone DDS; those that share memory
+`fast_dds_search`    asks participants on Fast DDS how they receive; packets
 `setup_findings`     checks of the installation, the environment and the network
 `graph_findings`     checks of nodes and topics
-`tf_findings`        checks of the published transforms
-`tf_gaps`            transforms that are missing from a periodic series
+`tf_findings`        checks of the published transforms, and of gaps in them
 `tf_traffic`         the publishers of transforms during the checks
-`discovery`          waits for the graph
 `network`            sockets of other domains, and multicast
 ===================  ============================================================
 """

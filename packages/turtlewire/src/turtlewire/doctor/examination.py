@@ -9,13 +9,15 @@ import time
 from contextlib import nullcontext
 from typing import TYPE_CHECKING
 
-from turtlewire.doctor.discovery import wait_for_graph
-from turtlewire.doctor.fast_dds_findings import fast_dds_environment, out_of_reach
+from turtlewire.doctor.fast_dds_findings import (
+    fast_dds_environment,
+    out_of_reach,
+    sharing_processes,
+)
 from turtlewire.doctor.fast_dds_search import FastDdsSearch
 from turtlewire.doctor.finding import Finding, problem
 from turtlewire.doctor.graph_findings import graph_findings
-from turtlewire.doctor.setup_findings import network_findings, setup_findings
-from turtlewire.doctor.shared_memory import sharing_processes
+from turtlewire.doctor.setup_findings import network_findings, setup_findings, wait_for_graph
 from turtlewire.doctor.tf_findings import tf_findings
 from turtlewire.doctor.tf_traffic import TfListener, tf_publishers
 from turtlewire.errors import WireError

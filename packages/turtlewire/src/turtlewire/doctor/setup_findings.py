@@ -21,7 +21,15 @@ from turtlewire.wire.security import (
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-__all__ = ["looks_for_others", "network_findings", "only_this_host", "setup_findings"]
+    from turtlewire.wire.base import Graph
+
+__all__ = [
+    "looks_for_others",
+    "network_findings",
+    "only_this_host",
+    "setup_findings",
+    "wait_for_graph",
+]
 
 _PLAIN_CORE = "The plain-Python core is in use; lookups are many times slower."
 _INSTALL_COMPILER = (
@@ -117,3 +125,18 @@ def only_this_host() -> bool:
 def looks_for_others() -> bool:
     """Return True if this process looks for nodes on other hosts."""
     return bool(discovery().static_peers) or not only_this_host()
+
+
+_DISCOVERY_LIMIT_NS = 2_000_000_000
+_OTHER_HOSTS_NS = 500_000_000  # as long as ROS 2's own tools wait for other hosts
+
+
+def wait_for_graph(graph: Graph) -> None:
+    """Wait until all nodes of this host are known, and for a moment for nodes of other hosts.
+
+    It returns after at most 2.5 seconds, even if something on this host keeps silent.
+    """
+    graph.hurry()
+    if looks_for_others():
+        graph.wait_for(lambda: False, _OTHER_HOSTS_NS)
+    graph.wait_for(graph.is_complete, _DISCOVERY_LIMIT_NS)

@@ -23,20 +23,19 @@ module                contents
 `message`             `Message`, the base of all message classes
 `classes`             the classes of messages, services and actions, made at first use
 `constructor`         compiles the constructors of these classes
-`values`              defaults of fields, and bulk numbers as arrays
+`values`              defaults of fields, bulk numbers as arrays, and ``wstring`` on the wire
 `checks`              ROS 2's checks at every assignment (``check_fields``)
 `cdr`                 `serialize` and `deserialize`
 `encoder`, `decoder`  generated code from messages to CDR bytes and back
 `evolution`           messages with another definition than ours, such as an older one
 `written_records`     messages decoded by the definitions of their writer
-`wide_text`           ``wstring`` on the wire
 `json_messages`       messages as JSON, and from JSON
 `diagnosis`           finds the wrong field of a message or of its bytes
 `type_hash`           type hashes (RIHS01)
 `shell`               lazy classes of modules such as ``geometry_msgs.msg``
 `idl`                 ``.idl`` files as the text of ``.msg``, ``.srv`` and ``.action`` files
 `idl_reader`          parses ``.idl`` files, for `idl` and ``rosidl_parser``
-`generate`, `stubs`   Python packages for a folder of definitions; their ``.pyi``
+`generate`            Python packages for a folder of definitions, with their ``.pyi``
 `__main__`            ``python -m turtlewire.msg DIR``
 ====================  =================================================================
 """

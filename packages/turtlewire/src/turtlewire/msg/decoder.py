@@ -23,8 +23,7 @@ from turtlewire.msg.types import (
     BasicType,
     NamespacedType,
 )
-from turtlewire.msg.values import element_code, numpy_name, raw_name
-from turtlewire.msg.wide_text import UNIT_SIZE, text_of_units
+from turtlewire.msg.values import UNIT_SIZE, element_code, numpy_name, raw_name, text_of_units
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -22,7 +22,7 @@ from turtlewire.msg.types import (
     BasicType,
     NamespacedType,
 )
-from turtlewire.msg.wide_text import UNIT_SIZE, text_of_units, units_of_text
+from turtlewire.msg.values import UNIT_SIZE, text_of_units, units_of_text
 
 if TYPE_CHECKING:
     from turtlewire.msg.definition import MessageDefinition

@@ -25,8 +25,7 @@ from turtlewire.msg.types import (
     BasicType,
     NamespacedType,
 )
-from turtlewire.msg.values import element_code, raw_name
-from turtlewire.msg.wide_text import UNIT_SIZE, units_of_text
+from turtlewire.msg.values import UNIT_SIZE, element_code, raw_name, units_of_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable

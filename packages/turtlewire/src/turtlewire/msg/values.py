@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from turtlewire.msg.types import AbstractType
 
 __all__ = [
+    "UNIT_SIZE",
     "Cdr",
     "array_content",
     "array_of_bytes",
@@ -42,8 +43,10 @@ __all__ = [
     "numpy_name",
     "raw_name",
     "scalar_default",
+    "text_of_units",
     "to_array",
     "to_numpy",
+    "units_of_text",
 ]
 
 Cdr = Union[bytes, bytearray, "tuple[Buffer, ...]"]
@@ -155,3 +158,34 @@ def to_numpy(dtype: str, value: Any) -> Any:
     import numpy as np
 
     return np.asarray(value, dtype=dtype)
+
+
+UNIT_SIZE = 4
+
+
+def units_of_text(text: str) -> bytes:
+    """Return the code units of ``text``, little endian.
+
+    Raises:
+        UnicodeEncodeError: ``text`` has a lone surrogate.
+    """
+    narrow = text.encode("utf-16-le")
+    units = bytearray(2 * len(narrow))
+    units[0::4], units[1::4] = narrow[0::2], narrow[1::2]
+    return bytes(units)
+
+
+def text_of_units(units: bytes, order: str) -> str:
+    """Return the text of code units in byte order ``order`` (``"<"`` or ``">"``).
+
+    Raises:
+        UnicodeDecodeError: ``units`` are not UTF-16.
+    """
+    low, high, above = (0, 1, units[2::4] + units[3::4])
+    if order == ">":
+        low, high, above = (3, 2, units[0::4] + units[1::4])
+    if any(above):
+        raise UnicodeDecodeError("utf-16", units, 0, len(units), "a code unit above 0xffff")
+    narrow = bytearray(len(units) // 2)
+    narrow[0::2], narrow[1::2] = units[low::4], units[high::4]
+    return narrow.decode("utf-16-le")

@@ -9,8 +9,7 @@ from turtlewire.wire import names
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.report import warn_once
 
-from .service_route import ServiceRoute, installed_hash, service_types
-from .topic_route import TopicRoute
+from .routes import ServiceRoute, TopicRoute, installed_hash, service_types
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable

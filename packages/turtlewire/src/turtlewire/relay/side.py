@@ -2,25 +2,115 @@
 
 from __future__ import annotations
 
+import secrets
 import threading
 import time
+import zlib
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.errors import WireError
 from turtlewire.wire import names, open_context
+from turtlewire.wire.environment import MAX_DOMAIN_ID
 from turtlewire.wire.report import warn_once
 
-from .marks import is_relayed
-
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
     from turtlewire.wire.base import EndpointInfo, Entity, Node, NodeInfo, Waitable
 
-    from .ends import End
-    from .marks import Mark
+__all__ = [
+    "End",
+    "Mark",
+    "Seen",
+    "Side",
+    "is_relayed",
+    "parse_end",
+]
 
-__all__ = ["Seen", "Side"]
+_MIDDLEWARES = {"cyclonedds": "rmw_cyclonedds_cpp", "zenoh": "rmw_zenoh_cpp"}
+_FAST_DDS = {"fastdds", "fastrtps", "rmw_fastrtps_cpp", "rmw_fastrtps_dynamic_cpp"}
+
+
+class End(NamedTuple):
+    """One of the two networks.
+
+    Attributes:
+        middleware: ``rmw_cyclonedds_cpp`` or ``rmw_zenoh_cpp``.
+        domain_id: The domain.
+    """
+
+    middleware: str
+    domain_id: int
+
+    @property
+    def is_zenoh(self) -> bool:
+        """True if the middleware is Zenoh."""
+        return self.middleware == _MIDDLEWARES["zenoh"]
+
+    def __str__(self) -> str:
+        return f"{'zenoh' if self.is_zenoh else 'cyclonedds'}:{self.domain_id}"
+
+
+def parse_end(text: str) -> End:
+    """Read ``cyclonedds:0`` or ``zenoh:7``.
+
+    Raises:
+        ValueError: The text names no network; the message shows the format.
+    """
+    name, _, domain = text.partition(":")
+    if name in _FAST_DDS:
+        raise ValueError(
+            f"{text!r}: nodes on Fast DDS are reached with cyclonedds:{domain or 'DOMAIN'}, which "
+            "carries between Cyclone DDS and Fast DDS as well"
+        )
+    middleware = _MIDDLEWARES.get(name, name)
+    if middleware not in _MIDDLEWARES.values():
+        raise ValueError(f"{text!r} is not cyclonedds:DOMAIN or zenoh:DOMAIN")
+    if not (domain.isascii() and domain.isdigit() and int(domain) <= MAX_DOMAIN_ID):
+        raise ValueError(
+            f"{text!r}: expected a domain from 0 to {MAX_DOMAIN_ID} after the colon, as in {name}:0"
+        )
+    return End(middleware, int(domain))
+
+
+_ENCLAVES = "/turtlewire_relay/"
+
+
+def is_relayed(node: NodeInfo) -> bool:
+    """Return True if the node belongs to a relay."""
+    return node.enclave.startswith(_ENCLAVES)
+
+
+class Mark:
+    """The mark of one relay.
+
+    The enclaves of relays that carry the same names differ only in the time of their start and a
+    random part.
+
+    Args:
+        names: The options that determine which names are carried.
+    """
+
+    def __init__(self, names: Iterable[str]) -> None:
+        digest = zlib.crc32("\n".join(names).encode())
+        self._alike = f"{_ENCLAVES}r{digest:08x}_"
+        self.enclave = f"{self._alike}{time.time_ns():016x}_{secrets.token_hex(4)}"
+
+    def elder(self, near: Iterable[NodeInfo], far: Iterable[NodeInfo]) -> bool:
+        """Return True if an older relay carries the same names between the same networks.
+
+        Args:
+            near: The nodes at one end.
+            far: The nodes at the other end.
+        """
+        there = {node.enclave for node in far}
+        return any(
+            node.enclave.startswith(self._alike)
+            and node.enclave < self.enclave
+            and node.enclave in there
+            for node in near
+        )
+
 
 #: An endpoint on DDS that no node claims for this long is not one of ROS.
 _PATIENCE_S = 2.0

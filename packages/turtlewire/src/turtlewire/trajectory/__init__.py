@@ -19,9 +19,8 @@ module         contents
 `comparison`   `compare`: association, alignment and errors in one call
 `alignment`    nearest stamps; alignment by Umeyama and others
 `metrics`      APE, RPE and their statistics
-`drawing`      `plot`: several trajectories or errors in one plot
 `plots`        plots of paths, positions, angles and speeds
-`error_plots`  plots of errors
+`error_plots`  plots of errors; `plot`: several trajectories or errors in one
 `chart`        axes, lines and boxes as SVG
 `pictures`     charts as PDF and PNG
 =============  =========================================================
@@ -32,7 +31,7 @@ from __future__ import annotations
 from turtlewire.trajectory.alignment import Alignment
 from turtlewire.trajectory.chart import Plot
 from turtlewire.trajectory.comparison import Comparison, compare
-from turtlewire.trajectory.drawing import plot
+from turtlewire.trajectory.error_plots import plot
 from turtlewire.trajectory.metrics import PoseErrors, Statistics
 from turtlewire.trajectory.stamps import Gap
 from turtlewire.trajectory.trajectory import Trajectory

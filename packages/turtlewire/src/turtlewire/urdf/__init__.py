@@ -13,16 +13,14 @@ module              contents
 `robot`             `Robot`: a description with forward kinematics
 `model`             links, joints and their properties: metres, radians, kilograms
 `parser`            urdfdom's rules and error texts; the tree of links and joints
-`elements`          XML as a tree of elements with their lines
+`elements`          XML as a tree of elements with their lines; the versions of URDF
 `bodies`, `joints`  ``link``, ``material`` and ``joint`` elements; joints that follow
 `values`            numbers and vectors in attributes
-`versions`          the additions of versions 1.1 and 1.2
 `faults`            log lines about errors and warnings of a URDF
 `joint_model`       transforms of joints at given positions, as arrays
 `kinematics`        forward kinematics for many joint states at once
 `robot_buffer`      the transforms of all links in a buffer
 `notebook`          the display of robots in Jupyter
-`frames_writer`     TFMessages in CDR, with other stamps and poses
 `joint_messages`    bytes of a JointState to bytes of a TFMessage
 ==================  ==============================================================
 """

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from turtlewire.distro import LYRICAL, since
 from turtlewire.errors import UrdfError
+from turtlewire.urdf.elements import is_of_version, minor_version
 from turtlewire.urdf.faults import UrdfWarning, left_out, reported
 from turtlewire.urdf.model import (
     Box,
@@ -20,7 +21,6 @@ from turtlewire.urdf.model import (
     Visual,
 )
 from turtlewire.urdf.values import color_of, number_of, pose_of, vector_of
-from turtlewire.urdf.versions import is_of_version, minor_version
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

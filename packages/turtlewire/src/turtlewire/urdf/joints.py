@@ -7,6 +7,7 @@ from math import inf
 from typing import TYPE_CHECKING, cast
 
 from turtlewire.errors import UrdfError
+from turtlewire.urdf.elements import is_of_version, minor_version
 from turtlewire.urdf.faults import reported
 from turtlewire.urdf.model import (
     MOVING_TYPES,
@@ -18,7 +19,6 @@ from turtlewire.urdf.model import (
     Safety,
 )
 from turtlewire.urdf.values import number_of, pose_of, vector_of
-from turtlewire.urdf.versions import is_of_version, minor_version
 
 if TYPE_CHECKING:
     from collections.abc import Callable

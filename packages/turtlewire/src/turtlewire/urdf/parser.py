@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING
 
 from turtlewire.errors import UrdfError
 from turtlewire.urdf.bodies import read_link, read_material
-from turtlewire.urdf.elements import Element, parse_xml
+from turtlewire.urdf.elements import Element, check_version, parse_xml
 from turtlewire.urdf.faults import XACRO_LEFT, UrdfWarning, left_out, reported
 from turtlewire.urdf.joints import read_joint
 from turtlewire.urdf.model import Description, Material
-from turtlewire.urdf.versions import check_version
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -7,8 +7,8 @@ import re
 from typing import TYPE_CHECKING
 
 from turtlewire.geometry.quaternions import to_rpy
+from turtlewire.urdf.elements import is_of_version
 from turtlewire.urdf.model import Pose
-from turtlewire.urdf.versions import is_of_version
 
 if TYPE_CHECKING:
     from turtlewire.geometry.quaternions import Quaternion

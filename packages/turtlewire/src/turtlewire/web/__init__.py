@@ -9,11 +9,9 @@ module           contents
 `sessions`       `PageSession`, the base of sessions, which answers errors
 `commands`       the commands of a page: JSON, checked and converted to tuples
 `packets`        binary messages to a page: a header and arrays as bytes
-`files`          the files of a page, with media types and headers
-`encoding`       files as responses: compressed, or status 304
-`desktop`        the browser and the port of a page
+`files`          the files of a page as responses: media types, headers, compression
+`desktop`        the browser and the port of a page; their options
 `origin`         rejects requests of other sites
-`options`        options of commands that serve a page
 `lan`            a page for other devices: token, addresses, QR code
 ===============  ===================================================================
 

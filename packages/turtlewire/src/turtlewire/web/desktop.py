@@ -1,11 +1,19 @@
-"""The user's browser, and the port at which a page is served."""
+"""The user's browser, the port at which a page is served, and the options for both."""
 
 from __future__ import annotations
 
+import argparse
 import os
 import sys
 
-__all__ = ["DEFAULT_PORT", "desktop_is_there", "open_browser", "wanted_lan", "wanted_port"]
+__all__ = [
+    "DEFAULT_PORT",
+    "add_page_options",
+    "desktop_is_there",
+    "open_browser",
+    "wanted_lan",
+    "wanted_port",
+]
 
 #: The preferred port; TURTLEWIRE_PORT sets another one. The next free one is taken when it is in
 #: use.
@@ -47,3 +55,22 @@ def wanted_port() -> int:
             f"TURTLEWIRE_PORT is a port number between 0 (any) and 65535, got {text!r}"
         )
     return int(text or DEFAULT_PORT)
+
+
+def add_page_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options for the address of a page: ``--port`` and ``--lan``."""
+    parser.add_argument(
+        "--port", type=_port_number, metavar="N", help="Serve the page at this port (default: 7070)"
+    )
+    parser.add_argument(
+        "--lan",
+        action="store_true",
+        help="Also serve other devices on the network, at an address with a random token",
+    )
+
+
+def _port_number(text: str) -> int:
+    """Return a TCP port on the command line."""
+    if not (text.isdecimal() and int(text) < 65536):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a port number, from 0 (any) to 65535")
+    return int(text)

@@ -6,8 +6,15 @@ import errno
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from turtlewire.web.encoding import Encoder, has_tag, takes_gzip
-from turtlewire.web.files import WebContent, find_files, headers, policy
+from turtlewire.web.files import (
+    Encoder,
+    WebContent,
+    find_files,
+    has_tag,
+    headers,
+    policy,
+    takes_gzip,
+)
 from turtlewire.web.lan import new_token, path_below
 from turtlewire.web.origin import proxied_refusal, refusal
 from turtlewire.web.server_thread import ServerThread, listening_socket, until_one_ends

@@ -10,8 +10,7 @@ module           contents
 `server`         the MCP server: its tools, and the standard streams that it speaks on
 `looking`        the tools that only read
 `acting`         the tools that publish, drive and call services
-`permissions`    the names that ``--allow`` gave; the errors that an assistant reads
-`limits`         how often tools are called, and how long answers are
+`permissions`    the names that ``--allow`` gave; limits of calls and answers; errors
 `network`        the connection: waits for the graph, types of topics, names that are near
 `plots`          a numeric field of a topic, and its picture
 ===============  ==========================================================================

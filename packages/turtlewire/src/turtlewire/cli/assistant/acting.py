@@ -12,8 +12,12 @@ import anyio
 import anyio.to_thread
 
 from turtlewire import msg
-from turtlewire.cli.assistant.limits import bounded_json, seconds_within
-from turtlewire.cli.assistant.permissions import RefusedCallError, full_name
+from turtlewire.cli.assistant.permissions import (
+    RefusedCallError,
+    bounded_json,
+    full_name,
+    seconds_within,
+)
 from turtlewire.msg.json_messages import json_value, message_from_values
 from turtlewire.tf.tf_topics import refuse_other_types
 from turtlewire.wake_up import LoopWakeUp

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import anyio
 
-from turtlewire.cli.assistant.limits import bounded_json, seconds_within
-from turtlewire.cli.assistant.permissions import RefusedCallError
+from turtlewire.cli.assistant.permissions import RefusedCallError, bounded_json, seconds_within
 from turtlewire.cli.assistant.plots import Series
 from turtlewire.cli.frame_picture import take_picture
 from turtlewire.errors import TransformException

@@ -15,9 +15,8 @@ from mcp.server.mcpserver.exceptions import ToolError
 from mcp_types import ToolAnnotations
 
 from turtlewire.cli.assistant.acting import Acting
-from turtlewire.cli.assistant.limits import RateLimit
 from turtlewire.cli.assistant.looking import Looking
-from turtlewire.cli.assistant.permissions import RefusedCallError
+from turtlewire.cli.assistant.permissions import RateLimit, RefusedCallError
 from turtlewire.errors import TurtlewireError
 from turtlewire.terminal.printable import printable_lines
 
